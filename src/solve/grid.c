@@ -80,19 +80,27 @@ static int share_row(const Rows *rows, double *const *array, int arrays, int at)
     return at;
 }
 
+double unit_of(double a)
+{
+    return a > 0 && isfinite(a) ? ldexp(1, -ilogb(a)) : 1;
+}
+
 static void read_nodes(Grid *grid, const System *system, const double *m)
 {
     const Rows *rows = &grid->rows;
     double *const arrays[] = {grid->m, grid->per_m};
     grid->lightest = INFINITY;
+    for (int k = 0; k < rows->nodes * rows->nodes; k++)
+        if (!(system->pinned && system->pinned[k]))
+            grid->lightest = fmin(grid->lightest, m[2 * k]);
+    grid->mass = unit_of(grid->lightest);
+    grid->lightest *= grid->mass;
     for (int i = 0, node = 0, at = 0; i < rows->nodes; i++) {
         for (int j = 0; j < rows->nodes; j++, node++) {
             bool held = system->pinned && system->pinned[node];
             int q = place_of(rows, at, j);
-            grid->m[q] = m[2 * node];
-            grid->per_m[q] = held ? 0 : 1 / m[2 * node];
-            if (!held)
-                grid->lightest = fmin(grid->lightest, m[2 * node]);
+            grid->m[q] = grid->mass * m[2 * node];
+            grid->per_m[q] = held ? 0 : 1 / grid->m[q];
         }
         int next = share_row(rows, arrays, 2, at);
         grid->node_shift[i] = (next - 1 - i) * rows->pitch;
@@ -124,17 +132,20 @@ static void read_springs(Grid *grid, const double *k, const double *l2,
 {
     const Rows *rows = &grid->rows;
     int n = grid->segments;
-    double *arrays[2 * KINDS];
+    double unit, *arrays[2 * KINDS];
     for (int kind = 0; kind < KINDS; kind++) {
         arrays[kind] = grid->c[kind];
         arrays[KINDS + kind] = grid->l2[kind];
     }
+    grid->length = unit_of(sqrt(l2[spring_at(n, DIAGONAL, 0, 0)]));
+    unit = grid->length * grid->length;
     for (int i = 0, at = 0; i <= n; i++) {
         for (int j = 0; j <= n; j++)
             for (int kind = 0; kind < KINDS; kind++) {
                 int s = spring_at(n, kind, i, j), q = place_of(rows, at, j);
-                grid->c[kind][q] = s < 0 ? 0 : 2 * weight * k[s] / l2[s];
-                grid->l2[kind][q] = s < 0 ? 0 : l2[s];
+                double c = s < 0 ? 0 : 2 * weight * k[s] / l2[s];
+                grid->c[kind][q] = grid->mass / unit * c;
+                grid->l2[kind][q] = s < 0 ? 0 : unit * l2[s];
             }
         int next = share_row(rows, arrays, 2 * KINDS, at);
         grid->spring_shift[i + 1] = (next - 1 - i) * rows->pitch;
@@ -153,26 +164,31 @@ void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
 {
     const Rows *rows = &grid->rows;
     const unsigned char *pinned = at->E.system->pinned;
-    for (int node = 0; node < rows->nodes * rows->nodes; node++) {
-        int q = place_of(rows, node / rows->nodes, node % rows->nodes);
-        bool held = pinned && pinned[node];
-        for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
-            grid->x[q] = at->x[k];
-            grid->u_tilde[q] = held ? at->u[k] : u_tilde[k];
-            grid->x_tilde[q] = at->E.x_n[k] + grid->u_tilde[q];
-            grid->away[q] = held ? 0 : at->u[k] - u_tilde[k];
+    const double unit = grid->length;
+    for (int i = 0, node = 0; i < rows->nodes; i++)
+        for (int j = 0; j < rows->nodes; j++, node++) {
+            int q = place_of(rows, i, j);
+            bool held = pinned && pinned[node];
+            for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
+                double to = held ? at->u[k] : u_tilde[k];
+                grid->x[q] = unit * at->x[k];
+                grid->u_tilde[q] = unit * to;
+                grid->x_tilde[q] = unit * (at->E.x_n[k] + to);
+                grid->away[q] = unit * (at->u[k] - to);
+            }
         }
-    }
 }
 
 void grid_write_state(const Grid *grid, Iterate *at)
 {
     const Rows *rows = &grid->rows;
-    for (int node = 0; node < rows->nodes * rows->nodes; node++) {
-        int q = place_of(rows, node / rows->nodes, node % rows->nodes);
-        for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
-            at->u[k] = grid->u_tilde[q] + grid->away[q];
-            at->x[k] = at->E.x_n[k] + at->u[k];
+    const double metre = 1 / grid->length;
+    for (int i = 0, node = 0; i < rows->nodes; i++)
+        for (int j = 0; j < rows->nodes; j++, node++) {
+            int q = place_of(rows, i, j);
+            for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
+                at->u[k] = metre * (grid->u_tilde[q] + grid->away[q]);
+                at->x[k] = at->E.x_n[k] + at->u[k];
+            }
         }
-    }
 }

@@ -9,7 +9,9 @@
  * share a spring, loops go through them several nodes at once, and the even
  * ones of even rows are a coarser grid.  Around the nodes are ghosts, whose
  * springs have stiffness 0.  A vector has two planes, all x and then all y;
- * outside the nodes it is 0.
+ * outside the nodes it is 0.  Lengths and masses have units of the
+ * grid, powers of two near those of a cell, which change no bit: its numbers
+ * are about 1.
  *
  * Sums have one shape whatever the width of the registers and the number of
  * threads: each of LANES neighbours has a part of its own, these add up in a
@@ -54,16 +56,17 @@ static inline int place_of(const Rows *rows, int i, int j)
 typedef struct Grid {
     Rows rows;
     int segments, bands;
+    double length, mass; /* its units: 1/m, 1/kg */
     /* Rows with the same masses, or the same springs, share one place: numbers
      * of row i stand shift[i + 1] further than its nodes. */
     int *node_shift, *spring_shift; /* [nodes + 1] */
-    double *c[KINDS];               /* [plane] kg/m^2; 0: no spring */
-    double *l2[KINDS];              /* [plane] m^2 */
-    double *m, *per_m;              /* [plane] kg; 1/kg, 0 for pins */
-    double lightest;                /* kg, of nodes that move */
-    double *x, *x_tilde, *u_tilde;  /* [2 planes] m */
-    double *away;                   /* [2 planes] m, x - x_tilde in the digits
-                                       of u; pins: 0 */
+    double *c[KINDS];               /* [plane] 0: no spring */
+    double *l2[KINDS];              /* [plane] */
+    double *m, *per_m;              /* [plane] per_m: 0 for pins */
+    double lightest;                /* of nodes that move */
+    double *x, *x_tilde, *u_tilde;  /* [2 planes] */
+    double *away;                   /* [2 planes] x - x_tilde in the digits of
+                                       u; pins: 0 */
     double *sums;                   /* [bands * MAX_SUMS] */
     Crew *crew; /* who works; not owned, NULL: the caller alone */
 } Grid;
@@ -86,6 +89,9 @@ Status memory_create(Memory *memory);
 /* Arrays for segments x segments cells, everything else 0. */
 void grid_lay_out(int segments, Memory *memory, Grid *grid);
 
+/* The power of two that makes a number about 1. */
+double unit_of(double a);
+
 /* Pins, stiffnesses and lengths of the system; m [2n] kg, masses. */
 void grid_read_system(Grid *grid, const Iterate *at, const double *m);
 
@@ -102,7 +108,7 @@ double grid_gradient(const Grid *grid, double *g);
 
 /* rest = -g - H p, H clamped to be positive semi-definite (psd.h); returns
  * |rest|_(M^-1)^2.
- *   largest  m, out, max over nodes of |p_x| + |p_y| */
+ *   largest  out, max over nodes of |p_x| + |p_y| */
 double grid_remainder(const Grid *grid, const double *g, const double *p,
                       double *rest, double *largest);
 

@@ -95,14 +95,17 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     return at;
 }
 
-/* The nodes of a band, LANES at once: nodes q, with `at`. */
-#define EACH_NODE_OF(grid, band)                                               \
+/* The nodes of a band, LANES at once, with `at`; or each of them, `e` of so
+ * many. */
+#define EACH_RUN_OF(grid, band)                                                \
     for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
          i++)                                                                  \
         for (int odd = 0; odd < 2; odd++)                                      \
             for (NodeRun at = grid_nodes(&(grid), i, odd); at.first < at.end;  \
-                 at.first += LANES)                                            \
-                EACH_OF (NEXT(at, LANES))
+                 at.first += LANES)
+#define EACH_NODE_OF(grid, band)                                               \
+    EACH_RUN_OF (grid, band)                                                   \
+        EACH_OF (NEXT(at, LANES))
 
 /* What a loop reads of a spring: d = x_i - x_j, |d|^2, s = |d|^2 - l2, c. */
 typedef struct Spring {

@@ -135,7 +135,7 @@ bool multigrid_takes(Newton *newton)
 static bool decide_test(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
-    const double h = newton->settings.h;
+    const double h = newton->settings.h * mg->grid.length;
     double length = h * newton->tolerance, last, now = INFINITY;
     VEnd end = {TESTED, length, MAX_CYCLES};
     v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p);
@@ -157,7 +157,8 @@ static void evaluate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     mg->square = grid_gradient(&mg->grid, mg->g);
-    mg->bound = sqrt(2 / mg->grid.lightest * mg->square) / newton->settings.h;
+    mg->bound = sqrt(2 / mg->grid.lightest * mg->square) /
+                (newton->settings.h * mg->grid.length);
     mg->directed = mg->cycle.set_up = false;
     newton->residual = mg->bound;
     newton->kind = RESIDUAL_BOUND;
@@ -257,6 +258,12 @@ static double lowest(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
+/* The grid's: 1/(J s^2). */
+static double energy_unit(const Grid *grid)
+{
+    return grid->mass * grid->length * grid->length;
+}
+
 /* Goes along p to where E is lowest, and tells the record.  Returns OK,
  * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE. */
 static Status search_step(Newton *newton)
@@ -265,6 +272,8 @@ static Status search_step(Newton *newton)
     NewtonRecord *record = &newton->record;
     Quartic along;
     grid_along(&mg->grid, mg->g, mg->p, along.q);
+    for (int i = 0; i < 4; i++)
+        along.q[i] /= energy_unit(&mg->grid);
     record->slope = along.q[0];
     record->alpha = record->change = record->trials = 0;
     if (!isfinite(record->slope))
@@ -291,7 +300,7 @@ static Status iterate(Newton *newton)
     if (!mg->directed)
         record->residual =
             v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p) /
-            newton->settings.h;
+            (newton->settings.h * mg->grid.length);
     Status status = search_step(newton);
     if (status)
         return status;
@@ -301,9 +310,11 @@ static Status iterate(Newton *newton)
     mg->directions++;
     newton->counters.iterations++;
     int tiles = mg->tiles.high * mg->tiles.wide;
+    double unit = energy_unit(&mg->grid);
     if (mg->stalls)
         record->change +=
-            tiles_relax(&mg->tiles, PACE * record->change / tiles);
+            tiles_relax(&mg->tiles, PACE * record->change * unit / tiles) /
+            unit;
     evaluate(newton);
     return pass_test(newton);
 }

@@ -18,8 +18,8 @@
 typedef struct Tiles {
     const Grid *grid;
     int high, wide;   /* tiles */
-    double *activity; /* [tiles] J s^2, what a tile may lower E by, < 0 */
-    double *change;   /* [tiles] J s^2, by its last sweep */
+    double *activity; /* [tiles] what a tile may lower E by, < 0 */
+    double *change;   /* [tiles] by its last sweep */
     int *chosen;      /* [tiles] those that relax next */
     long sweeps;      /* of tiles, since somebody has set it to 0 */
 } Tiles;
@@ -28,7 +28,7 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);
 
 /* Relaxes all tiles once, then those that lower E most, until none stands out
  * or they lower it by less than the pace.
- *   pace  J s^2, < 0, change of E by a sweep that is worth it
+ *   pace  < 0, change of E by a sweep that is worth it
  * Returns by how much E has changed, <= 0. */
 double tiles_relax(Tiles *tiles, double pace);
 

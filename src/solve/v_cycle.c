@@ -36,6 +36,8 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
             *vectors[i] = memory_piece(memory, 2 * bytes);
     }
     size_t bytes = 2 * (size_t)grid->rows.plane * sizeof(float);
+    for (int kind = 0; kind < KINDS; kind++)
+        cycle->c[kind] = memory_piece(memory, bytes / 2);
     float **vectors[] = {&cycle->p, &cycle->d, &cycle->Ad};
     for (int i = 0; i < 3; i++)
         *vectors[i] = memory_piece(memory, bytes);
@@ -96,18 +98,18 @@ static void run_stages(CrewWork *loop, Stages s)
 
 /* ---- tensors ---- */
 
-/* WIDE_LANES numbers in single precision. */
-INLINE void narrow(const double *from, float *to)
+/* A multiple of WIDE_LANES numbers in single precision. */
+INLINE void narrow(int count, const double *from, float *to)
 {
 #ifdef __wasm_simd128__ /* clang makes no use of this instruction */
-    for (int e = 0; e < WIDE_LANES; e += 4) {
+    for (int e = 0; e < count; e += 4) {
         v128_t low = wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e));
         v128_t high =
             wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e + 2));
         wasm_v128_store(to + e, wasm_i32x4_shuffle(low, high, 0, 1, 4, 5));
     }
 #else
-    EACH_OF (WIDE_LANES)
+    EACH_OF (count)
         to[e] = (float)from[e];
 #endif
 }
@@ -117,32 +119,31 @@ INLINE void tensor_row(const VCycle *cycle, int i)
 {
     const Grid grid = *cycle->grid;
     const Level level = cycle->level[0];
-    const double length = cycle->length, length2 = length * length;
-    const double unit = cycle->mass / length2;
     for (int odd = 0; odd < 2; odd++)
         for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
              at.first += WIDE_LANES) {
-            double far[4][WIDE_LANES];
-            float near[4][WIDE_LANES];
+            double far[3][WIDE_LANES];
+            float near[3][WIDE_LANES];
 #define ADD(kind, to, numbers)                                                 \
-    EACH_OF (WIDE_LANES) {                                                     \
-        Spring s = spring_of(&grid, kind, at.first + e, to, numbers);          \
-        far[0][e] = length * s.dx;                                             \
-        far[1][e] = length * s.dy;                                             \
-        far[2][e] = length2 * s.s;                                             \
-        far[3][e] = unit * s.c;                                                \
-    }                                                                          \
-    for (int n = 0; n < 4; n++)                                                \
-        narrow(far[n], near[n]);                                               \
-    EACH_OF (NEXT(at, WIDE_LANES)) {                                           \
-        const int q = at.first + e;                                            \
-        float dx = near[0][e], dy = near[1][e], t = near[2][e];                \
-        float c = near[3][e], iso = t > 0 ? t : 0;                             \
-        float along = 2 + (t - iso) / (dx * dx + dy * dy + 1e-35f);            \
-        along = along > 0 ? along : 0;                                         \
-        level.K[kind][0][q] = c * (iso + along * dx * dx);                     \
-        level.K[kind][1][q] = c * along * dx * dy;                             \
-        level.K[kind][2][q] = c * (iso + along * dy * dy);                     \
+    {                                                                          \
+        const float *const own_c = cycle->c[kind] + at.first + (numbers);      \
+        EACH_OF (WIDE_LANES) {                                                 \
+            Spring s = spring_of(&grid, kind, at.first + e, to, numbers);      \
+            far[0][e] = s.dx;                                                  \
+            far[1][e] = s.dy;                                                  \
+            far[2][e] = s.s;                                                   \
+        }                                                                      \
+        narrow(3 * WIDE_LANES, far[0], near[0]);                               \
+        EACH_OF (NEXT(at, WIDE_LANES)) {                                       \
+            const int q = at.first + e;                                        \
+            float dx = near[0][e], dy = near[1][e], t = near[2][e];            \
+            float c = own_c[e], iso = t > 0 ? t : 0;                           \
+            float along = 2 + (t - iso) / (dx * dx + dy * dy + 1e-35f);        \
+            along = along > 0 ? along : 0;                                     \
+            level.K[kind][0][q] = c * (iso + along * dx * dx);                 \
+            level.K[kind][1][q] = c * along * dx * dy;                         \
+            level.K[kind][2][q] = c * (iso + along * dy * dy);                 \
+        }                                                                      \
     }
             OWN_SPRINGS(ADD, at)
 #undef ADD
@@ -254,11 +255,6 @@ FAST static void set_up_stages(const void *job, int first, int end)
         }
 }
 
-static double unit_of(double a)
-{
-    return a > 0 && isfinite(a) ? ldexp(1, -ilogb(a)) : 1;
-}
-
 /* Their number, and each level with the next coarser one. */
 static Stages stages_of(const VCycle *cycle, int number)
 {
@@ -279,14 +275,14 @@ void v_cycle_read_system(VCycle *cycle)
 {
     const Grid *grid = cycle->grid;
     const Rows *rows = &grid->rows;
-    cycle->mass = unit_of(grid->lightest);
-    cycle->length = unit_of(sqrt(grid->l2[DIAGONAL][place_of(rows, 0, 0)]));
     for (int i = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++) {
             int q = place_of(rows, i, j), at = q + grid->node_shift[i];
-            double m = grid->per_m[at] > 0 ? cycle->mass * grid->m[at] : 0;
-            cycle->level->m[q] = (float)m;
+            cycle->level->m[q] = grid->per_m[at] > 0 ? (float)grid->m[at] : 0;
         }
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int k = 0; k < rows->plane; k++)
+            cycle->c[kind][k] = (float)grid->c[kind][k];
     for (Level *l = cycle->level; l + 1 < cycle->level + cycle->levels; l++) {
         const Level *coarse = l + 1;
         int last = l->rows.nodes - 1;
@@ -505,8 +501,13 @@ typedef struct Update {
 FAST static void take(const Grid *grid, double factor, const double *a,
                       float *b)
 {
-    EACH_OF (2 * grid->rows.plane)
-        b[e] = (float)(factor * a[e]);
+    for (const double *end = a + 2 * grid->rows.plane; a < end;
+         a += WIDE_LANES, b += WIDE_LANES) {
+        double product[WIDE_LANES];
+        EACH_OF (WIDE_LANES)
+            product[e] = factor * a[e];
+        narrow(WIDE_LANES, product, b);
+    }
 }
 
 /* p = factor x, or p += it. */
@@ -529,28 +530,34 @@ FAST static void advance(const void *job, int first, int end)
     const int plane = grid.rows.plane;
     const float alpha = update->alpha, beta = update->beta;
     for (int band = first; band < end; band++) {
-        double sum[LANES] = {0}, most[LANES] = {0}, largest = 0;
-        EACH_NODE_OF (grid, band) {
-            const int qx = at.first + e, qy = qx + plane;
-            float dx = level.x[qx] + beta * cycle.d[qx];
-            float dy = level.x[qy] + beta * cycle.d[qy];
-            float Adx = level.w[qx] + beta * cycle.Ad[qx];
-            float Ady = level.w[qy] + beta * cycle.Ad[qy];
-            float px = cycle.p[qx] + alpha * dx;
-            float py = cycle.p[qy] + alpha * dy;
-            float bx = level.b[qx] - alpha * Adx;
-            float by = level.b[qy] - alpha * Ady;
-            cycle.d[qx] = dx;
-            cycle.d[qy] = dy;
-            cycle.Ad[qx] = Adx;
-            cycle.Ad[qy] = Ady;
-            cycle.p[qx] = px;
-            cycle.p[qy] = py;
-            level.b[qx] = bx;
-            level.b[qy] = by;
-            double size = (double)(fabsf(px) + fabsf(py));
-            most[e] = size > most[e] ? size : most[e];
-            sum[e] += grid.per_m[qx + at.node] * (double)(bx * bx + by * by);
+        double sum[LANES] = {0};
+        float most[LANES] = {0}, largest = 0, square[LANES];
+        EACH_RUN_OF (grid, band) {
+            EACH_OF (NEXT(at, LANES)) {
+                const int qx = at.first + e, qy = qx + plane;
+                float dx = level.x[qx] + beta * cycle.d[qx];
+                float dy = level.x[qy] + beta * cycle.d[qy];
+                float Adx = level.w[qx] + beta * cycle.Ad[qx];
+                float Ady = level.w[qy] + beta * cycle.Ad[qy];
+                float px = cycle.p[qx] + alpha * dx;
+                float py = cycle.p[qy] + alpha * dy;
+                float bx = level.b[qx] - alpha * Adx;
+                float by = level.b[qy] - alpha * Ady;
+                cycle.d[qx] = dx;
+                cycle.d[qy] = dy;
+                cycle.Ad[qx] = Adx;
+                cycle.Ad[qy] = Ady;
+                cycle.p[qx] = px;
+                cycle.p[qy] = py;
+                level.b[qx] = bx;
+                level.b[qy] = by;
+                float size = fabsf(px) + fabsf(py);
+                most[e] = size > most[e] ? size : most[e];
+                square[e] = bx * bx + by * by;
+            }
+            EACH_OF (NEXT(at, LANES))
+                sum[e] +=
+                    grid.per_m[at.first + at.node + e] * (double)square[e];
         }
         for (int e = 0; e < LANES; e++)
             largest = most[e] > largest ? most[e] : largest;
@@ -605,11 +612,11 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
         alpha = xb / bend;
         Update update = {cycle, (float)alpha, (float)beta};
         rest = run_update(cycle, update, &largest) / (unit * unit);
-        largest *= cycle->mass / unit;
+        largest /= unit;
         if (rest <= end.share * end.share * square ||
             (end.length > 0 && v_decides(grid, largest, rest, end.length)))
             break;
     }
-    give(grid, cycle->mass / unit, cycle->p, adds, p);
+    give(grid, 1 / unit, cycle->p, adds, p);
     return largest;
 }

@@ -31,18 +31,18 @@ typedef struct VCycle {
     const Grid *grid;
     Level level[MAX_LEVELS]; /* the finest first */
     int levels;
-    float *p, *d, *Ad;   /* [2 planes] of conjugate gradients */
-    double *sums;        /* [2 * rows] of the finest level */
-    double length, mass; /* units of the levels, powers of two: 1/m, 1/kg */
-    bool set_up;         /* the tensors are those at grid->x; set to false when
-                            that moves */
-    long cycles;         /* since somebody has set it to 0 */
+    float *c[KINDS];   /* [plane] the grid's */
+    float *p, *d, *Ad; /* [2 planes] of conjugate gradients */
+    double *sums;      /* [2 * rows] of the finest level */
+    bool set_up;       /* the tensors are those at grid->x; set to false when
+                          that moves */
+    long cycles;       /* since somebody has set it to 0 */
 } VCycle;
 
 /* Where conjugate gradients may end. */
 typedef struct VEnd {
     double share;  /* the remainder, in the norm M^-1, fell to so much of it */
-    double length; /* m; > 0: or whether the largest |p_x| + |p_y| is above this
+    double length; /* > 0: or whether the largest |p_x| + |p_y| is above this
                       is certain, see v_decides */
     int cycles;    /* or so many V-cycles */
 } VEnd;
@@ -55,7 +55,7 @@ void v_cycle_read_system(VCycle *cycle);
 /* p = about sign H^-1 a; or, where it adds, p += it.
  *   a       [2 planes] anything at pins
  *   square  |a|_(M^-1)^2
- * Returns the largest |p_x| + |p_y| of the nodes, m, as p will be. */
+ * Returns the largest |p_x| + |p_y| of the nodes, as p will be. */
 double v_solve(VCycle *cycle, double sign, const double *a, double square,
                VEnd end, bool adds, double *p);
 

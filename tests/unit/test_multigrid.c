@@ -135,14 +135,14 @@ static int component(const Parts *parts, int i)
            place_of(rows, i / 2 / rows->nodes, i / 2 % rows->nodes);
 }
 
-/* A random vector, 0 for pins, on the grid and as it is. */
+/* A random vector, 0 for pins, in the grid's units and as it is. */
 static void random_vector(Random *random, const Parts *parts, double *packed,
                           double *plain)
 {
     for (int i = 0; i < size; i++) {
         double number = 0.1 * random_uniform(random, -1, 1);
-        number = is_pinned(i / 2) ? 0 : number;
-        plain[i] = packed[component(parts, i)] = number;
+        plain[i] = is_pinned(i / 2) ? 0 : number;
+        packed[component(parts, i)] = parts->grid.length * plain[i];
     }
 }
 
@@ -152,17 +152,18 @@ static void check_vector(const Parts *parts, const double *packed,
                          const double *expected, double norm2)
 {
     const Grid *grid = &parts->grid;
+    const double unit = grid->mass * grid->length;
     double largest = 0, sum = 0;
     for (int i = 0; i < size; i++)
         if (!is_pinned(i / 2)) {
             int q = component(parts, i / 2 * 2);
             q += grid->node_shift[i / 2 / grid->rows.nodes];
             largest = fmax(largest, fabs(expected[i]));
-            sum += expected[i] * expected[i] / grid->m[q];
+            sum += unit * expected[i] * unit * expected[i] / grid->m[q];
         }
     for (int i = 0; i < size; i++)
         if (!is_pinned(i / 2))
-            CHECK_NEAR(packed[component(parts, i)], expected[i],
+            CHECK_NEAR(packed[component(parts, i)] / unit, expected[i],
                        3e-14 * largest);
     CHECK_NEAR(norm2, sum, 1e-13 * sum);
 }
@@ -184,8 +185,10 @@ static void check_loops(Random *random, const Parts *parts)
     check_vector(parts, v[2], y, norm2);
     for (int i = 0; i < size; i += 2)
         most = fmax(most, fabs(p[i]) + fabs(p[i + 1]));
-    CHECK_NEAR(largest, most, 1e-15);
+    CHECK_NEAR(largest / grid->length, most, 1e-15);
     grid_along(grid, v[0], v[1], q);
+    for (int i = 0; i < 4; i++)
+        q[i] /= grid->mass * grid->length * grid->length;
     Real before = exact_energy(&at->E, at->u, at->x);
     for (int i = 0; i < size; i++)
         u[i] = at->u[i] += a * p[i];
