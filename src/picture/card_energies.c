@@ -23,26 +23,6 @@ typedef struct Curve {
     const char *name;
 } Curve;
 
-/* The unit in which an energy up to `high` has few digits. */
-typedef struct EnergyUnit {
-    double joule;
-    const char *name;
-} EnergyUnit;
-
-static EnergyUnit energy_unit(double high)
-{
-    static const EnergyUnit units[] = {
-        {1e12, "TJ"}, {1e9, "GJ"},  {1e6, "MJ"},       {1e3, "kJ"},
-        {1, "J"},     {1e-3, "mJ"}, {1e-6, "\u00b5J"},
-    };
-    if (high >= 1e16 || high < 1e-6)
-        return (EnergyUnit){1, "J"};
-    size_t i = 0;
-    while (high < 0.9995 * units[i].joule) /* 1 with three digits */
-        i++;
-    return units[i];
-}
-
 /* Whether its series are runs side by side, each with a total of its own, not
  * the parts of one. */
 static bool series_are_runs(const Simulation *simulation)
@@ -140,7 +120,7 @@ double energies_value(const Simulation *simulation, const History *history,
 
 /* An axis that holds still is easier to read: it is that of the whole run as
  * long as what is shown so far can be seen on it. */
-Axis energies_axis(const Show *show, double *joule, double *last)
+Axis energies_axis(const Show *show, double *last)
 {
     const Simulation *simulation = show_pane(show)->simulation;
     Curve curve[HISTORY_SERIES];
@@ -175,13 +155,11 @@ Axis energies_axis(const Show *show, double *joule, double *last)
     if (!(first > 0)) /* at rest in a field: what came first tells */
         first = -low;
     bool log = first > 0 && high > LOG_FROM * first;
-    EnergyUnit unit = energy_unit(log ? 1 : fmax(high, -low));
-    *joule = unit.joule;
     if (log)
         return (Axis){pow(10, floor(log10(fmax(least, LEAST_LOG * first))) - 1),
-                      pow(10, ceil(log10(high))), true, false, unit.name};
-    return (Axis){low < -0.01 * high ? -plot_round_axis(-low / unit.joule) : 0,
-                  plot_round_axis(high / unit.joule), false, false, unit.name};
+                      pow(10, ceil(log10(high))), true, false, "J"};
+    return (Axis){low < -0.01 * high ? -plot_round_axis(-low) : 0,
+                  plot_round_axis(high), false, false, "J"};
 }
 
 /* Names with their values in the colours of the curves, of each at the time of
@@ -197,10 +175,8 @@ static int write_legend(const Plot *card, int curves, const Curve *curve,
         double time = simulation_time(simulation);
         double value =
             energies_value(simulation, curve[c].history, curve[c].series, time);
-        EnergyUnit unit = energy_unit(fabs(value));
-        snprintf(line.words, sizeof line.words, "%s %s %s",
-                 curve[c].name ? curve[c].name : "",
-                 number_of(value / unit.joule).text, unit.name);
+        snprintf(line.words, sizeof line.words, "%s %s J",
+                 curve[c].name ? curve[c].name : "", number_of(value).text);
         used = words_flow(card, at, size, 1.05 * size, &line, draw);
     }
     return used;
@@ -233,14 +209,13 @@ static void draw_energies(const Plot *card)
 {
     const Show *show = card->show;
     Curve curve[HISTORY_SERIES];
-    double joule, last;
+    double last;
     double now = simulation_time(card->simulation);
     int curves = find_curves(show, curve);
     Plot rest = draw_legend(card, curves, curve);
-    Axis energy = energies_axis(show, &joule, &last);
+    Axis energy = energies_axis(show, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
-    plot_unit(&plot, joule);
     for (int c = 0; c < curves; c++)
         now = fmax(now, simulation_time(curve[c].simulation));
     if (now < plot.x.high)

@@ -75,11 +75,11 @@ extern const Card card_radius;
 double energies_value(const Simulation *simulation, const History *history,
                       int series, double time);
 
-/* The axis of the energies, in units of *joule (out): that of the whole run,
- * unless what is shown so far would vanish on it; logarithmic where the energy
- * has grown beyond a million times its start.
+/* The axis of the energies: that of the whole run, unless what is shown so far
+ * would vanish on it; logarithmic where the energy has grown beyond a million
+ * times its start.
  *   last  out, s, the latest time that the curves may reach */
-Axis energies_axis(const Show *show, double *joule, double *last);
+Axis energies_axis(const Show *show, double *last);
 
 /* The pattern of the Hessian and of its factor; on a page while springs write
  * it, one a step, and the newest of them, from 0. */

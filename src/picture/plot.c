@@ -177,13 +177,6 @@ Plot plot_create(const Plot *card, Axis x, Axis y)
     return plot;
 }
 
-void plot_unit(Plot *plot, double unit)
-{
-    plot->y.low *= unit;
-    plot->y.high *= unit;
-    set_camera(plot, 1, &plot->y);
-}
-
 const PlotRoom plot_room = {3.2, 4, 2.4, 4.2};
 
 /* What the camera sees from low to high. */

@@ -62,9 +62,6 @@ typedef struct PlotRoom {
 extern const PlotRoom plot_room;
 Plot plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
 
-/* From now on y is in this part of the unit of its numbers: J, of kJ. */
-void plot_unit(Plot *plot, double unit);
-
 /* Where a point is drawn, pixels; not finite where it has no place. */
 void plot_place(const Plot *plot, const double *at, double pixel[2]);
 

@@ -617,19 +617,19 @@ TEST(ends_and_methods_have_their_names)
  * ten is a logarithmic one. */
 TEST(energies_before_an_explosion_are_seen)
 {
-    double joule, last, least = INFINITY;
+    double last, least = INFINITY;
     Energy later[HISTORY_SERIES];
     stand_up("square", 6);
     double now = simulation_time(&simulation);
     double total = history.value[0][history.count - 1];
-    double before = energies_axis(&show, &joule, &last).high * joule;
+    double before = energies_axis(&show, &last).high;
     for (int s = 0; s < history.series; s++)
         later[s] = (Energy){history.name[s], 1e298};
     history_add(&history, now + 0.1, history.series, later);
     CHECK(energies_value(&simulation, &history, 0, now) == total);
-    Axis axis = energies_axis(&show, &joule, &last);
-    CHECK(!axis.log && axis.high * joule <= before &&
-          axis.high * joule >= total && total > 1e3);
+    Axis axis = energies_axis(&show, &last);
+    CHECK(!axis.log && axis.high <= before && axis.high >= total &&
+          total > 1e3);
     CHECK(energies_value(&simulation, &history, 0, now + 0.1) == 1e298);
     CHECK(isnan(energies_value(&simulation, &history, 0, -1)));
     stand_up("square --timestep 0.008 --integrator symplectic-euler", 11);
@@ -637,13 +637,13 @@ TEST(energies_before_an_explosion_are_seen)
     CHECK(isinf(energies_value(&simulation, &history, 0, now)));
     CHECK(isfinite(energies_value(&simulation, &history, 0, 0.9 * now)));
     stand_up("arrows", 80);
-    axis = energies_axis(&show, &joule, &last);
+    axis = energies_axis(&show, &last);
     now = simulation_time(&simulation);
     CHECK(axis.log && axis.low > 0);
     for (int r = 0; r < 3; r++) {
         double energy = energies_value(&simulation, &history, r, now);
         least = fmin(least, energy);
-        CHECK(energy <= axis.high * joule && energy >= axis.low * joule);
+        CHECK(energy <= axis.high && energy >= axis.low);
     }
     CHECK(least > 0 && least < 1e-6);
 }
