@@ -77,8 +77,7 @@ Box layout_close_box(const Layout *layout, int card);
 
 /* ---- stage and world ---------------------------------------------------- */
 
-/* From the world (metres, y up; in the curve x and f) to pixels, y down:
- * pixel = origin + (scale[0] x, -scale[1] y). */
+/* From the world to pixels: pixel = origin + (scale[0] x, -scale[1] y). */
 typedef struct Camera {
     double scale[2];  /* pixels a metre, > 0 */
     double origin[2]; /* pixels, where (0, 0) is */

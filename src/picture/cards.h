@@ -10,18 +10,15 @@
 /* A card that is wider is a page's star, ems. */
 static const double STAR_WIDE = 40;
 
-/* Springs and nodes of a square, and what a step does to them; from the ground
- * up: obstacles, rest shape, ghosts, folded cells, springs, nodes, pins,
- * directions and forces as arrows, what the mouse holds. */
+/* Springs and nodes of a square, and what a step does to them. */
 extern const Picture square_picture;
 
 /* Integrators on the circle: trails around the exact one, radius over time.
  * One mass and the arrows of its next step. */
 extern const Picture circle_picture, mass_picture;
 
-/* Newton in one unknown: f, its quadratic model where the last update began,
- * its minimum, and the iterates; g and its tangents above E and its parabolas.
- */
+/* Newton in one unknown: f, its quadratic models and the iterates; g and its
+ * tangents above E and its parabolas. */
 extern const Picture curve_picture, tangent_picture;
 
 /* Contours of E over the position of the free node, and Newton's path; the same
@@ -29,12 +26,16 @@ extern const Picture curve_picture, tangent_picture;
 extern const Picture landscape_picture, dial_picture;
 
 /* One spring: force, eigenvalues, energy over its length.  Error over run time,
- * a curve for each method.  Where the square converges, and the cell under the
- * mouse in small. */
+ * a curve for each method.  Where the square converges. */
 extern const Picture spring_picture, race_picture, envelope_picture;
 
-/* What the lecture's page says; nothing outside of the lecture. */
-extern const Card card_page;
+/* What the lecture's page says; the listing of the method that runs; Algorithm
+ * 2 inside line 5; what the slides' program prints of each update; E(x + alpha
+ * p) - E(x) with the quadratic model and the trials; the residual of each
+ * update; the law that a page is about; energies, and radii in the circle, over
+ * time; the pattern of the Hessian and of its factor. */
+extern const Card card_page, card_listing, card_search, card_prints, card_line,
+    card_residual, card_law, card_energies, card_radius, card_spy;
 
 /* The size of its letters in ems: the same for all pages that fit. */
 double page_letters(Paper *paper, Box inside, const Show *show);
@@ -43,30 +44,8 @@ double page_letters(Paper *paper, Box inside, const Show *show);
  * same box outside of the lecture. */
 Box page_draw_claim(Paper *paper, Box inside, const Show *show);
 
-/* The listing of the method that runs, the current line lit, lines that are
- * switched off struck through. */
-extern const Card card_listing;
-
-/* Algorithm 2, as it is walked through inside line 5. */
-extern const Card card_search;
-
-/* What the slides' program prints of each update. */
-extern const Card card_prints;
-
-/* E(x + alpha p) - E(x), exact, with the quadratic model and the trials. */
-extern const Card card_line;
-
-/* Residual of each Newton update on a logarithmic axis. */
-extern const Card card_residual;
-
-/* The law that a page is about, and where the scene is on it; what its title
- * and a page's words know of that. */
-extern const Card card_law;
+/* What a page knows of its law, and where the scene is on it. */
 void law_facts(const Simulation *simulation, Facts *facts);
-
-/* What the history keeps, over time: energies; radii in the circle. */
-extern const Card card_energies;
-extern const Card card_radius;
 
 /* A quantity of a history at this time, or at the last point before it, J; what
  * is only rounding beside the others, at that time and at the beginning, is 0;
@@ -81,18 +60,11 @@ double energies_value(const Simulation *simulation, const History *history,
  *   last  out, s, the latest time that the curves may reach */
 Axis energies_axis(const Show *show, double *last);
 
-/* The pattern of the Hessian and of its factor; on a page while springs write
- * it, one a step, and the newest of them, from 0. */
-extern const Card card_spy;
+/* The newest spring of a page on which springs write the Hessian, from 0. */
 int lecture_spring(const Simulation *simulation);
 
 /* What is inside the frame of a card, below its title; em in pixels. */
 Box cards_inside(Box card, double em);
-
-/* The size of letters, at most `size` ems and at least this part of it, with
- * which the text fits into so many pixels. */
-double fitting_size(Paper *paper, Face face, double size, double least,
-                    double room, const char *text);
 
 /* In the middle of a card that has nothing to show yet: the first line of a
  * text that is known. */

@@ -5,10 +5,13 @@
 #include "scenes/small_scenes.h"
 
 /* From few updates (light) to many (dark), by powers of two. */
-static const Colour envelope_shades[] = {0xffe3f2e8u, 0xffbfe3ccu, 0xff94cfb0u,
-                                         0xff5fb38cu, 0xff2f8f6du, 0xff12684fu,
-                                         0xff064a38u};
-enum { ENVELOPE_SHADES = sizeof envelope_shades / sizeof *envelope_shades };
+enum { ENVELOPE_SHADES = 6 };
+
+static Colour envelope_shade(int shade)
+{
+    return canvas_mix(0xffe3f2e8u, 0xff064a38u,
+                      (double)shade / ENVELOPE_SHADES);
+}
 
 #define COLOUR_REFUSED 0xffe08a1eu
 #define COLOUR_UNDONE  0xff9c92c4u
@@ -22,9 +25,9 @@ static Colour envelope_colour(const EnvelopeCell *cell)
         return COLOUR_REFUSED;
     if (cell->undone)
         return COLOUR_UNDONE;
-    while (shade < ENVELOPE_SHADES - 1 && cell->updates > 4 << shade)
+    while (shade < ENVELOPE_SHADES && cell->updates > 4 << shade)
         shade++;
-    return envelope_shades[shade];
+    return envelope_shade(shade);
 }
 
 /* Pixels of a cell, but for a line to its neighbours. */
@@ -41,17 +44,7 @@ static Box envelope_box(const Plot *stage, int column, int row)
                  (int)ceil(p[1]) - top - 1};
 }
 
-/* Four lines around a cell. */
-static void envelope_frame(const Plot *stage, int column, int row)
-{
-    double x = log10(envelope_timestep(column)) - 0.25;
-    double y = log10(envelope_stiffness(row)) - 0.5;
-    const double c[4][2] = {{x, y}, {x + 0.5, y}, {x + 0.5, y + 1}, {x, y + 1}};
-    for (int i = 0; i < 4; i++)
-        plot_line(stage, c[i], c[(i + 1) % 4], 2.4, COLOUR_TEXT);
-}
-
-/* The cells lie on the axes' lines. */
+/* The cells lie on the axes' lines; the chosen one has a dark border. */
 static void envelope_draw(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.map;
@@ -61,7 +54,10 @@ static void envelope_draw(Plot *stage)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++)
             canvas_fill(&stage->paper->canvas, envelope_box(stage, column, row),
                         envelope_colour(&map->cell[row][column]));
-    envelope_frame(stage, map->column, map->row);
+    canvas_card(&stage->paper->canvas,
+                box_inset(envelope_box(stage, map->column, map->row), -1),
+                envelope_colour(&map->cell[map->row][map->column]),
+                COLOUR_TEXT);
 }
 
 static void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
@@ -91,8 +87,8 @@ static void envelope_facts(const Simulation *simulation, Facts *facts)
             undone += one->undone;
             converged += one->known && !one->worst && !one->undone;
         }
-    facts->colour[0] = envelope_shades[4];
-    facts->colour[1] = envelope_shades[3];
+    facts->colour[0] = envelope_shade(4);
+    facts->colour[1] = envelope_shade(3);
     facts->colour[2] = COLOUR_UNDONE;
     facts->colour[3] = COLOUR_REFUSED;
     fact(facts, "known", known);

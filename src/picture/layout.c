@@ -246,7 +246,7 @@ static void place_cards(const Show *show, Layout *layout)
 /* One beside the other, in one, two or three columns. */
 static void place_panes(int count, Layout *layout)
 {
-    int columns = 1, gap = pixels(layout, 0.3);
+    int columns = 1, gap = pixels(layout, 0.15);
     double best = 0;
     for (int c = 1; c <= count; c++) { /* the most room for squares */
         int rows = (count + c - 1) / c;

@@ -40,18 +40,6 @@ int picture_card(const Picture *picture, const char *name)
     return -1;
 }
 
-/* Lines between panes. */
-static void draw_rules(Paper *paper, const Box *box)
-{
-    int thick = (int)fmax(1, paper->unit);
-    canvas_fill(&paper->canvas,
-                (Box){box->x + box->width, box->y, thick, box->height},
-                COLOUR_RULE);
-    canvas_fill(&paper->canvas,
-                (Box){box->x, box->y + box->height, box->width, thick},
-                COLOUR_RULE);
-}
-
 /* One pane, its words, where it is not alone its label in the colour of its
  * curve, and what the mouse is over in it. */
 static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
@@ -130,10 +118,11 @@ void show_draw(Paper *paper, const Show *show)
         frame_draw(paper, &layout, show);
         return;
     }
+    if (layout.panes > 1) /* lines between them */
+        canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
     for (int pane = 0; pane < layout.panes; pane++) {
+        canvas_fill(&paper->canvas, layout.pane[pane], COLOUR_WHITE);
         draw_pane(paper, &layout, show, pane);
-        if (layout.panes > 1)
-            draw_rules(paper, &layout.pane[pane]);
     }
     if (show->bare)
         return;

@@ -27,26 +27,23 @@ enum { PLOT_LINES = 64, PLOT_BOXES = 48 };
 typedef struct Plot {
     Paper *paper; /* NULL: it only tells where things are */
     const Show *show;
-    const Simulation
-        *simulation; /* of the pane; in a card, of the active one */
-    Box box;         /* pixels; inside the numbers of the axes */
-    Camera camera;   /* of the logarithm, where an axis is logarithmic */
-    Axis x, y;       /* 0 ... 0: a stage in metres */
-    int pane;        /* index in the show */
-    bool text;       /* there is room for words */
-    double em;       /* pixels */
-    int flow[2];     /* pixels, where the next words of the legend go */
+    const Simulation *simulation; /* of the pane; of a card the active one's */
+    Box box;                      /* pixels; inside the numbers of the axes */
+    Camera camera; /* of the logarithm, where an axis is logarithmic */
+    Axis x, y;     /* 0 ... 0: a stage in metres */
+    int pane;      /* index in the show */
+    bool text;     /* there is room for words */
+    double em;     /* pixels */
+    int flow[2];   /* pixels, where the next words of the legend go */
     /* Pixels, what words keep off: lines x, y, x, y; boxes. */
     int lines, boxes;
     double line[PLOT_LINES][4];
     Box taken[PLOT_BOXES];
 } Plot;
 
-/* The smallest 1, 2, 5 times a power of ten that is not below value > 0. */
+/* The smallest 1, 2, 5 times a power of ten that is not below value > 0; the
+ * smallest end of an axis from 0 that carries a number. */
 double plot_round_up(double value);
-
-/* The smallest end of an axis from 0 that is not below value > 0 and carries
- * a number. */
 double plot_round_axis(double value);
 
 /* Axes in a card, with numbers on the left and below, light lines across. */
@@ -65,12 +62,19 @@ Plot plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
 /* Where a point is drawn, pixels; not finite where it has no place. */
 void plot_place(const Plot *plot, const double *at, double pixel[2]);
 
-/* ---- shapes ------------------------------------------------------------- */
+/* A square view around the middle, of at least so many metres, in which `most`
+ * fits; it grows by this factor, so that it does not move all the time. */
+void bounds_around(double reach, double most, double factor, double bounds[4]);
+
+/* ---- shapes: dashes have a phase as in canvas.h, NULL: begins -------------
+ */
 
 void plot_line(const Plot *plot, const double *a, const double *b, double width,
                Colour colour);
+void plot_dashes(const Plot *plot, const double *a, const double *b,
+                 double width, double *phase, Colour colour);
 
-/* middle + a cos t + b sin t; the phase of its dashes; NULL: none. */
+/* middle + a cos t + b sin t; phase NULL: it has no dashes. */
 void plot_ellipse(const Plot *plot, const double *middle, const double *a,
                   const double *b, double width, double *phase, Colour colour);
 
@@ -78,19 +82,12 @@ void plot_ellipse(const Plot *plot, const double *middle, const double *a,
 void plot_springs(const Plot *plot, const System *system, const double *x,
                   double width, Colour colour);
 
-/* phase: of the pattern, in/out, where several lines are one; NULL: begins */
-void plot_dashes(const Plot *plot, const double *a, const double *b,
-                 double width, double *phase, Colour colour);
-
 /* Four corners, with no seam to its neighbours. */
 void plot_face(const Plot *plot, const double *const corner[4], Colour colour);
 
-/* Joins points x, y [count] as one curve whose joints are no paler than the
- * rest. */
+/* Points x, y [count] joined; y(x) over the whole axis. */
 void plot_curve(const Plot *plot, int count, const double *x, const double *y,
                 double width, Colour colour);
-
-/* y(x) over the whole axis. */
 void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
                 const void *data, double width, Colour colour);
 
@@ -110,16 +107,12 @@ void plot_pin(const Plot *plot, const double *at, double radius);
 void plot_arrow(const Plot *plot, const double *a, const double *d,
                 double factor, double width, Colour colour);
 
-/* Arrows of d [2n] at x [2n], every stride-th node.  A power of ten
- * times as long as they are, so that the longest has at most `most` pixels, and
- * at least 1.5 ems or a tenth of `most`, where that is not so by itself;
- * returns that factor, 0 if there is nothing to draw. */
+/* Arrows of d [2n] at x [2n], every stride-th node.  A power of ten times as
+ * long as they are, so that the longest has at most `most` pixels, and at least
+ * 1.5 ems or a tenth of `most`, where that is not so by itself; returns that
+ * factor, 0 if there is nothing to draw. */
 double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
                    const double *d, double most, Colour colour);
-
-/* A square view around the middle, of at least so many metres, in which `most`
- * fits; it grows by this factor, so that it does not move all the time. */
-void bounds_around(double reach, double most, double factor, double bounds[4]);
 
 /* ---- words (words.c) ---------------------------------------------------- */
 
@@ -135,8 +128,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...);
 /* Lower left: a line as long as so many metres. */
 void plot_scale(const Plot *plot);
 
-/* A line, a disc, a box in pixels that words shall not cover; what there is no
- * room for is left out. */
+/* What words shall not cover; what there is no room for is left out. */
 void plot_keep_line(Plot *plot, const double *a, const double *b);
 void plot_keep_disc(Plot *plot, const double *at, double radius);
 void plot_keep_box(Plot *plot, Box box);
@@ -147,13 +139,13 @@ void plot_keep_box(Plot *plot, Box box);
 void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
                 double size, Face face, Colour colour, const char *words);
 
-/* "1e5" as people write it: 100000, 2.5e7, 0.003; in markup with a
- * superscript where it needs a power. */
+/* "1e5" as people write it, with so many digits, or three: 100000, 2.5e7,
+ * 0.003; in markup with a superscript where it needs a power. */
 typedef struct Number {
     char text[48];
 } Number;
 Number number_with(double value, int digits);
-Number number_of(double value); /* with three digits */
+Number number_of(double value);
 
 /* ---- stages (show.c, handles.c): what the mouse can drag and switch ------ */
 
@@ -163,10 +155,8 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane);
 /* Open rings where the scene's handles are. */
 void stage_handles(const Plot *stage);
 
-/* The scene's switches as chips in the upper right corner. */
+/* The scene's switches as chips in the upper right corner; where one is. */
 void stage_switches(const Plot *stage);
-
-/* Where switch i is; pixels. */
 Box stage_switch_box(const Plot *stage, int i);
 
 /* A switch or a handle under pixel (x, y): fills kind and index. */

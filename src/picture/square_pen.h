@@ -33,8 +33,10 @@ typedef struct SpringPen {
 
 SpringPen square_pen(Plot *stage, int run);
 
-/* All springs but the broken ones. */
+/* All springs but the broken ones; discs at all nodes but those that the
+ * springs hide. */
 void square_springs(const SpringPen *pen);
+void square_nodes(const SpringPen *pen);
 
 /* The cells of a fine square as shaded faces, those that have folded over dark,
  * and its outline; of cells below some pixels, larger ones in their place. */
@@ -44,22 +46,15 @@ void square_faces(const SpringPen *pen);
  * that have turned over in another colour.  Returns how many have. */
 int square_cells(const SpringPen *pen, bool all);
 
-/* Discs at all nodes; those that the springs hide are left out. */
-void square_nodes(const SpringPen *pen);
-
-/* The outline of the square at x. */
+/* The outline of the square at x; of a small one all springs faintly, and it in
+ * dashes. */
 void square_outline(const SpringPen *pen, const double *x, bool dashed,
                     Colour colour);
-
-/* All springs of a small square, faintly, and its outline in dashes. */
 void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 
-/* The node, spring or edge of the paused square under a pixel. */
+/* The node, spring or edge of the paused square under a pixel, and what is
+ * known of the first two in numbers. */
 void square_pick(const Plot *stage, double x, double y, Pick *pick);
-
-/* The small card beside a node or a spring under the mouse.  Node: m, x, v,
- * force, x_tilde.  Spring: e, l2, strain, its block of the Hessian and the
- * eigenvalues before and after projection. */
 void square_note(Plot *stage);
 
 /* ---- contact: it follows from positions and velocities alone, so that a state

@@ -151,24 +151,15 @@ static void shrink(TextStyle *style, double factor)
     style->size = fmin(style->size, fmax(factor * style->size, style->least));
 }
 
-static void set_raised(Pen *pen, Part part, int depth, double ems)
+/* ^{...} or _{...}, by what stands before the brace. */
+static void set_raised(Pen *pen, Part part, int depth)
 {
     Pen inner = *pen;
-    inner.y += ems * pen->style.size;
+    inner.y += (part.from[-2] == '^' ? -RAISE : LOWER) * pen->style.size;
     shrink(&inner.style, SCRIPT_SIZE);
     set_part(&inner, part, depth);
     reach(pen, inner.top, inner.bottom);
     pen->x = inner.x;
-}
-
-static void set_above(Pen *pen, Part part, int depth)
-{
-    set_raised(pen, part, depth, -RAISE);
-}
-
-static void set_below(Pen *pen, Part part, int depth)
-{
-    set_raised(pen, part, depth, LOWER);
 }
 
 /* frac{above over below} */
@@ -286,7 +277,7 @@ static void set_matrix(Pen *pen, Part part, int depth)
 static const struct {
     const char *name;
     void (*set)(Pen *pen, Part part, int depth);
-} words[] = {{"^", set_above},   {"_", set_below},       {"frac", set_fraction},
+} words[] = {{"^", set_raised},  {"_", set_raised},      {"frac", set_fraction},
              {"sqrt", set_root}, {"matrix", set_matrix}, {"#", NULL}};
 
 /* The letters that have a colour. */
