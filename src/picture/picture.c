@@ -5,6 +5,8 @@
 #include "picture/colour_map.h"
 #include "scenes/scene.h"
 
+static const double LEAST_TEXT = 11; /* ems, the height of a pane with words */
+
 /* By the kind that a scene names. */
 static const Picture *const pictures[PICTURE_COUNT] = {
     [PICTURE_SQUARE] = &square_picture,
@@ -49,6 +51,8 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
     const Picture *picture = picture_of(stage.simulation->scene);
     const Pick *hover = &show->hover;
     Box before = canvas_clip(&paper->canvas, stage.box);
+    if (show->lecture && stage.box.height < LEAST_TEXT * paper->em)
+        stage.text = false; /* a star has taken its room */
     picture->draw(&stage);
     TextLine line = text_of(&show->pane[pane].facts, picture->legend);
     while (stage.text && text_next(&line))

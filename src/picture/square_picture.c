@@ -364,7 +364,7 @@ static void add_block(const Simulation *simulation, Facts *facts)
     spring_strain(system->e + 2 * spring, l2, simulation->run[0].x, d);
     spring_hessian(d, l2, system->k[spring], simulation->options.filter, H);
     for (int i = 0; i < 6; i++) {
-        bool none = fabs(H[i % 3]) < 1e-12 * system->k[spring];
+        bool none = fabs(H[i % 3]) < 1e-7 * system->k[spring];
         fact(facts, names[i], none ? 0 : (i < 3 ? 1e-3 : -1e-3) * H[i % 3]);
     }
 }

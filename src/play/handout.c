@@ -226,7 +226,9 @@ static Status write_page(FILE *file, const LecturePage *page, Player *player)
     fputs("</h2>\n<div class=\"say\">", file);
     write_said(file, show, "p", "", page->text);
     write_said(file, show, "div", "", page->formula);
-    fputs("</div>\n<img alt=\"", file);
+    fputs("</div>\n", file);
+    write_said(file, show, "p", "Question:", page->ask);
+    fputs("<img alt=\"", file);
     write_text(file, page->topic);
     fputs("\" src=\"data:image/png;base64,\n", file);
     Status status = draw_picture(player, file);
@@ -238,7 +240,6 @@ static Status write_page(FILE *file, const LecturePage *page, Player *player)
             "live: elasto.html#--lecture+%s</a> or <code>elasto %s</code></p>"
             "\n",
             page->name, page->name, page->line);
-    write_said(file, show, "p", "Question:", page->ask);
     fputs("<div class=\"room\"><hr><hr><hr></div>\n</section>\n", file);
     return status;
 }
