@@ -391,6 +391,15 @@ static void mass_facts(const Simulation *simulation, Facts *facts)
              ? 2
              : NAN);
     double exact[2], h = simulation->run[0].h;
+    if (!step.by_old_v && !backward) {
+        fact(facts, "kept",
+             2 * mass_energy(step.x, step.v) -
+                 h * (step.x[0] * step.v[0] + step.x[1] * step.v[1]));
+        fact(facts, "kept later",
+             2 * mass_energy(step.new_x, step.new_v) -
+                 h * (step.new_x[0] * step.new_v[0] +
+                      step.new_x[1] * step.new_v[1]));
+    }
     exact_step(&step, h, exact);
     fact(facts, "miss",
          math_hypot(step.new_x[0] - exact[0], step.new_x[1] - exact[1]));
@@ -410,6 +419,8 @@ static const Card card_mass_numbers = {
         "    = {place} + {h} {carrying}\n"
         "{numbers}\n"
         "{numbers}energy {energy:4} J \u2192 {later:4} J  (\u00d7 {factor:4})\n"
+        "|{x}|\u00b2 + |v|\u00b2 \u2212 h {x}\u00b7v: {kept:4} "
+        "\u2192 {kept later:4}\n"
         "#faint off the exact end by {miss:4} m;  h\u00b2/2 |a(x)| = {half:4} "
         "m\n"
         "@\n"

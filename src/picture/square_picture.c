@@ -425,17 +425,7 @@ static void square_facts(const Simulation *simulation, Facts *facts)
     }
 }
 
-/* M a = f, a row of it; and what simulator.py begins with. */
-static const Card card_equation = {
-    .name = "numbers",
-    .title = "M a = f, the row of node {last}",
-    .least = 6,
-    .weight = 0.4,
-    .lecture = true,
-    .words = "each node: {mass} kg / {masses} = {node mass} kg\n"
-             "{node mass} kg {a:4} m/s\u00b2 = #force{{f:4} N}",
-};
-
+/* What simulator.py begins with. */
 static const Card card_parameters = {
     .name = "parameters",
     .title = "the numbers of simulator.py",
@@ -458,9 +448,9 @@ static int square_sample(const Simulation *simulation, Energy *row)
 }
 
 static const Card *const square_cards[] = {
-    &card_page,     &card_listing, &card_line,     &card_residual,
-    &card_energies, &card_spy,     &card_equation, &card_parameters,
-    &card_search,   &card_prints,  &card_law,      NULL};
+    &card_page, &card_listing,    &card_line,   &card_residual, &card_energies,
+    &card_spy,  &card_parameters, &card_search, &card_prints,   &card_law,
+    NULL};
 
 const Picture square_picture = {
     .cards = square_cards,

@@ -543,6 +543,9 @@ static void tell_masses(const Simulation *simulation)
                 off[i] = new_x[i] - cosl(h) * x[i] - sinl(h) * v[i];
             near("miss", hypotl(off[0], off[1]), 1e-15L * (1 + h));
             is("half", h * h / 2 * hypotl(x[0], x[1]));
+            Real kept = 2 * E[0] - h * (x[0] * v[0] + x[1] * v[1]);
+            near("kept", kept, 4e-15L * (E[0] + E[1]));
+            near("kept later", kept, 4e-15L * (E[0] + E[1]));
             is("h limit", 2); /* cos(turn) = 1 - h^2/2 is above -1 */
         }
         Real turn = 8 * atanl(1) * h;
