@@ -5,7 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "play/program.h"
+#include "play/player.h"
 
 static volatile sig_atomic_t main_stop = 0;
 static Player main_player; /* too large for some stacks */

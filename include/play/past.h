@@ -33,7 +33,6 @@
 #include "play/command.h"
 #include "play/rounds.h"
 #include "scenes/control.h"
-#include "scenes/state.h"
 
 #define PAST_BYTES ((size_t)256 << 20) /* of states; they give way */
 

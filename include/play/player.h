@@ -17,7 +17,7 @@
 #include <stdio.h>
 
 #include "play/past.h"
-#include "play/script.h"
+#include "play/command.h"
 #include "scenes/options.h"
 #include "play/recording.h"
 #include "play/view.h"
@@ -219,5 +219,31 @@ void summary_print(FILE *file, const Player *player);
  * could not be drawn. */
 Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
                      Player *player, char *message, size_t size);
+
+/* ---- the program --------------------------------------------------------- */
+
+/* From its command line to its exit code, wherever it runs.  What is wrong it
+ * says in one line on standard error. */
+
+/* How the program ends. */
+enum ExitCode {
+    PROGRAM_PLAYS = -1, /* not yet */
+    EXIT_FINE = 0,
+    EXIT_FAILED = 1,     /* while running */
+    EXIT_MISUSED = 2,    /* the command line, or a line of its script */
+    EXIT_UNCONVERGED = 3 /* the run ended, but steps did not converge */
+};
+
+/* Does what a command line asks for, until it is to be played.
+ *   stop    in, must live as long; not 0 ends the run after the present step
+ *   player  out, before its first frame; free it in any case
+ * Returns PROGRAM_PLAYS, or the exit code where nothing is to be played. */
+int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
+                  Player *player);
+
+/* Finishes the files and prints the summary, or why the run failed.
+ *   status  how it ended
+ * Returns the exit code. */
+int program_end(Player *player, Status status);
 
 #endif

@@ -1,7 +1,7 @@
 /* recording.h - what a run leaves in files: frames, films, tables.
  *
  *   frames  FOLDER/frame_000000.png, ...: the number is that of the step
- *   vtk     FOLDER/step_000000.vtp, ... (vtk.h) and their list, steps.pvd
+ *   vtk     FOLDER/step_000000.vtp, ... (below) and their list, steps.pvd
  * and tables (table.h), which begin at step 0:
  *   states    step,time,node,x,y,vx,vy of every node at every step; nodes of
  *             run 0 first, those of run 1 numbered on
@@ -102,5 +102,22 @@ void recording_discard(Recording *recording);
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
 Status png_file_write(const char *name, const Canvas *canvas);
 Status png_write(FILE *file, const Canvas *canvas, bool small);
+
+/* ---- one step for ParaView ----------------------------------------------- */
+
+/* XML, PolyData.  Points are the nodes of all runs, in the order of the states;
+ * lines are the springs that are whole; triangles those of the cells whose
+ * sides are whole (square_mesh_is_half).  Points have velocity (m/s) and run,
+ * lines and triangles strain: Green's |d|^2/l2 - 1, of a triangle what its area
+ * has grown by, as a part.  17 digits: reading them gives the same double. */
+
+/* The file's name in a folder: "step_000012.vtp". */
+enum { VTK_NAME_SIZE = 32 };
+void vtk_name(long step, char name[VTK_NAME_SIZE]);
+
+/* Writes `count` simulations as they are, whole or not at all (output.h).
+ * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
+Status vtk_write(const char *name, const Simulation *const *simulation,
+                 int count);
 
 #endif

@@ -3,7 +3,7 @@
  *   .npz    an array for each column, for numpy.load: where every step has as
  *           many rows [step, place], of time [step], of a node's number
  *           [place]; else [row]
- *   .pvd    the list of a folder's steps, for ParaView (vtk.h)
+ *   .pvd    the list of a folder's steps, for ParaView
  *   others  CSV: a line of names, then a line a row; 17 digits, so that who
  *           reads them has the same double
  * CSV is written as it comes, the others at the end, out of a file that has no

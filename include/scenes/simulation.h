@@ -81,7 +81,7 @@ Status simulation_start(Simulation *simulation, int run,
                         const double *x, const double *v);
 
 /* One step: of time in every run, or one Newton iteration; none where
- * simulation->done.  A pure function of the state (state.h) and the settings:
+ * simulation->done.  A pure function of the state (control.h) and the settings:
  * solvers keep nothing from step to step that changes a bit.
  * OK; an unconverged status: the step was made; a failure or INTERRUPTED:
  * nothing moved in the run that failed. */

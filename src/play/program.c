@@ -1,4 +1,4 @@
-#include "play/program.h"
+#include "play/player.h"
 
 #include <errno.h>
 #include <stdarg.h>

@@ -8,7 +8,6 @@
 
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
-#include "play/vtk.h"
 #include "scenes/one_line.h"
 #include "scenes/scene.h"
 

@@ -1,4 +1,4 @@
-#include "play/vtk.h"
+#include "play/recording.h"
 
 #include "model/area.h"
 #include "model/mass_spring_energy.h"

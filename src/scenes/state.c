@@ -1,4 +1,4 @@
-#include "scenes/state.h"
+#include "scenes/control.h"
 
 #include <string.h>
 

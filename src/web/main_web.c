@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 #include "play/playing.h"
-#include "play/program.h"
+#include "play/player.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 

@@ -12,7 +12,7 @@
 #include "model/damping.h"
 #include "model/friction.h"
 #include "model/self_contact.h"
-#include "scenes/state.h"
+#include "scenes/control.h"
 
 /* A scene is a row of defaults: the square with the same options makes the
  * same bits, with normals of any length.  And a number that is set at the

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "model/contact.h"
-#include "play/script.h"
+#include "play/command.h"
 
 enum { STEPS = 48 };
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/state.h"
+#include "scenes/control.h"
 
 enum { STEPS = 36 }; /* no multiple of 37 */
 
