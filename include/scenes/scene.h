@@ -77,10 +77,8 @@ typedef struct Scene {
     double aspect, cell_stiffness;
     bool moving_pins;
     /* The obstacle that comes with the scene beside those of the options, as it
-     * begins, o a ball's centre too; own_name is what messages call it.  NULL:
-     * there is none. */
+     * begins, o a ball's centre too.  NULL: there is none. */
     struct Obstacle (*own)(const struct Options *options);
-    const char *own_name;
     /* One step; NULL: a step in time of every run. */
     Status (*step)(struct Simulation *simulation);
     /* The next direction again, after filter or line search changed; NULL:
@@ -106,7 +104,6 @@ int exhibit_switches(const struct Simulation *simulation,
 /* On a page that has them as switches: the kind of a spring, 0 ... 3. */
 bool exhibit_has_kinds(const struct Simulation *simulation);
 int exhibit_kind(const struct Simulation *simulation, int spring);
-
 
 /* Moves one of the points, and all that hangs on it, to (x, y), which may be no
  * place for it; switches a part.  The number is below how many there are. */

@@ -7,6 +7,7 @@
 
 #include "model/cells.h"
 #include "model/contact.h"
+#include "model/elements.h"
 #include "model/friction.h"
 #include "model/self_contact.h"
 #include "base/mathematics.h"
@@ -371,60 +372,56 @@ const char *body_needs_end_of_step(const Options *options)
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
-/* "--ground 0,1,0,-1", "the ceiling": obstacle i, for messages. */
-static void name_obstacle(const Options *options, int i, char *text,
-                          size_t size)
+/* Whether all begins where the system's terms let it be: off the obstacles, and
+ * no cell or triangle turned over. */
+static Status check_place(const System *system, const double *x, Refusal told)
 {
-    int ball = i - (int)options->grounds;
-    const double *value = ball < 0 ? options->ground[i] : options->ball[ball];
-    if (ball == options->balls && options->ceiling[1] != 0)
-        snprintf(text, size, "--ceiling %g,%g,%g", options->ceiling[0],
-                 options->ceiling[1], options->ceiling[2]);
-    else if (ball >= options->balls)
-        snprintf(text, size, "%s", options->scene->own_name);
-    else if (ball >= 0)
-        snprintf(text, size, "--ball %g,%g,%g", value[0], value[1], value[2]);
-    else
-        snprintf(text, size, "--ground %g,%g,%g,%g", value[0], value[1],
-                 value[2], value[3]);
+    const Contact *contact = contact_of(system);
+    Place at = place_at(system, NULL, NULL, x);
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        if (contact->obstacle[k].kind == OBSTACLE_BALL &&
+            !(contact->obstacle[k].radius > 0))
+            return refuse(told, "obstacle %d: its radius must be above 0", k);
+    for (const TermKind *kind; (kind = next_energy(&at));) {
+        ElementWalk walk = {0};
+        if (kind->allowed == elements_allowed && kind->element->reach)
+            walk = elements_from(&at, NULL, 0);
+        while (walk.kind && elements_next(&walk))
+            if (!(walk.element.s > 0))
+                return kind == &contact_energy
+                           ? refuse(told,
+                                    "obstacle %d: node %d would begin at a "
+                                    "distance of %g m; it must be above 0",
+                                    walk.element.from, walk.element.node[0],
+                                    walk.element.s)
+                           : refuse(told,
+                                    "at node %d a cell begins turned over "
+                                    "(%.3g of its area); it must not",
+                                    walk.element.node[0], walk.element.s);
+    }
+    return STATUS_OK;
 }
 
-/* Whether obstacle i is one, and the nodes begin off it that can come to touch
- * it; and so does a ball that is free, the last obstacle. */
-static Status check_obstacle(const Options *options, const double *x,
-                             const unsigned char *pinned, const Obstacle list[],
-                             int count, int i, Refusal told)
+/* Mesh and terms of these options, for a look. */
+static Status begin_look(const Options *options, SquareMesh *mesh,
+                         System *system)
 {
-    const Obstacle *it = &list[i], *own = &list[count - 1];
-    bool moves = options->scene->moving_pins || it->motion.phases > 0;
-    char name[128], who[64];
-    double nearest = INFINITY;
-    int nodes = body_shape(options).nodes, touching = 0;
-    name_obstacle(options, i, name, sizeof name);
-    if (it->kind == OBSTACLE_WALL && !isfinite(it->n[0]))
-        return refuse(told, "%s: the normal is 0,0; it must point somewhere",
-                      name);
-    if (it->kind == OBSTACLE_BALL && !(it->radius > 0))
-        return refuse(told, "%s: the radius must be above 0", name);
-    for (int node = 0; node < nodes; node++) {
-        double d = contact_gap(it, it->o, x + 2 * node, 0).d;
-        if (d < nearest && (moves || !pinned || !pinned[node])) {
-            nearest = d;
-            touching = node;
-        }
+    *mesh = (SquareMesh){0};
+    *system = (System){0};
+    Status status =
+        create_system(options, has_ball(options->scene, options), mesh, system);
+    size_t size = 2 * (size_t)system->nodes;
+    if (!status && options->scene->moving_pins) {
+        system->pin_v = calloc(size, sizeof *system->pin_v);
+        status = system->pin_v ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     }
-    snprintf(who, sizeof who, "node %d", touching);
-    if (nearest > 0 && options->scene->own && own->kind == OBSTACLE_BALL &&
-        it != own) {
-        nearest = contact_gap(it, it->o, own->o, own->radius).d;
-        snprintf(who, sizeof who, "%s", options->scene->own_name);
-    }
-    return nearest > 0
-               ? STATUS_OK
-               : refuse(told,
-                        "%s: %s would begin at a distance of %g m; it must "
-                        "be above 0",
-                        name, who, nearest);
+    return status ? status : set_terms(options, mesh, system);
+}
+
+static void end_look(SquareMesh *mesh, System *system)
+{
+    system_free(system);
+    square_mesh_free(mesh);
 }
 
 /* Which side of the line from a to b p is on: twice the area of abp. */
@@ -452,49 +449,22 @@ static bool is_in_a_cell(const SquareMesh *mesh, const double *x,
 bool simulation_has_room(const Simulation *simulation, const Options *options,
                          char *message, size_t size)
 {
-    for (int run = 0; run < simulation->runs; run++) {
+    Refusal told = {message, size};
+    Status status = STATUS_OK;
+    for (int run = 0; run < simulation->runs && !status; run++) {
         const Options own = options_of_run(simulation, run, options);
-        const System *system = simulation->run[run].system;
-        Obstacle list[CONTACT_MAX_OBSTACLES];
-        int count = list_obstacles(&own, list);
-        for (int k = 0; k < own.grounds + own.balls; k++)
-            if (check_obstacle(&own, simulation->run[run].x, system->pinned,
-                               list, count, k, (Refusal){message, size}))
-                return false;
+        SquareMesh mesh;
+        System system;
+        status = begin_look(&own, &mesh, &system);
+        if (!status)
+            status = check_place(&system, simulation->run[run].x, told);
+        end_look(&mesh, &system);
     }
-    for (int k = 0; k < options->balls; k++)
+    for (int k = 0; k < options->balls && !status; k++)
         if (is_in_a_cell(&simulation->mesh, simulation->run[0].x,
-                         options->ball[k])) {
-            snprintf(message, size, "ball %d would be inside of a cell", k);
-            return false;
-        }
-    return true;
-}
-
-/* Cells keep their sides, and of a solid its triangles: none begins turned
- * over. */
-static Status check_cells(const Options *options, const double *x, Refusal told)
-{
-    const SquareMesh shape = body_shape(options);
-    int node[3], side[3];
-    bool kept = options->cells || options->material != 0;
-    for (int t = 0; kept && t < 4 * shape.cells; t++) {
-        if (!options->cells && !square_mesh_is_half(&shape, t))
-            continue;
-        square_mesh_triangle(&shape, t, node, side);
-        double twice =
-            side_of(x + 2 * node[0], x + 2 * node[1], x + 2 * node[2]);
-        if (!(twice > 0))
-            return refuse(told,
-                          "%s: cell %d begins turned over (%.3g of its area); "
-                          "it must not%s",
-                          options->state        ? "--state"
-                          : options->bodies > 0 ? "--body"
-                                                : "--stretch",
-                          t / 4, twice / (shape.spacing * shape.spacing),
-                          options->cells ? ", or --cells off" : "");
-    }
-    return STATUS_OK;
+                         options->ball[k]))
+            status = refuse(told, "ball %d would be inside of a cell", k);
+    return status == STATUS_OK;
 }
 
 /* Whether two edges have a point in common. */
@@ -535,9 +505,6 @@ static Status check_overlap(const Options *options, const double *x,
 
 Status body_check(const Options *options, Refusal told)
 {
-    Obstacle list[CONTACT_MAX_OBSTACLES];
-    const SquareMesh shape = body_shape(options);
-    int count = list_obstacles(options, list);
     const double *ceiling = options->ceiling;
     if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2])))
         return refuse(told, "--ceiling: V is %g; it must be below 0",
@@ -545,24 +512,23 @@ Status body_check(const Options *options, Refusal told)
     if (ceiling[2] > ceiling[0])
         return refuse(told, "--ceiling: STOP is %g; it must not be above Y",
                       ceiling[2]);
-    if (count == 0 && !options->cells && !options->state &&
-        options->material == 0 && !options->self_contact)
+    Obstacle list[CONTACT_MAX_OBSTACLES];
+    if (list_obstacles(options, list) == 0 && !options->cells &&
+        !options->state && options->material == 0 && !options->self_contact)
         return STATUS_OK;
-    unsigned char *pinned = calloc((size_t)shape.nodes, 1);
-    double *x = malloc(4 * ((size_t)shape.nodes + 1) * sizeof *x);
-    Status status = x && pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    SquareMesh mesh;
+    System system;
+    Status status = begin_look(options, &mesh, &system);
+    size_t size = 2 * (size_t)system.nodes;
+    double *x = status ? NULL : malloc(2 * size * sizeof *x);
     if (!status)
-        status =
-            place_body(options, &shape, 0, x, x + 2 * shape.nodes + 2, told);
-    if (!status)
-        status = check_cells(options, x, told);
+        status = x ? place_body(options, &mesh, 0, x, x + size, told)
+                   : STATUS_OUT_OF_MEMORY;
     if (!status)
         status = check_overlap(options, x, told);
-    if (!status && options->pin)
-        status = pins_read(options->pin, &shape, pinned);
-    for (int i = 0; i < count && !status; i++)
-        status = check_obstacle(options, x, pinned, list, count, i, told);
-    free(pinned);
+    if (!status)
+        status = check_place(&system, x, told);
     free(x);
+    end_look(&mesh, &system);
     return status;
 }

@@ -72,7 +72,7 @@ const Scene scenes[] = {
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
           "--ground 0,1,0,-0.51",
      create_squeeze, .frame = {-0.9, -0.7, 0.9, 0.7}, .strain = 0.5,
-     .own = squeeze_ceiling, .own_name = "the ceiling"},
+     .own = squeeze_ceiling},
     {"return", "Solids that never turn over",
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
@@ -115,8 +115,7 @@ const Scene scenes[] = {
           "--ball -0.8,-0.3325,0.14 --ball 0.8,-0.3325,0.14 "
           "--ground 0,1,0,-1",
      create_bend, .frame = {-1.25, -1.1, 1.25, 0.75}, .strain = 0.05,
-     .aspect = 0.1875, .cell_stiffness = 0.3, .own = bend_ball,
-     .own_name = "the falling ball"},
+     .aspect = 0.1875, .cell_stiffness = 0.3, .own = bend_ball},
     {"arrows", "One mass",
      "one mass on a spring: the arrows of three Euler steps", PICTURE_MASS,
      NEEDS_TIME | NEEDS_START, "--timestep 0.5 --start 1,0", create_mass,

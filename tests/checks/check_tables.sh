@@ -111,7 +111,7 @@ verdict other_tables_are_refused "$(
     sed 's/^2,\(.*\),[^,]*$/2,\1,nan/' table >other && mv other table
     refused '' 'line 52 is not one that --states writes'
     run --stretch -1 --steps 1 --states table
-    refused '--cells on' 'cell 0 begins turned over'
+    refused '--cells on' 'a cell begins turned over'
 )"
 
 # ---- what others read ----------------------------------------------------------

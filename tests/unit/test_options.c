@@ -88,7 +88,7 @@ TEST(numbers_have_ranges)
     Options solid = parse_good("return"); /* a start that makes no sense */
     CHECK_STATUS(options_set(&solid, "stretch", "0", message, sizeof message),
                  STATUS_INVALID_INPUT);
-    CHECK(strstr(message, "--stretch: cell 0 begins turned over") != NULL);
+    CHECK(strstr(message, "a cell begins turned over") != NULL);
 }
 
 /* What is read stands in the option's own field. */
@@ -224,7 +224,7 @@ static const char *const bad_lines[][4] = {
     {"--young 1e4", "--young", "springs have none", "--material"},
     {"return --yield 1", "--yield", "triangles have none"},
     {"dent --material neo-hookean", "--material", "'dent' is about springs"},
-    {"return --stretch 0", "--stretch", "cell 0 begins turned over"},
+    {"return --stretch 0", "node 0", "a cell begins turned over"},
     {"return --integrator bdf2", "no triangles", "only backward-euler"},
     {"--pin 25", "--pin: '25'", "from 0 to 24", "top-corners"},
     {"landscape --start 3", "--start: '3'", "X,Y, each from", "in m"},
