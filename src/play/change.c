@@ -238,20 +238,6 @@ static bool has_room(Player *player, int pane, const Options *options)
                                player->message, sizeof player->message);
 }
 
-/* New runs with these options. */
-static Status restart_with(Player *player, const Options *options,
-                           const Command *command)
-{
-    char value[COMMAND_TEXT_SIZE];
-    const OptionRow *row = &option_rows[command->number];
-    Status status =
-        player_begin(player, options, past_panes(&player->past), command);
-    option_value(row, player_settings(player), value, sizeof value);
-    if (!status && row->effect == EFFECT_AGAIN) /* of races and maps */
-        player_note(player, "from the start: %s %s", row->label, value);
-    return status;
-}
-
 /* An option while the run goes on, or from the start where it cannot change any
  * more: in the active pane where they are compared by it, else in all. */
 Status obey_set(Player *player, const Command *command)
@@ -287,7 +273,8 @@ Status obey_set(Player *player, const Command *command)
         (row->effect == EFFECT_AGAIN ||
          (player->fine > 0 && player_place(player, player->active) >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)
-        return restart_with(player, options, command);
+        return player_begin(player, options, past_panes(&player->past),
+                            command);
     if (again && change.x != old)
         return retake_step(player, &change, from, to);
     return player_change(player, &change, from, to, false);

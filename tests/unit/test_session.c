@@ -473,8 +473,7 @@ static const Session sessions[] = {
            "chip I updates", "chip P projection off", "key P",
            "number projection none", "chip P projection on", "key P",
            "number projection abs", "key K", "says Page Down", /**/
-           "begin race --paused", "key N P", "at 0",
-           "says from the start: projection none")},
+           "begin race --paused", "key N P", "at 0", "number projection none")},
     {"the mouse tells what it can do",
      LINES("begin square --segments 2 --stretch 1 --paused", "press node 4",
            "release +0 +0", "says right click pins it", "right node 4",
