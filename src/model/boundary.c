@@ -65,15 +65,16 @@ static void take_triangle(Boundary *boundary, int t)
     }
 }
 
-/* Triangle 4 c + k is corner k of cell c: opposite corners share a diagonal. */
+/* Triangle 4 c + k is corner k of cell c: opposite corners share a diagonal.
+ * None that is alone, or overlaps another, ever takes the place of another. */
 static void take_cell(Boundary *boundary, const System *system, int c)
 {
     int solid = 0;
     for (int k = 0; k < 4; k++)
         solid |= is_solid(boundary, system, 4 * c + k) << k;
-    int pair = (solid & 5) == 5 ? 5 : (solid & 10) == 10 ? 10 : solid;
-    for (int k = 0, taken = 0; k < 4; k++)
-        if (pair >> k & 1 && (pair == 5 || pair == 10 || !taken++))
+    bool other = (solid & 5) != 5 && (solid & 10) == 10;
+    for (int k = other; k < 4; k += 2)
+        if (solid >> k & 1)
             take_triangle(boundary, 4 * c + k);
 }
 

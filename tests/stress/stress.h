@@ -92,7 +92,7 @@ typedef struct Watch {
     long double start;    /* E at u = 0 */
     long double energy;   /* E at u */
     int updates;          /* of this minimisation */
-    long crossings;       /* of edges that a break has brought to light */
+    long crossings;       /* of edges, where cells may turn over */
     bool wrong;           /* in this step */
     bool flat;            /* a cell was, as E was looked at last */
     char reason[512];     /* what was wrong first */

@@ -1,4 +1,5 @@
 /* Every step and every Newton iteration looked at from outside. */
+#include "model/cells.h"
 #include "model/mass_spring_energy.h"
 #include "model/pull_energy.h"
 #include "stress.h"
@@ -247,7 +248,8 @@ static void watch_begin(Watch *watch)
     memcpy(watch->x_n, newton->at.E.x_n, (size_t)n * sizeof *watch->x_n);
     for (int i = 0; i < n; i++)
         watch->u[i] = watch->run->moves ? watch->run->new_x[i] : 0;
-    watch->crossings = exact_crossings(watch->run->system, watch->x_n);
+    if (!system_find_term(watch->run->system, &cell_energy))
+        watch->crossings = exact_crossings(watch->run->system, watch->x_n);
     Moment moment = watch_moment(watch);
     watch->start = watch->energy = wide_energy(&moment, watch->u);
     watch->updates = 0;
@@ -305,7 +307,8 @@ static void check_walls(Watch *watch, const double *x)
         blame(watch, "the smallest gap is %g, the smallest cell %g", gap, J);
 }
 
-/* No edges cross that did not as the step began. */
+/* No edges cross; or where cells may turn over, none that did not as the step
+ * began: a break may have brought them to light. */
 static void check_edges(Watch *watch, const double *x)
 {
     long crossings = exact_crossings(watch->run->system, x);

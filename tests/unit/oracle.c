@@ -223,11 +223,9 @@ static void outline_cell(Outline *outline, int a, int high)
             outline->whole[corner / 2 ? a + 1 : a][1] &&
             outline->whole[corner % 3 ? a + high : a][0] &&
             (corner % 2 ? outline->whole[a][2] : outline->whole[a + 1][3]);
-    bool both[2] = {solid[0] && solid[2], solid[1] && solid[3]};
-    for (int corner = 0, taken = 0; corner < 4; corner++)
-        if (solid[corner] && (both[0]   ? corner % 2 == 0
-                              : both[1] ? corner % 2
-                                        : !taken++))
+    bool both = solid[0] && solid[2], others = solid[1] && solid[3];
+    for (int corner = 0; corner < 4; corner++)
+        if (solid[corner] && corner % 2 == (others && !both))
             outline_triangle(outline, a, high, corner);
 }
 

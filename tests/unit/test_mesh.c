@@ -118,6 +118,8 @@ TEST(the_boundary_is_that_of_what_is_solid)
         {{0, 1, 0, 0, 0, 0}, 6, 6}, /* a crack between them: abd, and b'c'a' */
         {{1, 0, 0, 0, 0, 0}, 5, 6}, /* a is of no triangle */
         {{0, 0, 0, 0, 1, 1}, 4, 6}, /* d and a are threads' ends */
+        {{0, 0, 1, 0, 1, 0}, 7, 6}, /* abd is left, */
+        {{0, 0, 1, 0, 0, 1}, 4, 6}, /* but bca is not taken alone */
         {{1, 1, 1, 1, 1, 1}, 3, 6},
     };
     SquareMesh mesh;
