@@ -3,9 +3,10 @@
  *
  *     d-----c      A cell gives both triangles of a diagonal where both are
  *     |   / |      solid (their three springs are whole): abd and cdb, else bca
- *     | /   |      and dac; else abd or cdb alone.  A side that has one triangle
- *     a-----b      is an edge; its ends, and nodes of no triangle, are points.
- *                  Springs without triangles are threads: nothing meets them.
+ *     | /   |      and dac; else abd or cdb alone.  A side that has one
+ *     a-----b      triangle is an edge; its ends, and nodes of no triangle, are
+ *                  points.  Springs without triangles are threads: nothing
+ *                  meets them.
  *
  * What is solid only becomes less as springs break: where no cell turns over,
  * edges that a break brings to light cross none.
