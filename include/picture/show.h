@@ -289,11 +289,6 @@ void show_move(Show *show, const Layout *layout, int pane, double dx,
 /* The row of help or of the list of pages at this pixel; -1: none. */
 int show_help_row(const Show *show, const Layout *layout, double x, double y);
 
-/* What the line of Algorithm 3 is for that the mouse is over, at this pixel of
- * its card; NULL: it is over none. */
-const char *show_listing_purpose(const Show *show, const Layout *layout,
-                                 double y);
-
 /* The step whose bar is under x; 0 ... bars. */
 long show_step_at(const Show *show, const Layout *layout, double x);
 

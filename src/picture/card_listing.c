@@ -18,22 +18,6 @@ typedef struct Row {
     const char *value; /* at its right, where it has been reached; or NULL */
 } Row;
 
-/* What the lines of Algorithm 3 are for. */
-static const char *const purposes[LINE_COUNT] = {
-    [LINE_START] = "the search begins where the step does",
-    [LINE_DO] = "each round of the loop is an update of Newton's method",
-    [LINE_PROJECT] = "the Hessian of E; in each block negative eigenvalues "
-                     "become 0, so that {p} points downhill",
-    [LINE_SOLVE] = "a linear system: {p} leads to where E's quadratic model is "
-                   "least",
-    [LINE_SEARCH] = "{alpha} = 1, halved as long as E would rise",
-    [LINE_UPDATE] = "the iterate moves; E is smaller there",
-    [LINE_TEST] = "the largest |{p}_{x}| + |{p}_{y}| of a node, over h, is a "
-                  "speed: \u03b5 limits it",
-    [LINE_END] = "the iterate is the new state; what it moved by, over h, its "
-                 "velocity",
-};
-
 static const Row rows[] = {
     {"{Algorithm 3}", LINE_START, 0, NULL, "{x}^{i} \u2190 {x}^{n}", NULL},
     {"{Algorithm 3}", LINE_DO, 0, NULL, "do", NULL},
@@ -153,36 +137,14 @@ static double listing_needs(const Show *show, double wide)
     return 1.5 * find_rows(show, shown) + 2.6;
 }
 
-/* How high a line of so many is, pixels. */
-static int find_pitch(const Show *show, Box inside, double em, int count)
-{
-    int pitch = (int)lround((show->lecture ? WIDE_PITCH : 1.75) * em);
-    return pitch * count > inside.height ? inside.height / count : pitch;
-}
-
-const char *show_listing_purpose(const Show *show, const Layout *layout,
-                                 double y)
-{
-    const Row *shown[ROWS];
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    if (show->over.zone != ZONE_CARD ||
-        picture->cards[show->over.index] != &card_listing)
-        return NULL;
-    Box inside = cards_inside(layout->card[show->over.index], layout->em);
-    int count = find_rows(show, shown);
-    int pitch = find_pitch(show, inside, layout->em, count);
-    int row = pitch > 0 && y >= inside.y ? ((int)y - inside.y) / pitch : count;
-    bool known = row < count && strcmp(shown[row]->of, "{by gradient}") != 0;
-    return known ? purposes[shown[row]->line] : NULL;
-}
-
 static void draw_rows(const Plot *card, int count, const Row *const *shown,
                       bool inside_line)
 {
     const Pane *pane = show_pane(card->show);
     Box inside = card->box;
     const Trace *trace = pane->update;
-    int pitch = find_pitch(card->show, inside, card->em, count);
+    double em = card->em * (card->show->lecture ? WIDE_PITCH : 1.75);
+    int pitch = (int)fmin(lround(em), inside.height / (double)count);
     for (int i = 0; i < count; i++) {
         bool lit = inside_line ? text_is_known(&pane->facts, shown[i]->of)
                                : trace && trace->line == shown[i]->line;

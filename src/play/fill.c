@@ -182,8 +182,8 @@ static void explain_number(const Player *player, Show *show)
                  idle ? idle : row->help);
 }
 
-/* What a sentence can say of a chip, a step of the time line, a line of the
- * listing under the mouse; false: of nothing. */
+/* What a sentence can say of a chip or a step of the time line under the mouse;
+ * false: of nothing. */
 static bool explain_over(const Player *player, Show *show)
 {
     const Paper *paper = player->view ? view_paper(player->view) : NULL;
@@ -191,7 +191,6 @@ static bool explain_over(const Player *player, Show *show)
         return false;
     Layout layout =
         show_layout(show, paper->canvas.width, paper->canvas.height);
-    const char *purpose = show_listing_purpose(show, &layout, player->mouse.y);
     long step = show_step_at(show, &layout, player->mouse.x);
     const Entry *entry = past_entry(&player->past, player->active, step);
     if (show->over.zone == ZONE_CHIP && show->over.index < show->chips)
@@ -206,8 +205,6 @@ static bool explain_over(const Player *player, Show *show)
                  entry->outcome.status ? ", " : "",
                  entry->outcome.status ? status_text(entry->outcome.status)
                                        : "");
-    else if (purpose)
-        snprintf(show->sentence, SHOW_TEXT, "%s", purpose);
     else
         return false;
     return true;
