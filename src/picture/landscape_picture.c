@@ -14,9 +14,6 @@ static const double map_levels[] = {0.4, 0.6, 1,  1.5, 2,  3,
                                     5,   7,   10, 15,  30, 50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-/* Units between two numbers of contours, and from the last one to its end. */
-enum { MAP_LABEL_ROOM = 54, MAP_NUMBER_ROOM = 27 };
-
 /* ---- the map, drawn once for a view of it ------------------------------- */
 
 /* With a long step elasticity is large: the levels grow with h^2 then. */
@@ -69,41 +66,15 @@ static void draw_ground(const Plot *plot)
         }
 }
 
-/* Numbers where contours cross a level line from x0 to x1, as far as they do
- * not get into each other's way. */
-static void draw_level_numbers(const Plot *plot, double x0, double x1, double y)
-{
-    const Simulation *simulation = plot->simulation;
-    double unit = plot->paper->unit / plot->camera.scale[0], last = x0;
-    double factor = level_factor(simulation), before = NAN;
-    int count = (int)(fabs(x1 - x0) / unit) - MAP_NUMBER_ROOM;
-    for (int i = 0; i <= count; i++) {
-        const double at[2] = {x0 + (x1 > x0 ? i : -i) * unit, y};
-        double E = descent_at(simulation, FILTER_NONE, at[0], y).value / factor;
-        for (int k = 0; k < MAP_LEVELS && i > 0; k++)
-            if ((before < map_levels[k]) != (E < map_levels[k]) &&
-                fabs(at[0] - last) >= MAP_LABEL_ROOM * unit) {
-                double p[2];
-                plot_place(plot, at, p);
-                paper_panel(plot->paper, FACE_REGULAR, 0.82, COLOUR_FAINT, p[0],
-                            p[1] - 0.53 * plot->em, ALIGN_CENTRE,
-                            number_of(factor * map_levels[k]).text);
-                last = at[0];
-            }
-        before = E;
-    }
-}
-
 /* The map as it was kept, or drawn and kept; the key is all it depends on. */
 static void show_map(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
-    bool text = plot->text;
     const System *system = &simulation->system;
     const Exhibit *exhibit = &simulation->exhibit;
     const double settings[] = {system->k[0], system->l2[0], system->m[0],
                                simulation->run[0].h};
-    uint64_t key = paper_key(text, &plot->camera, sizeof plot->camera);
+    uint64_t key = paper_key(0, &plot->camera, sizeof plot->camera);
     key = paper_key(key, settings, sizeof settings);
     key = paper_key(key, exhibit->target, sizeof exhibit->target);
     key = paper_key(key, &exhibit->parts, sizeof exhibit->parts);
@@ -122,9 +93,6 @@ static void show_map(const Plot *plot)
         map.camera.origin[0] -= plot->box.x;
         map.camera.origin[1] -= plot->box.y;
         draw_ground(&map);
-        draw_level_numbers(&map, 0, text ? plot->x.low : 0, 1.07);
-        draw_level_numbers(&map, 0, text ? plot->x.high : 0, -1.03);
-        draw_level_numbers(&map, 0.6, text ? plot->x.high : 0.6, 0.25);
     }
     canvas_copy(&plot->paper->canvas, kept, plot->box.x, plot->box.y);
 }
@@ -172,19 +140,21 @@ static void draw_updates(const Plot *plot, const Descent *descent)
     }
 }
 
-/* A direction with words beside its tip, or further on. */
-static void draw_named_direction(Plot *plot, const double from[2],
-                                 const double p[2], Colour colour,
-                                 const char *name, double slope)
+/* A direction with its name and slope beside its tip, or further on; uphill in
+ * red. */
+static void draw_direction(Plot *plot, const double p[2], Colour colour,
+                           const char *name, double slope)
 {
+    const double *from = plot->simulation->descent.point;
     double length = math_hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
     const double place[2][2] = {{from[0] + p[0], from[1] + p[1]},
                                 {from[0] + far * p[0], from[1] + far * p[1]}};
     char words[80];
+    colour = slope > 0 ? COLOUR_WARNING : colour;
     plot_arrow(plot, from, p, 1, 2.2, colour);
     plot_place(plot, place[0], at);
-    if (!box_contains(plot->box, at[0], at[1]))
+    if (!name || !box_contains(plot->box, at[0], at[1]))
         return;
     plot_keep_line(plot, from, place[0]);
     snprintf(words, sizeof words, "%s (slope %s)", name,
@@ -192,32 +162,27 @@ static void draw_named_direction(Plot *plot, const double from[2],
     plot_words(plot, 2, place, 0.8, 1, FACE_BOLD, colour, words);
 }
 
-/* The direction that the run does not take: projected where its own is not, as
- * it is where its own is projected.  With a single part on the map: the
- * direction in that part. */
-static void draw_other_direction(Plot *plot)
+/* That of the run; and, with both parts on the map, the one that it does not
+ * take: projected where its own is not, as it is where its own is projected. */
+static void draw_directions(Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
-    bool raw = simulation->options.filter == FILTER_NONE, up;
-    double p[2], slope = descent->slope;
+    bool raw = simulation->options.filter == FILTER_NONE;
     const double *own = descent->direction;
+    const char *alone = parts == PART_BOTH      ? NULL
+                        : parts == PART_INERTIA ? "inertia alone"
+                                                : "elasticity alone";
+    double p[2], slope;
     if (own[0] == 0 && own[1] == 0)
         return;
-    if (parts != PART_BOTH) {
-        draw_named_direction(
-            plot, descent->point, own, slope > 0 ? COLOUR_WARNING : COLOUR_P,
-            parts == PART_INERTIA ? "inertia alone" : "elasticity alone",
-            slope);
-        return;
-    }
     slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
-    up = slope > 0;
-    if (math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
-        draw_named_direction(plot, descent->point, p,
-                             up ? COLOUR_WARNING : COLOUR_GHOST,
-                             raw ? "with projection" : "without", slope);
+    if (both && !alone && math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
+        draw_direction(plot, p, COLOUR_GHOST,
+                       raw ? "with projection" : "without", slope);
+    if (both || !alone)
+        draw_direction(plot, own, COLOUR_P, alone, descent->slope);
 }
 
 /* Words keep off the springs, the iterate, its direction and x_tilde, which
@@ -300,7 +265,6 @@ static void landscape_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
     const Descent *descent = &simulation->descent;
-    const double *p = descent->direction;
     Plot plot = draw_map(stage);
     draw_updates(&plot, descent);
     bool raw = simulation->options.filter == FILTER_NONE;
@@ -310,13 +274,9 @@ static void landscape_draw(Plot *stage)
         plot_keep_box(&plot, stage_switch_box(stage, i));
     if (plot.text)
         keep_places(&plot);
-    if (plot.text && !show->veiled &&
-        (show->lecture ? raw && !show->lecture->predict : true))
-        draw_other_direction(&plot);
-    if (!show->veiled && simulation->exhibit.parts == PART_BOTH &&
-        (p[0] != 0 || p[1] != 0))
-        plot_arrow(&plot, descent->point, p, 1, 2.2,
-                   descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
+    bool both = !show->lecture || (raw && !show->lecture->predict);
+    if (!show->veiled)
+        draw_directions(&plot, plot.text && both);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
 }
 
@@ -341,7 +301,7 @@ const Picture landscape_picture = {
     .around = {-1.87, -1.87, 1.87, 1.87},
     .draw = landscape_draw,
     .facts = landscape_facts,
-    .legend = "#faint contours: {part} in J s\u00b2\n"
+    .legend = "#faint contours of {part}\n"
               "#shaded shade: not convex\n"
               "#p direction p, downhill\n"
               "#warning {told}{went uphill}uphill",

@@ -10,9 +10,8 @@ static const double GAP = 0.9;          /* between the zones' contents */
 static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
 static const double LETTER = 0.56;      /* a letter is wide, on average */
 static const double SETTING_GAP = 0.9;  /* between settings */
-static const double CHIP_PADDING = 1.8; /* a chip has beside its letters */
-static const double CHIP_PADDING_LEAST = 1.2;
-static const double BARS = 2.4; /* the bars of the time line are high */
+static const double CHIP_PADDING = 1.2; /* a chip has beside its letters */
+static const double BARS = 2.4;         /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
 static const double NAME = 1.8, HEADING = 2.2; /* of the sheet */
 static const double PAIR_LEAST = 28; /* a column for two cards in a row */
@@ -103,26 +102,26 @@ static void place_settings(const Show *show, Layout *layout, Box *rest)
         box[i].y += layout->row.y;
 }
 
-/* Chips with this room beside their letters: as many of the first ones as fit,
- * and the last one, which tells of all keys; the others have no width. */
-static void place_chips(const Show *show, Layout *layout, double padding)
+/* As many of the first chips as fit, and the last one, which tells of all keys;
+ * the others have no width. */
+static void place_chips(const Show *show, Layout *layout)
 {
     int gap = pixels(layout, 0.6), last = show->chips - 1;
     int width[LAYOUT_CHIPS];
-    Box room = box_inset(layout->last, pixels(layout, 0.35));
+    Box room = box_inset(layout->last, pixels(layout, 0.35)), *box;
     for (int i = 0; i <= last; i++) {
         int letters = count_letters(show->chip[i].key) +
                       count_letters(show->chip[i].label) +
                       (show->lecture ? 2 : 1);
-        width[i] = pixels(layout, letters * LETTER * 0.92 + padding);
+        width[i] = pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
     }
     room.x = pixels(layout, GAP);
     room.width = layout->width - 2 * room.x - width[last] - gap;
     int fit = place_row(room, 1, gap, last, width, layout->chip);
-    int end = fit > 0 ? layout->chip[fit - 1].x + width[fit - 1] + gap : room.x;
-    for (int i = fit; i < last; i++)
-        layout->chip[i] = (Box){0};
-    layout->chip[last] = (Box){end, room.y, width[last], room.height};
+    box = &layout->chip[last];
+    *box = (Box){room.x, room.y, width[last], room.height};
+    if (fit > 0)
+        box->x = box[fit - 1 - last].x + width[fit - 1] + gap;
     layout->chips = show->chips;
     layout->chips_left_out = last - fit;
 }
@@ -139,9 +138,7 @@ static Box place_zones(const Show *show, Layout *layout)
     if (high >= 20)
         layout->last = cut(&rest, true, pixels(layout, roomy ? LAST : 2.5));
     if (layout->last.width > 0 && show->chips > 0)
-        place_chips(show, layout, CHIP_PADDING);
-    if (layout->chips_left_out > 0) /* closer together */
-        place_chips(show, layout, CHIP_PADDING_LEAST);
+        place_chips(show, layout);
     if (show->cells > 0)
         return rest;
     layout->time = cut(&rest, true, pixels(layout, roomy ? TIME : 2));

@@ -697,17 +697,6 @@ static void tell_iterate(const Simulation *simulation)
     }
 }
 
-/* Numbers on contours. */
-static void tell_levels(const Simulation *simulation)
-{
-    static const Real levels[] = {0.4L, 0.6L, 1,  1.5L, 2,  3,
-                                  5,    7,    10, 15,   30, 50};
-    Real h = simulation->run[0].h;
-    bool elastic = simulation->exhibit.parts & PART_ELASTICITY;
-    for (int i = 0; i < 12; i++)
-        is("level", levels[i] * (elastic ? fmaxl(1, 25 * h * h) : 1));
-}
-
 /* E at the iterate of the landscape: its parts and derivatives. */
 static void tell_landscape(const Simulation *simulation)
 {
@@ -715,7 +704,6 @@ static void tell_landscape(const Simulation *simulation)
     const double *o = simulation->exhibit.target;
     Real at[2] = {descent->point[0], descent->point[1]};
     MapE E = map_E(simulation, at, FILTER_NONE);
-    tell_levels(simulation);
     is_point("place", at[0], at[1]);
     is_point("x tilde", o[0], o[1]);
     near("E", E.value, 1e-13L * (1 + E.value));
@@ -796,7 +784,6 @@ static void tell_dial(const Simulation *simulation)
             g[i] += h * h * 2 * k * s * e[i];
     }
     CHECK_AT_MOST(hypotl(g[0], g[1]), 1e-13L * (1 + 100 * h * h));
-    tell_levels(simulation);
     is("h", h);
     is_point("minimiser", x[0], x[1]);
     is("distance", hypotl(d[0], d[1]));
