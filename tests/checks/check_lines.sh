@@ -31,9 +31,7 @@ refusals() {
 mkdir refused
 cd refused || exit 1
 verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
-2|--segments: '0' .*from 1 to 4096|--segments 0
 2|no option --nonsense.*--help|--nonsense --states k.csv
-2|side by side|--segments 1,2,3 --stiffness 1,2,3
 2|--density|--states k.csv --log l.csv --density 1,1e-320
 2|from 1 to $pages|--lecture $((pages + 1))
 2|'circle'|circle --lecture

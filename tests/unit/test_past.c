@@ -1,14 +1,11 @@
 /* The one past: every state comes back to the last bit, whatever was kept,
- * thrown away, changed, undone and done again; scripts and commands.
+ * thrown away, changed, undone and done again; commands.
  */
 #include "pasts.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include "model/contact.h"
-#include "play/command.h"
 
 enum { STEPS = 48 };
 
@@ -396,61 +393,6 @@ TEST(keys_are_given_once)
             all += length;
         }
     }
-}
-
-/* Writes the text to a file and reads it as a script. */
-static Status read_script(const char *name, const char *text, Script *script,
-                          char *message, size_t size)
-{
-    FILE *file = fopen(name, "w");
-    CHECK(file != NULL);
-    fputs(text, file);
-    fclose(file);
-    return script_read(name, script, message, size);
-}
-
-/* Lines wait for their step unless nothing moves. */
-TEST(scripts_wait)
-{
-    char name[] = "/tmp/elasto-script-XXXXXX", message[256];
-    int file = mkstemp(name);
-    CHECK(file >= 0);
-    close(file);
-    Script script; /* its last line needs no end */
-    CHECK_STATUS(
-        read_script(name, "# a comment\n\n0 pause\n  3 goto 2 # back\n3 play",
-                    &script, message, sizeof message),
-        STATUS_OK);
-    CHECK(script.count == 3);
-    const Command *command = script_due(&script, 0, true);
-    CHECK(command && command->kind == COMMAND_PAUSE);
-    CHECK(!script_due(&script, 2, true));
-    command = script_due(&script, 3, true);
-    CHECK(command && command->kind == COMMAND_GOTO && command->number == 2);
-    command = script_due(&script, 2, false);
-    CHECK(command && command->kind == COMMAND_PLAY);
-    CHECK(script_is_over(&script) && !script_due(&script, 9, false));
-    CHECK_STATUS(script_write(name, &script), STATUS_OK);
-    script_free(&script);
-    CHECK_STATUS(script_read(name, &script, message, sizeof message),
-                 STATUS_OK);
-    CHECK(script.count == 3 && script.line[1].step == 3);
-    script_free(&script);
-    CHECK_STATUS(read_script(name, "0 pause\n1 nonsense\n", &script, message,
-                             sizeof message),
-                 STATUS_INVALID_INPUT);
-    CHECK(strstr(message, "line 2") && strstr(message, "nonsense"));
-    script_free(&script);
-    char line[5000] = "0 pause";
-    memset(line + 7, ' ', sizeof line - 8);
-    CHECK_STATUS(read_script(name, line, &script, message, sizeof message),
-                 STATUS_OK);
-    CHECK(script.count == 1);
-    script_free(&script);
-    unlink(name);
-    CHECK_STATUS(script_read(name, &script, message, sizeof message),
-                 STATUS_INVALID_INPUT);
-    CHECK(strstr(message, "No such file"));
 }
 
 TESTS(NULL, NULL)
