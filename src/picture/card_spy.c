@@ -142,8 +142,9 @@ static void draw_spy(const Plot *card)
     Box inside = card->box;
     int line = paper_pixels(paper, 1.4), gap = line;
     int side = (inside.width - gap) / 2;
-    if (side > inside.height - line)
-        side = inside.height - line;
+    int below = page && page->writes ? paper_pixels(paper, 9) : 0;
+    if (side > inside.height - line - below)
+        side = inside.height - line - below;
     int springs = page && page->writes ? lecture_spring(card->simulation) + 1
                                        : system->springs;
     if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1)

@@ -182,9 +182,9 @@ static void draw_code(Paper *paper, Box inside, const Page *page)
         indent = length > 0 && blanks < indent ? blanks : indent;
         widest = length > widest ? length : widest;
     }
-    double air = 0.3 * paper->em;
-    double wide =
-        (inside.width - 2 * air) / (letter * (double)(widest - indent));
+    double air = 0.3 * paper->em, letters = (double)(widest - indent);
+    double cell = floor((inside.width - 2 * air) / letters); /* whole pixels */
+    double wide = floor((cell + 0.49) / letter);
     double size = fmin(wide, inside.height / (high * page->lines)) / paper->em;
     size = fmax(fmin(size, most), paper->least);
     int line = paper_pixels(paper, high * size);
