@@ -65,6 +65,25 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 #define NEXT(at, lanes) (lanes)
 #endif
 
+/* A loop whose numbers are Few: in a page so many of single precision at once,
+ * for there what comes from several springs has to be added up in order
+ * (IN_ORDER) to stay in registers; elsewhere one, as in any loop. */
+#ifdef __wasm_simd128__
+typedef float Few __attribute__((vector_size(16), aligned(4)));
+typedef int FewBits __attribute__((vector_size(16)));
+#define FEW(a, q)      (*(Few *)((a) + (q)))
+#define IN_ORDER(a, b) __asm__ volatile("" : "+r"(a), "+r"(b))
+#define EACH_FEW(lanes)                                                        \
+    _Pragma("clang loop unroll(disable)") for (int e = 0; e < (lanes); e += 4)
+#define WHERE(condition, a) ((Few)((FewBits)(condition) & (FewBits)(a)))
+#else
+typedef float Few;
+#define FEW(a, q)           ((a)[q])
+#define IN_ORDER(a, b)      (void)0
+#define EACH_FEW(lanes)     EACH_OF (lanes)
+#define WHERE(condition, a) ((condition) ? (a) : 0)
+#endif
+
 /* The springs of a node: their kind, where their other node is, and where their
  * numbers are.  Two are in the node's row, six lead to the next rows; four of
  * all start at the node. */

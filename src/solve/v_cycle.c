@@ -324,21 +324,27 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
     const float *const bx = level.b, *const by = bx + plane;
     for (NodeRun at = nodes_in_row(&level.rows, i, colour % 2);
          at.first < at.end; at.first += WIDE_LANES)
-        EACH_OF (NEXT(at, WIDE_LANES)) {
+        EACH_FEW (NEXT(at, WIDE_LANES)) {
             const int q = at.first + e;
-            const float hx = from_0 ? 0 : x[q], hy = from_0 ? 0 : y[q];
-            float ax = from_0 ? 0 : level.m[q] * hx;
-            float ay = from_0 ? 0 : level.m[q] * hy;
-            ax = visit == FIRST ? bx[q] : ax; /* from 0: -A x, not A x */
-            ay = visit == FIRST ? by[q] : ay;
+            Few hx = {0}, hy = {0}, ax = {0}, ay = {0};
+            if (visit == FIRST) { /* from 0: -A x, not A x */
+                ax = FEW(bx, q);
+                ay = FEW(by, q);
+            } else if (!from_0) {
+                hx = FEW(x, q);
+                hy = FEW(y, q);
+                ax = FEW(level.m, q) * hx;
+                ay = FEW(level.m, q) * hy;
+            }
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        float dx = x[q + (to)], dy = y[q + (to)];                              \
+        Few dx = FEW(x, q + (to)), dy = FEW(y, q + (to));                      \
         dx = from_0 ? dx : hx - dx;                                            \
         dy = from_0 ? dy : hy - dy;                                            \
-        float xy = level.K[kind][1][q + (numbers)];                            \
-        ax += level.K[kind][0][q + (numbers)] * dx + xy * dy;                  \
-        ay += xy * dx + level.K[kind][2][q + (numbers)] * dy;                  \
+        Few xy = FEW(level.K[kind][1], q + (numbers));                         \
+        ax += FEW(level.K[kind][0], q + (numbers)) * dx + xy * dy;             \
+        ay += xy * dx + FEW(level.K[kind][2], q + (numbers)) * dy;             \
+        IN_ORDER(ax, ay);                                                      \
     }
             if (along) {
                 ROW_SPRINGS(ADD, at)
@@ -347,19 +353,21 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
                 CROSS_SPRINGS(ADD, at)
             }
 #undef ADD
-            float rx = from_0 ? ax : bx[q] - ax;
-            float ry = from_0 ? ay : by[q] - ay;
+            Few rx = from_0 ? ax : FEW(bx, q) - ax;
+            Few ry = from_0 ? ay : FEW(by, q) - ay;
             if (visit == FIRST || visit == SMOOTH) {
-                x[q] = hx + (level.D[0][q] * rx + level.D[1][q] * ry);
-                y[q] = hy + (level.D[1][q] * rx + level.D[2][q] * ry);
+                Few xx = FEW(level.D[0], q), xy = FEW(level.D[1], q);
+                Few yy = FEW(level.D[2], q);
+                FEW(x, q) = hx + (xx * rx + xy * ry);
+                FEW(y, q) = hy + (xy * rx + yy * ry);
             } else if (visit == LEFT) {
-                wx[q] = level.D[0][q] != 0 ? rx : 0;
-                wy[q] = level.D[0][q] != 0 ? ry : 0;
+                FEW(wx, q) = WHERE(FEW(level.D[0], q) != 0, rx);
+                FEW(wy, q) = WHERE(FEW(level.D[0], q) != 0, ry);
             } else {
-                xb[e] += hx * bx[q] + hy * by[q];
-                xw[e] += hx * ax + hy * ay;
-                wx[q] = ax;
-                wy[q] = ay;
+                FEW(xb, e) += hx * FEW(bx, q) + hy * FEW(by, q);
+                FEW(xw, e) += hx * ax + hy * ay;
+                FEW(wx, q) = ax;
+                FEW(wy, q) = ay;
             }
         }
 }
