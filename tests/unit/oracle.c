@@ -201,8 +201,11 @@ static void at_a_wall(Spot *spot, Jet *sum, const void *data, int i)
  * whether it is whole, and triangles on it. */
 typedef struct Outline {
     int edges, points, *point, (*edge)[2];
-    unsigned char (*whole)[4], (*sides)[4], *solid;
+    unsigned char (*whole)[4], (*sides)[4], *role;
+    double *x; /* [2n] roughly, there */
 } Outline;
+
+enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 
 static void outline_triangle(Outline *outline, int a, int high, int corner)
 {
@@ -212,7 +215,7 @@ static void outline_triangle(Outline *outline, int a, int high, int corner)
     ++*(corner % 3 ? &sides[node[1]][0] : &sides[a][0]);
     ++*(corner % 2 ? &sides[a][2] : &sides[node[3]][3]);
     for (int k = 0; k < 4; k++)
-        outline->solid[node[k]] |= k != (corner + 2) % 4;
+        outline->role[node[k]] |= k != (corner + 2) % 4 ? IN_A_TRIANGLE : 0;
 }
 
 static void outline_cell(Outline *outline, int a, int high)
@@ -229,18 +232,21 @@ static void outline_cell(Outline *outline, int a, int high)
             outline_triangle(outline, a, high, corner);
 }
 
+/* Without self-contact: none. */
 static Outline outline_of(const System *system)
 {
-    static unsigned char *bytes;
+    static double *bytes;
+    if (!self_contact_of(system))
+        return (Outline){0};
     const SquareMesh *shape = &self_contact_of(system)->boundary.shape;
     int n = system->nodes, high = shape->rows + 1, wide = shape->segments + 1;
-    bytes = realloc(bytes, (size_t)n * (9 + 9 * sizeof(int)));
+    bytes = realloc(bytes, (size_t)n * (25 + 9 * sizeof(int)));
     CHECK(bytes != NULL);
-    Outline it = {.point = (int *)bytes};
+    Outline it = {.x = bytes, .point = (int *)(bytes + 2 * n)};
     it.edge = (int(*)[2])(it.point + n);
     it.whole = (unsigned char(*)[4])(it.edge + 4 * n);
     it.sides = it.whole + n;
-    it.solid = (unsigned char *)(it.sides + n);
+    it.role = (unsigned char *)(it.sides + n);
     memset(it.whole, 0, 9 * (size_t)n);
     for (int s = 0; s < system->springs; s++) {
         int i = system->e[2 * s], j = system->e[2 * s + 1];
@@ -254,20 +260,18 @@ static Outline outline_of(const System *system)
     for (int i = 0; i < n; i++)
         if (i % high < high - 1 && i / high % wide < wide - 1)
             outline_cell(&it, i, high);
-    bool *ends = calloc((size_t)n, 1);
-    CHECK(ends != NULL);
     for (int i = 0; i < 4 * n; i++)
         if (it.sides[i / 4][i % 4] == 1) {
             const int way[4] = {1, high, high + 1, high - 1};
             int *edge = it.edge[it.edges++];
             edge[0] = i / 4;
             edge[1] = i / 4 + way[i % 4];
-            ends[edge[0]] = ends[edge[1]] = true;
+            it.role[edge[0]] |= ON_AN_EDGE;
+            it.role[edge[1]] |= ON_AN_EDGE;
         }
     for (int i = 0; i < n; i++)
-        if (!it.solid[i] || ends[i])
+        if (it.role[i] != IN_A_TRIANGLE)
             it.point[it.points++] = i;
-    free(ends);
     return it;
 }
 
@@ -328,25 +332,13 @@ static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p,
 }
 
 /* Whether a point and an edge are so far from each other that there is nothing:
- * most of them are; there, or at x_n. */
-static bool is_far(const Spot *spot, bool at_start, int p, const int end[2],
-                   double most)
+ * most of them are. */
+static bool is_far(const double *x, int p, const int end[2], double most)
 {
-    const Place *at = spot->at;
-    const double *way = at_start ? NULL : spot->p, *u = at_start ? NULL : at->u;
-    const double *from = at->x_n;
-    if (at->x && !at_start) {
-        from = at->x;
-        u = NULL;
-    }
     for (int c = 0; c < 2; c++) {
-        const int i[3] = {2 * p + c, 2 * end[0] + c, 2 * end[1] + c};
-        double x[3];
-        for (int k = 0; k < 3; k++)
-            x[k] = from[i[k]] + (u ? u[i[k]] : 0) +
-                   (way ? (double)spot->alpha * way[i[k]] : 0);
-        if ((x[0] > x[1] + most && x[0] > x[2] + most) ||
-            (x[0] < x[1] - most && x[0] < x[2] - most))
+        double a = x[2 * end[0] + c], b = x[2 * end[1] + c], at = x[2 * p + c];
+        if ((at > a + most && at > b + most) ||
+            (at < a - most && at < b - most))
             return true;
     }
     return false;
@@ -359,9 +351,9 @@ static void meeting(Spot *spot, Jet *sum, const void *data, int i)
     const Outline *outline = spot->outline;
     const int p = outline->point[i % outline->points];
     const int *end = outline->edge[i / outline->points];
+    const double *x = data == self ? outline->x : spot->at->x_n;
     Real n[2], r;
-    if (p == end[0] || p == end[1] ||
-        is_far(spot, data != self, p, end, 1.001 * self->d_hat))
+    if (p == end[0] || p == end[1] || is_far(x, p, end, 1.001 * self->d_hat))
         return;
     if (data == self)
         barrier(spot, sum, self->c, parted(spot, self, p, end, &r, n));
@@ -496,7 +488,7 @@ static void frame_of_pair(Spot *spot, Frame *frame, int i)
     const int p = outline->point[i % outline->points];
     const int *end = outline->edge[i / outline->points];
     Real n[2], r;
-    if (p == end[0] || p == end[1] || is_far(spot, false, p, end, self->d_hat))
+    if (p == end[0] || p == end[1] || is_far(outline->x, p, end, self->d_hat))
         return;
     parted(spot, self, p, end, &r, n);
     *frame = (Frame){.n = 2, .node = {p, end[0], end[1]}};
@@ -599,16 +591,21 @@ static Real clamping(const Spot *spot, int row, const void *data, int part,
     return sum;
 }
 
-static Outline outline_or_none(const System *system)
+static Outline outline_there(const Spot *spot)
 {
-    return self_contact_of(system) ? outline_of(system) : (Outline){0};
+    Spot plain = *spot;
+    Outline outline = outline_of(spot->at->system);
+    plain.jitter = NULL;
+    for (int c = 0; outline.x && c < 2 * spot->at->system->nodes; c++)
+        outline.x[c] = (double)coordinate(&plain, c, false).f;
+    return outline;
 }
 
 Real oracle_clamping(Spot *spot)
 {
     const System *system = spot->at->system;
     double *zero = calloc(4 * (size_t)system->nodes, sizeof *zero);
-    Outline outline = outline_or_none(system);
+    Outline outline = outline_there(spot);
     Real sum = 0;
     CHECK(zero != NULL);
     spot->outline = &outline;
@@ -628,7 +625,7 @@ Real oracle_clamping(Spot *spot)
 static Jet energy_there(Spot *spot, const TermKind *only)
 {
     const System *system = spot->at->system;
-    Outline outline = outline_or_none(system);
+    Outline outline = outline_there(spot);
     Jet sum = {0};
     spot->outline = &outline;
     spot->size = (Jet){0};
@@ -752,7 +749,7 @@ static Real area_of(const double *x, int a, int b, int c)
 
 long exact_crossings(const System *system, const double *x)
 {
-    Outline outline = outline_or_none(system);
+    Outline outline = outline_of(system);
     long count = 0;
     for (int k = 0; k < outline.edges; k++)
         for (int l = 0; l < k; l++) {
