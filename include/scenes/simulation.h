@@ -115,9 +115,6 @@ bool simulation_rests(const Simulation *simulation);
 /* Sum over the runs of what Newton did; zero where all are explicit. */
 NewtonCounters simulation_counters(const Simulation *simulation);
 
-/* Stored entries of the Hessians of all runs; 0 where none was allocated. */
-long long simulation_matrix_entries(const Simulation *simulation);
-
 /* When another number of this row takes effect here: as the row says, but in
  * scenes of other runs, and where each run has a method of its own, at a
  * start. */

@@ -23,16 +23,11 @@ print(FILE *file, const char *name, const char *format, ...)
 static void print_solver(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
-    char ended[80] = "";
     if (!newton || !(simulation->scene->needs & NEEDS_SPRINGS))
         return;
-    if (newton->counters.taken_back > 0)
-        snprintf(ended, sizeof ended,
-                 "; newton ended %ld minimisations of multigrid",
-                 newton->counters.taken_back);
-    print(file, "solver", "%s%s%s%s", solver_name(newton->working),
+    print(file, "solver", "%s%s%s", solver_name(newton->working),
           newton->refusal ? "; no multigrid: " : "",
-          newton->refusal ? newton->refusal : "", ended);
+          newton->refusal ? newton->refusal : "");
 }
 
 /* What the minimisations took; nothing with explicit methods, which have none.
@@ -42,7 +37,6 @@ static void print_newton(FILE *file, const Simulation *simulation)
     NewtonCounters sum = simulation_counters(simulation);
     bool in_time = simulation->scene->needs & NEEDS_TIME;
     bool minimises = !in_time && (simulation->scene->needs & NEEDS_START);
-    bool springs = simulation_projects_springs(simulation);
     double needed;
     const struct {
         const char *name;
@@ -50,8 +44,7 @@ static void print_newton(FILE *file, const Simulation *simulation)
     } rows[] = {
         {"factorisations", sum.factorisations},
         {"solves", sum.solves},
-        {springs ? "springs projected" : "blocks projected", sum.projected},
-        {"matrix entries", simulation_matrix_entries(simulation)},
+        {"blocks projected", sum.projected},
         {"V-cycles", sum.cycles},
         {"saddles left", sum.saddles},
     };

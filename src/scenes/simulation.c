@@ -271,15 +271,6 @@ NewtonCounters simulation_counters(const Simulation *simulation)
     return sum;
 }
 
-long long simulation_matrix_entries(const Simulation *simulation)
-{
-    long long sum = 0;
-    for (int i = 0; i < simulation->runs; i++)
-        if (simulation->run[i].newton)
-            sum += simulation->run[i].newton->search.A.entries;
-    return sum;
-}
-
 /* Springs, a Newton object that asks for their Hessian, and a scene that shows
  * what it does. */
 bool simulation_has_filter(const Simulation *simulation)

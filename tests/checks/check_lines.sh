@@ -186,9 +186,9 @@ NR == 2 && $0 != "0,0,0,1,1,0,0"
 3|150|unprojected --steps 5
 log $4 == 0 && $6 > 0 { n = 1 } END { if (!n) print "no direction uphill" }
 0|150|square --steps 5 --timestep 0.001 --integrator forward-euler
-summary /^(Newton|factorisations|solves|matrix)/
+summary /^(Newton|factorisations|solves|blocks)/
 0|75|square --steps 2
-summary /^(Newton iterations|factorisations|solves|matrix entries)  *[1-9]/ { n++ } END { if (n != 4) print n }
+summary /^(Newton iterations|factorisations|solves|blocks projected)  *[1-9]/ { n++ } END { if (n != 4) print n }
 0|75|square --steps 2
 summary /^energy at start     103680 J$/ { n++ } END { if (!n) print "20 springs along with strain 0.96, 32 diagonals with 0.48, l2 k/2 strain^2 each" }
 0|3468|square --steps 2 --segments 33
