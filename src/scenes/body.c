@@ -315,6 +315,19 @@ static Options options_of_run(const Simulation *simulation, int run,
     return own;
 }
 
+/* Mesh and system of these options, with all terms; free both in any case. */
+static Status build(const Options *options, SquareMesh *mesh, System *system)
+{
+    Status status =
+        create_system(options, has_ball(options->scene, options), mesh, system);
+    if (!status && options->scene->moving_pins) {
+        system->pin_v =
+            calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
+        status = system->pin_v ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    }
+    return status ? status : set_terms(options, mesh, system);
+}
+
 /* What is pinned does not move. */
 Status body_create(Simulation *simulation, int run)
 {
@@ -322,10 +335,7 @@ Status body_create(Simulation *simulation, int run)
         options_of_run(simulation, run, &simulation->options);
     SquareMesh same = {0}, *mesh = run ? &same : &simulation->mesh;
     System *system = run ? &simulation->more[run] : &simulation->system;
-    int more = has_ball(options.scene, &options);
-    Status status = create_system(&options, more, mesh, system);
-    if (!status)
-        status = set_terms(&options, mesh, system);
+    Status status = build(&options, mesh, system);
     size_t size = 2 * (size_t)system->nodes;
     double *x = malloc(2 * size * sizeof *x), *v = x ? x + size : NULL;
     if (!status)
@@ -402,28 +412,6 @@ static Status check_place(const System *system, const double *x, Refusal told)
     return STATUS_OK;
 }
 
-/* Mesh and terms of these options, for a look. */
-static Status begin_look(const Options *options, SquareMesh *mesh,
-                         System *system)
-{
-    *mesh = (SquareMesh){0};
-    *system = (System){0};
-    Status status =
-        create_system(options, has_ball(options->scene, options), mesh, system);
-    size_t size = 2 * (size_t)system->nodes;
-    if (!status && options->scene->moving_pins) {
-        system->pin_v = calloc(size, sizeof *system->pin_v);
-        status = system->pin_v ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    }
-    return status ? status : set_terms(options, mesh, system);
-}
-
-static void end_look(SquareMesh *mesh, System *system)
-{
-    system_free(system);
-    square_mesh_free(mesh);
-}
-
 /* Which side of the line from a to b p is on: twice the area of abp. */
 static double side_of(const double *a, const double *b, const double *p)
 {
@@ -453,12 +441,13 @@ bool simulation_has_room(const Simulation *simulation, const Options *options,
     Status status = STATUS_OK;
     for (int run = 0; run < simulation->runs && !status; run++) {
         const Options own = options_of_run(simulation, run, options);
-        SquareMesh mesh;
-        System system;
-        status = begin_look(&own, &mesh, &system);
+        SquareMesh mesh = {0};
+        System system = {0};
+        status = build(&own, &mesh, &system);
         if (!status)
             status = check_place(&system, simulation->run[run].x, told);
-        end_look(&mesh, &system);
+        system_free(&system);
+        square_mesh_free(&mesh);
     }
     for (int k = 0; k < options->balls && !status; k++)
         if (is_in_a_cell(&simulation->mesh, simulation->run[0].x,
@@ -516,9 +505,9 @@ Status body_check(const Options *options, Refusal told)
     if (list_obstacles(options, list) == 0 && !options->cells &&
         !options->state && options->material == 0 && !options->self_contact)
         return STATUS_OK;
-    SquareMesh mesh;
-    System system;
-    Status status = begin_look(options, &mesh, &system);
+    SquareMesh mesh = {0};
+    System system = {0};
+    Status status = build(options, &mesh, &system);
     size_t size = 2 * (size_t)system.nodes;
     double *x = status ? NULL : malloc(2 * size * sizeof *x);
     if (!status)
@@ -529,6 +518,7 @@ Status body_check(const Options *options, Refusal told)
     if (!status)
         status = check_place(&system, x, told);
     free(x);
-    end_look(&mesh, &system);
+    system_free(&system);
+    square_mesh_free(&mesh);
     return status;
 }

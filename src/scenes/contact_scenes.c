@@ -72,16 +72,13 @@ Status create_tear(Simulation *simulation)
     const SquareMesh *mesh = &simulation->mesh;
     System *system = &simulation->system;
     Status status = create_square(simulation);
-    if (status)
-        return status;
-    system->pin_v = calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
-    if (!system->pin_v)
-        return STATUS_OUT_OF_MEMORY;
-    for (int i = 0; i < mesh->nodes; i++) /* a pin set later stays */
+    for (int i = 0; i < mesh->nodes && !status; i++) /* a pin set later stays */
         if (system->pinned && system->pinned[i])
             system->pin_v[2 * i] = copysign(0.2 * mesh->side, mesh->x[2 * i]);
-    cut(simulation, 0.5 * mesh->spacing, -0.12 * mesh->side, 0.12 * mesh->side);
-    return STATUS_OK;
+    if (!status)
+        cut(simulation, 0.5 * mesh->spacing, -0.12 * mesh->side,
+            0.12 * mesh->side);
+    return status;
 }
 
 /* ---- bend -------------------------------------------------------------- */
