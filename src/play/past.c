@@ -881,28 +881,24 @@ static Status change_entry(Past *past, int pane, const Command *edit,
                            Entry *entry)
 {
     Simulation *simulation = &past->machine[pane].simulation;
-    bool again = present(past)->count == 1 && has_failed(entry);
     drop_sample(entry);
-    if (again) /* it may go on, from what is seen: no step leads there */
-        entry->substeps = 1;
     if (!drags(edit)) {
         const Control *control = changed(entry->control, edit);
         if (!control)
             return STATUS_OUT_OF_MEMORY;
         control_drop(entry->control);
         entry->control = control;
-    } else if (edit->kind == COMMAND_HANDLE) {
+        return STATUS_OK;
+    }
+    if (edit->kind == COMMAND_HANDLE)
         exhibit_drag(simulation, (int)edit->number, edit->x, edit->y);
-    } else if (edit->kind == COMMAND_PLACE) {
+    else if (edit->kind == COMMAND_PLACE)
         simulation_place(simulation, (int)edit->number, edit->x, edit->y,
                          past_along(past, pane, edit->number), true);
-    } else {
+    else
         exhibit_flip(simulation, (int)edit->number);
-    }
-    if (!drags(edit) && !again)
-        return STATUS_OK;
     Status status = keep_state(past, pane, entry);
-    return status || !drags(edit) ? status : land(past, pane, past->step);
+    return status ? status : land(past, pane, past->step);
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,

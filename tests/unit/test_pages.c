@@ -1166,30 +1166,6 @@ TEST(listings_are_called_by_what_is_on)
     }
 }
 
-/* What stands wrong in the text of the pages ends the build at its line. */
-TEST(bad_pages_are_refused)
-{
-    static const struct {
-        const char *text, *message;
-    } rows[] = {{"text x", "-:1: no page has begun"},
-                {"== a: B\ntext u\ncolour red", "-:3: 'colour red' is nothing"},
-                {"== a: B\nlines 1 2\nmodes", "-:2: 'lines 1 2' is"},
-                {"== a: B\n\n  more", "-:3: nothing goes on here"},
-                {"== a: B\ntext u", "-:1: the page has no "}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char command[256], line[256] = "";
-        snprintf(command, sizeof command,
-                 "printf '%s\\n' \"%s\" | awk -f src/scenes/pages.awk - 2>&1 "
-                 ">/dev/null",
-                 "%s", rows[i].text);
-        FILE *words = popen(command, "r");
-        assert_non_null(words);
-        CHECK(fgets(line, sizeof line, words) != NULL);
-        CHECK(pclose(words) != 0);
-        CHECK(strncmp(line, rows[i].message, strlen(rows[i].message)) == 0);
-    }
-}
-
 TEST(pages_are_found)
 {
     char last[16];
