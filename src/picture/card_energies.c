@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/mathematics.h"
 #include "picture/cards.h"
@@ -90,32 +91,30 @@ static int point_at(const History *history, double time)
     return at;
 }
 
-/* Whether the energies now are no numbers any more, so that the history has
- * no point of them. */
-static bool is_beyond(const Simulation *simulation, const History *history,
-                      double time)
-{
-    double now = simulation_time(simulation);
-    double last = history->time[history->count - 1] * (1 + 1e-12);
-    return time >= now && now > last && !series_are_runs(simulation) &&
-           !isfinite(simulation_energies(simulation, 0).total);
-}
-
 double energies_value(const Simulation *simulation, const History *history,
                       int series, double time)
 {
-    int point = point_at(history, time);
+    int point = point_at(history, time), last = history->count - 1;
+    bool runs = series_are_runs(simulation);
+    double now = simulation_time(simulation), size = 0, first = 0;
     if (point < 0)
         return NAN;
-    if (is_beyond(simulation, history, time))
-        return INFINITY;
-    double value = history->value[series][point], now = 0, first = 0;
-    int parts = drawn_series(simulation, history);
-    for (int s = 0; s < parts && !series_are_runs(simulation); s++) {
-        now = fmax(now, fabs(history->value[s][point]));
+    if (!runs && time >= now && now > history->time[last] * (1 + 1e-12) &&
+        !isfinite(simulation_energies(simulation, 0).total))
+        return INFINITY; /* so the history has no point of them */
+    double value = history->value[series][point];
+    for (int s = 0; s < history->series && !runs; s++) {
+        size = fmax(size, fabs(history->value[s][point]));
         first = fmax(first, fabs(history->value[s][0]));
     }
-    return fabs(value) < 1e-15 * fmin(now, first) ? 0 : value;
+    return fabs(value) < 1e-15 * fmin(size, first) ? 0 : value;
+}
+
+/* Makes the range wider, so that the value is inside. */
+static void extend(double range[2], double value)
+{
+    range[0] = fmin(range[0], value);
+    range[1] = fmax(range[1], value);
 }
 
 /* An axis that holds still is easier to read: it is that of the whole run as
@@ -125,37 +124,30 @@ Axis energies_axis(const Show *show, double *last)
     const Simulation *simulation = show_pane(show)->simulation;
     Curve curve[HISTORY_SERIES];
     int curves = find_curves(show, curve);
-    double low = 0, high = 0, first = 0, least = INFINITY, all[2] = {0, 0};
+    double first = 0, least = INFINITY, all[2] = {0, 0}, range[2] = {0, 0};
+    double now = simulation_time(simulation);
     *last = 100 * simulation->options.timestep;
     for (int c = 0; c < curves; c++) {
         const History *history = curve[c].history;
-        const double *value = history->value[curve[c].series];
-        int point = point_at(history, simulation_time(curve[c].simulation));
-        for (int i = 0; i <= point; i++) {
-            low = fmin(low, value[i]);
-            high = fmax(high, value[i]);
-            if (curve[c].total && value[i] > 0)
-                least = fmin(least, value[i]);
-        }
+        int point = point_at(history, now);
         for (int i = 0; i < history->count; i++) {
-            all[0] = fmin(all[0], value[i]);
-            all[1] = fmax(all[1], value[i]);
-        }
-        if (history->count > 0) {
-            *last = fmax(*last, history->time[history->count - 1]);
+            double value = history->value[curve[c].series][i];
+            extend(all, value);
+            if (i <= point)
+                extend(range, value);
+            if (i <= point && curve[c].total && value > 0)
+                least = fmin(least, value);
+            *last = fmax(*last, history->time[i]);
             first = fmax(first, history->value[0][0]);
         }
     }
-    if (fmax(all[1], -all[0]) < STILL * fmax(high, -low)) {
-        low = all[0];
-        high = all[1];
-    }
-    high = high > 0 ? fmin(high, 1e300) : 1;
-    low = fmax(low, -1e300);
+    if (fmax(all[1], -all[0]) < STILL * fmax(range[1], -range[0]))
+        memcpy(range, all, sizeof range);
+    double high = range[1] > 0 ? fmin(range[1], 1e300) : 1;
+    double low = fmax(range[0], -1e300);
     if (!(first > 0)) /* at rest in a field: what came first tells */
         first = -low;
-    bool log = first > 0 && high > LOG_FROM * first;
-    if (log)
+    if (first > 0 && high > LOG_FROM * first)
         return (Axis){pow(10, floor(log10(fmax(least, LEAST_LOG * first))) - 1),
                       pow(10, ceil(log10(high))), true, false, "J"};
     return (Axis){low < -0.01 * high ? -plot_round_axis(-low) : 0,

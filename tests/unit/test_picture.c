@@ -307,82 +307,47 @@ TEST(numbers_are_read)
     }
 }
 
-/* A plot of 400 times 300 pixels whose unit is one, y up. */
-static Plot bare_plot(Paper *paper)
-{
-    assert_int_equal(paper_create(400, 300, paper), 0);
-    return (Plot){.paper = paper,
-                  .box = {0, 0, 400, 300},
-                  .camera = {{1, 1}, {0, 300}},
-                  .em = paper->em};
-}
-
-static void put_words(Plot *plot, const double at[2], const char *words)
-{
-    plot_words(plot, 1, (const double(*)[2])at, 1.5, 1, FACE_REGULAR,
-               COLOUR_TEXT, words);
-}
-
-/* Where words were put: the boxes after those that were there. */
+/* Words stand to the right of their point, unless that is on a line or on other
+ * words; without a place they are nowhere. */
 TEST(words_keep_off_lines_and_words)
 {
-    const double middle[2] = {200, 150}, far[2] = {INFINITY, 0};
+    const double middle[1][2] = {{200, 150}}, far[1][2] = {{INFINITY, 0}};
     const double up[2] = {200, 280}, right[2] = {390, 150};
-    Paper paper;
-    Plot plot = bare_plot(&paper);
-    plot_keep_line(&plot, middle, up);
-    plot_keep_line(&plot, middle, right);
-    plot_keep_line(&plot, far, right); /* left out */
-    CHECK(plot.lines == 2);
-    plot_keep_disc(&plot, middle, 8);
-    put_words(&plot, far, "no");
-    CHECK(plot.boxes == 1); /* nothing can be beside it */
-    for (int i = 0; i < 4; i++)
-        put_words(&plot, middle, "words");
-    CHECK(plot.boxes == 5);
-    for (int i = 1; i < plot.boxes; i++) {
-        Box a = plot.taken[i];
-        bool over = a.x < 200 && a.x + a.width > 200 && a.y < 150;
-        bool beside = a.y < 150 && a.y + a.height > 150 && a.x + a.width > 200;
-        CHECK(!over && !beside);
-        CHECK(a.x >= 0 && a.x + a.width <= 400);
-        for (int j = 0; j < i; j++) {
-            Box b = plot.taken[j];
-            CHECK(a.x >= b.x + b.width || b.x >= a.x + a.width ||
-                  a.y >= b.y + b.height || b.y >= a.y + a.height);
-        }
-    }
-    paper_free(&paper);
-}
-
-/* Words stand to the right unless that costs more than another place: a little
- * corner of something else costs less, a line that ends before them nothing. */
-TEST(words_stand_to_the_right)
-{
-    const double middle[2] = {200, 150}, far[2] = {390, 150};
-    const double near[2] = {330, 150};
-    Box place = {0};
-    for (int round = 0; round < 3; round++) {
+    for (int lines = 0; lines < 2; lines++) {
         Paper paper;
-        Plot plot = bare_plot(&paper);
-        if (round == 1)
-            plot_keep_line(&plot, far, near);
-        if (round == 2)
-            plot_keep_box(&plot, (Box){place.x + place.width - 2,
-                                       place.y + place.height - 2, 20, 20});
-        put_words(&plot, middle, "words");
-        Box at = plot.taken[plot.boxes - 1];
-        if (round == 0)
-            place = at;
-        CHECK(at.x == place.x && at.y == place.y);
-        plot_keep_disc(&plot, middle, 8);
-        Box disc = plot.taken[plot.boxes - 1];
-        CHECK(disc.x == 192 && disc.y == 142);
-        CHECK(disc.width == 16 && disc.height == 16);
+        assert_int_equal(paper_create(400, 300, &paper), 0);
+        Plot plot = {.paper = &paper, /* its unit is a pixel, y up */
+                     .box = {0, 0, 400, 300},
+                     .camera = {{1, 1}, {0, 300}},
+                     .em = paper.em};
+        if (lines) {
+            plot_keep_line(&plot, *middle, up);
+            plot_keep_line(&plot, *middle, right);
+        }
+        plot_keep_line(&plot, *far, right); /* left out */
+        plot_keep_disc(&plot, *middle, 8);
+        CHECK(plot.lines == 2 * lines && plot.boxes == 1);
+        CHECK(plot.taken->x == 192 && plot.taken->width == 16);
+        for (int i = 0; i < 5; i++)
+            plot_words(&plot, 1, i ? middle : far, 1.5, 1, FACE_REGULAR,
+                       COLOUR_TEXT, "words");
+        CHECK(plot.boxes == 5);
+        CHECK((plot.taken[1].x > 200 && plot.taken[1].y < 150) == !lines);
+        for (int i = 1; i < plot.boxes; i++) {
+            Box a = plot.taken[i];
+            bool over = a.x < 200 && a.x + a.width > 200 && a.y < 150;
+            bool along =
+                a.y < 150 && a.y + a.height > 150 && a.x + a.width > 200;
+            CHECK(!lines || (!over && !along));
+            CHECK(a.x >= 0 && a.x + a.width <= 400);
+            for (int j = 0; j < i; j++) {
+                Box b = plot.taken[j];
+                CHECK(a.x >= b.x + b.width || b.x >= a.x + a.width ||
+                      a.y >= b.y + b.height || b.y >= a.y + a.height);
+            }
+        }
         paper_free(&paper);
     }
-    CHECK(place.x >= 219 && place.x + place.width < near[0]);
-    CHECK(place.width * place.height > 500); /* 4 pixels are little of it */
 }
 
 /* ---- frames ------------------------------------------------------------- */
