@@ -157,87 +157,80 @@ static Box place_zones(const Show *show, Layout *layout)
     return rest;
 }
 
-/* What is seen of a card: only its title, or all. */
-typedef enum Seen { HIDDEN, BAR, OPEN } Seen;
-
-typedef struct Slot {
-    Seen seen;
+/* A row of the column: a card or two. */
+typedef struct CardRow {
+    int card, cards;      /* the first one, how many */
+    bool bar;             /* only its title is seen */
     double least, weight; /* ems it needs; share of what is left */
-    bool half;            /* it shares a row with a neighbour that wants it */
-} Slot;
+} CardRow;
 
-/* What shall be seen; and, with one card a row, cards from the last one on
- * become bars where there is no room for all, but never the first that is open.
- * Returns how many there are. */
-static int see_cards(const Show *show, Box inner, double em, bool pairs,
-                     Slot *place)
+/* The rows [LAYOUT_CARDS] of all cards that are seen: side by side where two
+ * want it.  Returns how many. */
+static int find_rows(const Show *show, double wide, bool pairs, CardRow *rows)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    double room = inner.height / em, wide = cards_inside(inner, em).width / em;
-    double least = -GAP;
-    int count = picture_cards(picture), open = 0;
-    unsigned hidden = show->hidden | show->print;
-    bool large = show->large >= 0 && show->large < count;
-    for (int i = 0; i < count; i++) {
+    int count = 0, cards = picture_cards(picture), before = -2;
+    bool large = show->large >= 0 && show->large < cards;
+    for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
         bool bar = (show->closed >> i & 1) || (large && i != show->large);
-        place[i] = (Slot){hidden >> i & 1 ? HIDDEN
-                          : bar           ? BAR
-                                          : OPEN,
-                          card->needs ? card->needs(show, wide) : card->least,
-                          card->weight,
-                          card->half || (card->half_on_page && show->lecture)};
-        open += place[i].seen == OPEN;
-        if (place[i].seen != HIDDEN)
-            least += GAP + (bar ? TITLE_BAR : place[i].least);
-    }
-    for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
-        if (least > FOLDS * room && place[i].seen == OPEN) {
-            place[i].seen = BAR;
-            least -= place[i].least - TITLE_BAR;
-            open--;
+        bool half = card->half || (card->half_on_page && show->lecture);
+        if ((show->hidden | show->print) >> i & 1)
+            continue;
+        if (pairs && half && !bar && before == i - 1) {
+            rows[count - 1].cards = 2;
+            continue;
         }
+        before = half && !bar ? i : -2;
+        rows[count++] = (CardRow){i, 1, bar,
+                                  bar           ? TITLE_BAR
+                                  : card->needs ? card->needs(show, wide)
+                                                : card->least,
+                                  bar ? 0 : card->weight};
+    }
     return count;
 }
 
-/* Rows of one or two cards: each has what it needs, and what is left is shared
- * by weight; if there is not enough, what they need shrinks alike. */
+/* Each row has what it needs, and what is left is shared by weight; if there is
+ * not enough, with one card a row the last ones become bars, but never the
+ * first that is open, and then what they need shrinks alike. */
 static void place_cards(const Show *show, Layout *layout)
 {
-    Slot place[LAYOUT_CARDS + 1] = {{0}}; /* one more that is not there */
+    CardRow rows[LAYOUT_CARDS];
     int gap = pixels(layout, GAP * 0.75), bar = pixels(layout, TITLE_BAR);
-    Box inner = box_inset(layout->column, pixels(layout, GAP)), rest = inner;
+    Box rest = box_inset(layout->column, pixels(layout, GAP));
     bool pairs = layout->column.width >= PAIR_LEAST * layout->em;
-    bool paired[LAYOUT_CARDS] = {false}; /* with the next one */
-    double room = inner.height + gap, least = 0, weights = 0;
-    layout->cards = see_cards(show, inner, layout->em, pairs, place);
-    for (int i = 0; i < layout->cards; i++) {
-        const Slot *one = &place[i];
-        room -= one->seen == HIDDEN ? 0 : gap;
-        room -= one->seen == BAR ? bar : 0;
-        if (one->seen != OPEN)
-            continue;
-        least += one->least * layout->em;
-        weights += one->weight;
-        paired[i] = pairs && one->half && one[1].half && one[1].seen == OPEN;
-        i += paired[i];
+    double wide = cards_inside(rest, layout->em).width / layout->em;
+    int count = find_rows(show, wide, pairs, rows), open = 0;
+    double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
+    double weights = 1e-9, ems = gap / layout->em;
+    for (int i = 0; i < count; i++) {
+        open += !rows[i].bar;
+        bars += ems + (rows[i].bar ? TITLE_BAR : 0);
+        least += rows[i].bar ? 0 : rows[i].least;
     }
-    double shrink = least > room ? room / least : 1;
-    double more = least < room ? (room - least) / weights : 0;
-    for (int i = 0; i < layout->cards; i++) {
-        double height =
-            shrink * place[i].least * layout->em + more * place[i].weight;
-        if (place[i].seen == HIDDEN)
-            continue;
-        Box row = cut(&rest, false,
-                      place[i].seen == BAR || height < bar ? bar : (int)height);
-        cut(&rest, false, gap);
-        layout->card[i] = row;
-        if (paired[i]) {
-            layout->card[i] = box_column(row, 0, 2, gap);
-            layout->card[++i] = box_column(row, 1, 2, gap);
+    for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
+        if (!rows[i].bar && bars + least > FOLDS * room) {
+            least -= rows[i].least;
+            bars += TITLE_BAR;
+            rows[i] = (CardRow){rows[i].card, 1, true, TITLE_BAR, 0};
+            open--;
         }
+    for (int i = 0; i < count; i++)
+        weights += rows[i].weight;
+    room -= bars;
+    for (int i = 0; i < count; i++) {
+        const CardRow *row = &rows[i];
+        double high = row->least * (least > room ? room / least : 1) +
+                      row->weight * fmax(room - least, 0) / weights;
+        int height = pixels(layout, high);
+        Box box = cut(&rest, false, row->bar || height < bar ? bar : height);
+        cut(&rest, false, gap);
+        for (int k = 0; k < row->cards; k++)
+            layout->card[row->card + k] = box_column(box, k, row->cards, gap);
     }
+    layout->cards =
+        picture_cards(picture_of(show_pane(show)->simulation->scene));
 }
 
 /* One beside the other, in one, two or three columns. */
