@@ -103,7 +103,7 @@ build/config.mk: Makefile
 	  echo -L/usr/local/lib -L/opt/homebrew/lib -lcholmod) 2>/dev/null; }; \
 	{ echo "DEP_CFLAGS := $(SUITESPARSE) \
 	  $$(pkg-config --cflags sdl2 freetype2 libpng zlib)"; \
-	  echo "DEP_LIBS := $$cholmod \
+	  echo "DEP_LIBS := $(if $(filter Darwin,$(shell uname)),,-Wl,--as-needed) $$cholmod \
 	  $$(pkg-config --libs sdl2 freetype2 libpng zlib) -lm"; \
 	  echo "BLAS_LIBS := $$blas"; } >$@.new; mv $@.new $@
 

@@ -3,6 +3,7 @@
  */
 #include <SDL.h>
 #include <ctype.h>
+#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,15 +13,50 @@
 
 enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800, WINDOW_LEAST = 200 };
 
+/* SDL's functions, which are looked for when a window opens: to load SDL takes
+ * as long as all else of a start, and without a window nobody needs it. */
+/* clang-format off */
+#define CALLS(F)                                                               \
+    F(Init) F(Quit) F(SetHint) F(GetError) F(SetError) F(Delay)                \
+    F(GetCurrentVideoDriver) F(GetDisplayBounds) F(GetDisplayUsableBounds)     \
+    F(CreateWindow) F(DestroyWindow) F(SetWindowTitle) F(SetWindowFullscreen)  \
+    F(GetWindowPosition) F(SetWindowPosition) F(GetWindowSize)                 \
+    F(SetWindowSize) F(GetWindowFlags) F(GetWindowDisplayIndex)                \
+    F(GetWindowSurface) F(UpdateWindowSurface) F(UpperBlit) F(FreeSurface)     \
+    F(CreateRGBSurfaceWithFormatFrom) F(StartTextInput) F(GetKeyboardState)    \
+    F(GetKeyName) F(GetModState) F(GetMouseState) F(PeepEvents) F(PollEvent)   \
+    F(PumpEvents) F(HasEvents)
+/* clang-format on */
+#define MEMBER(name) __typeof__(SDL_##name) *name;
+static struct {
+    CALLS(MEMBER)
+} sdl;
+
 static SDL_Window *window;
 static bool tab; /* Tab is down and has asked for nothing yet */
 
 /* One line out of SDL's message. */
 void window_failure(char *reason, size_t size)
 {
-    snprintf(reason, size, "%s", SDL_GetError());
+    const char *why = sdl.GetError ? sdl.GetError() : dlerror();
+    snprintf(reason, size, "%s", why ? why : "SDL is not whole");
     reason[strcspn(reason, "\r\n")] = '\0';
     one_line(reason, reason, size);
+}
+
+static bool find_sdl(void)
+{
+    bool found = true;
+#ifdef __linux__
+    void *library = dlopen("libSDL2-2.0.so.0", RTLD_LAZY);
+#define FIND(name)                                                             \
+    *(void **)&sdl.name = library ? dlsym(library, "SDL_" #name) : NULL;       \
+    found = found && sdl.name;
+#else
+#define FIND(name) sdl.name = SDL_##name;
+#endif
+    CALLS(FIND)
+    return found;
 }
 
 /* ---- opening and closing ------------------------------------------------ */
@@ -31,7 +67,7 @@ static void fit_size(const int size[2], int fitting[2])
     SDL_Rect area;
     fitting[0] = size[0] > 0 ? size[0] : WINDOW_WIDTH;
     fitting[1] = size[1] > 0 ? size[1] : WINDOW_HEIGHT;
-    if (size[0] > 0 || SDL_GetDisplayUsableBounds(0, &area))
+    if (size[0] > 0 || sdl.GetDisplayUsableBounds(0, &area))
         return;
     fitting[0] = area.w < fitting[0] ? area.w : fitting[0];
     fitting[1] = area.h < fitting[1] ? area.h : fitting[1];
@@ -48,29 +84,29 @@ static bool open_video(void)
 #ifdef __linux__
     const char *display = getenv("DISPLAY");
     if (!getenv("XDG_RUNTIME_DIR"))
-        SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
+        sdl.SetHint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
 #endif
-    if (SDL_Init(SDL_INIT_VIDEO) == 0) {
-        const char *driver = SDL_GetCurrentVideoDriver();
+    if (sdl.Init(SDL_INIT_VIDEO) == 0) {
+        const char *driver = sdl.GetCurrentVideoDriver();
         bool shows =
             driver && strcmp(driver, "offscreen") && strcmp(driver, "dummy");
         if (!shows)
-            SDL_SetError("SDL finds no display");
+            sdl.SetError("SDL finds no display");
         return shows;
     }
 #ifdef __linux__
     if (display)
-        SDL_SetError("the display %s cannot be opened", display);
+        sdl.SetError("the display %s cannot be opened", display);
     else if (!getenv("WAYLAND_DISPLAY"))
-        SDL_SetError("neither DISPLAY nor WAYLAND_DISPLAY is set");
+        sdl.SetError("neither DISPLAY nor WAYLAND_DISPLAY is set");
 #endif
     return false;
 }
 
 static void put_window(const SDL_Rect *place)
 {
-    SDL_SetWindowPosition(window, place->x, place->y);
-    SDL_SetWindowSize(window, place->w, place->h);
+    sdl.SetWindowPosition(window, place->x, place->y);
+    sdl.SetWindowSize(window, place->w, place->h);
 }
 
 /* Where no window manager does it, SDL changes neither size nor place. */
@@ -79,19 +115,19 @@ void window_set_full(bool full)
     static SDL_Rect before;
     SDL_Rect screen;
     if (full) {
-        SDL_GetWindowPosition(window, &before.x, &before.y);
-        SDL_GetWindowSize(window, &before.w, &before.h);
-        if (!SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(window), &screen))
+        sdl.GetWindowPosition(window, &before.x, &before.y);
+        sdl.GetWindowSize(window, &before.w, &before.h);
+        if (!sdl.GetDisplayBounds(sdl.GetWindowDisplayIndex(window), &screen))
             put_window(&screen);
     }
-    SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    sdl.SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
     if (!full)
         put_window(&before);
 }
 
 bool window_is_full(void)
 {
-    return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+    return (sdl.GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
 /* Pixels that go to an X server as they are cost less than half of what an
@@ -100,44 +136,47 @@ bool window_is_full(void)
 bool window_open(const char *title, const int size[2], bool full)
 {
     int fitting[2];
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
-    SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+    if (!find_sdl())
+        return false;
+    sdl.SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    sdl.SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    sdl.SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+    sdl.SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
     if (!open_video())
         return false;
-    if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0)
-        SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    if (strcmp(sdl.GetCurrentVideoDriver(), "x11") == 0)
+        sdl.SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     fit_size(size, fitting);
-    window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED,
+    window = sdl.CreateWindow(title, SDL_WINDOWPOS_CENTERED,
                               SDL_WINDOWPOS_CENTERED, fitting[0], fitting[1],
                               SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-    if (!window || !SDL_GetWindowSurface(window))
+    if (!window || !sdl.GetWindowSurface(window))
         return false;
     if (full)
         window_set_full(true);
-    SDL_StartTextInput();
+    sdl.StartTextInput();
     return true;
 }
 
 void window_close(void)
 {
     if (window)
-        SDL_DestroyWindow(window);
+        sdl.DestroyWindow(window);
     window = NULL;
-    SDL_Quit();
+    if (sdl.Quit)
+        sdl.Quit();
 }
 
 /* ---- what it shows ------------------------------------------------------ */
 
 void window_set_title(const char *title)
 {
-    SDL_SetWindowTitle(window, title);
+    sdl.SetWindowTitle(window, title);
 }
 
 void window_size(int size[2])
 {
-    const SDL_Surface *surface = SDL_GetWindowSurface(window);
+    const SDL_Surface *surface = sdl.GetWindowSurface(window);
     size[0] = surface ? surface->w : 1;
     size[1] = surface ? surface->h : 1;
 }
@@ -147,7 +186,7 @@ static void window_scale(double scale[2])
 {
     int size[2], points[2] = {0, 0};
     window_size(size);
-    SDL_GetWindowSize(window, &points[0], &points[1]);
+    sdl.GetWindowSize(window, &points[0], &points[1]);
     for (int i = 0; i < 2; i++)
         scale[i] = points[i] > 0 ? (double)size[i] / points[i] : 1;
 }
@@ -161,14 +200,14 @@ double window_letter(void)
 
 Status window_show(const Canvas *canvas)
 {
-    SDL_Surface *surface = SDL_GetWindowSurface(window);
-    SDL_Surface *picture = SDL_CreateRGBSurfaceWithFormatFrom(
+    SDL_Surface *surface = sdl.GetWindowSurface(window);
+    SDL_Surface *picture = sdl.CreateRGBSurfaceWithFormatFrom(
         canvas->pixels, canvas->width, canvas->height, 32,
         canvas->width * (int)sizeof *canvas->pixels, SDL_PIXELFORMAT_RGB888);
     bool shown = surface && picture &&
-                 SDL_BlitSurface(picture, NULL, surface, NULL) == 0 &&
-                 SDL_UpdateWindowSurface(window) == 0;
-    SDL_FreeSurface(picture);
+                 sdl.UpperBlit(picture, NULL, surface, NULL) == 0 &&
+                 sdl.UpdateWindowSurface(window) == 0;
+    sdl.FreeSurface(picture);
     return shown ? STATUS_OK : STATUS_SCREEN_FAILED;
 }
 
@@ -192,7 +231,7 @@ static void name_key(const SDL_KeyboardEvent *event, Input *input)
     SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
     bool letter = key >= SDLK_a && key <= SDLK_z;
     bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
-    bool held = SDL_GetKeyboardState(NULL)[SDL_SCANCODE_TAB] != 0;
+    bool held = sdl.GetKeyboardState(NULL)[SDL_SCANCODE_TAB] != 0;
     if ((mod & (KMOD_ALT | KMOD_GUI)) || (typed && !(mod & KMOD_CTRL)) ||
         (place >= SDL_SCANCODE_LCTRL && place <= SDL_SCANCODE_RGUI))
         return;
@@ -203,7 +242,7 @@ static void name_key(const SDL_KeyboardEvent *event, Input *input)
     input->repeats = event->repeat != 0;
     snprintf(input->key, sizeof input->key, "%s%s%s%s",
              mod & KMOD_CTRL ? "Ctrl+" : "", mod & KMOD_SHIFT ? "Shift+" : "",
-             held ? "Tab+" : "", SDL_GetKeyName(key));
+             held ? "Tab+" : "", sdl.GetKeyName(key));
 }
 
 /* Tab alone. */
@@ -244,7 +283,7 @@ static void button_input(const SDL_MouseButtonEvent *event, Input *input)
 {
     place_input(event->state == SDL_PRESSED ? INPUT_PRESS : INPUT_RELEASE,
                 event->x, event->y, input);
-    bool shift = SDL_GetModState() & KMOD_SHIFT;
+    bool shift = sdl.GetModState() & KMOD_SHIFT;
     input->button = event->button == SDL_BUTTON_LEFT && shift ? BUTTON_BOX
                     : event->button == SDL_BUTTON_LEFT        ? BUTTON_LEFT
                     : event->button == SDL_BUTTON_RIGHT       ? BUTTON_RIGHT
@@ -256,7 +295,7 @@ static void button_input(const SDL_MouseButtonEvent *event, Input *input)
 static void wheel_input(const SDL_MouseWheelEvent *event, Input *input)
 {
     int x, y;
-    SDL_GetMouseState(&x, &y);
+    sdl.GetMouseState(&x, &y);
     place_input(INPUT_WHEEL, x, y, input);
     input->amount = event->preciseY;
     if (event->direction == SDL_MOUSEWHEEL_FLIPPED)
@@ -321,7 +360,7 @@ static Input read_event(const SDL_Event *event)
 static bool moves_on(void)
 {
     SDL_Event event;
-    return SDL_PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT,
+    return sdl.PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT,
                           SDL_LASTEVENT) == 1 &&
            event.type == SDL_MOUSEMOTION;
 }
@@ -330,7 +369,7 @@ Input window_input(void)
 {
     SDL_Event event;
     Input input = {.kind = INPUT_NONE};
-    while (input.kind == INPUT_NONE && SDL_PollEvent(&event))
+    while (input.kind == INPUT_NONE && sdl.PollEvent(&event))
         if (event.type != SDL_MOUSEMOTION || !moves_on())
             input = read_event(&event);
     return input;
@@ -343,9 +382,9 @@ void window_wait(int milliseconds)
 {
     enum { PAUSE = 8 }; /* ms */
     for (; milliseconds > 0; milliseconds -= PAUSE) {
-        SDL_PumpEvents();
-        if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
+        sdl.PumpEvents();
+        if (sdl.HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
             return;
-        SDL_Delay((Uint32)(milliseconds < PAUSE ? milliseconds : PAUSE));
+        sdl.Delay((Uint32)(milliseconds < PAUSE ? milliseconds : PAUSE));
     }
 }
