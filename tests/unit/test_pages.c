@@ -1166,16 +1166,4 @@ TEST(listings_are_called_by_what_is_on)
     }
 }
 
-TEST(pages_are_found)
-{
-    char last[16];
-    snprintf(last, sizeof last, "%d", lecture_count());
-    CHECK(lecture_find("1") == &lecture_pages[0]);
-    CHECK(lecture_find(last) == &lecture_pages[lecture_count() - 1]);
-    CHECK(lecture_find("dial") && lecture_find("dial")->picture == 4);
-    CHECK(!lecture_find("0") && !lecture_find("-1") && !lecture_find("1000"));
-    CHECK(!lecture_find("") && !lecture_find("no-such-page"));
-    CHECK(!lecture_find("2x"));
-}
-
 TESTS(NULL, NULL)
