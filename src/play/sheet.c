@@ -128,34 +128,26 @@ void player_fill_sheet(Player *player)
     snprintf(show->state, SHOW_VALUE, "digits: a page of the tour");
 }
 
-/* The nearest cell in the row above or below, or the one beside it. */
+/* The cell beside it; or the next one, on or back, that is below it and not to
+ * its left, or above it and not to its right. */
 Status obey_choose(Player *player, const Command *command)
 {
     Show *show = &player->show;
     const Paper *paper = player->view ? view_paper(player->view) : NULL;
     const char *key = command->text;
     bool up = strcmp(key, "Up") == 0, upright = up || strcmp(key, "Down") == 0;
-    int now = show->chosen, best = now;
+    int way = up || strcmp(key, "Left") == 0 ? -1 : 1, i = show->chosen + way;
     if (!paper)
         return STATUS_OK;
     player_fill(player);
     Layout layout =
         show_layout(show, paper->canvas.width, paper->canvas.height);
-    const Box *from = &layout.cell[now];
-    double least = 1e300;
-    if (!upright)
-        best = now + (strcmp(key, "Left") == 0 ? -1 : 1);
-    for (int i = 0; i < layout.cells && upright; i++) {
-        double dx = layout.cell[i].x - from->x;
-        double dy = (layout.cell[i].y - from->y) * (up ? -1 : 1);
-        double away = dx * dx + 1e4 * dy * dy; /* the next row first */
-        if (dy <= 0 || away >= least)
-            continue;
-        least = away;
-        best = i;
-    }
-    if (best >= 0 && best < layout.cells)
-        show->chosen = best;
+    const Box *cell = layout.cell, *now = &cell[show->chosen];
+    while (upright && 0 <= i && i < layout.cells &&
+           !((cell[i].y - now->y) * way > 0 && (cell[i].x - now->x) * way >= 0))
+        i += way;
+    if (0 <= i && i < layout.cells)
+        show->chosen = i;
     return STATUS_OK;
 }
 
