@@ -382,9 +382,11 @@ const char *body_needs_end_of_step(const Options *options)
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
-/* Whether all begins where the system's terms let it be: off the obstacles, and
- * no cell or triangle turned over. */
-static Status check_place(const System *system, const double *x, Refusal told)
+/* Whether all is where the system's terms let it be: off the obstacles, and no
+ * cell or triangle turned over.
+ *   only  so many obstacles are looked at, and no cells; -1: everything */
+static Status check_place(const System *system, const double *x, int only,
+                          Refusal told)
 {
     const Contact *contact = contact_of(system);
     Place at = place_at(system, NULL, NULL, x);
@@ -396,18 +398,22 @@ static Status check_place(const System *system, const double *x, Refusal told)
         ElementWalk walk = {0};
         if (kind->allowed == elements_allowed && kind->element->reach)
             walk = elements_from(&at, NULL, 0);
-        while (walk.kind && elements_next(&walk))
-            if (!(walk.element.s > 0))
-                return kind == &contact_energy
-                           ? refuse(told,
-                                    "obstacle %d: node %d would begin at a "
-                                    "distance of %g m; it must be above 0",
-                                    walk.element.from, walk.element.node[0],
-                                    walk.element.s)
-                           : refuse(told,
-                                    "at node %d a cell begins turned over "
-                                    "(%.3g of its area); it must not",
-                                    walk.element.node[0], walk.element.s);
+        while (walk.kind && elements_next(&walk)) {
+            bool obstacle = kind == &contact_energy;
+            if (walk.element.s > 0 ||
+                (only >= 0 && !(obstacle && walk.element.from < only)))
+                continue;
+            return obstacle
+                       ? refuse(told,
+                                "obstacle %d: node %d would begin at a "
+                                "distance of %g m; it must be above 0",
+                                walk.element.from, walk.element.node[0],
+                                walk.element.s)
+                       : refuse(told,
+                                "at node %d a cell begins turned over (%.3g of "
+                                "its area); it must not",
+                                walk.element.node[0], walk.element.s);
+        }
     }
     return STATUS_OK;
 }
@@ -445,7 +451,8 @@ bool simulation_has_room(const Simulation *simulation, const Options *options,
         System system = {0};
         status = build(&own, &mesh, &system);
         if (!status)
-            status = check_place(&system, simulation->run[run].x, told);
+            status = check_place(&system, simulation->run[run].x,
+                                 (int)(own.grounds + own.balls), told);
         system_free(&system);
         square_mesh_free(&mesh);
     }
@@ -516,7 +523,7 @@ Status body_check(const Options *options, Refusal told)
     if (!status)
         status = check_overlap(options, x, told);
     if (!status)
-        status = check_place(&system, x, told);
+        status = check_place(&system, x, -1, told);
     free(x);
     system_free(&system);
     square_mesh_free(&mesh);

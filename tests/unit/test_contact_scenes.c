@@ -117,6 +117,19 @@ TEST(starts_that_make_no_sense_are_refused)
     }
 }
 
+/* Of a run that goes on only what may be moved counts: not where a ball began,
+ * nor a cell that is torn. */
+TEST(obstacles_have_room_in_what_was_torn)
+{
+    char message[256];
+    Simulation *beam = simulate("bend --segments 16");
+    beam->run[0].x[0] = 0;
+    beam->run[0].x[1] = 0.42;
+    CHECK(simulation_has_room(beam, &beam->options, message, sizeof message));
+    beam->run[0].x[1] = -1;
+    CHECK(!simulation_has_room(beam, &beam->options, message, sizeof message));
+}
+
 /* Pins are no way out: a ceiling ends at nodes that are held, and pins that are
  * drawn against a wall stop before it; the steps say so.  What a ceiling has
  * pressed flat takes few updates: 706, and 2642 with parts as short as a
