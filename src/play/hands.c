@@ -159,13 +159,12 @@ static Status open_line(Player *player, const char *line)
 Status obey_enter(Player *player, const Command *command)
 {
     (void)command;
-    if (player->selected < 0 && !lists(player))
-        return player_check_answer(player);
-    Command made = {.kind = COMMAND_SET, .joins = true};
-    char read[COMMAND_TEXT_SIZE] = "", note[sizeof player->note], unit[16];
     char typed[sizeof player->typed];
+    Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
     memcpy(typed, player->typed, sizeof typed);
+    if (player->selected < 0 && !lists(player))
+        return player_check_answer(player);
     if (player->selected < 0) {
         status = open_line(player, typed);
         player->typing = player->typing && status;
@@ -173,22 +172,12 @@ Status obey_enter(Player *player, const Command *command)
     }
     const OptionRow *row = player->number[player->selected];
     made.number = row - option_rows;
-    bool one = row->count <= 1 && option_read(row, typed, &made.x);
-    if (one)
-        option_write(row, made.x, read, sizeof read);
-    else
+    if (row->count > 1 || !option_read(row, typed, &made.x))
         memcpy(made.text, typed, sizeof typed);
     status = player_obey(player, &made);
-    if (status)
-        return status;
-    player_deselect(player);
-    if (!one || strcmp(typed, read) == 0)
-        return STATUS_OK;
-    memcpy(note, player->note, sizeof note);
-    option_unit(row, unit, sizeof unit);
-    player_note(player, "%s is read as %.4g%s%s%s%s", typed, made.x,
-                unit[0] ? " " : "", unit, note[0] ? "; " : "", note);
-    return STATUS_OK;
+    if (!status)
+        player_deselect(player);
+    return status;
 }
 
 Status obey_close(Player *player, const Command *command)
