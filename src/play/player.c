@@ -46,12 +46,7 @@ const Options *player_settings(const Player *player)
 Options player_numbers(const Player *player)
 {
     Options options = *player_settings(player);
-    double h = player_simulation(player)->options.timestep;
-    if (h != options.timestep) { /* nobody chose it: as the cards have it */
-        char text[32];
-        snprintf(text, sizeof text, "%.4g", h);
-        options.timestep = strtod(text, NULL);
-    }
+    options.timestep = player_simulation(player)->options.timestep;
     return options;
 }
 

@@ -91,7 +91,6 @@ one_clean_line() { # what
 }
 names() {
     printf '0 %s\n' "$odd" >script
-    printf '0 page %s\n' "${odd#*where}" >other
     while read -r option; do
         "$elasto" --headless --quiet --steps 1 "$option$odd" >out 2>error &&
             echo "$option: it is taken"
@@ -106,18 +105,11 @@ names() {
 --side=
 x
 END
-    "$elasto" --headless --steps 1 --quiet --script other 2>error
-    one_clean_line 'a page'
     "$elasto" --headless --quiet --steps 1 --states "$odd" 2>error || cat error
     rm "$odd"
     "$elasto" --headless --steps 0 --frames "$odd" >out
     [ "$(wc -l <out)" = "$("$elasto" --headless --steps 0 | wc -l)" ] ||
         echo "the summary has $(wc -l <out) lines"
-    for option in segments stiffness; do
-        "$elasto" "--$option" "$(printf 'x%0500d' 0)" 2>error
-        one_clean_line $option
-        grep -q ' from .* to ' error || echo "--$option: no range: $(cat error)"
-    done
 }
 verdict messages_are_one_line "$(names)"
 
