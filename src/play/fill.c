@@ -400,7 +400,8 @@ static void fill_time(Player *player)
 static void fill_computing(Player *player)
 {
     Show *show = &player->show;
-    if (!player->past.making || clock_now() - player->began <= LONG_WORK)
+    if (!player->past.making ||
+        (clock_now() - player->began <= LONG_WORK && !player_is_slow(player)))
         return;
     snprintf(show->sentence, SHOW_TEXT,
              "a long step: Esc stops it, at the last whole one");

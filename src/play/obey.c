@@ -180,7 +180,7 @@ Status player_obey(Player *player, const Command *asked)
         past_aim(past, step, false);
         player->then = THEN_NOTHING;
         if (command.kind == COMMAND_ESCAPE) {
-            player_note(player, "given up: this is the last whole step");
+            player_note(player, "given up: the last whole step stands");
             return player_work(player);
         }
     }

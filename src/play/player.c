@@ -199,6 +199,7 @@ Status player_start(Player *player)
 Status player_frame(Player *player)
 {
     double period = 1 / fmin(FRAME_RATE, player_rate(player));
+    double start = clock_now();
     Status status = obey_inputs(player);
     if (!status && !player->past.works)
         status = obey_script(player);
@@ -208,10 +209,11 @@ Status player_frame(Player *player)
     bool due = !player->window || now >= player->due - EARLY;
     bool first = player->sampled < 0 && player->view;
     bool works = player->past.works;
+    bool begins = works && player->began > start; /* first that is drawn */
     bool lives = player->sheet && player->window;
     bool goes = !lives && !player_stands(player) && due && !first &&
                 !player_ended(player);
-    if (!status && (works || goes)) {
+    if (!status && !begins && (works || goes)) {
         if (!works)
             player->due = fmax(player->due + period, now);
         status = step_frame(player);

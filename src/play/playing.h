@@ -61,6 +61,9 @@ Status player_begin(Player *player, const Options *options, int count,
  * frame is over. */
 Status player_work(Player *player);
 
+/* Whether a single factor takes longer than a slice. */
+bool player_is_slow(const Player *player);
+
 /* Wants another step shown, to wait there; again: with all that is told of its
  * iterations.  player_work follows, after a deed by itself. */
 Status player_show(Player *player, long step, bool again, Then then);

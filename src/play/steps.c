@@ -9,6 +9,8 @@
 #include "play/playing.h"
 #include "scenes/scene.h"
 
+enum { SLOW_NODES = 50000 };
+
 /* ---- tables -------------------------------------------------------------- */
 
 /* What Newton told of the step that the machines have just made, or could not
@@ -185,16 +187,6 @@ Status player_bear(Player *player, Status status)
     return STATUS_OK;
 }
 
-/* A failed step is shown, and why the last frame is drawn again. */
-static Status show_failure(Player *player, Status failure, Then then)
-{
-    Status status = player_bear(player, failure);
-    player->sampled = -1;
-    return !status && then == THEN_JUDGE && failure == STATUS_NOT_FINITE
-               ? show_last_good(player)
-               : status;
-}
-
 /* The work has come to its end. */
 static Status step_shown(Player *player, Status status, long before)
 {
@@ -202,8 +194,12 @@ static Status step_shown(Player *player, Status status, long before)
     bool failed = status && !status_is_unconverged(status);
     player->then = THEN_NOTHING;
     player->changed = true;
-    if (failed && player->past.step == before)
-        return show_failure(player, status, then);
+    if (failed && player->past.step == before) { /* it tells why */
+        bool lost = then == THEN_JUDGE && status == STATUS_NOT_FINITE;
+        player->sampled = -1;
+        status = player_bear(player, status);
+        return !status && lost ? show_last_good(player) : status;
+    }
     status = record_step(player);
     if (!status && then == THEN_JUDGE)
         player_judge(player);
@@ -214,6 +210,13 @@ static Status step_shown(Player *player, Status status, long before)
     return status;
 }
 
+bool player_is_slow(const Player *player)
+{
+    const Simulation *simulation = player_simulation(player);
+    return simulation->options.solver == SOLVER_NEWTON &&
+           simulation->system.nodes > SLOW_NODES;
+}
+
 Status player_work(Player *player)
 {
     Past *past = &player->past;
@@ -222,6 +225,7 @@ Status player_work(Player *player)
         player->began = begin;
     while (past->works && !player->quit) {
         long before = past->step;
+        bool made = past->making;
         Status status = past_iterate(past);
         if (!past->works || (status && status != STATUS_RUNNING)) {
             status = step_shown(player, status, before);
@@ -229,7 +233,8 @@ Status player_work(Player *player)
                 return status;
         }
         player->quit = player->quit || *player->stop;
-        if (player->window && clock_now() - begin > SLICE)
+        bool begins = past->making && !made && player_is_slow(player);
+        if (player->window && (begins || clock_now() - begin > SLICE))
             break;
     }
     player->changed = true;

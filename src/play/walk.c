@@ -157,14 +157,6 @@ Status obey_goto(Player *player, const Command *command)
     return player_show(player, step, false, THEN_NOTHING);
 }
 
-/* With as many digits as the row of numbers has. */
-static double rounded(double value)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%g", value);
-    return strtod(text, NULL);
-}
-
 /* What was done last, or undone: "set stretch 1.2". */
 Status obey_undo(Player *player, const Command *command)
 {
@@ -176,9 +168,12 @@ Status obey_undo(Player *player, const Command *command)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");
     Command edit = *made;
+    double *at[] = {&edit.x, &edit.y};
     edit.joins = false;
-    edit.x = rounded(edit.x);
-    edit.y = rounded(edit.y);
+    for (int k = 0; k < 2; k++) { /* digits as the row of numbers has them */
+        snprintf(line, sizeof line, "%g", *at[k]);
+        *at[k] = strtod(line, NULL);
+    }
     command_format(&edit, line, sizeof line);
     player->mode = MODE_PAUSE;
     player->holds = false;
