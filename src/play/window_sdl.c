@@ -193,8 +193,9 @@ static void window_scale(double scale[2])
 
 double window_letter(void)
 {
-    double scale[2];
-    window_scale(scale);
+    double scale[2] = {1, 1};
+    if (window)
+        window_scale(scale);
     return 9 * scale[0];
 }
 
@@ -369,7 +370,7 @@ Input window_input(void)
 {
     SDL_Event event;
     Input input = {.kind = INPUT_NONE};
-    while (input.kind == INPUT_NONE && sdl.PollEvent(&event))
+    while (window && input.kind == INPUT_NONE && sdl.PollEvent(&event))
         if (event.type != SDL_MOUSEMOTION || !moves_on())
             input = read_event(&event);
     return input;
