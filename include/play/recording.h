@@ -5,8 +5,7 @@
  * and tables (table.h), which begin at step 0:
  *   states    step,time,node,x,y,vx,vy of every node at every step; nodes of
  *             run 0 first, those of run 1 numbered on
- *   log       a row a Newton update, see newton.h; in scenes with a single
- *             unknown point also where the update began and ended
+ *   log       a row a Newton update, see newton.h
  *   energies  the ledger (simulation.h) of every run at every step; runs of
  *             all panes are counted from 0
  *   springs   step,time,spring,i,j,whole,rest,strain,plastic,flowed: its nodes,
@@ -42,7 +41,6 @@ typedef struct Recording {
     Film film;                      /* of the frames */
     char film_told[RECORDING_TOLD]; /* the last that ended: frames, name; "" */
     const char *vtk;                /* folder of steps, or NULL */
-    bool points;                    /* the log tells of points */
     int panes;                      /* when it was opened */
     Table table[RECORDING_TABLES];  /* not open: not written */
     bool standard;                  /* one of them is standard output */
@@ -71,7 +69,7 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
 Status recording_film(Recording *recording, const char *name);
 Status recording_end_film(Recording *recording);
 
-/* Takes back the rows of later steps. */
+/* Takes back the rows of later steps; below 0: of all. */
 Status recording_cut(Recording *recording, long step);
 
 /* States and energies of `count` simulations now, if they are asked for; nodes
@@ -86,9 +84,6 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
 
 /* Whether a table is open. */
 bool recording_has_tables(const Recording *recording);
-
-/* Begins all tables anew, for the scene in the options. */
-Status recording_restart(Recording *recording, const Options *options);
 
 /* Closes everything, whatever happened before: a run that fails keeps what it
  * wrote. */

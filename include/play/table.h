@@ -55,9 +55,8 @@ void table_add(Table *table, const double *value);
 /* FILE_FAILED if something could not be written so far, else OK. */
 Status table_check(const Table *table);
 
-/* Takes back the rows of later steps; of all, and the names, where last is
- * below 0: then the columns may be others.  From a pipe nothing can be taken
- * back, and new rows follow.  Returns OK, FILE_FAILED. */
+/* Takes back the rows of later steps; below 0: of all.  From a pipe nothing can
+ * be taken back, and new rows follow.  Returns OK, FILE_FAILED. */
 Status table_cut(Table *table, long last);
 
 /* Writes the rest and gives the file its name (output_close), or leaves it as

@@ -140,7 +140,8 @@ static const struct {
      "pane:place", add_states},
     {offsetof(Options, log),
      "step:whole,iteration:whole,residual,alpha,trials:whole,slope,change,"
-     "projected:whole,factorised:whole,shift,status:text,seconds",
+     "projected:whole,factorised:whole,shift,status:text,seconds,"
+     "solver:text,kind:text",
      "pane:whole", NULL},
     {offsetof(Options, energies), "step:whole,time,total,kinetic,gravity", "",
      add_energies},
@@ -157,23 +158,14 @@ static const char *given_name(const Options *options, size_t field)
     return *(const char *const *)((const char *)options + field);
 }
 
-/* The columns of all tables in the scene of the options. */
-static void set_columns(const Options *options, Recording *recording)
+/* Those of a table; one that says which pane where there are several. */
+static void set_columns(Table *table, int t, int panes)
 {
-    recording->points = !(options->scene->needs & NEEDS_TIME);
-    for (int t = 0; t < RECORDING_TABLES; t++) {
-        Table *table = &recording->table[t];
-        table->columns = 0;
-        table->text = log_text;
-        table_columns(table, kinds[t].columns);
-        if (t == RECORDING_LOG && recording->points)
-            table_columns(table, "from_x,from_y,to_x,to_y");
-        if (t == RECORDING_LOG)
-            table_columns(table, "solver:text,kind:text");
-        if (t == RECORDING_ENERGIES)
-            list_energies(table);
-        table_columns(table, recording->panes > 1 ? kinds[t].pane : "");
-    }
+    table->text = log_text;
+    table_columns(table, kinds[t].columns);
+    if (t == RECORDING_ENERGIES)
+        list_energies(table);
+    table_columns(table, panes > 1 ? kinds[t].pane : "");
 }
 
 /* ---- films, and all together --------------------------------------------- */
@@ -213,6 +205,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
         name = list;
     }
     recording->standard = recording->standard || output_is_standard(name);
+    set_columns(&recording->table[t], t, recording->panes);
     return note(recording, table_open(name, &recording->table[t]), name);
 }
 
@@ -230,7 +223,6 @@ Status recording_open(const Options *options, int panes, Recording *recording)
             status = note(recording, make_folder(folder[i]), folder[i]);
     if (!status && options->film)
         status = recording_film(recording, options->film);
-    set_columns(options, recording);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
         status = open_table(options, recording, t);
     if (status)
@@ -366,46 +358,23 @@ Status recording_states(Recording *recording,
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane)
 {
-    enum { FROM = 12, SOLVER = FROM + 4 };
     Table *log = &recording->table[RECORDING_LOG];
-    double row[] = {(double)record->step,
-                    record->iteration,
-                    record->residual,
-                    record->alpha,
-                    record->trials,
-                    record->slope,
-                    record->change,
-                    record->projected,
-                    record->factorised,
-                    record->shift,
-                    record->status,
-                    record->seconds,
-                    record->from[0],
-                    record->from[1],
-                    record->to[0],
-                    record->to[1],
-                    record->solver,
-                    record->kind,
-                    pane};
+    double row[] = {(double)record->step, record->iteration, record->residual,
+                    record->alpha,        record->trials,    record->slope,
+                    record->change,       record->projected, record->factorised,
+                    record->shift,        record->status,    record->seconds,
+                    record->solver,       record->kind,      pane};
     if (!table_is_open(log))
         return STATUS_OK;
-    if (!recording->points)
-        memmove(row + FROM, row + SOLVER, sizeof row - SOLVER * sizeof *row);
     errno = 0;
     table_add(log, row);
     return check_tables(recording);
 }
 
-Status recording_restart(Recording *recording, const Options *options)
-{
-    set_columns(options, recording);
-    recording->last_frame = -1;
-    return recording_cut(recording, -1);
-}
-
 Status recording_cut(Recording *recording, long step)
 {
     Status status = STATUS_OK;
+    recording->last_frame = step < 0 ? -1 : recording->last_frame;
     for (int t = 0; t < RECORDING_TABLES && !status; t++) {
         Table *table = &recording->table[t];
         status = note(recording, table_cut(table, step), table->output.name);

@@ -152,9 +152,7 @@ Status player_follow(Player *player)
     if (player->written <= same)
         return STATUS_OK;
     player->written = same;
-    return same < 0 ? recording_restart(&player->recording,
-                                        &past_start(past, 0)->options)
-                    : recording_cut(&player->recording, same);
+    return recording_cut(&player->recording, same);
 }
 
 /* ---- what happens as a step is shown ------------------------------------- */

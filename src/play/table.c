@@ -16,16 +16,6 @@ void table_columns(Table *table, const char *names)
     }
 }
 
-/* The line of names, in CSV. */
-static void put_names(Table *table)
-{
-    FILE *file = table->output.file;
-    for (int c = 0; c < table->columns && !table->rows; c++)
-        fprintf(file, "%s%c", table->column[c].name,
-                c + 1 < table->columns ? ',' : '\n');
-    table->head = table->output.temporary ? ftell(file) : 0;
-}
-
 Status table_open(const char *name, Table *table)
 {
     const char *end = strrchr(name, '.');
@@ -41,7 +31,10 @@ Status table_open(const char *name, Table *table)
         output_discard(&table->output, false);
         return STATUS_FILE_FAILED;
     }
-    put_names(table);
+    for (int c = 0; c < table->columns && !table->rows; c++)
+        fprintf(table->output.file, "%s%c", table->column[c].name,
+                c + 1 < table->columns ? ',' : '\n');
+    table->head = table->output.temporary ? ftell(table->output.file) : 0;
     return table_check(table);
 }
 
@@ -89,7 +82,7 @@ static long find_end(const Table *table, FILE *file, long last)
 {
     double row[TABLE_COLUMNS];
     long end = table->rows ? 0 : table->head;
-    if (last < 0 || fseek(file, end, SEEK_SET))
+    if (fseek(file, end, SEEK_SET))
         return 0;
     while ((table->rows ? table_next(table, row)
                         : fscanf(file, "%lf%*[^\n]%*c", row) == 1) &&
@@ -108,8 +101,6 @@ Status table_cut(Table *table, long last)
         if (fseek(file, end, SEEK_SET) || ftruncate(fileno(file), end))
             return STATUS_FILE_FAILED;
     }
-    if (last < 0)
-        put_names(table);
     return table_check(table);
 }
 

@@ -165,8 +165,6 @@ NR > 61 { r[$3] = sqrt($4^2 + $5^2) } END { if (!(r[0] > 1.1 && r[1] > 0.95 && r
 3|3|overshoot
 (NR == 3 && $4 > -11.6449585) || (NR == 4 && !($4 > 3.2e9 && $4 < 3.3e9)) || (NR > 1 && $2 != 0)
 3|3|overshoot
-log NR == 2 && ($13 != 2 || $15 > -11.64)
-3|3|overshoot
 summary /^steps not converged 1/ { n = 1 } END { if (!n) print "the summary is silent" }
 0|7|overshoot --line-search backtrack
 log NR > 1 && $7 >= 0
