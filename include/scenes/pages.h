@@ -43,6 +43,7 @@ typedef struct LecturePage {
     bool modes;           /* so is the fastest oscillation, or eigenvectors */
     bool writes;          /* the spring is lit whose number is the step's */
     bool kinds;           /* so are those of its kind; each kind is a switch */
+    bool nears;           /* N brings the end of the spring nearer */
     bool cuts;            /* before the guess there are cells, no springs */
 } LecturePage;
 

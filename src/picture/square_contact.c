@@ -47,16 +47,13 @@ bool square_next_touch(const SpringPen *pen, Touch *touch)
     return true;
 }
 
-/* Whether friction holds no node of a run that touches something. */
-static bool slides(const SpringPen *pen)
+/* By how many more nodes of a run slide than friction holds. */
+static int count_sliding(const SpringPen *pen)
 {
-    bool moves = false;
-    for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);) {
-        if (touch.rough && !touch.slides)
-            return false;
-        moves = moves || touch.rough;
-    }
-    return moves;
+    int more = 0;
+    for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);)
+        more += touch.rough ? (touch.slides ? 1 : -1) : 0;
+    return more;
 }
 
 /* The largest force that an obstacle and its friction put on a node of these
@@ -102,11 +99,13 @@ void square_contact_forces(const SpringPen *pen, int runs)
 
 /* Under the left end of a run's first wall, if it has a slope: its coefficient
  * of friction as a part of the options' and of the slope, and, unless that is
- * asked for, what the body does. */
+ * asked for, what most of the nodes that touch it do. */
 static void draw_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
+    bool told = !pen->show->veiled && pen->simulation->steps > 0;
+    int more = count_sliding(pen);
     double em = stage->em, grip = pen->simulation->grip[pen->run];
     double left[2], at[2], slope = -wall->n[0] / wall->n[1];
     if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
@@ -125,9 +124,9 @@ static void draw_words(const SpringPen *pen)
                 grip > 0 ? number_of(grip).text : "", grip > 0 ? " " : "",
                 number_of(wall->friction / fabs(slope)).text,
                 number_of(fabs(atan(slope)) / DEGREE).text,
-                pen->show->veiled ? ""
-                : slides(pen)     ? ": slides"
-                                  : ": holds");
+                told && more > 0   ? ": slides"
+                : told && more < 0 ? ": holds"
+                                   : "");
 }
 
 /* The half plane as far as the stage goes, or a slab, and how far it reaches.

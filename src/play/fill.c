@@ -248,7 +248,9 @@ static void fill_chips(Player *player)
         return;
     }
     add_chip(player, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
-    add_chip(player, COMMAND_NEXT, newton ? player->fine : time ? 0 : 3, false);
+    int next = newton ? player->fine : time ? 0 : 3;
+    next = options->page && options->page->nears ? 4 : next;
+    add_chip(player, COMMAND_NEXT, next, false);
     add_chip(player, COMMAND_BACK, 0, false);
     if (options->page) {
         add_chip(player, COMMAND_PAGE_ON, 0, ended && options->page[1].name);

@@ -142,16 +142,28 @@ static void tell_left(Player *player, long step, long newest)
              step + 1, newest);
 }
 
+/* What a key means here, so that a script of it leads to the same place. */
+static Command meant_by(const Player *player, const Command *asked)
+{
+    const LecturePage *page = player_settings(player)->page;
+    const double *x = player_simulation(player)->run[0].x;
+    Command meant = *asked;
+    if (asked->kind == COMMAND_TOGGLE_PAUSE)
+        meant.kind = player_stands(player) ? COMMAND_PLAY : COMMAND_PAUSE;
+    if (asked->kind == COMMAND_NEXT && page && page->nears &&
+        !player_veils(player))
+        meant =
+            (Command){.kind = COMMAND_HANDLE, .x = 0.8 * x[0], .y = 0.8 * x[1]};
+    return meant;
+}
+
 Status player_obey(Player *player, const Command *asked)
 {
     Past *past = &player->past;
-    Command command = *asked;
+    Command command = meant_by(player, asked);
     long step = past->step, newest = past_newest(past);
     int now = past->now;
     size_t at = player->journal.count;
-    if (command.kind == COMMAND_TOGGLE_PAUSE) /* so that a script of it leads */
-        command.kind =                        /* to the same place */
-            player_stands(player) ? COMMAND_PLAY : COMMAND_PAUSE;
     const CommandRow *row = command_row(command.kind);
     unsigned flags = row->flags;
     begin_gesture(player, &command);

@@ -69,6 +69,7 @@ BEGIN {
     numbers["minutes"]
     switches["numbers"] switches["predict"] switches["forces"]
     switches["waits"] switches["modes"] switches["writes"] switches["kinds"] switches["cuts"]
+    switches["nears"]
     print "const LecturePage lecture_pages[] = {"
 }
 
