@@ -65,79 +65,82 @@ static double model_at(const void *update, double x)
     return model->f + d * (model->first + 0.5 * d * model->second);
 }
 
+static double tangent_at(const void *update, double x)
+{
+    const Update *model = update;
+    return model->first + (x - model->x0) * model->second;
+}
+
 /* Iterate i, the present one after all others. */
 static double iterate(const Descent *descent, int i)
 {
     return i == descent->count ? descent->point[0] : descent->record[i].from[0];
 }
 
-/* x with its number, so many ems below a point, unless the one before is less
- * than `room` ems beside it.
- *   used  pixels, in/out: where that one is */
-static void label_iterate(const Plot *plot, const double at[2], int number,
-                          double below, double room, double *used,
-                          Colour colour)
-{
-    double p[2];
-    plot_place(plot, at, p);
-    if (fabs(p[0] - *used) < room * plot->em)
-        return;
-    *used = p[0];
-    plot_text(plot, at, 0, below, 1, ALIGN_CENTRE, FACE_BOLD, colour, "x^{%d}",
-              number);
-}
+/* ---- a function, its model and the iterates --------------------------------
+ */
 
-/* ---- f and its models ---------------------------------------------------- */
-
-/* From the minimum of the model up to f there, where the full step leads. */
-static void draw_model_minimum(const Plot *plot, const Update *model)
-{
-    double x1 = model->x1;
-    const double low[2] = {x1, model_at(model, x1)};
-    const double high[2] = {x1, value_at(model, x1)};
-    bool right = x1 > plot->x.high;
-    const double at[2] = {right ? plot->x.high : plot->x.low,
-                          0.5 * plot->y.low};
-    plot_hollow(plot, low, 6, 3.6, COLOUR_P);
-    plot_line(plot, low, high, 1.2, COLOUR_P);
-    if (plot->text && isfinite(x1) && (x1 < plot->x.low || right))
-        plot_text(plot, at, 0, 0, 1, right ? ALIGN_RIGHT : ALIGN_LEFT,
-                  FACE_BOLD, COLOUR_P, "%sto x = %s%s", right ? "" : "\u2190 ",
-                  number_of(x1).text, right ? " \u2192" : "");
-}
-
-/* Rings where the line search looked and went on; discs on the curve with
- * their numbers below and above in turn, the last one is black. */
-static void draw_iterates(const Plot *plot, const Update *update)
+/* Rings where the line search looked and went on; discs on the curve, the last
+ * one is black, with their numbers below and above in turn, unless there is no
+ * room beside the one before. */
+static void draw_iterates(const Plot *plot, const Update *update,
+                          double (*curve)(const void *, double))
 {
     const Descent *descent = &update->simulation->descent;
-    double used[2] = {-1e9, -1e9}, alpha = 1;
+    double used[2] = {-1e9, -1e9}, alpha = 1, p[2];
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (update->x1 - update->x0);
-        const double at[2] = {x, value_at(update, x)};
-        plot_hollow(plot, at, 5, 3.2, COLOUR_WARNING);
+        plot_hollow(plot, (double[2]){x, curve(update, x)}, 5, 3.2,
+                    COLOUR_WARNING);
     }
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
         double x = iterate(descent, i);
-        const double at[2] = {x, value_at(update, x)};
+        const double at[2] = {x, curve(update, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
-        if (plot_disc(plot, at, last ? 7 : 5.5, colour) && plot->text)
-            label_iterate(plot, at, i, i % 2 ? -1.875 : 0.9, 1.5, &used[i % 2],
-                          colour);
+        bool seen = plot_disc(plot, at, last ? 7 : 5.5, colour);
+        plot_place(plot, at, p);
+        if (!seen || !plot->text || fabs(p[0] - used[i % 2]) < 1.5 * plot->em)
+            continue;
+        used[i % 2] = p[0];
+        plot_text(plot, at, 0, i % 2 ? -1.875 : 0.9, 1, ALIGN_CENTRE, FACE_BOLD,
+                  colour, "x^{%d}", i);
     }
+}
+
+/* E or its slope; of its model, if that is to be seen, the minimum, or the zero
+ * of the tangent, and from there the way to the curve, where the full step
+ * leads. */
+static void draw_search(const Plot *plot, const Update *update, bool slopes,
+                        bool model)
+{
+    double (*curve)(const void *, double) = slopes ? slope_at : value_at;
+    double (*near)(const void *, double) = slopes ? tangent_at : model_at;
+    double x1 = update->x1;
+    const double low[2] = {x1, near(update, x1)};
+    const double high[2] = {x1, curve(update, x1)};
+    bool right = x1 > plot->x.high, left = x1 < plot->x.low;
+    plot_graph(plot, curve, update, 2.4, COLOUR_X);
+    if (model) {
+        plot_graph(plot, near, update, 1.6, COLOUR_P);
+        plot_hollow(plot, low, 6, 3.6, COLOUR_P);
+        plot_line(plot, low, high, 1.2, COLOUR_P);
+    }
+    if (model && !slopes && plot->text && isfinite(x1) && (left || right))
+        plot_text(
+            plot,
+            (double[2]){right ? plot->x.high : plot->x.low, 0.5 * plot->y.low},
+            0, 0, 1, right ? ALIGN_RIGHT : ALIGN_LEFT, FACE_BOLD, COLOUR_P,
+            "%sto x = %s%s", right ? "" : "\u2190 ", number_of(x1).text,
+            right ? " \u2192" : "");
+    draw_iterates(plot, update, curve);
 }
 
 static void curve_draw(Plot *stage)
 {
     Update update = last_update(stage->simulation);
     Plot plot = plot_on(stage, &plot_room, (Axis){.label = "x"}, (Axis){0});
-    plot_graph(&plot, value_at, &update, 2.4, COLOUR_X);
-    if (!stage->show->veiled) {
-        plot_graph(&plot, model_at, &update, 1.6, COLOUR_P);
-        draw_model_minimum(&plot, &update);
-    }
-    draw_iterates(&plot, &update);
+    draw_search(&plot, &update, false, !stage->show->veiled);
 }
 
 /* The update that is shown, from its iterate to the next one. */
@@ -212,43 +215,6 @@ static Plot tangent_plot(const Plot *stage, int half)
     return plot;
 }
 
-/* Discs on g and on E, with numbers; the present one is black. */
-static void tangent_iterates(const Plot plot[2])
-{
-    const Descent *descent = &plot->simulation->descent;
-    double used = -1e9;
-    for (int i = 0; i <= descent->count; i++) {
-        bool last = i == descent->count;
-        double x = iterate(descent, i);
-        Local now = scalar_at(plot->simulation, x);
-        const double g[2] = {x, now.g[0]}, E[2] = {x, now.value};
-        Colour colour = last ? COLOUR_TEXT : COLOUR_X;
-        bool inside = plot_disc(&plot[0], g, last ? 7 : 5, colour);
-        plot_disc(&plot[1], E, last ? 7 : 5, colour);
-        if (plot->text && inside)
-            label_iterate(&plot[0], (double[2]){x, 0}, i, 0.4, 1.8, &used,
-                          colour);
-    }
-}
-
-/* The tangent of g from x0 to its zero, beside it the parabola's lowest point,
- * and a dashed upright through both. */
-static void tangent_model(const Plot plot[2], const Update *update)
-{
-    double x1 = update->x1, p = x1 - update->x0, d = 0.15 * p, top[2], low[2];
-    const double a[2] = {update->x0 - d, update->first - d * update->second};
-    const double b[2] = {x1 + d, d * update->second}, zero[2] = {x1, 0};
-    const double lowest[2] = {x1, update->f + 0.5 * update->first * p};
-    plot_line(&plot[0], a, b, 2.4, COLOUR_P);
-    plot_graph(&plot[1], model_at, update, 1.8, COLOUR_P);
-    plot_place(&plot[0], (double[2]){x1, plot[0].y.high}, top);
-    plot_place(&plot[1], (double[2]){x1, plot[1].y.low}, low);
-    if (x1 >= plot->x.low && x1 <= plot->x.high)
-        paper_dashes(plot->paper, top, low, 1, NULL, COLOUR_P);
-    plot_hollow(&plot[0], zero, 6, 3.6, COLOUR_P);
-    plot_hollow(&plot[1], lowest, 6, 3.6, COLOUR_P);
-}
-
 static void tangent_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -256,11 +222,9 @@ static void tangent_draw(Plot *stage)
     const double target[2] = {simulation->exhibit.target[0], 0};
     Update update = last_update(simulation);
     const Plot plot[2] = {tangent_plot(stage, 0), tangent_plot(stage, 1)};
-    plot_graph(&plot[0], slope_at, &update, 2.6, COLOUR_X);
-    plot_graph(&plot[1], value_at, &update, 2.6, COLOUR_X);
-    if (update.made || !(stage->show->veiled || (guess->made && !guess->shown)))
-        tangent_model(plot, &update);
-    tangent_iterates(plot);
+    bool asked = stage->show->veiled || (guess->made && !guess->shown);
+    for (int half = 0; half < 2; half++)
+        draw_search(&plot[half], &update, half == 0, update.made || !asked);
     if (!stage->text)
         return;
     stage_handles(&plot[1]);
