@@ -9,7 +9,6 @@
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 #include "scenes/one_line.h"
-#include "scenes/scene.h"
 
 /* Tells of the first failure; returns status. */
 static Status note(Recording *recording, Status status, const char *name)

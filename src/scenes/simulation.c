@@ -1,7 +1,6 @@
 #include "scenes/simulation.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "model/cells.h"
