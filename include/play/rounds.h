@@ -95,9 +95,8 @@ int rounds_walk(const Rounds *rounds, int fine, int place, int way);
 int rounds_find(const Rounds *rounds, int round, Line line);
 
 /* The place where E was highest, if the step has raised it by far more than it
- * has changed it in the end: an explosion that is over.  rise out: J s^2.
- * Returns -1 where there was none. */
-int rounds_peak(const Rounds *rounds, double *rise);
+ * has changed it in the end: an explosion that is over; -1: there was none. */
+int rounds_peak(const Rounds *rounds);
 
 /* The largest coordinate in them, m; 0 where none is kept. */
 double rounds_extent(const Rounds *rounds);

@@ -46,14 +46,14 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
     double p[2], em = paper->em;
     plot_place(plot, left, p);
     plot_dashes(plot, left, right, 1.4, NULL, COLOUR_TEXT);
-    bool below = p[1] + 1.05 * em <= plot->box.y + plot->box.height;
+    bool below = p[1] + 1.3 * em <= plot->box.y + plot->box.height;
     if (below && h > 0)
         snprintf(words, sizeof words, "\u03b5: h \u03b5 = %s m",
                  number_of(h * tolerance).text);
     if (paper_width(paper, FACE_BOLD, 0.85, words) > plot->box.width)
         snprintf(words, sizeof words, "\u03b5");
     paper_write(paper, FACE_BOLD, 0.85, COLOUR_TEXT, p[0] + 0.3 * em,
-                p[1] + (below ? 0 : -1.25) * em, ALIGN_LEFT, "%s", words);
+                p[1] + (below ? 0.25 : -1.25) * em, ALIGN_LEFT, "%s", words);
 }
 
 /* The update whose p is known is the last record of the trace, or it is still

@@ -329,6 +329,27 @@ static void place_star(const Show *show, Layout *layout)
     layout->pane[0] = place;
 }
 
+/* The first card of a page that folds where there is no room for it stands
+ * below the picture, as high as it needs, half of the stage at most. */
+static void place_folded(const Show *show, Layout *layout)
+{
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    int bar = pixels(layout, TITLE_BAR), folded = 1;
+    while (folded < layout->cards &&
+           (layout->card[folded].height != bar || (show->closed >> folded & 1)))
+        folded++;
+    if (!show->lecture || show->large >= 0 || layout->panes != 1 ||
+        folded >= layout->cards)
+        return;
+    const Card *card = picture->cards[folded];
+    Box *stage = &layout->pane[0];
+    double wide = stage->width / layout->em;
+    double needs = card->needs ? card->needs(show, wide) : card->least;
+    int high = (int)fmin((needs + 2 * GAP) * layout->em, 0.5 * stage->height);
+    layout->card[folded] =
+        box_inset(cut(stage, true, high), pixels(layout, GAP));
+}
+
 Layout show_layout(const Show *show, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
@@ -359,6 +380,7 @@ Layout show_layout(const Show *show, int width, int height)
     }
     place_panes(show->panes, &layout);
     place_star(show, &layout);
+    place_folded(show, &layout);
     return layout;
 }
 

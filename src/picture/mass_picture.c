@@ -165,19 +165,19 @@ static void add_runs(const Simulation *simulation, Facts *facts)
 
 static const Card card_matrix = {
     .name = "matrix",
-    .title = "each step of (x, v/\u03c9) as a matrix",
+    .title = "each step of (x, v/\u03c9): matrix, \u03bb, |\u03bb|",
     .least = 11,
     .weight = 0.4,
     .words = "@\n"
              "#run matrix{{Sxx:3} & {Sxv:3}; {Svx:3} & {Svv:3}}  "
-             "\u03bb = {re:3} \u00b1 {im:3} i, |\u03bb| = {size:6}\n"
+             "{re:3} \u00b1 {im:3} i, {size:6}\n"
              "#run matrix{{Sxx:3} & {Sxv:3}; {Svx:3} & {Svv:3}}  "
-             "\u03bb = {least:4}, {most:4}",
+             "{least:4}, {most:4}",
 };
 
 const Picture circle_picture = {
     .cards =
-        (const Card *const[]){&card_page, &card_radius, &card_matrix, NULL},
+        (const Card *const[]){&card_page, &card_matrix, &card_radius, NULL},
     .bounds = circle_bounds,
     .draw = circle_draw,
     .facts = add_runs,
@@ -403,7 +403,8 @@ static void mass_facts(const Simulation *simulation, Facts *facts)
     exact_step(&step, h, exact);
     fact(facts, "miss",
          math_hypot(step.new_x[0] - exact[0], step.new_x[1] - exact[1]));
-    fact(facts, "half", 0.5 * h * h * math_hypot(step.x[0], step.x[1]));
+    if (step.by_old_v)
+        fact(facts, "half", 0.5 * h * h * math_hypot(step.x[0], step.x[1]));
 }
 
 static const Card card_mass_numbers = {
@@ -421,8 +422,7 @@ static const Card card_mass_numbers = {
         "{numbers}energy {energy:4} J \u2192 {later:4} J  (\u00d7 {factor:4})\n"
         "|{x}|\u00b2 + |v|\u00b2 \u2212 h {x}\u00b7v: {kept:4} "
         "\u2192 {kept later:4}\n"
-        "#faint off the exact end by {miss:4} m;  h\u00b2/2 |a(x)| = {half:4} "
-        "m\n"
+        "#faint off exact by {miss:4} m; h\u00b2/2 |a| = {half:4} m\n"
         "@\n"
         "#run {many}{name}: energy {energy:4} J \u2192 {later:4} J  "
         "(\u00d7 {factor:4})",

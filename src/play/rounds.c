@@ -265,20 +265,19 @@ int rounds_find(const Rounds *rounds, int round, Line line)
 
 /* The sum of the changes may be off by some units in the last place of the
  * highest E; only whether it is a tenth of that is asked. */
-int rounds_peak(const Rounds *rounds, double *rise)
+int rounds_peak(const Rounds *rounds)
 {
     enum { FAR = 10 };
-    double sum = 0;
+    double sum = 0, rise = 0;
     int round = -1;
-    *rise = 0;
     for (int i = 0; i < rounds->made.count; i++) {
         sum += rounds->made.row[i].change;
-        if (sum > *rise) {
-            *rise = sum;
+        if (sum > rise) {
+            rise = sum;
             round = i;
         }
     }
-    bool far = round >= 0 && *rise > FAR * fabs(sum);
+    bool far = round >= 0 && rise > FAR * fabs(sum);
     return far ? rounds_find(rounds, round, LINE_UPDATE) : -1;
 }
 

@@ -29,19 +29,16 @@ void player_enter(Player *player, Then then)
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Machine *machine = &player->past.machine[p];
         const Rounds *rounds = &machine->rounds;
-        double rise;
         int place = rounds->places <= 2  ? -1 /* the start and the end */
                     : then == THEN_ENTER ? 0
                     : then == THEN_LEAVE ? rounds->places - 1
-                                         : rounds_peak(rounds, &rise);
+                                         : rounds_peak(rounds);
         if (place >= 0)
             player_stand_at(player, p, place);
         if (place < 0 || then != THEN_PEAK)
             continue;
-        player_note(player,
-                    "update %d of %d: E has risen by %.3g J s\u00b2, and nodes "
-                    "are %.4g m away; N goes on",
-                    rounds->place[place].round + 1, rounds->made.count, rise,
+        player_note(player, "update %d of %d: nodes are %.4g m away; N goes on",
+                    rounds->place[place].round + 1, rounds->made.count,
                     fmax(machine->outcome.extent, rounds_extent(rounds)));
         player->warning = true;
     }

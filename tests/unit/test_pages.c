@@ -330,7 +330,7 @@ TEST(claim_closing)
 
 TEST(claim_explicit)
 {
-    says("explicit", "1.4 0.004 0.008 1.4 20 0.004 1000 0.008 1");
+    says("explicit", "0.0076 0.004 0.008 1.4 20 0.004 1000 0.008 1");
     double limit = known("explicit", "h limit");
     for (int i = 0; i < 2; i++) { /* a push along it, below and above */
         char line[80];

@@ -755,7 +755,6 @@ static const Session sessions[] = {
            "key I", "chip N next step", "stands 1")},
     {"an explosion is shown where it is highest",
      LINES("begin explosion --paused", "at 0", "key N", "line 0 6",
-           "says E has risen by 2.35e+16 J s\u00b2",
            "says nodes are 1698 m away", "mark a shape", "key N", "line 0 0",
            "other a shape", "at 1")},
     {"either method tames it: the step is taken again, where it is",
