@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "picture/cards.h"
+#include "scenes/scene.h"
 
 /* Sizes in ems, the size of the texts. */
 static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
@@ -329,17 +330,20 @@ static void place_star(const Show *show, Layout *layout)
     layout->pane[0] = place;
 }
 
-/* The first card of a page that folds where there is no room for it stands
- * below the picture, as high as it needs, half of the stage at most. */
+/* The first card of a page that folds for want of room stands below the
+ * picture, as high as it needs, half of the stage at most; not where switches
+ * would cover what is left of the picture. */
 static void place_folded(const Show *show, Layout *layout)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    Switch switches[SCENE_MAX_SWITCHES];
     int bar = pixels(layout, TITLE_BAR), folded = 1;
     while (folded < layout->cards &&
            (layout->card[folded].height != bar || (show->closed >> folded & 1)))
         folded++;
     if (!show->lecture || show->large >= 0 || layout->panes != 1 ||
-        folded >= layout->cards)
+        folded >= layout->cards ||
+        exhibit_switches(show_pane(show)->simulation, switches) > 0)
         return;
     const Card *card = picture->cards[folded];
     Box *stage = &layout->pane[0];
