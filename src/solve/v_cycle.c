@@ -98,21 +98,17 @@ static void run_stages(CrewWork *loop, Stages s)
 
 /* ---- tensors ---- */
 
-/* A multiple of WIDE_LANES numbers in single precision. */
-INLINE void narrow(int count, const double *from, float *to)
-{
+/* Number e of an array, or some from there on, in single precision. */
 #ifdef __wasm_simd128__ /* clang makes no use of this instruction */
-    for (int e = 0; e < count; e += 4) {
-        v128_t low = wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e));
-        v128_t high =
-            wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e + 2));
-        wasm_v128_store(to + e, wasm_i32x4_shuffle(low, high, 0, 1, 4, 5));
-    }
-#else
-    EACH_OF (count)
-        to[e] = (float)from[e];
-#endif
+INLINE Few narrow(const double *from, int e)
+{
+    v128_t low = wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e));
+    v128_t high = wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e + 2));
+    return (Few)wasm_i32x4_shuffle(low, high, 0, 1, 4, 5);
 }
+#else
+#define narrow(from, e) ((float)(from)[e])
+#endif
 
 /* Those of springs that start in a row: iso and along clamped (psd.h). */
 INLINE void tensor_row(const VCycle *cycle, int i)
@@ -123,7 +119,6 @@ INLINE void tensor_row(const VCycle *cycle, int i)
         for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
              at.first += WIDE_LANES) {
             double far[3][WIDE_LANES];
-            float near[3][WIDE_LANES];
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         const float *const own_c = cycle->c[kind] + at.first + (numbers);      \
@@ -133,16 +128,16 @@ INLINE void tensor_row(const VCycle *cycle, int i)
             far[1][e] = s.dy;                                                  \
             far[2][e] = s.s;                                                   \
         }                                                                      \
-        narrow(3 * WIDE_LANES, far[0], near[0]);                               \
-        EACH_OF (NEXT(at, WIDE_LANES)) {                                       \
+        EACH_FEW (NEXT(at, WIDE_LANES)) {                                      \
             const int q = at.first + e;                                        \
-            float dx = near[0][e], dy = near[1][e], t = near[2][e];            \
-            float c = own_c[e], iso = t > 0 ? t : 0;                           \
-            float along = 2 + (t - iso) / (dx * dx + dy * dy + 1e-35f);        \
-            along = along > 0 ? along : 0;                                     \
-            level.K[kind][0][q] = c * (iso + along * dx * dx);                 \
-            level.K[kind][1][q] = c * along * dx * dy;                         \
-            level.K[kind][2][q] = c * (iso + along * dy * dy);                 \
+            Few dx = narrow(far[0], e), dy = narrow(far[1], e);                \
+            Few t = narrow(far[2], e), iso = WHERE(t > 0, t);                  \
+            Few along = 2 + (t - iso) / (dx * dx + dy * dy + 1e-35f);          \
+            Few c = FEW(own_c, e);                                             \
+            along = WHERE(along > 0, along);                                   \
+            FEW(level.K[kind][0], q) = c * (iso + along * dx * dx);            \
+            FEW(level.K[kind][1], q) = c * along * dx * dy;                    \
+            FEW(level.K[kind][2], q) = c * (iso + along * dy * dy);            \
         }                                                                      \
     }
             OWN_SPRINGS(ADD, at)
@@ -514,7 +509,8 @@ FAST static void take(const Grid *grid, double factor, const double *a,
         double product[WIDE_LANES];
         EACH_OF (WIDE_LANES)
             product[e] = factor * a[e];
-        narrow(WIDE_LANES, product, b);
+        EACH_FEW (WIDE_LANES)
+            FEW(b, e) = narrow(product, e);
     }
 }
 
