@@ -331,24 +331,24 @@ static void place_star(const Show *show, Layout *layout)
 }
 
 /* The first card of a page that folds for want of room stands below the
- * picture, as high as it needs, half of the stage at most; not where switches
- * would cover what is left of the picture. */
+ * picture, as high as it needs, half of the stage at most; not where a star or
+ * switches are on the stage, nor in the scenes of a law, whose bodies need all
+ * of it. */
 static void place_folded(const Show *show, Layout *layout)
 {
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    Switch switches[SCENE_MAX_SWITCHES];
+    const Simulation *simulation = show_pane(show)->simulation;
+    const LecturePage *page = show->lecture;
     int bar = pixels(layout, TITLE_BAR), folded = 1;
     while (folded < layout->cards &&
            (layout->card[folded].height != bar || (show->closed >> folded & 1)))
         folded++;
-    if (!show->lecture || show->large >= 0 || layout->panes != 1 ||
-        folded >= layout->cards ||
-        exhibit_switches(show_pane(show)->simulation, switches) > 0)
+    if (!page || page->star || page->law || simulation->scene->parts[0] ||
+        show->large >= 0 || layout->panes != 1 || folded >= layout->cards)
         return;
-    const Card *card = picture->cards[folded];
+    const Card *card = picture_of(simulation->scene)->cards[folded];
     Box *stage = &layout->pane[0];
-    double wide = stage->width / layout->em;
-    double needs = card->needs ? card->needs(show, wide) : card->least;
+    double needs = card->needs ? card->needs(show, stage->width / layout->em)
+                               : card->least;
     int high = (int)fmin((needs + 2 * GAP) * layout->em, 0.5 * stage->height);
     layout->card[folded] =
         box_inset(cut(stage, true, high), pixels(layout, GAP));
