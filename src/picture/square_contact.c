@@ -8,6 +8,7 @@
 #include "base/mathematics.h"
 
 static const double SLAB = 1;           /* ems, depth of a thin wall */
+static const double REST = 10;          /* times eps_v */
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 
@@ -56,6 +57,17 @@ static int count_sliding(const SpringPen *pen)
     return more;
 }
 
+/* Whether a run as a whole hardly moves along the wall; what sways does. */
+static bool rests(const SpringPen *pen, const Obstacle *wall)
+{
+    const double *v = pen->simulation->run[pen->run].v;
+    double sum = 0;
+    int nodes = pen->system->nodes;
+    for (int i = 0; i < nodes; i++)
+        sum += v[2 * i] * wall->n[1] - v[2 * i + 1] * wall->n[0];
+    return fabs(sum) < REST * pen->simulation->options.slip_speed * nodes;
+}
+
 /* The largest force that an obstacle and its friction put on a node of these
  * runs, N. */
 static double largest_force(const SpringPen *pen, int runs)
@@ -99,7 +111,8 @@ void square_contact_forces(const SpringPen *pen, int runs)
 
 /* Under the left end of a run's first wall, if it has a slope: its coefficient
  * of friction as a part of the options' and of the slope, and, unless that is
- * asked for, what most of the nodes that touch it do. */
+ * asked for, what most of the nodes that touch it do; nothing as they settle.
+ */
 static void draw_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
@@ -124,9 +137,9 @@ static void draw_words(const SpringPen *pen)
                 grip > 0 ? number_of(grip).text : "", grip > 0 ? " " : "",
                 number_of(wall->friction / fabs(slope)).text,
                 number_of(fabs(atan(slope)) / DEGREE).text,
-                told && more > 0   ? ": slides"
-                : told && more < 0 ? ": holds"
-                                   : "");
+                told && more > 0                       ? ": slides"
+                : told && more < 0 && rests(pen, wall) ? ": holds"
+                                                       : "");
 }
 
 /* The half plane as far as the stage goes, or a slab, and how far it reaches.
