@@ -128,7 +128,6 @@ int main(int argc, char **argv)
     Bench bench = {.folder = "build/bench"};
     int from = 0, to = TABLES;
     setvbuf(stdout, NULL, _IOLBF, 0); /* each line when it is measured */
-    setenv("ELASTO_THREADS", "1", 0); /* unless it is set: one thread */
     for (int i = 1, t; i < argc; i++) {
         for (t = 0; t < TABLES && strcmp(argv[i], tables[t].name); t++)
             continue;

@@ -13,17 +13,15 @@
  * grid, powers of two near those of a cell, which change no bit: its numbers
  * are about 1.
  *
- * Sums have one shape whatever the width of the registers and the number of
- * threads: each of LANES neighbours has a part of its own, these add up in a
- * fixed order for each band of rows, and the bands in theirs.  So the bits are
- * the same everywhere.
+ * Sums have one shape whatever the width of the registers: each of LANES
+ * neighbours has a part of its own, these add up in a fixed order for each band
+ * of rows, and the bands in theirs.  So the bits are the same everywhere.
  */
 #ifndef ELASTO_GRID_H
 #define ELASTO_GRID_H
 
 #include <stddef.h>
 
-#include "base/crew.h"
 #include "base/status.h"
 #include "solve/incremental_potential.h"
 
@@ -68,7 +66,6 @@ typedef struct Grid {
     double *away;                   /* [2 planes] x - x_tilde in the digits of
                                        u; pins: 0 */
     double *sums;                   /* [bands * MAX_SUMS] */
-    Crew *crew; /* who works; not owned, NULL: the caller alone */
 } Grid;
 
 /* Pieces of one block of memory, which is laid out twice: first to count, with

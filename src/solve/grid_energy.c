@@ -10,15 +10,11 @@ typedef struct Pass {
     double *out;
 } Pass;
 
-/* Nanoseconds a node takes, about: it decides only who works. */
-static const double HEAVY = 3;
-
 /* Runs a loop over all bands and adds up what each of them has summed. */
-static void run(CrewWork *loop, Pass pass, double cost, int sums, double *sum)
+static void run(void loop(const Pass *), Pass pass, int sums, double *sum)
 {
     const Grid *grid = pass.grid;
-    crew_run(grid->crew, loop, &pass, grid->bands,
-             cost * grid->rows.nodes * grid->rows.nodes);
+    loop(&pass);
     for (int s = 0; s < sums; s++)
         sum[s] = 0;
     for (int band = 0; band < grid->bands; band++)
@@ -28,12 +24,11 @@ static void run(CrewWork *loop, Pass pass, double cost, int sums, double *sum)
 
 /* How each loop begins. */
 #define BANDS                                                                  \
-    const Pass *pass = job;                                                    \
     const Grid grid = *pass->grid;                                             \
     const int plane = grid.rows.plane;                                         \
-    for (int band = first; band < end; band++)
+    for (int band = 0; band < grid.bands; band++)
 
-FAST static void gradient(const void *job, int first, int end)
+FAST static void gradient(const Pass *pass)
 {
     BANDS
     {
@@ -63,7 +58,7 @@ FAST static void gradient(const void *job, int first, int end)
 double grid_gradient(const Grid *grid, double *g)
 {
     double sum;
-    run(gradient, (Pass){.grid = grid, .out = g}, HEAVY, 1, &sum);
+    run(gradient, (Pass){.grid = grid, .out = g}, 1, &sum);
     return sum;
 }
 
@@ -72,7 +67,7 @@ double grid_gradient(const Grid *grid, double *g)
     double ux = px[q] - px[q + (to)], uy = py[q] - py[q + (to)]
 
 /* out = -b - H p, H clamped, and |out|_(M^-1)^2. */
-FAST static void remainder_of(const void *job, int first, int end)
+FAST static void remainder_of(const Pass *pass)
 {
     BANDS
     {
@@ -115,15 +110,15 @@ double grid_remainder(const Grid *grid, const double *g, const double *p,
                       double *rest, double *largest)
 {
     double sum;
-    run(remainder_of, (Pass){.grid = grid, .a = p, .b = g, .out = rest},
-        2 * HEAVY, 1, &sum);
+    run(remainder_of, (Pass){.grid = grid, .a = p, .b = g, .out = rest}, 1,
+        &sum);
     *largest = 0;
     for (int band = 0; band < grid->bands; band++)
         *largest = fmax(*largest, grid->sums[band * MAX_SUMS + 1]);
     return sum;
 }
 
-FAST static void along_line(const void *job, int first, int end)
+FAST static void along_line(const Pass *pass)
 {
     BANDS
     {
@@ -156,7 +151,7 @@ FAST static void along_line(const void *job, int first, int end)
 
 void grid_along(const Grid *grid, const double *g, const double *p, double q[4])
 {
-    run(along_line, (Pass){.grid = grid, .a = g, .b = p}, HEAVY, 4, q);
+    run(along_line, (Pass){.grid = grid, .a = g, .b = p}, 4, q);
 }
 
 /* ---- without springs: all numbers of the planes ---- */

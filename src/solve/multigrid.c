@@ -50,7 +50,7 @@ struct Multigrid {
     bool stalls;          /* tiles relax in each iteration */
 };
 
-Status multigrid_create(int segments, int threads, Multigrid **multigrid)
+Status multigrid_create(int segments, Multigrid **multigrid)
 {
     Multigrid *mg = *multigrid = calloc(1, sizeof *mg);
     Status status = mg ? STATUS_OK : STATUS_OUT_OF_MEMORY;
@@ -68,17 +68,14 @@ Status multigrid_create(int segments, int threads, Multigrid **multigrid)
     if (status) {
         free(mg);
         *multigrid = NULL;
-        return status;
     }
-    mg->grid.crew = crew_create(threads);
-    return STATUS_OK;
+    return status;
 }
 
 void multigrid_free(Multigrid *mg)
 {
     if (!mg)
         return;
-    crew_free(mg->grid.crew);
     free(mg->memory.base);
     free(mg);
 }
@@ -206,7 +203,7 @@ Status multigrid_start(Newton *newton)
     double *m = newton->x_trial, *u_tilde = newton->u_trial;
     Status status = STATUS_OK;
     if (!newton->multigrid)
-        status = multigrid_create(system->segments, 0, &newton->multigrid);
+        status = multigrid_create(system->segments, &newton->multigrid);
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;

@@ -15,7 +15,7 @@
  * decides the test, to either side; what is not decided is not converged.
  *
  * A step depends on nothing but what it is given.  Results have the same bits
- * for every width of registers and number of threads.
+ * for every width of registers.
  */
 #ifndef ELASTO_MULTIGRID_H
 #define ELASTO_MULTIGRID_H
@@ -23,9 +23,8 @@
 #include "solve/newton.h"
 
 /* Allocates for segments x segments cells.
- *   threads  1, 2; 0: what the machine has (ELASTO_THREADS limits it)
  * Returns OK, OUT_OF_MEMORY (then *multigrid is NULL). */
-Status multigrid_create(int segments, int threads, Multigrid **multigrid);
+Status multigrid_create(int segments, Multigrid **multigrid);
 void multigrid_free(Multigrid *multigrid);
 
 /* Whether multigrid makes the minimisation that newton->at describes: it is

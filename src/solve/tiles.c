@@ -21,9 +21,6 @@ static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
  * end it. */
 enum { MAX_ROUNDS = 10000 };
 
-/* Nanoseconds that a sweep of a tile takes, about. */
-static const double TILE_COST = 700;
-
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
 {
     int high = grid->segments / TILE_ROWS + 1;
@@ -117,10 +114,9 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
     return sum_of(sum);
 }
 
-FAST static void relax_chosen(const void *job, int first, int end)
+FAST static void relax_chosen(const Tiles *tiles, int count)
 {
-    const Tiles *tiles = job;
-    for (int t = first; t < end; t++)
+    for (int t = 0; t < count; t++)
         tiles->change[tiles->chosen[t]] = relax_tile(tiles, tiles->chosen[t]);
 }
 
@@ -149,8 +145,7 @@ static double relax_active(Tiles *tiles, double activity, int *visits)
             for (int j = colour % 2; j < tiles->wide; j += 2)
                 if (tiles->activity[i * tiles->wide + j] <= activity)
                     tiles->chosen[count++] = i * tiles->wide + j;
-        crew_run(tiles->grid->crew, relax_chosen, tiles, count,
-                 count * TILE_COST);
+        relax_chosen(tiles, count);
         for (int t = 0; t < count; t++) {
             spread_activity(tiles, tiles->chosen[t]);
             change += tiles->change[tiles->chosen[t]];

@@ -13,11 +13,6 @@
  * times each way; the others once. */
 enum { COARSEST = 5, COARSEST_TIMES = 2 };
 
-/* What threads share: a level's rows in so many parts, of so many rows or more.
- * Nanoseconds that a node takes, about. */
-enum { PARTS = 8, LEAST_ROWS = 16 };
-static const double NODE_COST = 3;
-
 void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
 {
     *cycle = (VCycle){.grid = grid};
@@ -49,51 +44,18 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
  *
  * Loops that follow each other go through a level's rows together, each a row
  * behind the one before, whose neighbouring rows it needs: what one leaves is
- * still near when the next one reads it.  Two threads share the rows in parts.
- * Near their edges a stage would need rows of the part beside; it leaves those,
- * one more for each stage, and a second pass does them. */
+ * still near when the next one reads it. */
 
 typedef struct Stages {
     const VCycle *cycle;
     const Level *level, *coarse; /* coarse: NULL at the coarsest */
-    int rows, parts, high;       /* of all, and rows of a part */
-    bool seams;                  /* the second pass */
+    int rows;                    /* the level's, or one more for the coarse */
     bool product;                /* the last stage is wanted */
 } Stages;
 
-/* Whether the row is a stage's in this part. */
-INLINE bool has_row(const Stages *s, int part, int stage, int row)
+INLINE bool has_row(int rows, int i)
 {
-    int edge = (part + 1) * s->high;
-    if (s->seams)
-        return row >= edge - stage && row < edge + stage && row < s->rows;
-    int first = part > 0 ? part * s->high + stage : 0;
-    return row >= first && row < (part + 1 < s->parts ? edge - stage : s->rows);
-}
-
-/* Rows that the first stage looks at, so that each stage comes to its own. */
-#define EACH_ROW_OF(s, part, stages)                                           \
-    for (int top = (s)->seams ? ((part) + 1) * (s)->high - (stages)            \
-                              : (part) * (s)->high,                            \
-             row = top;                                                        \
-         row < ((s)->seams ? top + 4 * (stages) : top + (s)->high + (stages)); \
-         row++)
-
-static void run_stages(CrewWork *loop, Stages s)
-{
-    Crew *crew = s.cycle->grid->crew;
-    int nodes = s.level->rows.nodes;
-    s.rows = s.coarse && 2 * s.coarse->rows.nodes > nodes
-                 ? 2 * s.coarse->rows.nodes - 1
-                 : nodes;
-    s.parts = crew ? s.rows / LEAST_ROWS : 1;
-    s.parts = s.parts > PARTS ? PARTS : s.parts < 1 ? 1 : s.parts;
-    s.high = (s.rows + s.parts - 1) / s.parts;
-    double cost = NODE_COST * nodes * nodes;
-    crew_run(crew, loop, &s, s.parts, cost);
-    s.seams = true;
-    if (s.parts > 1)
-        crew_run(crew, loop, &s, s.parts - 1, 0.25 * cost);
+    return i >= 0 && i < rows;
 }
 
 /* ---- tensors ---- */
@@ -231,38 +193,40 @@ INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
     }
 }
 
-FAST static void set_up_stages(const void *job, int first, int end)
+FAST static void set_up_level(const Stages *s)
 {
-    const Stages *s = job;
     const bool finest = s->level == s->cycle->level;
     const int nodes = s->level->rows.nodes;
-    for (int part = first; part < end; part++)
-        EACH_ROW_OF (s, part, 3) {
-            int i = row;
-            if (finest && i < nodes && has_row(s, part, 0, i))
-                tensor_row(s->cycle, i);
-            i = row - 1;
-            if (i < nodes && has_row(s, part, 1, i))
-                invert_row(s->level, i);
-            i = row - 2;
-            if (s->coarse && i % 2 == 0 && has_row(s, part, 2, i))
-                coarsen_row(s->level, s->coarse, i / 2);
-        }
+    for (int row = 0; row < s->rows + 2; row++) {
+        if (finest && has_row(nodes, row))
+            tensor_row(s->cycle, row);
+        if (has_row(nodes, row - 1))
+            invert_row(s->level, row - 1);
+        int i = row - 2;
+        if (s->coarse && i % 2 == 0 && has_row(s->rows, i))
+            coarsen_row(s->level, s->coarse, i / 2);
+    }
 }
 
 /* Their number, and each level with the next coarser one. */
 static Stages stages_of(const VCycle *cycle, int number)
 {
     const Level *level = &cycle->level[number];
-    return (Stages){.cycle = cycle,
-                    .level = level,
-                    .coarse = number + 1 < cycle->levels ? level + 1 : NULL};
+    Stages s = {.cycle = cycle, .level = level, .rows = level->rows.nodes};
+    if (number + 1 < cycle->levels) {
+        s.coarse = level + 1;
+        if (2 * s.coarse->rows.nodes > s.rows)
+            s.rows = 2 * s.coarse->rows.nodes - 1;
+    }
+    return s;
 }
 
 static void set_up(VCycle *cycle)
 {
-    for (int l = 0; l < cycle->levels && !cycle->set_up; l++)
-        run_stages(set_up_stages, stages_of(cycle, l));
+    for (int l = 0; l < cycle->levels && !cycle->set_up; l++) {
+        const Stages stages = stages_of(cycle, l);
+        set_up_level(&stages);
+    }
     cycle->set_up = true;
 }
 
@@ -411,64 +375,57 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
 
 /* From x = 0 forward, and b of the coarser level: even rows, then odd ones, of
  * each the even columns, then the odd ones. */
-FAST static void descend(const void *job, int first, int end)
+FAST static void descend(const Stages *s)
 {
-    const Stages *s = job;
     const Level *l = s->level;
     const int nodes = l->rows.nodes;
-    for (int part = first; part < end; part++)
-        EACH_ROW_OF (s, part, 4) {
-            int i = row;
-            if (i % 2 == 0 && i < nodes && has_row(s, part, 0, i)) {
-                visit_row(l, i, 0, FIRST, NULL, NULL);
-                visit_row(l, i, 1, FIRST, NULL, NULL);
-            }
-            i = row - 1;
-            if (i % 2 != 0 && i < nodes && has_row(s, part, 1, i)) {
-                visit_row(l, i, 2, FIRST, NULL, NULL);
-                visit_row(l, i, 3, FIRST, NULL, NULL);
-                visit_row(l, i, 2, LEFT, NULL, NULL);
-                visit_row(l, i, 3, LEFT, NULL, NULL);
-            }
-            i = row - 2;
-            if (i % 2 == 0 && i < nodes && has_row(s, part, 2, i)) {
-                visit_row(l, i, 0, LEFT, NULL, NULL);
-                visit_row(l, i, 1, LEFT, NULL, NULL);
-            }
-            i = row - 3;
-            if (s->coarse && i % 2 == 0 && has_row(s, part, 3, i))
-                for (int c = 0; c < 2; c++)
-                    restrict_row(&l->rows, &s->coarse->rows, i / 2,
-                                 l->w + c * l->rows.plane,
-                                 s->coarse->b + c * s->coarse->rows.plane);
+    for (int row = 0; row < s->rows + 3; row++) {
+        int i = row;
+        if (i % 2 == 0 && has_row(nodes, i)) {
+            visit_row(l, i, 0, FIRST, NULL, NULL);
+            visit_row(l, i, 1, FIRST, NULL, NULL);
         }
+        i = row - 1;
+        if (i % 2 != 0 && has_row(nodes, i)) {
+            visit_row(l, i, 2, FIRST, NULL, NULL);
+            visit_row(l, i, 3, FIRST, NULL, NULL);
+            visit_row(l, i, 2, LEFT, NULL, NULL);
+            visit_row(l, i, 3, LEFT, NULL, NULL);
+        }
+        i = row - 2;
+        if (i % 2 == 0 && has_row(nodes, i)) {
+            visit_row(l, i, 0, LEFT, NULL, NULL);
+            visit_row(l, i, 1, LEFT, NULL, NULL);
+        }
+        i = row - 3;
+        if (s->coarse && i % 2 == 0 && has_row(s->rows, i))
+            for (int c = 0; c < 2; c++)
+                restrict_row(&l->rows, &s->coarse->rows, i / 2,
+                             l->w + c * l->rows.plane,
+                             s->coarse->b + c * s->coarse->rows.plane);
+    }
 }
 
 /* x += P of the coarser level's, then backward in the opposite order; and
  * w = A x where it is wanted. */
-FAST static void ascend(const void *job, int first, int end)
+FAST static void ascend(const Stages *s)
 {
-    const Stages *s = job;
     const Level *l = s->level;
     const int nodes = l->rows.nodes;
-    for (int part = first; part < end; part++)
-        EACH_ROW_OF (s, part, 4) {
-            int i = row;
-            if (s->coarse && i < nodes && has_row(s, part, 0, i))
-                for (int c = 0; c < 2; c++)
-                    prolong_row(l, &s->coarse->rows, i,
-                                s->coarse->x + c * s->coarse->rows.plane,
-                                l->x + c * l->rows.plane);
-            for (int stage = 1; stage <= 2; stage++) {
-                i = row - stage;
-                if ((i % 2 != 0) == (stage == 1) && i < nodes &&
-                    has_row(s, part, stage, i))
-                    smooth_row(l, i, true);
-            }
-            i = row - 3;
-            if (s->product && i < nodes && has_row(s, part, 3, i))
-                product_row(l, i, s->cycle->sums + 2 * i);
+    for (int row = 0; row < nodes + 3; row++) {
+        if (s->coarse && has_row(nodes, row))
+            for (int c = 0; c < 2; c++)
+                prolong_row(l, &s->coarse->rows, row,
+                            s->coarse->x + c * s->coarse->rows.plane,
+                            l->x + c * l->rows.plane);
+        for (int stage = 1; stage <= 2; stage++) {
+            int i = row - stage;
+            if ((i % 2 != 0) == (stage == 1) && has_row(nodes, i))
+                smooth_row(l, i, true);
         }
+        if (s->product && has_row(nodes, row - 3))
+            product_row(l, row - 3, s->cycle->sums + 2 * (row - 3));
+    }
 }
 
 /* All of the coarsest level at once, forward or backward. */
@@ -482,24 +439,21 @@ FAST static void smooth_coarsest(const Level *l, bool back)
 /* x = about A^-1 b; of the finest level also w = A x, and sums. */
 static void v_cycle(VCycle *cycle)
 {
-    for (int l = 0; l < cycle->levels; l++)
-        run_stages(descend, stages_of(cycle, l));
+    for (int l = 0; l < cycle->levels; l++) {
+        const Stages stages = stages_of(cycle, l);
+        descend(&stages);
+    }
     for (int t = 1; t < 2 * COARSEST_TIMES - 1; t++)
         smooth_coarsest(&cycle->level[cycle->levels - 1], t >= COARSEST_TIMES);
     for (int l = cycle->levels - 1; l >= 0; l--) {
         Stages stages = stages_of(cycle, l);
         stages.product = l == 0;
-        run_stages(ascend, stages);
+        ascend(&stages);
     }
     cycle->cycles++;
 }
 
 /* ---- conjugate gradients ---- */
-
-typedef struct Update {
-    const VCycle *cycle;
-    float alpha, beta;
-} Update;
 
 FAST static void take(const Grid *grid, double factor, const double *a,
                       float *b)
@@ -525,15 +479,13 @@ FAST static void give(const Grid *grid, double factor, const float *x,
 
 /* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d; sums
  * |b|_(M^-1)^2 and the largest |p_x| + |p_y| of each band. */
-FAST static void advance(const void *job, int first, int end)
+FAST static void advance(const VCycle *of, float alpha, float beta)
 {
-    const Update *update = job;
-    const VCycle cycle = *update->cycle;
+    const VCycle cycle = *of;
     const Grid grid = *cycle.grid;
     const Level level = cycle.level[0];
     const int plane = grid.rows.plane;
-    const float alpha = update->alpha, beta = update->beta;
-    for (int band = first; band < end; band++) {
+    for (int band = 0; band < grid.bands; band++) {
         double sum[LANES] = {0};
         float most[LANES] = {0}, largest = 0, square[LANES];
         EACH_RUN_OF (grid, band) {
@@ -571,12 +523,12 @@ FAST static void advance(const void *job, int first, int end)
 }
 
 /* Does it with the next x.  Returns |b|_(M^-1)^2 and the largest of p. */
-static double run_update(VCycle *cycle, Update update, double *largest)
+static double update(const VCycle *cycle, double alpha, double beta,
+                     double *largest)
 {
     const Grid *grid = cycle->grid;
     double sum = 0;
-    crew_run(grid->crew, advance, &update, grid->bands,
-             NODE_COST * grid->rows.nodes * grid->rows.nodes);
+    advance(cycle, (float)alpha, (float)beta);
     *largest = 0;
     for (int band = 0; band < grid->bands; band++) {
         sum += grid->sums[band * MAX_SUMS];
@@ -614,8 +566,7 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
             break;
         last = xb;
         alpha = xb / bend;
-        Update update = {cycle, (float)alpha, (float)beta};
-        rest = run_update(cycle, update, &largest) / (unit * unit);
+        rest = update(cycle, alpha, beta, &largest) / (unit * unit);
         largest /= unit;
         if (rest <= end.share * end.share * square ||
             (end.length > 0 && v_decides(grid, largest, rest, end.length)))

@@ -10,7 +10,7 @@
  * A cycle smooths by Gauss-Seidel, node by node in four colours (row and column
  * even or odd), before and, in the opposite order, after what the coarser level
  * adds; so it is symmetric and positive definite.  Nodes of a colour do not
- * see each other, so the bits do not depend on threads or lanes.
+ * see each other, so the bits do not depend on lanes.
  */
 #ifndef ELASTO_V_CYCLE_H
 #define ELASTO_V_CYCLE_H

@@ -1,11 +1,9 @@
-/* Functions whose last digit is promised, and two threads on one loop. */
+/* Functions whose last digit is promised. */
 #include "test.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdatomic.h>
 
-#include "base/crew.h"
 #include "base/mathematics.h"
 
 /* Units in the last place between a double and the same in extended precision.
@@ -47,38 +45,6 @@ TEST(functions_are_right_to_the_last_place)
         if (i % 5 == 0)
             check_digits(x, x * random_uniform(&random, -2, 2));
     }
-}
-
-enum { ITEMS = 97 };
-
-typedef struct Job {
-    _Atomic int done[ITEMS];
-} Job;
-
-static void work_on(const void *job, int first, int end)
-{
-    Job *mine = (Job *)(uintptr_t)job;
-    for (int i = first; i < end; i++)
-        atomic_fetch_add(&mine->done[i], 1);
-}
-
-TEST(a_crew_does_every_item_once)
-{
-    static Job job;
-    for (int threads = 1; threads <= 2; threads++) {
-        Crew *crew = crew_create(threads);
-        CHECK((crew != NULL) == (threads == 2));
-        for (int loop = 0; loop < 20000; loop++) {
-            int count = 1 + loop % ITEMS;
-            crew_run(crew, work_on, &job, count, loop % 2 ? 1e9 : 1);
-            for (int i = 0; i < ITEMS; i++)
-                CHECK(atomic_exchange(&job.done[i], 0) == (i < count));
-        }
-        crew_free(crew);
-    }
-    for (int i = 0; i < 50; i++)
-        crew_free(crew_create(2)); /* it can end at once */
-    crew_free(NULL);
 }
 
 TESTS(NULL, NULL)

@@ -1,6 +1,6 @@
 /* Multigrid: loops against the terms spring by spring, the certified end
  * against a solution in extended precision, the work that it takes, and the
- * same bits for every number of threads, whatever was before.
+ * same bits whatever was before.
  */
 #include "test.h"
 #include "stress.h"
@@ -101,7 +101,7 @@ typedef struct Parts {
     double *vector[VECTORS]; /* [2 planes] */
 } Parts;
 
-static void parts_create(int threads, Parts *parts)
+static void parts_create(Parts *parts)
 {
     double *m = newton->x_trial, *u_tilde = newton->u_trial;
     *parts = (Parts){0};
@@ -114,7 +114,6 @@ static void parts_create(int threads, Parts *parts)
                                             2 * (size_t)parts->grid.rows.plane *
                                                 sizeof(double));
     }
-    parts->grid.crew = crew_create(threads);
     place();
     incremental_potential_inertia(at, m, u_tilde);
     grid_read_system(&parts->grid, at, m);
@@ -123,7 +122,6 @@ static void parts_create(int threads, Parts *parts)
 
 static void parts_free(Parts *parts)
 {
-    crew_free(parts->grid.crew);
     free(parts->memory.base);
 }
 
@@ -213,7 +211,7 @@ TEST(loops_agree_with_the_terms)
             disturb(&random, i % 2 == 1);
         if (i % 3 == 0)
             pull(i);
-        parts_create(1 + i % 2, &parts);
+        parts_create(&parts);
         check_loops(&random, &parts);
         parts_free(&parts);
     }
@@ -297,28 +295,26 @@ TEST(what_is_not_decided_is_not_converged)
     }
 }
 
-/* Steps with one thread and with two, and, from each of these starts, with a
- * new object that knows of no step before: the same bits.  In the midst springs
- * become stiffer. */
+/* Steps, and from each of these starts one with a new object that knows of no
+ * step before: the same bits.  In the midst springs become stiffer. */
 TEST(bits_depend_on_the_step_alone)
 {
     static double first[LARGEST];
     for (int pins = 0; pins < 2; pins++) {
-        Multigrid *multigrid[3];
+        Multigrid *multigrid[2];
         Random random = {5};
         begin_problem(64, 1.4);
         if (pins)
             disturb(&random, true);
-        for (int i = 0; i < 2; i++)
-            CHECK_STATUS(multigrid_create(64, 1 + i, &multigrid[i]), STATUS_OK);
+        CHECK_STATUS(multigrid_create(64, &multigrid[0]), STATUS_OK);
         for (int n = 0; n < (pins ? 2 : 9); n++) {
             bool stiffer = n > 0 && n % 2 == 0;
             for (int s = 0; stiffer && s < body->springs; s++)
                 body->k[s] *= s % 2 ? 1.1 : 1.2;
             if (stiffer)
                 system_changed(body, false);
-            CHECK_STATUS(multigrid_create(64, 2, &multigrid[2]), STATUS_OK);
-            for (int i = 0; i < 3; i++) {
+            CHECK_STATUS(multigrid_create(64, &multigrid[1]), STATUS_OK);
+            for (int i = 0; i < 2; i++) {
                 newton->multigrid = multigrid[i];
                 CHECK_STATUS(newton_minimise(newton, x_n, NULL, H * H),
                              STATUS_OK);
@@ -326,15 +322,14 @@ TEST(bits_depend_on_the_step_alone)
                     CHECK_SAME_BITS(at->u, first, size);
                 memcpy(first, at->u, (size_t)size * sizeof *first);
             }
-            multigrid_free(multigrid[2]);
+            multigrid_free(multigrid[1]);
             for (int i = 0; i < size; i++) {
                 x_n[i] += at->u[i];
                 newton->u_tilde[i] = at->u[i];
             }
         }
         CHECK(newton->counters.local > 0);
-        for (int i = 0; i < 2; i++)
-            multigrid_free(multigrid[i]);
+        multigrid_free(multigrid[0]);
         newton->multigrid = NULL;
     }
 }
