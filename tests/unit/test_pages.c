@@ -226,7 +226,7 @@ TEST(claim_backward)
 
 TEST(claim_symplectic)
 {
-    says("symplectic", "1 2 2 2 1000 0.5");
+    says("symplectic", "0.5 1 2 2 2 1000 0.5");
     CHECK_NEAR(known("symplectic", "h limit"), 2, 0); /* as below */
     Simulation *simulation = open_page("symplectic", "");
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
@@ -462,7 +462,7 @@ TEST(claim_explodes)
  * most 100 M, as it is here: h^2 k is 10 and M is 40. */
 TEST(claim_minimise)
 {
-    says("minimise", "0");
+    says("minimise", "0 0");
     Simulation *simulation = open_page("minimise", "--tolerance 1e-9");
     const TimeIntegrator *run = &simulation->run[0];
     double h = run->h, x_tilde[50], x_n[50];
@@ -472,7 +472,9 @@ TEST(claim_minimise)
             x_n[i] = run->x[i];
             x_tilde[i] = run->x[i] + h * run->v[i];
         }
+        double before = system_potential(&simulation->system, x_tilde);
         make_steps(simulation, 1);
+        CHECK(system_potential(&simulation->system, run->x) < before);
         system_acceleration(&simulation->system, run->x, g);
         for (int i = 0; i < 50; i++) {
             g[i] = 40 * (run->x[i] - x_tilde[i] - h * h * g[i]);
@@ -572,11 +574,12 @@ TEST(claim_algorithm2)
 
 TEST(claim_tamed)
 {
-    says("tamed", "2 2 2 1 4 1 2 1 2 1 4 1 2 1 1 1 1");
+    says("tamed", "2 1.41 1 1 2 1 4 1 2 1 2 1 4 1 2 1 1 1 1 1.41");
     static const double alpha[] = {0.25, 0.5, 1, 1, 1, 1};
     CHECK_STATUS(end_of("tamed", "", 100), STATUS_OK);
     CHECK(updates.count == 6);
     check_falls();
+    CHECK_NEAR(updates.record[0].to[0], -1.41, 0.005);
     for (int i = 0; i < 6; i++)
         CHECK_NEAR(updates.record[i].alpha, alpha[i], 0);
 }
