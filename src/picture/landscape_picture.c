@@ -231,6 +231,10 @@ static void landscape_facts(const Simulation *simulation, Facts *facts)
                parts == PART_BOTH      ? "E"
                : parts == PART_INERTIA ? "inertia"
                                        : "elasticity");
+    fact_when(facts, "both", parts == PART_BOTH);
+    fact_when(facts, "elastic", parts != PART_INERTIA);
+    fact_when(facts, "directed",
+              last >= 0 || (parts == PART_BOTH && descent->slope != 0));
     fact_when(facts, "went uphill",
               descent->slope > 0 ||
                   (last >= 0 && descent->record[last].slope > 0));
@@ -290,7 +294,7 @@ static const Card card_landscape_numbers = {
              "#xt {xt} = {x tilde:4} m\n"
              "inertia \u00bd m |{x} \u2212 {xt}|\u00b2 = {bowl:4} J s\u00b2\n"
              "elasticity h\u00b2 P = {elastic part:4} J s\u00b2\n"
-             "{part}: {E:4} J s\u00b2",
+             "{both}E: {E:4} J s\u00b2",
 };
 
 const Picture landscape_picture = {
@@ -302,8 +306,8 @@ const Picture landscape_picture = {
     .draw = landscape_draw,
     .facts = landscape_facts,
     .legend = "#faint contours of {part}\n"
-              "#shaded shade: not convex\n"
-              "#p direction p, downhill\n"
+              "#shaded {elastic}shade: not convex\n"
+              "#p {told}{directed}direction p, downhill\n"
               "#warning {told}{went uphill}uphill",
 };
 

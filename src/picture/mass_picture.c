@@ -155,7 +155,8 @@ static void add_runs(const Simulation *simulation, Facts *facts)
         bool grows = strcmp(run->method->name, "forward-euler") == 0 &&
                      simulation->scene->picture == PICTURE_CIRCLE;
         facts->run = 0;
-        fact(facts, "doubling", grows ? 2 * log(2) / log1p(turn * turn) : NAN);
+        fact(facts, "doubling",
+             grows ? ceil(2 * log(2) / log1p(turn * turn)) : NAN);
         facts->run = r + 1;
         if (simulation->scene->picture == PICTURE_CIRCLE)
             add_matrix(run->method->name, turn, facts);

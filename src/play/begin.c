@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/show.h"
+#include "picture/plot.h"
 
 #include "play/playing.h"
 #include "scenes/pages.h"
@@ -135,8 +135,9 @@ Status player_check_answer(Player *player)
     player->answers++;
     player->right += right;
     Status status = player_obey_lines(player, page->tell);
-    player_note(player, "%s: %s, it is %.4g (%d of %d right so far)", text,
-                right ? "right" : "no", truth, player->right, player->answers);
+    player_note(player, "%s: %s, it is %s (%d of %d right so far)", text,
+                right ? "right" : "no", number_with(truth, 5).text,
+                player->right, player->answers);
     player_deselect(player);
     return status;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "picture/picture.h"
+#include "picture/plot.h"
 #include "play/playing.h"
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
@@ -182,7 +183,7 @@ Status player_obey(Player *player, const Command *asked)
             told->answer ? show_number(&player->show, told->answer) : 0;
         Status shown = player_obey_lines(player, told->tell);
         if (told->answer)
-            player_note(player, "it is %.4g", truth);
+            player_note(player, "it is %s", number_with(truth, 5).text);
         bool guessed = player_simulation(player)->prediction.made;
         if (told->answer || told->waits || told->tell ||
             (told->predict && !guessed))

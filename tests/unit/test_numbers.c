@@ -549,7 +549,7 @@ static void tell_masses(const Simulation *simulation)
             is("h limit", 2); /* cos(turn) = 1 - h^2/2 is above -1 */
         }
         Real turn = 8 * atanl(1) * h;
-        is("doubling", logl(4) / logl(1 + turn * turn));
+        is("doubling", ceill(logl(4) / logl(1 + turn * turn)));
         run_now = r + 1;
         tell_matrix(turn, backward, by[0] == v[0]);
         run_now = 0;

@@ -252,9 +252,9 @@ TEST(claim_symplectic)
 TEST(claim_stability)
 {
     says("stability", "2 0.02 2 0.318 0.02 1.00786 4 0.31 7 0.33 10");
-    double often =
-        pow(hypot(1, 0.02 * 2 * acos(-1)), known("stability", "doubling"));
-    CHECK_NEAR(often, 2, 1e-9);
+    double each = hypot(1, 0.02 * 2 * acos(-1));
+    double often = known("stability", "doubling");
+    CHECK(pow(each, often) >= 2 && pow(each, often - 1) < 2);
     Simulation *simulation = open_page("stability", "");
     for (int i = 0; i < 300; i++) {
         double r[2][3];
@@ -462,7 +462,7 @@ TEST(claim_explodes)
  * most 100 M, as it is here: h^2 k is 10 and M is 40. */
 TEST(claim_minimise)
 {
-    says("minimise", "0 0");
+    says("minimise", "0 0 0");
     Simulation *simulation = open_page("minimise", "--tolerance 1e-9");
     const TimeIntegrator *run = &simulation->run[0];
     double h = run->h, x_tilde[50], x_n[50];
@@ -574,7 +574,7 @@ TEST(claim_algorithm2)
 
 TEST(claim_tamed)
 {
-    says("tamed", "2 1.41 1 1 2 1 4 1 2 1 2 1 4 1 2 1 1 1 1 1.41");
+    says("tamed", "2 2 1.41 1 1 2 1 4 1 2 1 2 1 4 1 2 1 1 1 1 1.41");
     static const double alpha[] = {0.25, 0.5, 1, 1, 1, 1};
     CHECK_STATUS(end_of("tamed", "", 100), STATUS_OK);
     CHECK(updates.count == 6);
