@@ -10,7 +10,7 @@ enum { TRAIL = 256, MASS_GUESSES = 6 };
 
 static const double MASS_REACH = 1.9; /* m, seen at least */
 static const double CIRCLE_REACH = 1.75;
-static const double CIRCLE_MOST = 20; /* and at most */
+static const double CIRCLE_MOST = 4; /* and at most */
 static const double MASS_TURN = 6.283185307179586;
 static const double origin[2] = {0, 0};
 
@@ -144,6 +144,8 @@ static void add_matrix(const char *method, double t, Facts *facts)
 /* What each run knows of itself; colour and name are the method's. */
 static void add_runs(const Simulation *simulation, Facts *facts)
 {
+    double turn = simulation->run[0].h * MASS_TURN; /* on the circle */
+    bool circle = simulation->scene->picture == PICTURE_CIRCLE;
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
         facts->run = r + 1;
@@ -151,17 +153,12 @@ static void add_runs(const Simulation *simulation, Facts *facts)
         fact_when(facts, "many", simulation->runs > 1);
         fact_words(facts, "name", run->method->label);
         fact(facts, "radius", math_hypot(run->x[0], run->x[1]));
-        double turn = simulation->run[0].h * MASS_TURN; /* on the circle */
-        bool grows = strcmp(run->method->name, "forward-euler") == 0 &&
-                     simulation->scene->picture == PICTURE_CIRCLE;
-        facts->run = 0;
-        fact(facts, "doubling",
-             grows ? ceil(2 * log(2) / log1p(turn * turn)) : NAN);
-        facts->run = r + 1;
-        if (simulation->scene->picture == PICTURE_CIRCLE)
+        if (circle)
             add_matrix(run->method->name, turn, facts);
     }
-    facts->run = 0;
+    facts->run = 0; /* steps of forward Euler until the radius is doubled */
+    fact(facts, "doubling",
+         circle ? ceil(2 * log(2) / log1p(turn * turn)) : NAN);
 }
 
 static const Card card_matrix = {
@@ -387,12 +384,9 @@ static void mass_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "x'", step.new_x);
     fact_point(facts, "v'", step.new_v);
     fact_point(facts, "carrying", step.by_old_v ? step.v : step.new_v);
-    fact(facts, "h limit",
-         strcmp(simulation->run[0].method->name, "symplectic-euler") == 0
-             ? 2
-             : NAN);
     double exact[2], h = simulation->run[0].h;
     if (!step.by_old_v && !backward) {
+        fact(facts, "h limit", 2);
         fact(facts, "kept",
              2 * mass_energy(step.x, step.v) -
                  h * (step.x[0] * step.v[0] + step.x[1] * step.v[1]));

@@ -269,7 +269,7 @@ static const Card card_tangent_numbers = {
              "#x x^{{next number}} = {next:8},  {alpha} = {shorter:/}\n"
              "#x {no length}x^{{number}} + {p} = {next:8}\n"
              "E: {E:8} \u2192 {next E:8}\n"
-             "#alpha correct digits: {digits}, in which both agree\n"
+             "#alpha x^{{number}} and the next one agree in digits: {digits}\n"
              "#warning {highest}E\u2033 < 0: the parabola has a highest point",
 };
 

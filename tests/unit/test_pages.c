@@ -226,7 +226,7 @@ TEST(claim_backward)
 
 TEST(claim_symplectic)
 {
-    says("symplectic", "0.5 1 2 2 2 1000 0.5");
+    says("symplectic", "0.5 1 2 1 2 2 2 1000 0.5");
     CHECK_NEAR(known("symplectic", "h limit"), 2, 0); /* as below */
     Simulation *simulation = open_page("symplectic", "");
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
