@@ -472,9 +472,16 @@ TEST(claim_minimise)
             x_n[i] = run->x[i];
             x_tilde[i] = run->x[i] + h * run->v[i];
         }
-        double before = system_potential(&simulation->system, x_tilde);
+        const System *system = &simulation->system;
+        double before = system_potential(system, x_tilde), bound = 0, now = 0;
+        for (int i = 0; i < 50; i++)
+            bound += 20 * (x_tilde[i] - x_n[i]) * (x_tilde[i] - x_n[i]);
+        bound = bound / (h * h) + system_potential(system, x_n);
         make_steps(simulation, 1);
-        CHECK(system_potential(&simulation->system, run->x) < before);
+        CHECK(system_potential(system, run->x) < before);
+        for (int i = 0; i < 50; i++)
+            now += 20 * (run->x[i] - x_tilde[i]) * (run->x[i] - x_tilde[i]);
+        CHECK(now / (h * h) + system_potential(system, run->x) < bound);
         system_acceleration(&simulation->system, run->x, g);
         for (int i = 0; i < 50; i++) {
             g[i] = 40 * (run->x[i] - x_tilde[i] - h * h * g[i]);
@@ -486,8 +493,12 @@ TEST(claim_minimise)
 
 TEST(claim_parts)
 {
-    says("parts", "");
+    says("parts", "100 1.5");
     Simulation *simulation = open_page("parts", "");
+    for (int s = 0; s < 2; s++) {
+        CHECK_NEAR(simulation->system.k[s], 100, 0);
+        CHECK_NEAR(simulation->system.l2[s], 1.5 * 1.5, 0);
+    }
     const double *target = simulation->exhibit.target, rest = sqrt(1.25);
     CHECK_STATUS(run_steps(simulation, 100), STATUS_OK);
     const double *x = simulation->run[0].x;
