@@ -216,12 +216,18 @@ TEST(claim_forward)
 
 TEST(claim_backward)
 {
-    says("backward", "0.5 1 0 0 1 0.5 0.8 0.4 1");
+    says("backward", "0.5 1 1 0 0 1 0.5 0.8 0.4 1");
     CHECK_NEAR(known("backward", "factor"), 0.8, 1e-15);
     check_euler("backward", 0.8, 0.4, 1 / 1.25);
     const double *v = make_steps(open_page("backward", ""), 1)->run[0].v;
     for (int i = 0; i < 2; i++) /* (1 + h^2) v' = v - h x */
         CHECK_NEAR(1.25 * v[i], i - 0.5 * (1 - i), 1e-15);
+    for (int i = 0; i < 2; i++) { /* x' = x + h v - h^2 x', guessed */
+        double h = i ? 1.01 : 0.99, guess = 1;
+        for (int k = 0; k < 1000; k++)
+            guess = 1 - h * h * guess;
+        CHECK((fabs(guess * (1 + h * h) - 1) < 1e-6) == !i);
+    }
 }
 
 TEST(claim_symplectic)
