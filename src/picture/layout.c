@@ -12,6 +12,7 @@ static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
 static const double LETTER = 0.56;      /* a letter is wide, on average */
 static const double SETTING_GAP = 0.9;  /* between settings */
 static const double CHIP_PADDING = 1.2; /* a chip has beside its letters */
+static const double BOLD = 1.25;        /* letters that a bold one is wide */
 static const double BARS = 2.4;         /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
 static const double NAME = 1.8, HEADING = 2.2; /* of the sheet */
@@ -111,9 +112,9 @@ static void place_chips(const Show *show, Layout *layout)
     int width[LAYOUT_CHIPS];
     Box room = box_inset(layout->last, pixels(layout, 0.35)), *box;
     for (int i = 0; i <= last; i++) {
-        int letters = count_letters(show->chip[i].key) +
-                      count_letters(show->chip[i].label) +
-                      (show->lecture ? 2 : 1);
+        double letters = BOLD * count_letters(show->chip[i].key) +
+                         count_letters(show->chip[i].label) +
+                         (show->lecture ? 2 : 1);
         width[i] = pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
     }
     room.x = pixels(layout, GAP);
