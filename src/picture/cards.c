@@ -166,7 +166,7 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
         paper_fit(paper, FACE_REGULAR, size,
                   i < LAYOUT_ROWS && show->grey[i] ? COLOUR_GREY : COLOUR_TEXT,
                   (Box){(int)(x + key), (int)y, (int)(wide - key - 0.5 * em),
-                        (int)(1.3 * size * em)},
+                        (int)fmax(grid.line, 1.3 * size * em)},
                   ALIGN_LEFT, row->text);
     }
 }

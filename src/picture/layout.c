@@ -12,7 +12,7 @@ static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
 static const double LETTER = 0.56;      /* a letter is wide, on average */
 static const double SETTING_GAP = 0.9;  /* between settings */
 static const double CHIP_PADDING = 1.2; /* a chip has beside its letters */
-static const double BOLD = 1.25;        /* letters that a bold one is wide */
+static const double BOLD = 1.12;        /* letters that a bold one is wide */
 static const double BARS = 2.4;         /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
 static const double NAME = 1.8, HEADING = 2.2; /* of the sheet */
@@ -22,8 +22,10 @@ static const double STAR_REST = 0.4; /* of the stage, below a star */
 /* Cards fold where the room is less than this part of what they need. */
 static const double FOLDS = 1.15;
 
-/* The column's part of the width, and where code stands in it. */
-static const double COLUMN_PART = 0.38, CODE_PART = 0.75;
+/* The column's part of the width, and where code or more rows of a list than
+ * one column holds stand in it. */
+static const double COLUMN_PART = 0.38, WIDE_PART = 0.75;
+enum { MOST_ROWS = 30 };
 
 /* At 800 pixels of height an em has 14, and never less than 9. */
 static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
@@ -372,7 +374,9 @@ Layout show_layout(const Show *show, int width, int height)
     unsigned hidden = show->hidden | show->print;
     if (!show->bare && wide >= 53 && (high >= 34 || show->print) && !low &&
         (page || hidden != (1u << picture_cards(picture)) - 1)) {
-        double part = show->page.kind == PAGE_CODE ? CODE_PART : COLUMN_PART;
+        bool much = show->page.kind == PAGE_CODE ||
+                    (page && show->help_rows > MOST_ROWS);
+        double part = much ? WIDE_PART : COLUMN_PART;
         int column = pixels(&layout, fmax(part * wide, COLUMN_LEAST));
         layout.column = layout.stage;
         layout.column.width = column;
