@@ -91,7 +91,7 @@ static void put_cell(char *cell, size_t size, double value, int digits,
 static void draw_table(const Plot *card)
 {
     static const char *const heads[] = {"",          "4 ms",   "2 ms", "1 ms",
-                                        "stable to", "energy", "time"};
+                                        "stable at", "energy", "time"};
     enum { COLUMNS = 7, CELL = 64 };
     static const double columns[2][COLUMNS] = {
         {0, 0.56, 0, 0, 0.78, 0, 1}, {0, 0.37, 0.49, 0.61, 0.73, 0.86, 1}};
@@ -117,7 +117,7 @@ static void draw_table(const Plot *card)
             put_cell(cell[6], CELL, 1e3 * point->seconds, 2, " ms");
         }
         if (shown->implicit)
-            snprintf(cell[4], CELL, "any h");
+            snprintf(cell[4], CELL, "linear: any");
         else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
             snprintf(cell[4], CELL, "none");
         put_cell(cell[4], CELL,

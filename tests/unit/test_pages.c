@@ -976,7 +976,7 @@ TEST(claim_order)
 
 TEST(claim_race)
 {
-    says("race", "1 8 4");
+    says("race", "1 8 4 1 100 100");
     const Race *race = &whole_race("race")->exhibit.race;
     enum { VERLET = 2 }; /* h = 8 ms comes first, then 4 ms */
     CHECK(race->point[VERLET].method == integrator_method("verlet"));
@@ -984,6 +984,13 @@ TEST(claim_race)
     CHECK(race->point[VERLET + RACE_METHODS].stable);
     CHECK_NEAR(race_stable(race, VERLET), 0.004, 1e-15);
     CHECK(isnan(race_stable(race, 0))); /* forward Euler */
+    Simulation *longer = simulate("square --stretch 1.1 --tolerance 1e-8 "
+                                  "--timestep 1 --integrator midpoint");
+    double start = simulation_energies(longer, 0).total, most = 0;
+    for (int i = 0; i < 100; i++)
+        most = fmax(
+            most, simulation_energies(make_steps(longer, 1), 0).total / start);
+    CHECK(most > 100);
 }
 
 TEST(claim_trust)
