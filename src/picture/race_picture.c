@@ -17,10 +17,10 @@ static double place_of(const Simulation *simulation, const RacePoint *point)
 static void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.parts;
-    bounds[0] = over_h ? -4.1 : -6.3;
-    bounds[1] = -9.3;
+    bounds[0] = over_h ? -4.5 : -6.3;
+    bounds[1] = -10;
     bounds[2] = over_h ? -1.9 : 0.3;
-    bounds[3] = 1;
+    bounds[3] = 3; /* below the switch */
 }
 
 /* The points of a method joined, hollow where it explodes later; words keep

@@ -124,4 +124,8 @@ void player_judge(Player *player)
         tell_drift(player);
     if (!player_stands(player))
         player->mode = mode;
+    const LecturePage *page = player_settings(player)->page;
+    if (page && page->law && page == player->told &&
+        past->step == page->picture) /* what the page is about */
+        player->mode = MODE_PAUSE;
 }
