@@ -4,7 +4,7 @@
 #include "scenes/simulation.h"
 
 /* Paces of the power iteration, and numbers that it has room for. */
-enum { PACES = 300, ROOM = 2 * SIMULATION_MODE_NODES };
+enum { PACES = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
 
 /* M^-1 H q, out; H of the first run's system where it is, 1/s^2 */
 static void pull(const Simulation *simulation, const double *q, double *out)

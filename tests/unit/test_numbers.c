@@ -1100,10 +1100,15 @@ static void check_texts(const char *name)
     }
 }
 
-/* Counts are not looked at: page, node, line of a listing. */
+/* Counts are not looked at: page, node, line of a listing; nor runs that have
+ * exploded beyond all numbers. */
 static void check_frame(const char *name, PickKind kind, int index)
 {
     Show *show = &player.show;
+    const Simulation *simulation = &machine(0)->simulation;
+    if (simulation->runs > 0 &&
+        isinf(simulation_energies(simulation, 0).kinetic))
+        return;
     player_fill(&player);
     show->hover = (Pick){kind, 0, index, {0, 0}};
     tell_all(show);
