@@ -895,8 +895,14 @@ static Simulation *bodies_after(const char *name, const char *more, int steps)
 
 TEST(claim_bodies)
 {
-    says("bodies", "0 200");
-    bodies_after("bodies", "", 200);
+    says("bodies", "4 0 200");
+    const Simulation *stack = bodies_after("bodies", "", 400);
+    double x[3][2];
+    for (int body = 0; body < 3; body++) {
+        middle_of(stack, body, x[body]);
+        CHECK_NEAR(x[body][1], x[0][1], 0.01);
+    }
+    CHECK_NEAR(stack->options.timestep * 400, 4, 1e-12);
 }
 
 TEST(claim_rub)
@@ -946,7 +952,7 @@ static Simulation *whole_race(const char *name)
 
 TEST(claim_order)
 {
-    says("order", "0.064 4 2 4 2 4 2 16 4 2 4 16 4");
+    says("order", "0.064 4 2 4 2 4 2 16 4 10 2 4 16 4");
     static const double factor[RACE_METHODS] = {2, 2, 4, 2, 4, 4, 4, 4, 16};
     const Race *race = &whole_race("order")->exhibit.race;
     for (int i = 0; i < RACE_METHODS; i++) {
