@@ -23,9 +23,8 @@ enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800, WINDOW_LEAST = 200 };
     F(GetWindowPosition) F(SetWindowPosition) F(GetWindowSize)                 \
     F(SetWindowSize) F(GetWindowFlags) F(GetWindowDisplayIndex)                \
     F(GetWindowSurface) F(UpdateWindowSurface) F(UpperBlit) F(FreeSurface)     \
-    F(CreateRGBSurfaceWithFormatFrom) F(StartTextInput) F(GetKeyboardState)    \
-    F(GetKeyName) F(GetModState) F(GetMouseState) F(PeepEvents) F(PollEvent)   \
-    F(PumpEvents) F(HasEvents)
+    F(CreateRGBSurfaceWithFormatFrom) F(StartTextInput) F(GetKeyName)          \
+    F(PeepEvents) F(PollEvent) F(PumpEvents) F(HasEvents)
 /* clang-format on */
 #define MEMBER(name) __typeof__(SDL_##name) *name;
 static struct {
@@ -34,6 +33,11 @@ static struct {
 
 static SDL_Window *window;
 static bool tab; /* Tab is down and has asked for nothing yet */
+
+/* As they were at the event that is read: it may have waited, and SDL only
+ * tells what is held now. */
+static bool tab_held, shift;
+static int mouse[2];
 
 /* One line out of SDL's message. */
 void window_failure(char *reason, size_t size)
@@ -232,7 +236,6 @@ static void name_key(const SDL_KeyboardEvent *event, Input *input)
     SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
     bool letter = key >= SDLK_a && key <= SDLK_z;
     bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
-    bool held = sdl.GetKeyboardState(NULL)[SDL_SCANCODE_TAB] != 0;
     if ((mod & (KMOD_ALT | KMOD_GUI)) || (typed && !(mod & KMOD_CTRL)) ||
         (place >= SDL_SCANCODE_LCTRL && place <= SDL_SCANCODE_RGUI))
         return;
@@ -243,7 +246,15 @@ static void name_key(const SDL_KeyboardEvent *event, Input *input)
     input->repeats = event->repeat != 0;
     snprintf(input->key, sizeof input->key, "%s%s%s%s",
              mod & KMOD_CTRL ? "Ctrl+" : "", mod & KMOD_SHIFT ? "Shift+" : "",
-             held ? "Tab+" : "", sdl.GetKeyName(key));
+             tab_held ? "Tab+" : "", sdl.GetKeyName(key));
+}
+
+/* What is held; when the window loses the keys SDL lets go of all of them. */
+static void hold_key(const SDL_KeyboardEvent *event)
+{
+    shift = (event->keysym.mod & KMOD_SHIFT) != 0;
+    if (event->keysym.sym == SDLK_TAB)
+        tab_held = event->state == SDL_PRESSED;
 }
 
 /* Tab alone. */
@@ -277,6 +288,8 @@ static void place_input(InputKind kind, int x, int y, Input *input)
     input->kind = kind;
     input->x = x * scale[0];
     input->y = y * scale[1];
+    mouse[0] = x;
+    mouse[1] = y;
 }
 
 /* A button that went down or up. */
@@ -284,7 +297,6 @@ static void button_input(const SDL_MouseButtonEvent *event, Input *input)
 {
     place_input(event->state == SDL_PRESSED ? INPUT_PRESS : INPUT_RELEASE,
                 event->x, event->y, input);
-    bool shift = sdl.GetModState() & KMOD_SHIFT;
     input->button = event->button == SDL_BUTTON_LEFT && shift ? BUTTON_BOX
                     : event->button == SDL_BUTTON_LEFT        ? BUTTON_LEFT
                     : event->button == SDL_BUTTON_RIGHT       ? BUTTON_RIGHT
@@ -295,9 +307,7 @@ static void button_input(const SDL_MouseButtonEvent *event, Input *input)
 /* Where the mouse is when its wheel turns. */
 static void wheel_input(const SDL_MouseWheelEvent *event, Input *input)
 {
-    int x, y;
-    sdl.GetMouseState(&x, &y);
-    place_input(INPUT_WHEEL, x, y, input);
+    place_input(INPUT_WHEEL, mouse[0], mouse[1], input);
     input->amount = event->preciseY;
     if (event->direction == SDL_MOUSEWHEEL_FLIPPED)
         input->amount = -input->amount;
@@ -330,9 +340,11 @@ static Input read_event(const SDL_Event *event)
         input.kind = INPUT_CLOSE;
         break;
     case SDL_KEYDOWN:
+        hold_key(&event->key);
         name_key(&event->key, &input);
         break;
     case SDL_KEYUP:
+        hold_key(&event->key);
         name_tab(&event->key, &input);
         break;
     case SDL_TEXTINPUT:
