@@ -1,7 +1,8 @@
 /* picture.h - a kind of picture is a row of functions, and so is a card.
  *
  * A scene names the row it wants; to add a kind of picture is one source file
- * and one row in picture.c.  Nothing else in the program asks what kind it is.
+ * and one row in cards.txt, of which the tables are made.  Nothing else in the
+ * program asks what kind it is.
  */
 #ifndef ELASTO_PICTURE_H
 #define ELASTO_PICTURE_H

@@ -197,7 +197,7 @@ static void draw_curves(const Plot *plot, int curves, const Curve *curve)
                    curve[c].total ? 1.8 : 1.4, curve[c].colour);
 }
 
-static void draw_energies(const Plot *card)
+void energies_draw(const Plot *card)
 {
     const Show *show = card->show;
     Curve curve[HISTORY_SERIES];
@@ -216,19 +216,9 @@ static void draw_energies(const Plot *card)
     draw_curves(&plot, curves, curve);
 }
 
-/* Of bodies apart only one is told of. */
-const Card card_energies = {
-    .name = "energies",
-    .title = "{blocks}Energies, first block\nEnergies over time",
-    .least = 8,
-    .weight = 1,
-    .half = true,
-    .draw = draw_energies,
-};
-
 /* One curve a run, on an axis of powers of ten: what is multiplied by the same
  * number in every step is a straight line. */
-static void draw_radius(const Plot *card)
+void radius_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
     Curve curve[HISTORY_SERIES];
@@ -244,11 +234,3 @@ static void draw_radius(const Plot *card)
         (Axis){pow(10, -most), pow(10, most), true, false, NULL});
     draw_curves(&plot, find_curves(card->show, curve), curve);
 }
-
-const Card card_radius = {
-    .name = "radius",
-    .title = "Radius over time, m",
-    .least = 10,
-    .weight = 1,
-    .draw = draw_radius,
-};

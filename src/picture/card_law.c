@@ -193,7 +193,7 @@ void law_facts(const Simulation *simulation, Facts *facts)
 
 /* The curve for the element of the first run; of springs all others are there,
  * small; a dot for each run, beyond the axis at its end. */
-static void draw_law(const Plot *card)
+void law_draw(const Plot *card)
 {
     static const double dot = 6, small_dot = 2; /* units */
     static const char *const names[] = {"upper", "middle", "lower"};
@@ -236,12 +236,3 @@ static void draw_law(const Plot *card)
         }
     }
 }
-
-const Card card_law = {
-    .name = "law",
-    .title = "{law}: {law x:3}\n{law}\nits law",
-    .least = 11,
-    .weight = 2,
-    .lecture = true,
-    .draw = draw_law,
-};

@@ -81,15 +81,9 @@ static Plot draw_words(const Plot *card)
     Paper *paper = card->paper;
     Plot rest = *card;
     Box inside = card->box;
-    static const char words[] =
-        "#x exact\n"
-        "#p quadratic model\n"
-        "#alpha* {taken}{alpha} = {length:/} taken: {+}{change}\n"
-        "#warning* {refused}{alpha} = {length:/} refused: {+}{change}\n"
-        "#warning* {uphill}{p} points uphill";
     int rows = inside.width / paper->em < WORDS_WIDE ? 2 : 1;
     int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
-    TextLine line = text_of(&show_pane(card->show)->facts, words);
+    TextLine line = text_of(&show_pane(card->show)->facts, text_trials);
     int air = paper_pixels(paper, 0.4); /* of what is raised */
     Box before = canvas_clip(&paper->canvas, (Box){inside.x, inside.y - air,
                                                    inside.width, high + air});
@@ -120,7 +114,7 @@ static void draw_curves(const Plot *card, const Trace *trace)
     }
 }
 
-static void draw_line(const Plot *card)
+void line_draw(const Plot *card)
 {
     const Trace *trace = show_pane(card->show)->update;
     if (trace && trace->difference && isfinite(trace->slope) &&
@@ -128,20 +122,5 @@ static void draw_line(const Plot *card)
         draw_curves(card, trace);
         return;
     }
-    cards_hint(card, "{explicit}an explicit method solves nothing\n"
-                     "{no step}N makes a step\n"
-                     "{walking}{passed}no {p} was needed\n"
-                     "{walking}from line 4 on, where {p} is known\n"
-                     "{updated}it was not kept\n"
-                     "no update: the start passes the test");
+    cards_hint(card, text_undrawn);
 }
-
-const Card card_line = {
-    .name = "line",
-    .title = "{one unknown}f({x} + {alpha} {p}) \u2212 f({x})\n"
-             "E({x} + {alpha} {p}) \u2212 E({x}), J s\u00b2",
-    .least = 8,
-    .weight = 1.2,
-    .half_on_page = true,
-    .draw = draw_line,
-};

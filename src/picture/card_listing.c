@@ -130,7 +130,7 @@ static int find_rows(const Show *show, const Row **shown)
 }
 
 /* Ems, with title and margin. */
-static double listing_needs(const Show *show, double wide)
+double listing_needs(const Show *show, double wide)
 {
     const Row *shown[ROWS];
     (void)wide;
@@ -154,14 +154,14 @@ static void draw_rows(const Plot *card, int count, const Row *const *shown,
     }
 }
 
-static void draw_listing(const Plot *card)
+void listing_draw(const Plot *card)
 {
     const Row *shown[ROWS];
     draw_rows(card, find_rows(card->show, shown), shown, false);
 }
 
 /* Line 5 from inside. */
-static void draw_search(const Plot *card)
+void search_draw(const Plot *card)
 {
     static const Row search_rows[] = {
         {"{line 4}", LINE_SEARCH, 0, NULL, "{alpha} \u2190 1", NULL},
@@ -182,7 +182,7 @@ static void draw_search(const Plot *card)
 
 /* The newest updates, as many as there is room for; of a star this is the upper
  * half, and below are the residuals as points. */
-static void draw_prints(const Plot *card)
+void prints_draw(const Plot *card)
 {
     Paper *paper = card->paper;
     Plot below = *card;
@@ -194,7 +194,7 @@ static void draw_prints(const Plot *card)
         inside.height /= 2;
         below.box.y += inside.height;
         below.box.height -= inside.height;
-        card_residual.draw(&below);
+        residual_draw(&below);
     }
     int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
@@ -216,41 +216,3 @@ static void draw_prints(const Plot *card)
                     "then residual \u2264 %s: the loop ends",
                     number_of(trace->tolerance).text);
 }
-
-const Card card_search = {
-    .name = "search",
-    .title = "Algorithm 2: inside line 5",
-    .least = 9.6,
-    .weight = 0.1,
-    .lecture = true,
-    .draw = draw_search,
-};
-
-const Card card_prints = {
-    .name = "prints",
-    .title = "what the slides' program prints",
-    .least = 9,
-    .weight = 0.1,
-    .lecture = true,
-    .draw = draw_prints,
-};
-
-/* An algorithm with lines struck through goes by another name. */
-const Card card_listing = {
-    .name = "listing",
-    .title = "{forward-euler}Forward Euler\n"
-             "{symplectic-euler}Symplectic Euler\n"
-             "{verlet}Velocity Verlet\n"
-             "{Algorithm 1}Algorithm 1: Newton's method\n"
-             "{one unknown}{whole}Algorithm 1: Newton's method\n"
-             "{one unknown}Algorithm 1; line 4 is Algorithm 2\n"
-             "{inside}Algorithm 3 inside another method\n"
-             "{raw}{whole}Algorithm 3, lines 3 and 5 are off\n"
-             "{raw}Algorithm 3, line 3 is off\n"
-             "{whole}Algorithm 3, line 5 is off\n"
-             "Algorithm 3: projected Newton",
-    .least = 14.6,
-    .needs = listing_needs,
-    .weight = 0.3,
-    .draw = draw_listing,
-};

@@ -103,7 +103,7 @@ double page_letters(Paper *paper, Box inside, const Show *show)
 }
 
 /* The same letters on every page; smaller ones where they do not fit. */
-static void draw_lecture(const Plot *card)
+void page_draw(const Plot *card)
 {
     const Show *show = card->show;
     if (show->lecture)
@@ -128,22 +128,10 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show)
 
 /* As much as its words take, ems: guessed without fonts and from the names of
  * facts, so that a number that grows moves nothing. */
-static double page_needs(const Show *show, double wide)
+double page_needs(const Show *show, double wide)
 {
     Paper guess = {.em = GUESSED_EM};
     Box box = {0, 0, (int)(wide * GUESSED_EM / NARROW), 0};
-    if (!show->lecture)
-        return card_page.least;
     return put_page(&guess, box, LETTERS, show, NULL, false) / GUESSED_EM +
            2.8; /* title and margin */
 }
-
-const Card card_page = {
-    .name = "page",
-    .title = "{page}\nthe lecture: Page Down",
-    .least = 12,
-    .needs = page_needs,
-    .weight = 0.05,
-    .lecture = true,
-    .draw = draw_lecture,
-};

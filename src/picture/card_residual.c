@@ -58,7 +58,7 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
 
 /* The update whose p is known is the last record of the trace, or it is still
  * to come there. */
-static void draw_residual(const Plot *card)
+void residual_draw(const Plot *card)
 {
     const Trace *trace = show_pane(card->show)->update;
     if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
@@ -90,15 +90,3 @@ static void draw_residual(const Plot *card)
     draw_updates(&plot, trace->record, trace->updates, from[1], 3.5, COLOUR_P);
     draw_updates(&plot, &now, pending, from[1], 3.5, COLOUR_P);
 }
-
-const Card card_residual = {
-    .name = "residual",
-    .title = "{tangent}Residual |g|\n"
-             "{one unknown}Residual |f \u2032|\n"
-             "{by gradient}Residual \u2016\u2207E\u2016\n"
-             "Residual \u2016{p}\u2016_{\u221e}/h, m/s",
-    .least = 8,
-    .weight = 1,
-    .half = true,
-    .draw = draw_residual,
-};

@@ -124,17 +124,12 @@ static void draw_block(const Plot *card, int used)
     below.box.y += used;
     below.box.height -= used;
     if (below.box.height > 7 * card->paper->em)
-        text_in_card(&below, &show_pane(card->show)->facts,
-                     "#project P_{spring} = matrix{"
-                     "{Bxx:3} & {Bxy:3} & {-Bxx:3} & {-Bxy:3}; "
-                     "{Bxy:3} & {Byy:3} & {-Bxy:3} & {-Byy:3}; "
-                     "{-Bxx:3} & {-Bxy:3} & {Bxx:3} & {Bxy:3}; "
-                     "{-Bxy:3} & {-Byy:3} & {Bxy:3} & {Byy:3}} kJ/m^{2}");
+        text_in_card(&below, &show_pane(card->show)->facts, text_newest);
 }
 
 /* Beside each other: with the rows in the nodes' order, as the springs write
  * it, one a step, where a page wants it so; and in the order of elimination. */
-static void draw_spy(const Plot *card)
+void spy_draw(const Plot *card)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
@@ -162,12 +157,3 @@ static void draw_spy(const Plot *card)
         draw_block(card, 2 * line + side);
     }
 }
-
-const Card card_spy = {
-    .name = "spy",
-    .title = "the Hessian, and with its factor",
-    .least = 12,
-    .weight = 2,
-    .closed = true,
-    .draw = draw_spy,
-};

@@ -10,32 +10,34 @@
 /* A card that is wider is a page's star, ems. */
 static const double STAR_WIDE = 40;
 
-/* Springs and nodes of a square, and what a step does to them. */
-extern const Picture square_picture;
+/* What cards.txt has: a row for each kind of picture, those cards that sources
+ * name, texts. */
+extern const Picture pictures[PICTURE_COUNT];
+extern const Card card_law, card_listing;
+extern const char text_sentences[], text_methods[], text_states[],
+    text_trials[], text_undrawn[], text_newest[], text_node[], text_spring[];
 
-/* Integrators on the circle: trails around the exact one, radius over time.
- * One mass and the arrows of its next step. */
-extern const Picture circle_picture, mass_picture;
-
-/* Newton in one unknown: f, its quadratic models and the iterates; g and its
- * tangents above E and its parabolas. */
-extern const Picture curve_picture, tangent_picture;
-
-/* Contours of E over the position of the free node, and Newton's path; the same
- * with the path of the minimiser for every h. */
-extern const Picture landscape_picture, dial_picture;
-
-/* One spring: force, eigenvalues, energy over its length.  Error over run time,
- * a curve for each method.  Where the square converges. */
-extern const Picture spring_picture, race_picture, envelope_picture;
-
-/* What the lecture's page says; the listing of the method that runs; Algorithm
- * 2 inside line 5; what the slides' program prints of each update; E(x + alpha
- * p) - E(x) with the quadratic model and the trials; the residual of each
- * update; the law that a page is about; energies, and radii in the circle, over
- * time; the pattern of the Hessian and of its factor. */
-extern const Card card_page, card_listing, card_search, card_prints, card_line,
-    card_residual, card_law, card_energies, card_radius, card_spy;
+/* The functions that its rows name; picture.h says what they do. */
+typedef void StageBounds(const Plot *stage, double bounds[4]);
+typedef void StageDraw(Plot *stage);
+typedef void StageFacts(const Simulation *simulation, Facts *facts);
+typedef void StagePick(const Plot *stage, double x, double y, Pick *pick);
+typedef int StageSample(const Simulation *simulation, Energy *row);
+typedef void CardDraw(const Plot *card);
+typedef double CardNeeds(const Show *show, double wide);
+extern StageBounds square_bounds, circle_bounds, mass_bounds, tangent_bounds,
+    spring_bounds, race_bounds;
+extern StageDraw square_draw, circle_draw, curve_draw, landscape_draw,
+    mass_draw, tangent_draw, dial_draw, spring_draw, race_draw, envelope_draw,
+    square_hover;
+extern StageFacts square_facts, circle_facts, scalar_facts, landscape_facts,
+    mass_facts, dial_facts, length_facts, race_facts, envelope_facts;
+extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
+extern StageSample square_sample, mass_sample;
+extern CardDraw page_draw, listing_draw, search_draw, prints_draw, line_draw,
+    residual_draw, energies_draw, radius_draw, law_draw, spy_draw, profile_draw,
+    table_draw, cell_draw;
+extern CardNeeds page_needs, listing_needs;
 
 /* The size of its letters in ems: the same for all pages that fit. */
 double page_letters(Paper *paper, Box inside, const Show *show);

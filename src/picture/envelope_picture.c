@@ -45,7 +45,7 @@ static Box envelope_box(const Plot *stage, int column, int row)
 }
 
 /* The cells lie on the axes' lines; the chosen one has a dark border. */
-static void envelope_draw(Plot *stage)
+void envelope_draw(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.map;
     plot_on(stage, &plot_room, (Axis){.log = true, .label = "h in s"},
@@ -60,7 +60,7 @@ static void envelope_draw(Plot *stage)
                 COLOUR_TEXT);
 }
 
-static void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
+void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     double column = round(2 * (pick->point[0] + 9));
     double row = round(pick->point[1] + 6);
@@ -74,7 +74,7 @@ static void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 
 /* ---- cards -------------------------------------------------------------- */
 
-static void envelope_facts(const Simulation *simulation, Facts *facts)
+void envelope_facts(const Simulation *simulation, Facts *facts)
 {
     const EnvelopeMap *map = &simulation->exhibit.map;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
@@ -106,7 +106,7 @@ static void envelope_facts(const Simulation *simulation, Facts *facts)
 }
 
 /* The square of the cell after its steps, fitted into the card. */
-static void envelope_draw_cell(const Plot *card)
+void cell_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
     const double *x = card->simulation->run[0].x;
@@ -125,39 +125,3 @@ static void envelope_draw_cell(const Plot *card)
     for (int i = 0; i < system->nodes; i++)
         plot_disc(&stage, x + 2 * i, 3, COLOUR_X);
 }
-
-static const Card card_envelope_numbers = {
-    .name = "numbers",
-    .title = "this cell",
-    .least = 12.5,
-    .weight = 0.9,
-    .words = "{converged} of {known} cells converge\n"
-             "in {undone} nothing was done\n"
-             "\n"
-             "h = {h} s,  k = {k} J/m\u00b2\n"
-             "\u03b5 lets {passing} m pass: h \u03b5\n"
-             "{steps} steps, {updates} Newton updates\n"
-             "#3 {refused cell}\n"
-             "{undone cell}within the tolerance, not at rest\n"
-             "#0 {converged cell}every step converged",
-};
-static const Card card_cell = {
-    .name = "cell",
-    .title = "its square after three steps",
-    .least = 7,
-    .weight = 1.2,
-    .draw = envelope_draw_cell,
-};
-
-const Picture envelope_picture = {
-    .cards = (const Card *const[]){&card_page, &card_envelope_numbers,
-                                   &card_cell, NULL},
-    .stretched = true,
-    .around = {-10.6, -8.6, 3.6, 18.4}, /* and room for words */
-    .draw = envelope_draw,
-    .facts = envelope_facts,
-    .legend = "#1 converged: darker is more updates\n"
-              "#2 too loose a tolerance: nothing was done\n"
-              "#3 said: not converged",
-    .pick = envelope_pick,
-};

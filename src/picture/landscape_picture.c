@@ -205,7 +205,7 @@ static void keep_places(Plot *plot)
     name_target(plot);
 }
 
-static void landscape_facts(const Simulation *simulation, Facts *facts)
+void landscape_facts(const Simulation *simulation, Facts *facts)
 {
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
@@ -264,7 +264,7 @@ static void draw_model(const Plot *plot)
 }
 
 /* From the ground up. */
-static void landscape_draw(Plot *stage)
+void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
@@ -284,33 +284,6 @@ static void landscape_draw(Plot *stage)
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
 }
 
-static const Card card_landscape_numbers = {
-    .name = "numbers",
-    .title = "E at x in numbers",
-    .least = 11,
-    .weight = 0.6,
-    .lecture = true,
-    .words = "#x {x} = {place:4} m\n"
-             "#xt {xt} = {x tilde:4} m\n"
-             "inertia \u00bd m |{x} \u2212 {xt}|\u00b2 = {bowl:4} J s\u00b2\n"
-             "elasticity h\u00b2 P = {elastic part:4} J s\u00b2\n"
-             "{both}E: {E:4} J s\u00b2",
-};
-
-const Picture landscape_picture = {
-    .cards =
-        (const Card *const[]){&card_page, &card_listing, &card_line,
-                              &card_residual, &card_landscape_numbers, NULL},
-    .places = true,
-    .around = {-1.87, -1.87, 1.87, 1.87},
-    .draw = landscape_draw,
-    .facts = landscape_facts,
-    .legend = "#faint contours of {part}\n"
-              "#shaded {elastic}shade: not convex\n"
-              "#p {told}{directed}direction p, downhill\n"
-              "#warning {told}{went uphill}uphill",
-};
-
 /* ---- the dial ----------------------------------------------------------- */
 
 /* The path of the minimiser; a disc for every power of ten of h. */
@@ -324,7 +297,7 @@ static void draw_walk(Plot *plot, const Walk *walk)
         plot_disc(plot, walk->point[i], 4.5, COLOUR_X);
 }
 
-static void dial_draw(Plot *stage)
+void dial_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
@@ -345,7 +318,7 @@ static void dial_draw(Plot *stage)
     }
 }
 
-static void dial_facts(const Simulation *simulation, Facts *facts)
+void dial_facts(const Simulation *simulation, Facts *facts)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
     const double *target = simulation->exhibit.target;
@@ -359,26 +332,3 @@ static void dial_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "elasticity", elastic);
     fact(facts, "P", elastic / (h * h));
 }
-
-static const Card card_dial_numbers = {
-    .name = "numbers",
-    .title = "the minimiser in numbers",
-    .least = 11.5,
-    .weight = 1,
-    .words = "h = {h:4} s\n"
-             "#x {x} = {minimiser:4} m\n"
-             "#xt from {xt}: {distance:4} m\n"
-             "inertia {inertia:4} J s\u00b2\n"
-             "elasticity h\u00b2 P {elasticity:4} J s\u00b2\n"
-             "P = {P:4} J",
-};
-
-const Picture dial_picture = {
-    .cards = (const Card *const[]){&card_page, &card_dial_numbers, NULL},
-    .around = {-1.87, -1.87, 1.87, 1.87},
-    .draw = dial_draw,
-    .facts = dial_facts,
-    .legend = "#xt {xt}: inertia is lowest\n"
-              "#x {told}minimiser of E for every h\n"
-              "for the h of now",
-};

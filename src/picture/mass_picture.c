@@ -49,7 +49,7 @@ static double mass_energy(const double *x, const double *v)
 }
 
 /* On the circle the radius of each run, else its energy; then its trail. */
-static int mass_sample(const Simulation *simulation, Energy *row)
+int mass_sample(const Simulation *simulation, Energy *row)
 {
     static const char *const places[] = {"x0", "y0", "x1", "y1", "x2", "y2"};
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
@@ -67,7 +67,7 @@ static int mass_sample(const Simulation *simulation, Energy *row)
 /* ---- the circle ---------------------------------------------------------- */
 
 /* The exact path and its radius, trails, and a disc where each run is now. */
-static void circle_draw(Plot *stage)
+void circle_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const double start[2] = {1, 0}, half[2] = {0.5, 0};
@@ -84,7 +84,7 @@ static void circle_draw(Plot *stage)
 }
 
 /* It grows with the runs, as far as a circle can be seen in it. */
-static void circle_bounds(const Plot *stage, double bounds[4])
+void circle_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
     double most = 0;
@@ -96,7 +96,7 @@ static void circle_bounds(const Plot *stage, double bounds[4])
 }
 
 /* The node of the nearest run. */
-static void circle_pick(const Plot *stage, double x, double y, Pick *pick)
+void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     double best = 16;
     for (int r = 0; r < stage->simulation->runs; r++) {
@@ -142,7 +142,7 @@ static void add_matrix(const char *method, double t, Facts *facts)
 }
 
 /* What each run knows of itself; colour and name are the method's. */
-static void add_runs(const Simulation *simulation, Facts *facts)
+void circle_facts(const Simulation *simulation, Facts *facts)
 {
     double turn = simulation->run[0].h * MASS_TURN; /* on the circle */
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
@@ -161,36 +161,11 @@ static void add_runs(const Simulation *simulation, Facts *facts)
          circle ? ceil(2 * log(2) / log1p(turn * turn)) : NAN);
 }
 
-static const Card card_matrix = {
-    .name = "matrix",
-    .title = "each step of (x, v/\u03c9): matrix, \u03bb, |\u03bb|",
-    .least = 11,
-    .weight = 0.4,
-    .words = "@\n"
-             "#run matrix{{Sxx:3} & {Sxv:3}; {Svx:3} & {Svv:3}}  "
-             "{re:3} \u00b1 {im:3} i, {size:6}\n"
-             "#run matrix{{Sxx:3} & {Sxv:3}; {Svx:3} & {Svv:3}}  "
-             "{least:4}, {most:4}",
-};
-
-const Picture circle_picture = {
-    .cards =
-        (const Card *const[]){&card_page, &card_matrix, &card_radius, NULL},
-    .bounds = circle_bounds,
-    .draw = circle_draw,
-    .facts = add_runs,
-    .legend = "#grey exact: |{x}| = 1 m\n"
-              "@\n#run {name}: {radius} m",
-    .scale = true,
-    .pick = circle_pick,
-    .sample = mass_sample,
-};
-
 /* ---- the arrows ---------------------------------------------------------- */
 
 /* What is farthest from the middle, in steps of sqrt(2), so that the view does
  * not move all the time. */
-static void mass_bounds(const Plot *stage, double bounds[4])
+void mass_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
     const double *began = simulation->exhibit.began;
@@ -323,7 +298,7 @@ static void draw_mass_ways(Plot *stage)
 }
 
 /* Before a guess, and until what it was about is shown, arrows would tell. */
-static void mass_draw(Plot *stage)
+void mass_draw(Plot *stage)
 {
     const Show *show = stage->show;
     const Simulation *simulation = stage->simulation;
@@ -353,11 +328,11 @@ static void mass_draw(Plot *stage)
 
 /* ---- the formula with its numbers --------------------------------------- */
 
-static void mass_facts(const Simulation *simulation, Facts *facts)
+void mass_facts(const Simulation *simulation, Facts *facts)
 {
     MassStep step;
     bool one = simulation->runs == 1;
-    add_runs(simulation, facts);
+    circle_facts(simulation, facts);
     for (int r = 0; r < simulation->runs; r++) {
         if (!mass_next_step(simulation, r, &step))
             continue;
@@ -401,37 +376,3 @@ static void mass_facts(const Simulation *simulation, Facts *facts)
     if (step.by_old_v)
         fact(facts, "half", 0.5 * h * h * math_hypot(step.x[0], step.x[1]));
 }
-
-static const Card card_mass_numbers = {
-    .name = "numbers",
-    .title = "the step with its numbers",
-    .least = 12,
-    .weight = 1.1,
-    .words =
-        "#faint {stages}{method} has more stages than arrows\n"
-        "#velocity v\u2032 = v + h a({at}) = {v'}\n"
-        "    = {v} + {h} {a}\n"
-        "#x x\u2032 = x + h {by} = {x'}\n"
-        "    = {place} + {h} {carrying}\n"
-        "{numbers}\n"
-        "{numbers}energy {energy:4} J \u2192 {later:4} J  (\u00d7 {factor:4})\n"
-        "|{x}|\u00b2 + |v|\u00b2 \u2212 h {x}\u00b7v: {kept:4} "
-        "\u2192 {kept later:4}\n"
-        "#faint off exact by {miss:4} m; h\u00b2/2 |a| = {half:4} m\n"
-        "@\n"
-        "#run {many}{name}: energy {energy:4} J \u2192 {later:4} J  "
-        "(\u00d7 {factor:4})",
-};
-
-const Picture mass_picture = {
-    .cards = (const Card *const[]){&card_page, &card_mass_numbers,
-                                   &card_energies, NULL},
-    .places = true,
-    .bounds = mass_bounds,
-    .draw = mass_draw,
-    .facts = mass_facts,
-    .legend = "#grey the exact path\n"
-              "@\n#run {many}{name}",
-    .scale = true,
-    .sample = mass_sample,
-};

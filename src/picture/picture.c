@@ -7,23 +7,9 @@
 
 static const double LEAST_TEXT = 11; /* ems, the height of a pane with words */
 
-/* By the kind that a scene names. */
-static const Picture *const pictures[PICTURE_COUNT] = {
-    [PICTURE_SQUARE] = &square_picture,
-    [PICTURE_CIRCLE] = &circle_picture,
-    [PICTURE_CURVE] = &curve_picture,
-    [PICTURE_LANDSCAPE] = &landscape_picture,
-    [PICTURE_MASS] = &mass_picture,
-    [PICTURE_TANGENT] = &tangent_picture,
-    [PICTURE_DIAL] = &dial_picture,
-    [PICTURE_SPRING] = &spring_picture,
-    [PICTURE_RACE] = &race_picture,
-    [PICTURE_ENVELOPE] = &envelope_picture,
-};
-
 const Picture *picture_of(const struct Scene *scene)
 {
-    return pictures[scene->picture];
+    return &pictures[scene->picture];
 }
 
 int picture_cards(const Picture *picture)

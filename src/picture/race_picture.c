@@ -14,7 +14,7 @@ static double place_of(const Simulation *simulation, const RacePoint *point)
 }
 
 /* Powers of ten. */
-static void race_bounds(const Plot *stage, double bounds[4])
+void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.parts;
     bounds[0] = over_h ? -4.5 : -6.3;
@@ -48,7 +48,7 @@ static const RacePoint *draw_method(Plot *plot, int method)
 }
 
 /* The names of the methods, each at its last point. */
-static void race_draw(Plot *stage)
+void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     static const PlotRoom room = {4, 5, 1.6, 3.6};
@@ -71,7 +71,7 @@ static void race_draw(Plot *stage)
                        race_method(i)->label);
 }
 
-static void race_facts(const Simulation *simulation, Facts *facts)
+void race_facts(const Simulation *simulation, Facts *facts)
 {
     fact(facts, "methods", RACE_METHODS);
     fact_when(facts, "failed", simulation->status);
@@ -88,7 +88,7 @@ static void put_cell(char *cell, size_t size, double value, int digits,
 /* A method a row: its errors with h, h/2 and h/4, the longest stable step, and
  * with h what is left of the energy after a second, and how long it took; a
  * narrow card has room for some of it. */
-static void draw_table(const Plot *card)
+void table_draw(const Plot *card)
 {
     static const char *const heads[] = {"",          "4 ms",   "2 ms", "1 ms",
                                         "stable at", "energy", "time"};
@@ -133,21 +133,3 @@ static void draw_table(const Plot *card)
                             "%s", row ? cell[c] : heads[c]);
     }
 }
-
-static const Card card_race_table = {
-    .name = "table",
-    .title = "errors in m; with 4 ms: energy after 1 s, time",
-    .least = 17.5,
-    .weight = 1.4,
-    .draw = draw_table,
-};
-
-const Picture race_picture = {
-    .cards = (const Card *const[]){&card_page, &card_race_table, NULL},
-    .stretched = true,
-    .bounds = race_bounds,
-    .draw = race_draw,
-    .facts = race_facts,
-    .legend = "#warning {failed}no answer to compare with: k is too large\n"
-              "#faint hollow: it explodes when it goes on with this h",
-};

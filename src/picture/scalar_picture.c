@@ -136,7 +136,7 @@ static void draw_search(const Plot *plot, const Update *update, bool slopes,
     draw_iterates(plot, update, curve);
 }
 
-static void curve_draw(Plot *stage)
+void curve_draw(Plot *stage)
 {
     Update update = last_update(stage->simulation);
     Plot plot = plot_on(stage, &plot_room, (Axis){.label = "x"}, (Axis){0});
@@ -144,7 +144,7 @@ static void curve_draw(Plot *stage)
 }
 
 /* The update that is shown, from its iterate to the next one. */
-static void scalar_facts(const Simulation *simulation, Facts *facts)
+void scalar_facts(const Simulation *simulation, Facts *facts)
 {
     Update update = last_update(simulation);
     double x = update.x0, p = update.x1 - update.x0;
@@ -170,23 +170,10 @@ static void scalar_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "highest", update.second <= 0);
 }
 
-const Picture curve_picture = {
-    .cards = (const Card *const[]){&card_page, &card_listing, &card_line,
-                                   &card_residual, NULL},
-    .stretched = true,
-    .places = true,
-    .around = {-1.08 * 14, 1.25 * -6, 1.05 * 14, 1.1 * 14},
-    .draw = curve_draw,
-    .facts = scalar_facts,
-    .legend = "#x f(x) = ln(e^{x} + e^{\u2212x})\n"
-              "#p quadratic model at x^{{number}}\n"
-              "#warning {refused lengths}refused lengths",
-};
-
 /* ---- g and its tangents above E and its parabolas ------------------------ */
 
 /* Only x counts: both plots share it. */
-static void tangent_bounds(const Plot *stage, double bounds[4])
+void tangent_bounds(const Plot *stage, double bounds[4])
 {
     double x = stage->simulation->descent.point[0];
     bounds_around(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
@@ -215,7 +202,7 @@ static Plot tangent_plot(const Plot *stage, int half)
     return plot;
 }
 
-static void tangent_draw(Plot *stage)
+void tangent_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Prediction *guess = &simulation->prediction;
@@ -241,7 +228,7 @@ static void tangent_draw(Plot *stage)
 }
 
 /* By x alone: whichever is nearer. */
-static void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
+void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     double at[SCENE_MAX_HANDLES][2], best = 14;
     (void)y;
@@ -256,31 +243,3 @@ static void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
         }
     }
 }
-
-static const Card card_tangent_numbers = {
-    .name = "numbers",
-    .title = "the update with its numbers",
-    .least = 11.5,
-    .weight = 0.9,
-    .words = "#x x^{{number}} = {iterate:8}\n"
-             "g = {slope:6}     E\u2033 = {curvature:6}\n"
-             "#p {p} = \u2212g / E\u2033 = {direction:8}\n"
-             "#x {full length}x^{{next number}} = {next:8}\n"
-             "#x x^{{next number}} = {next:8},  {alpha} = {shorter:/}\n"
-             "#x {no length}x^{{number}} + {p} = {next:8}\n"
-             "E: {E:8} \u2192 {next E:8}\n"
-             "#alpha x^{{number}} and the next one agree in digits: {digits}\n"
-             "#warning {highest}E\u2033 < 0: the parabola has a highest point",
-};
-
-const Picture tangent_picture = {
-    .cards = (const Card *const[]){&card_page, &card_tangent_numbers,
-                                   &card_residual, NULL},
-    .stretched = true,
-    .own_handles = true,
-    .places = true,
-    .bounds = tangent_bounds,
-    .draw = tangent_draw,
-    .facts = scalar_facts,
-    .pick = tangent_pick,
-};

@@ -12,7 +12,7 @@ static const double SPRING_REACH = 1.7;   /* m, seen at least */
 static const double SPRING_ARROW = 0.005; /* m/N, of the force */
 static const double origin[2] = {0, 0};
 
-static void spring_bounds(const Plot *stage, double bounds[4])
+void spring_bounds(const Plot *stage, double bounds[4])
 {
     const double *x = stage->simulation->run[0].x;
     bounds_around(SPRING_REACH, 1.1 * math_hypot(x[0], x[1]), sqrt(2), bounds);
@@ -86,7 +86,7 @@ static void spring_eigenvectors(Plot *stage, const double *x,
 }
 
 /* Shorter than at rest: projection changes its block. */
-static void spring_draw(Plot *stage)
+void spring_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
@@ -155,7 +155,7 @@ static void add_differences(const Simulation *simulation, Facts *facts)
     fact_point(facts, "force too", force);
 }
 
-static void add_facts(const Simulation *simulation, Facts *facts)
+void length_facts(const Simulation *simulation, Facts *facts)
 {
     static const char *const before[] = {"e1", "e2", "e3", "e4"};
     static const char *const after[] = {"p1", "p2", "p3", "p4"};
@@ -198,7 +198,7 @@ static double root_over(const void *system, double d)
     return facts_at((double[2]){d, 0}, system).root_energy;
 }
 
-static void spring_draw_profile(const Plot *card)
+void profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
     SpringFacts now = facts_of_spring(card->simulation);
@@ -218,59 +218,3 @@ static void spring_draw_profile(const Plot *card)
     }
     plot_disc(&plot, at, 6, COLOUR_TEXT);
 }
-
-static const Card card_spring_numbers = {
-    .name = "numbers",
-    .title = "the spring in numbers",
-    .least = 11,
-    .weight = 1.1,
-    .words = "d = {d} m   |d| = {distance:4} m   l = {l} m\n"
-             "s = |d|\u00b2/l\u00b2 \u2212 1 = {strain:4}\n"
-             "#x P = l\u00b2 k/2 s\u00b2 = {l2} \u00b7 {k}/2 \u00b7 "
-             "{strain:4'}\u00b2 = {energy:5} J\n"
-             "#force f = \u22122 k s d = {force:4} N\n"
-             "#faint by differences over \u00b1{apart} mm:\n"
-             "#faint f = {force too:4} N,  H = matrix{{Dxx:4} & {Dxy:4}; "
-             "{Dxy:4} & {Dyy:4}}\n"
-             "curvature along {along:4}, across {across:4} J/m\u00b2\n"
-             "{root}\n"
-             "#ghost with the root: 2k (|d| \u2212 l)\u00b2 = "
-             "{root energy:5} J\n"
-             "#ghost curvature along {root along:4}, across {root across:4} "
-             "J/m\u00b2",
-};
-static const Card card_block = {
-    .name = "block",
-    .title = "its 4 \u00d7 4 block, before and after projection, J/m\u00b2",
-    .least = 12.4,
-    .weight = 0.9,
-    .words = "H = matrix{{Hxx:4} & {Hxy:4} & {-Hxx:4} & {-Hxy:4}; "
-             "{Hxy:4} & {Hyy:4} & {-Hxy:4} & {-Hyy:4}; "
-             "{-Hxx:4} & {-Hxy:4} & {Hxx:4} & {Hxy:4}; "
-             "{-Hxy:4} & {-Hyy:4} & {Hxy:4} & {Hyy:4}}\n"
-             "eigenvalues {e1:4}, {e2:4}, {e3:4}, {e4:4}\n"
-             "#project P = matrix{{Pxx:4} & {Pxy:4} & {-Pxx:4} & {-Pxy:4}; "
-             "{Pxy:4} & {Pyy:4} & {-Pxy:4} & {-Pyy:4}; "
-             "{-Pxx:4} & {-Pxy:4} & {Pxx:4} & {Pxy:4}; "
-             "{-Pxy:4} & {-Pyy:4} & {Pxy:4} & {Pyy:4}}\n"
-             "#project eigenvalues {p1:4}, {p2:4}, {p3:4}, {p4:4}",
-};
-static const Card card_profile = {
-    .name = "profile",
-    .title = "energy over its length, J",
-    .least = 7,
-    .weight = 1,
-    .draw = spring_draw_profile,
-};
-
-const Picture spring_picture = {
-    .cards = (const Card *const[]){&card_page, &card_spring_numbers,
-                                   &card_block, &card_profile, NULL},
-    .bounds = spring_bounds,
-    .draw = spring_draw,
-    .facts = add_facts,
-    .legend = "#force force\n#faint rest length\n"
-              "#project {told}{shortened}shorter than l: it has an eigenvalue "
-              "below 0",
-    .scale = true,
-};

@@ -11,7 +11,7 @@
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
-#include "picture/facts.h"
+#include "picture/cards.h"
 #include "picture/square_pen.h"
 #include "scenes/scene.h"
 
@@ -172,14 +172,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
                !simulation_is_handled(simulation)       ? NULL
                : system->pinned && system->pinned[node] ? "frees"
                                                         : "pins");
-    draw_note(stage, &facts,
-              "#text* node {node:9}{pinned}\n"
-              "m = {mass} kg\n"
-              "{x} = {place} m\n"
-              "v = {velocity} m/s\n"
-              "f = {force} N\n"
-              "{xt} = {inertia} m\n"
-              "drag it; a right click {pin} it");
+    draw_note(stage, &facts, text_node);
 }
 
 /* The block [[H, -H], [-H, H]] of a spring has the eigenvalues 0, 0 and twice
@@ -211,13 +204,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
         fact(&facts, "across after", projected_eigenvalue(filter, across));
         fact(&facts, "along after", projected_eigenvalue(filter, along));
     }
-    draw_note(stage, &facts,
-              "#text* spring {a:9}\u2013{b:9}\n"
-              "l\u00b2 = {l2} m\u00b2,  strain {strain} %\n"
-              "H = ({xx}, {xy}; {xy}, {yy}) J/m\u00b2\n"
-              "{block}its block of \u2207\u00b2P: (H, \u2212H; \u2212H, H)\n"
-              "eigenvalues 0, 0, {across}, {along}\n"
-              "#project after projection 0, 0, {across after}, {along after}");
+    draw_note(stage, &facts, text_spring);
 }
 
 /* Whether a node has a place. */
@@ -227,7 +214,7 @@ static bool is_placed(const Pane *pane, int node)
     return isfinite(x[0]) && isfinite(x[1]);
 }
 
-void square_note(Plot *stage)
+void square_hover(Plot *stage)
 {
     const Pane *pane = &stage->show->pane[stage->pane];
     const Pick *hover = &stage->show->hover;

@@ -52,11 +52,6 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
                     Colour colour);
 void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 
-/* The node, spring or edge of the paused square under a pixel, and what is
- * known of the first two in numbers. */
-void square_pick(const Plot *stage, double x, double y, Pick *pick);
-void square_note(Plot *stage);
-
 /* ---- contact: it follows from positions and velocities alone, so that a state
  * from the history is drawn as it was when it was new ---------------------- */
 

@@ -41,7 +41,7 @@ static bool is_free(const Simulation *simulation)
  * out and bulge, around the middle or where a free one has drifted,
  * less the way that the view has room for; where nodes have left that, 1.5,
  * 1.5^2, ... times as much, so that the view jumps seldom. */
-static void square_bounds(const Plot *stage, double bounds[4])
+void square_bounds(const Plot *stage, double bounds[4])
 {
     const Show *show = stage->show;
     const Simulation *simulation = stage->simulation;
@@ -309,7 +309,7 @@ static void draw_cuts(const SpringPen *pen)
 
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
-static void square_draw(Plot *stage)
+void square_draw(Plot *stage)
 {
     SpringPen pen[SIMULATION_MAX_RUNS];
     const Show *show = stage->show;
@@ -375,7 +375,7 @@ static void add_block(const Simulation *simulation, Facts *facts)
 }
 
 /* What pages say of the mesh, the Hessian and one row of M a = f. */
-static void square_facts(const Simulation *simulation, Facts *facts)
+void square_facts(const Simulation *simulation, Facts *facts)
 {
     const System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
@@ -430,40 +430,11 @@ static void square_facts(const Simulation *simulation, Facts *facts)
     }
 }
 
-/* What simulator.py begins with. */
-static const Card card_parameters = {
-    .name = "parameters",
-    .title = "the numbers of simulator.py",
-    .least = 8.4,
-    .weight = 0.05,
-    .lecture = true,
-    .words = "side_len = {side} m,  rho = {rho} kg/m\u00b2\n"
-             "k = {k} J/m\u00b2,  initial_stretch = {stretch}\n"
-             "n_seg = {segments},  h = {h} s,  tol = {epsilon} m/s\n"
-             "m = rho side_len\u00b2 / (n_seg + 1)\u00b2 = {node mass} kg",
-};
-
 /* All energies of the first run, J; cards leave out those that are 0. */
-static int square_sample(const Simulation *simulation, Energy *row)
+int square_sample(const Simulation *simulation, Energy *row)
 {
     Energies energies = simulation_energies(simulation, 0);
     int rows = energies.rows < HISTORY_SERIES ? energies.rows : HISTORY_SERIES;
     memcpy(row, energies.row, (size_t)rows * sizeof *row);
     return rows;
 }
-
-static const Card *const square_cards[] = {
-    &card_page, &card_listing,    &card_line,   &card_residual, &card_energies,
-    &card_spy,  &card_parameters, &card_search, &card_prints,   &card_law,
-    NULL};
-
-const Picture square_picture = {
-    .cards = square_cards,
-    .bounds = square_bounds,
-    .draw = square_draw,
-    .facts = square_facts,
-    .scale = true,
-    .pick = square_pick,
-    .hover = square_note,
-    .sample = square_sample,
-};

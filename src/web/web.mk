@@ -25,7 +25,7 @@ $(W)/libraries/done: src/web/libraries.sh | $(W)/tools
 	$(call shown,BUILD)
 	$(Q)NODE_PATH=/usr/share/nodejs sh $< $(@D) && touch $@
 
-$(W)/fonts/done: src/web/fonts.sh src/scenes/pages.txt | $(W)/tools
+$(W)/fonts/done: src/web/fonts.sh $(PAGES) $(CARDS) | $(W)/tools
 	$(call shown,CUT)
 	$(Q)sh $< $(@D) && touch $@
 

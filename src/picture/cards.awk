@@ -1,0 +1,97 @@
+# cards.awk - cards.txt, which says how it is written, as the tables of cards.h.
+
+function fail(line, why)
+{
+    print FILENAME ":" line ": " why > "/dev/stderr"
+    failed = 1
+    exit 1
+}
+
+function quoted(text)
+{
+    gsub(/[\\"]/, "\\\\&", text)
+    return "\"" text "\""
+}
+
+# What stands under one word, as a field of the row.
+function put_word(    i, part)
+{
+    if (word in texts)
+        texts[word] = texts[word] (texts[word] ? " \"\\n\" " : "") quoted(text)
+    else if (word in values && text != "")
+        row = row "." word " = " (word == "around" ? "{" text "}" : text) ", "
+    else if (word == "name")
+        called = text
+    else if (word == "cards")
+        for (i = split(text, part, " "); i > 0; i--)
+            list = "&card_" part[i] ", " list
+    else if (word in switches && text == "")
+        row = row "." word " = true, "
+    else if (word != "")
+        fail(begins, "'" word " " text "' is nothing that a " kind " has")
+    word = ""
+}
+
+function end_row(    i)
+{
+    put_word()
+    for (i in texts) {
+        if (kind != "text" && texts[i])
+            row = row "." i " = " texts[i] ", "
+        else if (i == "words" && kind == "text")
+            print "const char text_" name "[] = " texts[i] ";"
+        texts[i] = ""
+    }
+    if (kind == "card")
+        print "const Card card_" name " = {" row ".name = " quoted(called) "};"
+    if (kind == "picture") {
+        lists = lists "static const Card *const " name "_cards[] = {" list \
+                "NULL};\n"
+        rows = rows "[PICTURE_" toupper(name) "] = {" row ".cards = " name \
+               "_cards},\n"
+    }
+    row = list = ""
+}
+
+BEGIN {
+    texts["title"] texts["legend"] texts["words"]
+    values["least"] values["needs"] values["weight"] values["around"]
+    values["draw"] values["bounds"] values["facts"] values["pick"]
+    values["hover"] values["sample"]
+    switches["half"] switches["half_on_page"] switches["closed"]
+    switches["lecture"] switches["stretched"] switches["own_handles"]
+    switches["places"] switches["scale"]
+    print "#include \"picture/cards.h\""
+}
+
+/^#/ || /^$/ { next }
+
+/^  / {
+    if (word == "")
+        fail(NR, "nothing goes on here")
+    text = text " " substr($0, 3)
+    next
+}
+
+/^== (card|picture|text) [a-z_]+$/ {
+    end_row()
+    kind = $2
+    called = name = $3
+    next
+}
+
+{
+    if (!kind)
+        fail(NR, "no row has begun")
+    put_word()
+    begins = NR
+    word = $1
+    text = substr($0, length(word) + 2)
+}
+
+END {
+    if (failed)
+        exit 1
+    end_row()
+    print lists "const Picture pictures[PICTURE_COUNT] = {\n" rows "};"
+}
