@@ -238,7 +238,7 @@ typedef struct Show {
     const unsigned char *along; /* [along_nodes] 1: placed with others */
     bool strain;                /* springs coloured by strain */
     bool bare;                  /* the picture of the slide and nothing else */
-    bool print;    /* stage and cards alone, without those of words */
+    bool print;    /* stage and cards alone, and the page's question */
     double letter; /* pixels that an em has at least; 0: the usual ones */
 
     /* The lecture: the page that is shown, or NULL outside of it. */

@@ -179,7 +179,7 @@ static int find_rows(const Show *show, double wide, bool pairs, CardRow *rows)
         const Card *card = picture->cards[i];
         bool bar = (show->closed >> i & 1) || (large && i != show->large);
         bool half = card->half || (card->half_on_page && show->lecture);
-        if ((show->hidden | show->print) >> i & 1)
+        if (show->hidden >> i & 1)
             continue;
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].cards = 2;
@@ -371,9 +371,8 @@ Layout show_layout(const Show *show, int width, int height)
     }
     double wide = width / layout.em, high = height / layout.em;
     bool low = page && high < 50; /* a page needs all of the width */
-    unsigned hidden = show->hidden | show->print;
-    if (!show->bare && wide >= 53 && (high >= 34 || show->print) && !low &&
-        (page || hidden != (1u << picture_cards(picture)) - 1)) {
+    if (!show->bare && wide >= 53 && high >= 34 && !low &&
+        (page || show->hidden != (1u << picture_cards(picture)) - 1)) {
         bool much = show->page.kind == PAGE_CODE ||
                     (page && show->help_rows > MOST_ROWS);
         double part = much ? WIDE_PART : COLUMN_PART;

@@ -1,7 +1,7 @@
 /* handout.c - the lecture as one HTML file, to be printed, two pages a sheet:
- * words, formulas, a picture drawn for print, a question with room to write.
- * Everything stands in the file itself: it has no scripts and asks no network.
- * How it begins stands in handout.html.
+ * what the window shows of each, drawn for print, its question, and room to
+ * write.  Everything stands in the file itself: it has no scripts and asks no
+ * network.  How it begins stands in handout.html.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,126 +14,11 @@
 #include "scenes/scene.h"
 
 enum {
-    PICTURE_WIDTH = 1900, /* pixels, of 190 mm */
-    PICTURE_HEIGHT = 720,
-    PICTURE_EM = 25,
-    INKS = 5, /* steps between white and a colour's darkest */
-    WORDS = 1024
+    PICTURE_WIDTH = 1700, /* pixels, of 190 mm */
+    PICTURE_HEIGHT = 900,
+    PICTURE_EM = 19,
+    INKS = 5 /* steps between white and a colour's darkest */
 };
-
-/* ---- text --------------------------------------------------------------- */
-
-/* What opens a part of a formula, and what it is in HTML up to its end. */
-typedef struct Mark {
-    const char *opens, *html, *closes;
-    const char *part, *between; /* and between its parts */
-    const char *part_of_row;
-} Mark;
-
-static const Mark marks[] = {
-    {"^{", "<sup>", "</sup>", NULL, NULL, NULL},
-    {"_{", "<sub>", "</sub>", NULL, NULL, NULL},
-    {"frac{", "<span class=\"frac\"><span>", "</span></span>", " over ",
-     "</span><span>", NULL},
-    {"sqrt{", "\u221a<span class=\"root\">", "</span>", NULL, NULL, NULL},
-    {"matrix{", "<table><tr><td>", "</td></tr></table>", "; ",
-     "</td></tr><tr><td>", "& "},
-};
-static const Mark coloured = {"#", "", "</span>", NULL, NULL, NULL};
-
-static bool begins(const char *text, const char *with)
-{
-    return with && strncmp(text, with, strlen(with)) == 0;
-}
-
-/* The mark that opens here, or NULL. */
-static const Mark *find_mark(const char *text)
-{
-    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
-        if (begins(text, marks[i].opens))
-            return &marks[i];
-    size_t name = strspn(text + 1, "abcdefghijklmnopqrstuvwxyz");
-    return *text == '#' && text[1 + name] == '{' ? &coloured : NULL;
-}
-
-/* A word in its colour begins: #name{; returns where it goes on. */
-static const char *open_colour(FILE *file, const char *name)
-{
-    size_t length = strcspn(name, "{}");
-    fprintf(file, "<span style=\"color:#%06x\">",
-            colour_named(name, length) & 0xffffffu);
-    return name + length + 1;
-}
-
-/* Markup (text.h) as HTML; & and < are written out. */
-static void write_text(FILE *file, const char *text)
-{
-    static const char *const letters[][2] = {
-        {"{x}", "x"}, {"{xt}", "x\u0303"}, {"{p}", "p"}, {"{alpha}", "\u03b1"}};
-    const Mark *open[16] = {NULL};
-    int depth = 0;
-    while (*text) {
-        const Mark *mark = find_mark(text), *in = open[depth];
-        size_t letter = 0;
-        while (letter < 4 && !begins(text, letters[letter][0]))
-            letter++;
-        if (mark && depth < 15) {
-            open[++depth] = mark;
-            text += strlen(mark->opens);
-            if (mark == &coloured)
-                text = open_colour(file, text);
-            fputs(mark->html, file);
-        } else if (letter < 4) {
-            text = open_colour(file, text + 1);
-            fprintf(file, "%s</span>", letters[letter][1]);
-        } else if (in && *text == '}') {
-            fputs(open[depth--]->closes, file);
-            text++;
-        } else if (in && begins(text, in->part)) {
-            text += strlen(in->part);
-            fputs(in->between, file);
-        } else if (in && begins(text, in->part_of_row)) {
-            text += strlen(in->part_of_row);
-            fputs("</td><td>", file);
-        } else {
-            const char *escaped = *text == '&'   ? "&amp;"
-                                  : *text == '<' ? "&lt;"
-                                                 : NULL;
-            if (escaped)
-                fputs(escaped, file);
-            else
-                fputc(*text, file);
-            text++;
-        }
-    }
-    while (depth > 0)
-        fputs(open[depth--]->closes, file);
-}
-
-/* <p> or another element, a head in bold, and what is known of the text now,
- * line by line; nothing where nothing is. */
-static void write_said(FILE *file, Show *show, const char *element,
-                       const char *head, const char *text)
-{
-    char words[WORDS] = "";
-    if (text)
-        show_say(show, text, words, sizeof words);
-    if (!words[0])
-        return;
-    fprintf(file, *head ? "<%s><b>%s</b> " : "<%s>", element, head);
-    for (char *line = words; line;) {
-        char *next = strchr(line, '\n');
-        if (next)
-            *next++ = '\0';
-        write_text(file, line);
-        if (next)
-            fputs("<br>", file);
-        line = next;
-    }
-    fprintf(file, "</%.*s>\n", (int)strcspn(element, " "), element);
-}
-
-/* ---- pictures ----------------------------------------------------------- */
 
 /* Bytes in base 64 (RFC 4648): four letters for each three bytes, '=' where
  * bytes lack; 76 letters a line. */
@@ -168,7 +53,7 @@ static Status go_to_picture(Player *player, const LecturePage *page)
     return status || page->lines ? status : player_run(player);
 }
 
-/* Stage and cards alone, in few shades, so that the file is small. */
+/* Stage and cards, in few shades, so that the file is small. */
 static Status draw_picture(Player *player, FILE *file)
 {
     char *bytes = NULL;
@@ -177,6 +62,7 @@ static Status draw_picture(Player *player, FILE *file)
     FILE *picture = paper ? open_memstream(&bytes, &size) : NULL;
     if (!picture)
         return STATUS_OUT_OF_MEMORY;
+    player_fill(player);
     player->show.print = true;
     player->show.letter = PICTURE_EM;
     show_draw(paper, &player->show);
@@ -218,29 +104,17 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
 /* The page that the player shows. */
 static Status write_page(FILE *file, const LecturePage *page, Player *player)
 {
-    Show *show = &player->show;
-    player_fill(player);
-    fprintf(file, "<section>\n<h2 id=\"%s\">%d. ", page->name,
-            (int)(page - lecture_pages) + 1);
-    write_text(file, page->topic);
-    fputs("</h2>\n<div class=\"say\">", file);
-    write_said(file, show, "p", "", page->text);
-    write_said(file, show, "div", "", page->formula);
-    fputs("</div>\n", file);
-    write_said(file, show, "p", "Question:", page->ask);
-    fputs("<img alt=\"", file);
-    write_text(file, page->topic);
-    fputs("\" src=\"data:image/png;base64,\n", file);
-    Status status = draw_picture(player, file);
-    fputs("\n\">\n", file);
-    write_said(file, show, "p class=\"small\"", "Look:", page->look);
-    write_said(file, show, "p class=\"small\"", "Try:", page->touch);
     fprintf(file,
-            "<p class=\"small\"><a href=\"elasto.html#--lecture+%s\">"
-            "live: elasto.html#--lecture+%s</a> or <code>elasto %s</code></p>"
-            "\n",
+            "<section>\n<h2 id=\"%s\">%d. %s</h2>\n"
+            "<img alt=\"%s\" src=\"data:image/png;base64,\n",
+            page->name, (int)(page - lecture_pages) + 1, page->topic,
+            page->topic);
+    Status status = draw_picture(player, file);
+    fprintf(file,
+            "\n\">\n<p class=\"small\"><a href=\"elasto.html#--lecture+%s\">"
+            "live: elasto.html#--lecture+%s</a> or <code>elasto %s</code></p>\n"
+            "<div class=\"room\"><hr><hr></div>\n</section>\n",
             page->name, page->name, page->line);
-    fputs("<div class=\"room\"><hr><hr><hr></div>\n</section>\n", file);
     return status;
 }
 
