@@ -5,7 +5,8 @@
  *                                   end, with the old permissions
  *   a symbolic link to a file       the same where it leads; it stays
  *   a pipe, a terminal, a device    is written as it comes
- * A run that writes NAME.part holds a lock on it: a second one is refused.
+ * Whoever writes NAME.part holds a lock on it: nobody else can open the same,
+ * whatever it is called.
  * What a run that failed or was killed left there is written over by the next.
  */
 #ifndef ELASTO_OUTPUT_H
@@ -39,8 +40,5 @@ void output_discard(Output *output, bool keep);
 
 /* Whether this name means standard output. */
 bool output_is_standard(const char *name);
-
-/* Whether two names mean one file.  The null device may be meant twice. */
-bool output_is_same(const char *one, const char *other);
 
 #endif

@@ -48,8 +48,7 @@ typedef struct Recording {
     char message[512];              /* the first failure in one line; "" */
 } Recording;
 
-/* Whether all files of the options can be written and read beside each other:
- * no file may be meant twice, and tables have names of tables.
+/* Whether tables have names of tables.
  *   message  [size] out, one line after INVALID_INPUT
  * Returns OK or INVALID_INPUT. */
 Status recording_check(const Options *options, char *message, size_t size);

@@ -2,58 +2,26 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- names -------------------------------------------------------------- */
-
 bool output_is_standard(const char *name)
 {
     return strcmp(name, "-") == 0 || strcmp(name, "/dev/stdout") == 0;
 }
 
-/* The whole path, without links, of what stands or shall stand under a name;
- * NULL: errno tells why.  Free it. */
-static char *path_of(const char *name)
-{
-    char folder[PATH_MAX], path[PATH_MAX + NAME_MAX];
-    const char *slash = strrchr(name, '/');
-    const char *base = slash ? slash + 1 : name;
-    char *there = realpath(name, NULL);
-    if (there || errno != ENOENT)
-        return there;
-    snprintf(path, sizeof path, "%.*s.", (int)(base - name), name);
-    if (!realpath(path, folder))
-        return NULL;
-    snprintf(path, sizeof path, "%s/%s", folder, base);
-    return strdup(path);
-}
-
-bool output_is_same(const char *one, const char *other)
-{
-    if (output_is_standard(one) || output_is_standard(other))
-        return output_is_standard(one) && output_is_standard(other);
-    char *first = path_of(one), *second = path_of(other);
-    bool same = first && second && strcmp(first, second) == 0 &&
-                strcmp(first, "/dev/null") != 0;
-    free(first);
-    free(second);
-    return same;
-}
-
 const char *output_reason(int reason)
 {
-    return reason == EBUSY ? "another run is writing it"
+    return reason == EBUSY ? "it is being written already"
                            : strerror(reason ? reason : EIO);
 }
 
 /* ---- opening ------------------------------------------------------------ */
 
-/* NAME.part as a stream that this run alone has, with the permissions of the
+/* NAME.part as a stream that nobody else writes, with the permissions of the
  * file whose place it will take (info, or NULL: there is none). */
 static Status open_temporary(Output *output, const struct stat *info)
 {
@@ -84,11 +52,13 @@ static Status open_named(const char *name, Output *output)
 {
     struct stat info;
     bool exists = stat(name, &info) == 0;
+    if (!exists && errno != ENOENT)
+        return STATUS_FILE_FAILED;
     if (exists && !S_ISREG(info.st_mode)) {
         output->file = fopen(name, "wb");
         return output->file ? STATUS_OK : STATUS_FILE_FAILED;
     }
-    output->target = path_of(name);
+    output->target = exists ? realpath(name, NULL) : strdup(name);
     if (!output->target)
         return errno == ENOMEM ? STATUS_OUT_OF_MEMORY : STATUS_FILE_FAILED;
     if (exists && access(name, W_OK))

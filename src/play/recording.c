@@ -203,6 +203,10 @@ static Status open_table(const Options *options, Recording *recording, int t)
         snprintf(list, sizeof list, "%s/steps.pvd", name);
         name = list;
     }
+    if (output_is_standard(name) && recording->standard) {
+        errno = EBUSY;
+        return note(recording, STATUS_FILE_FAILED, name);
+    }
     recording->standard = recording->standard || output_is_standard(name);
     set_columns(&recording->table[t], t, recording->panes);
     return note(recording, table_open(name, &recording->table[t]), name);
@@ -241,41 +245,19 @@ static bool is_called(const char *name, const char *ends)
     return found && !isalnum((unsigned char)found[strlen(end)]);
 }
 
-/* A name, and the file beside it in which it begins. */
-static bool are_same(const char *one, const char *other)
-{
-    char part[RECORDING_NAME_SIZE];
-    snprintf(part, sizeof part, "%s.part", one);
-    return output_is_same(one, other) || output_is_same(part, other);
-}
-
-/* One name, then every two. */
 Status recording_check(const Options *options, char *message, size_t size)
 {
-    char shown[64], other[64];
+    char shown[64];
     for (const OptionRow *row = option_rows; row->name; row++) {
-        const char *name = row->ends ? given_name(options, row->offset) : NULL;
-        if (!name)
+        const char *name =
+            row->ends && row->ends[0] ? given_name(options, row->offset) : NULL;
+        if (!name || is_called(name, row->ends))
             continue;
         one_line(name, shown, sizeof shown);
-        if (row->ends[0] && !is_called(name, row->ends)) {
-            snprintf(message, size,
-                     "--%s '%s': its name ends in %s, or has no ending",
-                     row->name, shown, row->ends);
-            return STATUS_INVALID_INPUT;
-        }
-        for (const OptionRow *with = option_rows; with->name; with++) {
-            const char *its =
-                with->ends ? given_name(options, with->offset) : NULL;
-            if (with == row || !its || !are_same(name, its))
-                continue;
-            one_line(its, other, sizeof other);
-            snprintf(message, size,
-                     "--%s '%s' and --%s '%s' are one file: each needs a name "
-                     "of its own",
-                     row->name, shown, with->name, other);
-            return STATUS_INVALID_INPUT;
-        }
+        snprintf(message, size,
+                 "--%s '%s': its name ends in %s, or has no ending", row->name,
+                 shown, row->ends);
+        return STATUS_INVALID_INPUT;
     }
     return STATUS_OK;
 }

@@ -119,7 +119,7 @@ at_once() {
     wait
     for i in 1 2 3; do
         [ ! -e code$i ] || [ "$(cat code$i error$i)" = "1
-elasto: s.csv: another run is writing it" ] || cat code$i error$i
+elasto: s.csv: it is being written already" ] || cat code$i error$i
     done
     [ $((($(wc -l <s.csv) - 10) % 9000)) = 0 ] || echo "$(wc -l <s.csv) lines"
     awk -F, 'NR > 1 && $3 != (NR - 2) % 9 || NF != 7 { bad = 1 }

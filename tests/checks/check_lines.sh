@@ -40,24 +40,12 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 1|missing/x.html|--handout missing/x.html
 2|line 1.*'jump'.*--help commands$|--headless --script jump
 2|nowhere: No such file|--headless --script nowhere
-2|one file|--states k.csv --log k.csv
-2|one file|--states k.csv --log ./k.csv
-2|one file|--states k.csv --log $work/refused/d/../k.csv
-2|one file|--states chain --log k.csv
-2|one file|--states link --log k.csv
-2|one file|--states new --log d/../new
-2|one file|--states - --log -
-2|one file|--states - --log /dev/stdout
-2|--log 'k.csv' and --script 'chain'|--log k.csv --script chain
-2|--states 'new' and --script|--states new --script new.part
-2|--frames 'd/' and --states 'd'|--states d --frames d/
-2|--frames './new' and --states 'new'|--states new --frames ./new
-2|--frames 'd/../n.gif' and --film|--film n.gif --frames d/../n.gif
-2|--states 'd' and --vtk|--states d --vtk d/
-2|--states 'n.npz' and --springs|--states n.npz --springs ./n.npz
+1|written already|--headless --states k.csv --log k.csv
+1|written already|--headless --states chain --log k.csv
+1|written already|--headless --states new --log d/../new
+1|n.npz: it is being written already|--headless --states n.npz --springs ./n.npz
 2|--springs.*'circle' has no square|circle --springs n.csv
 2|--vtk.*'spring'|spring --vtk n
-2|--film 'n.gif' and --script|--film n.gif --script n.gif
 2|.csv, .txt, .dat, .log, .npz, or|--states s.npy
 2|its name ends in|--log l.json
 2|its name ends in|--states d/k.csv.part
@@ -108,7 +96,7 @@ END
     "$elasto" --headless --quiet --steps 1 --states "$odd" 2>error || cat error
     rm "$odd"
     "$elasto" --headless --steps 0 --frames "$odd" >out
-    [ "$(wc -l <out)" = "$("$elasto" --headless --steps 0 | wc -l)" ] ||
+    [ "$(wc -l <out)" = $(($("$elasto" --headless --steps 0 | wc -l) + 1)) ] ||
         echo "the summary has $(wc -l <out) lines"
 }
 verdict messages_are_one_line "$(names)"
