@@ -71,52 +71,6 @@ TEST(scenes_are_rows_of_options)
     }
 }
 
-/* Who begins in an obstacle is told in which, with which node, and how deep. */
-TEST(starts_that_make_no_sense_are_refused)
-{
-    static const char *const rows[][3] = {
-        /* what the message says; NULL: the start is taken */
-        {"--ground 0,1,0,-0.4", "obstacle 0: node 0 would begin at a",
-         " distance of -0.1 m; it must be above 0"},
-        {"--ground 0,2,0,-0.5", "obstacle 0: node 0", "of 0 m"},
-        {"--ground 0,1,0,-0.6 --ball 0.75,0.5,0.3", "obstacle 1: node 24",
-         "-0.05 m"},
-        {"--ball 0.125,0.125,0.05", NULL, NULL}, /* in a cell */
-        {"--ground 0,0,1,0", "obstacle 0", "it must be above 0"},
-        {"--ball 3,0,0", "obstacle 0: its radius", "must be above 0"},
-        {"tear --segments 1 --side 2 --barrier 0.01,1 --ceiling 0.9,-1,0",
-         "obstacle 0: node 1", "-0.1 m"},
-        {"return --body 0,0 --body 0.9,0.9 --segments 1",
-         "--body: at the start the edge of nodes ", " would cross that of"},
-        {"return --body 0,0 --body 1,0 --segments 1", "would cross", "nodes"},
-        {"return --body 0,0 --body 1.001,1 --segments 1", NULL, NULL},
-        {"return --body 0,0 --body 0,0.5 --self-contact off", NULL, NULL},
-        {"--stretch 0 --cells on", "at node 0 a cell begins turned over",
-         "it must not"},
-        {"--pin bottom --ground 0,1,0,-0.4", NULL, NULL},
-        {"--pin bottom --ground 0,1,0,-0.2", "obstacle 0: node 1", "-0.05 m"},
-        {"squeeze --at 0,1", NULL, NULL},
-        {"squeeze --at 0,0.5 --turn 45 --segments 4", "obstacle 1: node 19",
-         "-0.0203301 m"},
-        {"bend --at 0,0.3 --segments 16", "obstacle 3: node 30", "-0.043435 m"},
-        {"bend --ball 0,0.6,0.3", "obstacle 1: node 231", "-0.2975 m"},
-        {"tear --ground 1,0,-0.5,0 --segments 4", "obstacle 0: node 0",
-         "of 0 m"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *const *row = rows[i];
-        char line[128], message[512];
-        Options options;
-        snprintf(line, sizeof line, "%s%s",
-                 row[0][0] == '-' ? "square --stretch 1 " : "", row[0]);
-        Status status = parse_line(line, 0, &options, message);
-        CHECK_STATUS(status, row[1] ? STATUS_INVALID_INPUT : STATUS_OK);
-        for (int k = 1; k < 3 && row[1]; k++)
-            if (!strstr(message, row[k]))
-                fail_msg("%s: %s", line, message);
-    }
-}
-
 /* Of a run that goes on only what may be moved counts: not where a ball began,
  * nor a cell that is torn. */
 TEST(obstacles_have_room_in_what_was_torn)

@@ -105,62 +105,43 @@ static void check_state(FILE *file, long step, int nodes, const double *x,
 
 /* ---- the slides' trajectories ------------------------------------------ */
 
-/* The body, the barrier and the slip speed of the lecture's programs. */
-#define LESSON                                                                 \
-    "square --segments 4 --stiffness 2e4 --stretch 1 --timestep 0.01 "         \
-    "--gravity 9.81 --barrier 0.01,1e5 "
+/* Rows of the table in tests/data/reference/README.md. */
+typedef struct Case {
+    char name[32], who[8], line[320];
+    int every, steps;
+    double v; /* m/s, the largest velocity in it, about */
+} Case;
 
-static const struct {
-    const char *name, *line;
-    int steps;
-    bool slides; /* lecture.c makes it too */
-    double v;    /* m/s, the largest velocity in it, about */
-} cases[] = {
-    {"default", "square", 50, true, 14},
-    {"one_cell", "--segments 1", 60, true, 12},
-    {"gentle_8", "--segments 8 --stretch 1.1", 25, true, 3},
-    {"compressed", "--stretch 0.5 --timestep 0.02", 25, true, 8.2},
-    {"stiff_large_step",
-     "--segments 3 --stiffness 1e8 --stretch 2.5 --timestep 0.1", 20, true,
-     7.5},
-    {"squashed", "--segments 3 --stretch 0.05 --timestep 0.1 --tolerance 1e-3",
-     15, true, 4.7},
-    /* gravity and pins, from the second program */
-    {"hang",
-     "hang --segments 4 --stiffness 1e3 --timestep 0.02 --tolerance 1e-2", 60,
-     false, 2.8},
-    {"hang_tight",
-     "square --gravity 9.81 --pin 24,4 --stretch 1 --segments 4 --stiffness "
-     "1e3 --timestep 0.02 --tolerance 1e-6",
-     60, false, 2.8},
-    {"hang_corner", "hang --segments 6 --pin 6 --tolerance 1e-6", 40, false,
-     3.1},
-    /* contact and friction, from the third and fourth */
-    {"drop", LESSON "--ground 0,1,0,-1", 80, false, 3.2},
-    {"drop_tight", LESSON "--tolerance 1e-6 --ground 0,1,0,-1", 80, false, 3.2},
-    {"drop_turned",
-     LESSON "--tolerance 1e-6 --ground 0,2,5,-1 --turn 20 --at 0,-0.2 "
-            "--velocity 0,-2",
-     50, false, 3.8},
-    {"slope_stick", LESSON "--ground 0.1,1,0,-1 --friction 0.11 --at 0,-0.42",
-     120, false, 1.4},
-    {"slope_stick_tight",
-     LESSON "--tolerance 1e-6 --ground 0.1,1,0,-1 --friction 0.11 "
-            "--slip-speed 1e-3 --at 0,-0.42",
-     120, false, 1.4},
-    {"slope_slide_tight",
-     LESSON "--tolerance 1e-6 --ground 0.5,1,0,-1 --friction 0.3 --at 0,-0.2 "
-            "--cells off",
-     60, false, 4.6},
-};
-enum { CASES = sizeof cases / sizeof *cases };
+static Case cases[32];
+static int count;
+
+static int read_cases(void **unused)
+{
+    char row[512];
+    FILE *file = fopen("tests/data/reference/README.md", "r");
+    (void)unused;
+    assert_non_null(file);
+    while (fgets(row, sizeof row, file)) {
+        Case *it = &cases[count];
+        count +=
+            sscanf(row, "| %31s | %7s | %d | %d | %lf | `%319[^`]", it->name,
+                   it->who, &it->every, &it->steps, &it->v, it->line) == 6;
+    }
+    fclose(file);
+    return count == 22 ? 0 : -1;
+}
+
+static bool is_for(const Case *one, const char *who)
+{
+    return strcmp(one->who, who) == 0;
+}
 
 /* A disturbance of 1e-12 grows about tenfold: 1e-9 m is what another order of
  * the sums may do, not another algorithm. */
 TEST(the_program_goes_the_slides_way)
 {
     static Updates got, expected;
-    for (int i = 0; i < CASES; i++) {
+    for (int i = 0; i < count && !is_for(&cases[i], "solid"); i++) {
         got.count = 0;
         FILE *file = open_reference(cases[i].name, "states");
         Simulation *scene =
@@ -186,8 +167,9 @@ TEST(the_program_goes_the_slides_way)
 TEST(a_ceiling_comes_down_as_in_the_lesson)
 {
     Simulation *scene = simulate(
-        LESSON
-        "--tolerance 1e-6 --friction 0.11 --ground 0,1,0,-1 --at 0,-0.3");
+        "square --segments 4 --stiffness 2e4 --stretch 1 --timestep 0.01 "
+        "--gravity 9.81 --barrier 0.01,1e5 --tolerance 1e-6 --friction 0.11 "
+        "--ground 0,1,0,-1 --at 0,-0.3");
     const TimeIntegrator *run = &scene->run[0];
     Contact *contact = contact_of(run->system);
     Obstacle *ceiling = &contact->obstacle[contact->obstacles++];
@@ -217,55 +199,26 @@ TEST(a_ceiling_comes_down_as_in_the_lesson)
  */
 TEST(triangles_and_bodies_go_the_lessons_way)
 {
-    static const struct {
-        const char *name, *line;
-        int steps, every; /* of the file */
-    } solids[] = {
-        {"pulled_tight", "--segments 3 --timestep 0.02 --friction 0.3", 70, 1},
-        {"implode_tight", "--segments 4 --timestep 0.02", 50, 1},
-        {"press_tight",
-         "--segments 4 --timestep 0.01 --friction 0.11 --body 0,-0.45 "
-         "--ceiling 0.1,-1,-0.7025",
-         110, 10},
-        {"two_tight",
-         "--segments 2 --side 0.45 --timestep 0.01 --friction 0.4 "
-         "--self-friction 0 --ceiling 0.27,-0.5,-0.3975 --body 0,0 "
-         "--body 0.045,-0.495",
-         160, 10},
-        {"corner_tight",
-         "--segments 3 --side 0.45 --timestep 0.01 --friction 0.4 "
-         "--self-friction 0 --body 0.05,-0.12,35,0,-1.5 --body 0,-0.76",
-         90, 10},
-        {"two_rub_tight",
-         "--segments 2 --side 0.45 --timestep 0.01 --friction 0.4 "
-         "--ceiling 0.27,-0.5,-0.3975 --body 0,0 --body 0.045,-0.495",
-         160, 10},
-        {"slide_tight",
-         "--segments 3 --side 0.45 --timestep 0.01 --friction 0.3 "
-         "--body -0.1,-0.285,0,1.2,0 --body 0,-0.755",
-         90, 10},
-    };
-    for (size_t i = 0; i < sizeof solids / sizeof *solids; i++) {
-        Simulation *scene =
-            simulate("square --material neo-hookean --young 1e5 --poisson 0.4 "
-                     "--tolerance 1e-9 --gravity 9.81 --ground 0,1,0,-1 "
-                     "--barrier 0.01,1e5 %s",
-                     solids[i].line);
+    int first = 0;
+    while (!is_for(&cases[first], "solid"))
+        first++;
+    for (int i = first; i < count; i++) {
+        Simulation *scene = simulate("%s", cases[i].line);
         TimeIntegrator *run = &scene->run[0];
-        FILE *file = open_reference(solids[i].name, "states");
+        FILE *file = open_reference(cases[i].name, "states");
         for (int k = 0; k < run->system->nodes; k++) {
             double start[2];
             CHECK(fscanf(file, "%*d,%*f,%*d,%lf,%lf,%lf,%lf", &start[0],
                          &start[1], &run->v[2 * k], &run->v[2 * k + 1]) == 4);
             for (int axis = 0; axis < 2; axis++) {
-                CHECK(i < 2 ||
+                CHECK(i < first + 2 ||
                       fabs(run->x[2 * k + axis] - start[axis]) < 1e-15);
                 run->x[2 * k + axis] = start[axis];
             }
         }
-        for (int step = solids[i].every; step <= solids[i].steps;
-             step += solids[i].every) {
-            make_steps(scene, solids[i].every);
+        for (int step = cases[i].every; step <= cases[i].steps;
+             step += cases[i].every) {
+            make_steps(scene, cases[i].every);
             check_state(file, step, run->system->nodes, run->x, run->v, 1e-8,
                         1e-8 / run->h);
         }
@@ -308,7 +261,7 @@ static Solid solid_from(const TimeIntegrator *run)
 TEST(lecture_goes_the_slides_way)
 {
     static Updates got, expected;
-    for (int i = 0; i < CASES && cases[i].slides; i++) {
+    for (int i = 0; i < count && is_for(&cases[i], "lecture"); i++) {
         const Options options = simulate("%s", cases[i].line)->options;
         Solid solid = square(1, options.segments, 1000, options.stiffness);
         FILE *file = open_reference(cases[i].name, "states");
@@ -437,4 +390,4 @@ TEST(symplectic_euler_stays_as_long_as_it_says)
     }
 }
 
-TESTS(NULL, NULL)
+TESTS(read_cases, NULL)

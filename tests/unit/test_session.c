@@ -411,14 +411,8 @@ static int read_sessions(void)
             assert_true(count < SESSIONS);
             sessions[count++] = (Session){row + 2, lines + used};
         } else if (row[0] != '#') {
-            for (char *next; row; row = next) {
-                if ((next = strstr(row, " | "))) {
-                    *next = '\0';
-                    next += 3;
-                }
-                assert_true(used + 2 < LINES);
-                lines[used++] = row;
-            }
+            while ((lines[used] = next_part(&row)))
+                assert_true(++used + 2 < LINES);
         }
     return count;
 }

@@ -129,44 +129,6 @@ void random_system(Random *random, SpringState state, System *system, double *x)
     }
 }
 
-double central_omega2(const System *system)
-{
-    const Term *term = system_find_term(system, &central_field);
-    return term ? ((const Pull *)term->data)->k : 0;
-}
-
-bool dense_solve(int n, long double *A, long double *b)
-{
-    for (int c = 0; c < n; c++) {
-        int pivot = c;
-        for (int r = c + 1; r < n; r++)
-            if (fabsl(A[n * r + c]) > fabsl(A[n * pivot + c]))
-                pivot = r;
-        if (A[n * pivot + c] == 0)
-            return false;
-        for (int i = 0; i < n; i++) {
-            long double swap = A[n * c + i];
-            A[n * c + i] = A[n * pivot + i];
-            A[n * pivot + i] = swap;
-        }
-        long double swap = b[c];
-        b[c] = b[pivot];
-        b[pivot] = swap;
-        for (int r = c + 1; r < n; r++) {
-            long double factor = A[n * r + c] / A[n * c + c];
-            for (int i = c; i < n; i++)
-                A[n * r + i] -= factor * A[n * c + i];
-            b[r] -= factor * b[c];
-        }
-    }
-    for (int r = n - 1; r >= 0; r--) {
-        for (int i = r + 1; i < n; i++)
-            b[r] -= A[n * r + i] * b[i];
-        b[r] /= A[n * r + r];
-    }
-    return true;
-}
-
 void dense_from_sparse(const Sparse *A, double *dense)
 {
     for (int i = 0; i < A->size * A->size; i++)
@@ -176,6 +138,15 @@ void dense_from_sparse(const Sparse *A, double *dense)
             dense[A->size * A->row[s] + c] = A->value[s];
             dense[A->size * c + A->row[s]] = A->value[s];
         }
+}
+
+char *next_part(char **row)
+{
+    char *part = *row, *bar = part ? strstr(part, " | ") : NULL;
+    *row = bar ? bar + 3 : NULL;
+    if (bar)
+        *bar = '\0';
+    return part;
 }
 
 Status parse_line(const char *line, int pane, Options *options, char *message)

@@ -75,15 +75,11 @@ enum { MAX_NODES = 12, MAX_SIZE = 2 * MAX_NODES, MAX_SPRINGS = 40 };
 void random_system(Random *random, SpringState state, System *system,
                    double *x);
 
-/* omega2 of the system's central field, 1/s^2; 0 where it has none. */
-double central_omega2(const System *system);
-
-/* b = A^-1 b by Gaussian elimination with pivots; A [n n] is destroyed.
- * Returns false where A is singular. */
-bool dense_solve(int n, long double *A, long double *b);
-
 /* Full matrix [size size] of a sparse one. */
 void dense_from_sparse(const Sparse *A, double *dense);
+
+/* Cuts the part of a row before " | " off; NULL: nothing is left. */
+char *next_part(char **row);
 
 /* options_parse of the words of a line, separated by single spaces; "''" is an
  * empty one.  message [512] out */
