@@ -22,7 +22,12 @@ function put_word(    i, part)
         row = row "." word " = " (word == "around" ? "{" text "}" : text) ", "
     else if (word == "name")
         called = text
-    else if (word == "cards")
+    else if (word == "line" && kind == "rows") {
+        end_line()
+        split(text, part, " ")
+        row = ".line = LINE_" part[1] ", .of = " \
+              quoted(substr(text, length(part[1]) + 2)) ", "
+    } else if (word == "cards")
         for (i = split(text, part, " "); i > 0; i--)
             list = "&card_" part[i] ", " list
     else if (word in switches && text == "")
@@ -32,16 +37,34 @@ function put_word(    i, part)
     word = ""
 }
 
-function end_row(    i)
+# The texts of a row behind its other fields.
+function put_texts(    i)
 {
-    put_word()
     for (i in texts) {
-        if (kind != "text" && texts[i])
+        if (texts[i])
             row = row "." i " = " texts[i] ", "
-        else if (i == "words" && kind == "text")
-            print "const char text_" name "[] = " texts[i] ";"
         texts[i] = ""
     }
+}
+
+function end_line()
+{
+    put_texts()
+    if (row)
+        list = list "{" row "},\n"
+    row = ""
+}
+
+function end_row()
+{
+    put_word()
+    if (kind == "text")
+        print "const char text_" name "[] = " texts["words"] ";"
+    if (kind == "rows") {
+        end_line()
+        print "const ListingRow rows_" name "[] = {" list "{.of = NULL}};"
+    }
+    put_texts()
     if (kind == "card")
         print "const Card card_" name " = {" row ".name = " quoted(called) "};"
     if (kind == "picture") {
@@ -55,12 +78,13 @@ function end_row(    i)
 
 BEGIN {
     texts["title"] texts["legend"] texts["words"]
+    texts["shows"] texts["value"] texts["off"] texts["lit"]
     values["least"] values["needs"] values["weight"] values["around"]
     values["draw"] values["bounds"] values["facts"] values["pick"]
     values["hover"] values["sample"]
     switches["half"] switches["half_on_page"] switches["closed"]
     switches["lecture"] switches["stretched"] switches["own_handles"]
-    switches["places"] switches["scale"]
+    switches["places"] switches["scale"] switches["indented"]
     print "#include \"picture/cards.h\""
 }
 
@@ -73,7 +97,7 @@ BEGIN {
     next
 }
 
-/^== (card|picture|text) [a-z_]+$/ {
+/^== (card|picture|rows|text) [a-z_]+$/ {
     end_row()
     kind = $2
     called = name = $3

@@ -10,10 +10,21 @@
 /* A card that is wider is a page's star, ems. */
 static const double STAR_WIDE = 40;
 
+/* A line of a listing; its texts have facts. */
+typedef struct ListingRow {
+    const char *of; /* it is shown where this is known; NULL: the end */
+    Line line;      /* its place in the run */
+    bool indented;
+    const char *off; /* strikes it through where it is known, or NULL */
+    const char *lit; /* lights it, or NULL: its place does */
+    const char *shows, *value; /* value: at its right, once it is reached */
+} ListingRow;
+
 /* What cards.txt has: a row for each kind of picture, those cards that sources
- * name, texts. */
+ * name, listings, texts. */
 extern const Picture pictures[PICTURE_COUNT];
 extern const Card card_law, card_listing;
+extern const ListingRow rows_listing[], rows_search[];
 extern const char text_sentences[], text_methods[], text_states[],
     text_trials[], text_undrawn[], text_newest[], text_node[], text_spring[];
 
