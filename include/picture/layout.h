@@ -38,8 +38,9 @@ typedef struct Layout {
     double em;         /* pixels, size of the texts */
     Box strip, stage, column, row, time, last;
     int panes, cards, settings, chips;
+    bool page;              /* help or code is in the column, no cards */
     Box pane[LAYOUT_PANES]; /* inside the stage */
-    Box card[LAYOUT_CARDS]; /* inside the column */
+    Box card[LAYOUT_CARDS]; /* inside the column, or on the stage */
     Box setting[LAYOUT_SETTINGS];
     Box chip[LAYOUT_CHIPS]; /* without width: there is no room for it */
     int chips_left_out;     /* so many of them, all before the last one */

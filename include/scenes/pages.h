@@ -27,7 +27,7 @@ typedef struct LecturePage {
     const char *notes; /* what to say, for whoever presents it */
     double minutes;    /* that it takes */
     const char *file;  /* where its code is: a file that listing.h knows */
-    const char *function; /* and a function in it */
+    const char *function; /* and functions in it, with ',' between */
     const char *lit;      /* its lines with this text are those at work */
     const char *claim;    /* what a test holds */
     unsigned flips;       /* bit s: switch s of the scene is turned over */

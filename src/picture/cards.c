@@ -9,6 +9,7 @@
 #include "scenes/scene.h"
 
 static const double TITLE = 2.0; /* ems, height of a title bar; layout.c */
+static const double CODE_LETTER = 0.7; /* ems, a letter of code is wide */
 
 /* f(x + alpha p) - f(x), or E in the landscape. */
 static double descent_difference(const void *function, double alpha)
@@ -171,18 +172,32 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
     }
 }
 
+/* Letters that its widest line has; *indent out, blanks before all lines. */
+static double code_letters(const Page *page, size_t *indent)
+{
+    size_t widest = 0;
+    *indent = SIZE_MAX;
+    for (int i = 0; i < page->lines; i++) {
+        size_t length = strlen(page->line[i]);
+        size_t blanks = strspn(page->line[i], " ");
+        *indent = length > 0 && blanks < *indent ? blanks : *indent;
+        widest = length > widest ? length : widest;
+    }
+    return (double)widest - (double)*indent;
+}
+
+double cards_code_needs(const Page *page)
+{
+    size_t indent;
+    return CODE_LETTER * code_letters(page, &indent) + 4.4; /* margins */
+}
+
 /* Lines of code in letters as large as they fit; those at work are lit. */
 static void draw_code(Paper *paper, Box inside, const Page *page)
 {
     const double letter = 0.603, high = 1.3, most = 1.9; /* ems */
-    size_t indent = SIZE_MAX, widest = 0;
-    for (int i = 0; i < page->lines; i++) {
-        size_t length = strlen(page->line[i]);
-        size_t blanks = strspn(page->line[i], " ");
-        indent = length > 0 && blanks < indent ? blanks : indent;
-        widest = length > widest ? length : widest;
-    }
-    double air = 0.3 * paper->em, letters = (double)(widest - indent);
+    size_t indent;
+    double air = 0.3 * paper->em, letters = code_letters(page, &indent);
     double cell = floor((inside.width - 2 * air) / letters); /* whole pixels */
     double wide = floor((cell + 0.49) / letter);
     double size = fmin(wide, inside.height / (high * page->lines)) / paper->em;
@@ -207,12 +222,10 @@ static void draw_page(Paper *paper, Box column, const Show *show)
     Box box = box_inset(column, paper_pixels(paper, 0.9));
     Box inside = page_inside(column, paper->em);
     canvas_card(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
-    bool code = page->kind == PAGE_CODE && show->lecture;
     draw_cross(paper, box, false);
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, inside.x,
-                box.y + 0.55 * paper->em, ALIGN_LEFT, "%s%s%s",
-                page->title ? page->title : "Keys and mouse", code ? ": " : "",
-                code ? show->lecture->function : "");
+                box.y + 0.55 * paper->em, ALIGN_LEFT, "%s",
+                page->title ? page->title : "Keys and mouse");
     Box before = canvas_clip(&paper->canvas, inside);
     if (page->kind == PAGE_CODE)
         draw_code(paper, page_draw_claim(paper, inside, show), page);
@@ -225,10 +238,8 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
 {
     const Simulation *simulation = show_pane(show)->simulation;
     const Picture *picture = picture_of(simulation->scene);
-    if (show->page.kind != PAGE_NONE && layout->column.width > 0) {
+    if (layout->page)
         draw_page(paper, layout->column, show);
-        return;
-    }
     for (int i = 0; i < layout->cards; i++) {
         const Card *card = picture->cards[i];
         Box box = layout->card[i];

@@ -83,7 +83,10 @@ Box cards_inside(Box card, double em);
  * text that is known. */
 void cards_hint(const Plot *card, const char *text);
 
-/* All cards of the layout, or the page in their place. */
+/* How wide a page of code wants to be, ems. */
+double cards_code_needs(const Page *page);
+
+/* All cards of the layout, or the page in their place and one on the stage. */
 void cards_draw(Paper *paper, const Layout *layout, const Show *show);
 
 /* On a page: what has the colour of the term at the mouse, or of the line of

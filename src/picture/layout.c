@@ -22,8 +22,8 @@ static const double STAR_REST = 0.4; /* of the stage, below a star */
 /* Cards fold where the room is less than this part of what they need. */
 static const double FOLDS = 1.15;
 
-/* The column's part of the width, and where code or more rows of a list than
- * one column holds stand in it. */
+/* The column's part of the width, and at most, where code or more rows of a
+ * list than one column holds stand in it. */
 static const double COLUMN_PART = 0.38, WIDE_PART = 0.75;
 enum { MOST_ROWS = 30 };
 
@@ -315,7 +315,8 @@ static double least_letter(const Show *show, int width, int height)
 }
 
 /* The card that a page wants large stands on the stage, and the picture in the
- * card's place; where the column has no room for it, below the card. */
+ * card's place; where the column has no room for it, or code stands there,
+ * below the card. */
 static void place_star(const Show *show, Layout *layout)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
@@ -323,8 +324,9 @@ static void place_star(const Show *show, Layout *layout)
     int star = page && page->star ? picture_card(picture, page->star) : -1;
     double bar = 3 * layout->em; /* more than a card that is closed has */
     if (star < 0 || star >= layout->cards || layout->panes != 1 ||
-        layout->card[star].width < 1 || layout->stage.height < 2 * bar ||
-        show->closed >> star & 1 || (show->large >= 0 && show->large != star))
+        (layout->card[star].width < 1 && !layout->page) ||
+        layout->stage.height < 2 * bar || show->closed >> star & 1 ||
+        (show->large >= 0 && show->large != star))
         return;
     Box stage = layout->pane[0], place = layout->card[star];
     if (place.height < bar)
@@ -333,20 +335,23 @@ static void place_star(const Show *show, Layout *layout)
     layout->pane[0] = place;
 }
 
-/* The first card of a page that folds for want of room stands below the
- * picture, as high as it needs, half of the stage at most; not where a star or
- * switches are on the stage, nor in the scenes of a law, whose bodies need all
- * of it. */
+/* The first card of a page that folds for want of room, or in whose place code
+ * stands, is below the picture, as high as it needs, half of the stage at most;
+ * not where a star or switches (beside code: more than one) are on the stage,
+ * nor, without code, in the scenes of a law, whose bodies need all of it. */
 static void place_folded(const Show *show, Layout *layout)
 {
     const Simulation *simulation = show_pane(show)->simulation;
     const LecturePage *page = show->lecture;
     int bar = pixels(layout, TITLE_BAR), folded = 1;
+    unsigned shut = show->closed | show->hidden;
     while (folded < layout->cards &&
-           (layout->card[folded].height != bar || (show->closed >> folded & 1)))
+           (shut >> folded & 1 ||
+            (layout->card[folded].height != bar && !layout->page)))
         folded++;
-    if (!page || page->star || page->law || simulation->scene->parts[0] ||
-        show->large >= 0 || layout->panes != 1 || folded >= layout->cards)
+    if (!page || page->star || (page->law && !layout->page) ||
+        simulation->scene->parts[layout->page] || show->large >= 0 ||
+        layout->panes != 1 || folded >= layout->cards)
         return;
     const Card *card = picture_of(simulation->scene)->cards[folded];
     Box *stage = &layout->pane[0];
@@ -355,6 +360,17 @@ static void place_folded(const Show *show, Layout *layout)
     int high = (int)fmin((needs + 2 * GAP) * layout->em, 0.5 * stage->height);
     layout->card[folded] =
         box_inset(cut(stage, true, high), pixels(layout, GAP));
+}
+
+/* Ems. */
+static double column_width(const Show *show, double wide)
+{
+    bool page = show->page.kind != PAGE_NONE;
+    double most = WIDE_PART * wide,
+           least = fmax(COLUMN_PART * wide, COLUMN_LEAST);
+    if (show->page.kind == PAGE_CODE)
+        return fmin(fmax(cards_code_needs(&show->page), least), most);
+    return page && show->help_rows > MOST_ROWS ? most : least;
 }
 
 Layout show_layout(const Show *show, int width, int height)
@@ -373,19 +389,19 @@ Layout show_layout(const Show *show, int width, int height)
     bool low = page && high < 50; /* a page needs all of the width */
     if (!show->bare && wide >= 53 && high >= 34 && !low &&
         (page || show->hidden != (1u << picture_cards(picture)) - 1)) {
-        bool much = show->page.kind == PAGE_CODE ||
-                    (page && show->help_rows > MOST_ROWS);
-        double part = much ? WIDE_PART : COLUMN_PART;
-        int column = pixels(&layout, fmax(part * wide, COLUMN_LEAST));
+        int column = pixels(&layout, column_width(show, wide));
         layout.column = layout.stage;
         layout.column.width = column;
         layout.column.x += layout.stage.width - column;
         layout.stage.width -= column;
         if (!page)
             place_cards(show, &layout);
+        else if (show->lecture && show->page.kind == PAGE_CODE)
+            layout.cards = picture_cards(picture);
     } else if (!show->bare && page) { /* over the stage */
         layout.column = layout.stage;
     }
+    layout.page = page && layout.column.width > 0;
     place_panes(show->panes, &layout);
     place_star(show, &layout);
     place_folded(show, &layout);
@@ -410,7 +426,7 @@ Hit layout_hit(const Layout *layout, double x, double y)
         int count;
     } lists[] = {
         {ZONE_STRIP, &l->strip, 1},     {ZONE_STAGE, l->pane, l->panes},
-        {ZONE_TIME, &l->time, 1},       {ZONE_PAGE, &l->column, l->cards == 0},
+        {ZONE_TIME, &l->time, 1},       {ZONE_PAGE, &l->column, l->page},
         {ZONE_CARD, l->card, l->cards}, {ZONE_SETTING, l->setting, l->settings},
         {ZONE_CHIP, l->chip, l->chips}, {ZONE_CELL, l->cell, l->cells}};
     Hit hit = {ZONE_NONE, 0, {x, y}};

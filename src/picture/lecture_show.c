@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -5,7 +6,7 @@
 #include "scenes/listing.h"
 #include "scenes/scene.h"
 
-enum { CODE_SHOWN = 16 }; /* lines */
+enum { CODE_SHOWN = 22 }; /* lines */
 
 /* Where Algorithm 3's lines are in step_forward of lecture.c. */
 static const char *const line_texts[LINE_COUNT] = {
@@ -36,58 +37,77 @@ static const char *lit_text(const Show *show, const LecturePage *page)
     return page->lit;
 }
 
-/* How many lines from this one on only report, remark or give back, a condition
- * before them included: a class reads past them. */
+/* How many lines from this one on only declare, report, remark or give back, a
+ * condition before them included: a class reads past them. */
 static int count_asides(const char *const *line)
 {
-    static const char *const words[] = {
-        "/*",    "FAIL(",        "fprintf(",       "fputs(",       "puts(",
-        "char ", "snprintf(",    "FILE *",         "return NULL;", "(void)",
-        "free(", "cholmod_free", "cholmod_finish", "SDL_Quit"};
+    static const char words[] =
+        "/*|FAIL(|fprintf(|fputs(|puts(|char |const char *states|snprintf(|"
+        "FILE *f|return NULL;|(void)|free(|cholmod_free|cholmod_finish|"
+        "cholmod_start|cholmod_common c|common.|size_t n|SDL_Quit|Vec2 *x|"
+        "Vec2 *p|int n = |Solid solid = {|Parameter *|Parameter method|"
+        "Parameter steps|for (int a|states = |read_argument(|bool drawn|"
+        "Screen s|";
     const char *head = line[0] + strspn(line[0], " ");
-    bool heads =
-        strncmp(head, "if (", 4) == 0 || strncmp(head, "for (", 5) == 0;
-    int count = heads && !strchr(head, '{');
-    const char *body = line[count] + strspn(line[count], " ");
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strncmp(body, words[i], strlen(words[i])) == 0) {
-            while (!strstr(line[count], i == 0 ? "*/" : ";"))
+    bool heads = strncmp(head, "if (", 4) == 0 ||
+                 strncmp(head, "for (", 5) == 0 || strcmp(head, "else") == 0;
+    for (int count = 0; count <= (heads && !strchr(head, '{')); count++) {
+        const char *body = line[count] + strspn(line[count], " ");
+        size_t length;
+        for (const char *word = words; *word; word += length + 1) {
+            length = strcspn(word, "|");
+            if (strncmp(body, word, length) != 0)
+                continue;
+            while (!strstr(line[count], word == words ? "*/" : ";"))
                 count++;
             return count + 1;
         }
+    }
     return 0;
 }
 
-/* Of the function as many lines as are seen from the back row, around those
- * that are lit. */
+/* A function's lines, behind those of the one before. */
+static void add_function(const Listing *listing, const char *name,
+                         const char *text, Page *code)
+{
+    int from, at, to;
+    if (!listing_function(listing, name, &from, &at, &to))
+        return;
+    if (code->lines > 0)
+        code->line[code->lines++] = "";
+    while (at < to && code->lines + 1 < SHOW_CODE_LINES) {
+        int asides = count_asides(listing->line + at);
+        at += asides;
+        bool begins = code->lines > 0 && code->line[code->lines - 1][0] == '{';
+        at += begins && !listing->line[at][0];
+        if (asides > 0)
+            continue;
+        code->lit[code->lines] = strstr(listing->line[at], text) != NULL;
+        code->line[code->lines++] = listing->line[at++];
+    }
+}
+
+/* Of the functions as many lines as are seen from the back row, from their
+ * beginning, but up to the last one that is lit. */
 static void fill_code(const LecturePage *page, Show *show)
 {
     const Listing *listing = listing_find(page->file);
-    Page *code = &show->page;
-    int from, at, to, first = -1, last = 0, lines = 0;
-    if (!listing || !listing_function(listing, page->function, &from, &at, &to))
-        return;
     const char *text = lit_text(show, page);
-    code->kind = PAGE_CODE;
-    code->title = page->file;
-    while (at < to && lines < SHOW_CODE_LINES) {
-        int asides = count_asides(listing->line + at);
-        at += asides;
-        if (asides > 0)
-            continue;
-        code->lit[lines] = strstr(listing->line[at], text) != NULL;
-        if (code->lit[lines]) {
-            first = first < 0 ? lines : first;
-            last = lines;
-        }
-        code->line[lines++] = listing->line[at++];
+    Page *code = &show->page;
+    int last = 0;
+    *code = (Page){.kind = PAGE_CODE, .title = page->file};
+    for (const char *at = page->function; listing && *at;) {
+        char name[40];
+        int length = (int)strcspn(at, ",");
+        snprintf(name, sizeof name, "%.*s", length, at);
+        add_function(listing, name, text, code);
+        at += length + (at[length] == ',');
     }
-    lines -= lines > CODE_SHOWN; /* the brace at its end */
-    int top = (first + last - CODE_SHOWN + 1) / 2;
-    top = top > lines - CODE_SHOWN ? lines - CODE_SHOWN : top;
-    for (top = top > 0 ? top : 0; !code->line[top][0];)
-        top++;
-    code->lines = lines - top < CODE_SHOWN ? lines - top : CODE_SHOWN;
+    for (int i = 0; i < code->lines; i++)
+        last = code->lit[i] ? i : last;
+    code->lines -= code->lines > CODE_SHOWN; /* the brace at its end */
+    int top = last < CODE_SHOWN ? 0 : last + 1 - CODE_SHOWN;
+    code->lines = (int)fmin(code->lines - top, CODE_SHOWN);
     memmove(code->line, code->line + top,
             (size_t)code->lines * sizeof *code->line);
     memmove(code->lit, code->lit + top, (size_t)code->lines);
