@@ -357,7 +357,9 @@ static void place_folded(const Show *show, Layout *layout)
     Box *stage = &layout->pane[0];
     double needs = card->needs ? card->needs(show, stage->width / layout->em)
                                : card->least;
-    int high = (int)fmin((needs + 2 * GAP) * layout->em, 0.5 * stage->height);
+    double room = layout->page ? stage->height - 0.8 * stage->width : 0;
+    int high = (int)fmin(fmax((needs + 2 * GAP) * layout->em, room),
+                         0.5 * stage->height);
     layout->card[folded] =
         box_inset(cut(stage, true, high), pixels(layout, GAP));
 }
