@@ -27,15 +27,6 @@ typedef struct Box2 {
     int edge; /* whose it is, a spring; -1 of points */
 } Box2;
 
-/* What was found last: of point i edge[first[i]] and on, until that of the
- * next.
- */
-typedef struct NearList {
-    bool known;                   /* else all is new, or there was no room */
-    double alpha, margin, *x, *p; /* [2n], for which it is */
-    int *first, *edge;            /* [points + 1], springs */
-} NearList;
-
 typedef struct Boundary {
     SquareMesh shape;     /* without arrays */
     unsigned version;     /* of the system, that it is of */
@@ -47,10 +38,12 @@ typedef struct Boundary {
     unsigned char *role;  /* [nodes] */
     /* The way that the boxes are of: from x along alpha p less its mean, and
      * this much more around; widest of the edges' boxes. */
-    const double *x, *p;
+    bool known, moves; /* whether it is the present one; p counts */
+    double *x, *p;     /* [2n] */
     double alpha, mean[2], margin, widest;
-    bool upright;           /* that is y */
-    NearList list[2], *now; /* without a way, and on one; the present one */
+    bool upright;     /* the boxes' first coordinate is y */
+    bool listed;      /* there was room for what is near: of point i it is */
+    int *near, *last; /* near[last[i - 1]] and on, until near[last[i]] */
 } Boundary;
 
 /* Bytes of all arrays; and puts them there. */
@@ -59,13 +52,14 @@ void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary);
 
 /* Makes the boxes of x [2n] along alpha p [2n], NULL: of x alone, each wider by
  * `margin`, m, at all sides; and finds the boundary, if springs have changed.
- * x, p must stay until the last boundary_next. */
+ */
 void boundary_sort(Boundary *boundary, const System *system, const double *x,
                    const double *p, double alpha, double margin);
 
 /* The next edge that point i (a number of `point`) may meet.
  *   place  in/out, 0: before the first
  * Returns a spring; or -1, and place is 0 again. */
-int boundary_next(Boundary *boundary, const System *system, int i, int *place);
+int boundary_next(const Boundary *boundary, const System *system, int i,
+                  int *place);
 
 #endif

@@ -20,8 +20,10 @@
 /* How a spring answers in this step; with damping (damping.h) V has
  * theta (e - e_n)^2/2 more. */
 typedef struct SpringLaw {
+    double ep;    /* plastic strain, e = E - ep */
     double yield; /* Y_n > 0 */
     double flow;  /* 1/(1 + H), 0 < flow <= 1 */
+    double hard;  /* 1 - flow, H/(1 + H) */
     double theta; /* eta/h; 0: no damping */
     double e_n;   /* e at the step's start */
 } SpringLaw;
@@ -44,7 +46,9 @@ typedef struct Plasticity {
  * l2 H kappa^2/2; what flowing costs, k l2 Y gamma, is booked as lost. */
 extern const TermKind plastic_energy;
 
-/* The system's plastic state, or NULL. */
+/* The system's plastic state, or NULL; the law of spring s without damping,
+ * elastic where nothing flows. */
 Plasticity *plasticity_of(const System *system);
+SpringLaw plasticity_law(const System *system, int s);
 
 #endif

@@ -7,39 +7,27 @@
 /* Room for so many near edges for each node of the mesh. */
 enum { NEAR_A_NODE = 8 };
 
-/* A list's numbers; then its coordinates. */
-static size_t near_ints(const SquareMesh *mesh)
-{
-    return (1 + NEAR_A_NODE) * (size_t)mesh->nodes + 1;
-}
-
 size_t boundary_bytes(const SquareMesh *mesh)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
-    return 8 * nodes * sizeof(double) + (nodes + springs) * sizeof(Box2) +
-           springs + (nodes + 2 * near_ints(mesh)) * sizeof(int) + nodes;
+    return 4 * nodes * sizeof(double) + (nodes + springs) * sizeof(Box2) +
+           (2 + NEAR_A_NODE) * nodes * sizeof(int) + springs + nodes;
 }
 
 void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
 {
-    double *x = bytes;
-    *boundary = (Boundary){.shape = *mesh, .version = ~0u};
+    size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
+    *boundary = (Boundary){.shape = *mesh, .version = ~0u, .x = bytes};
     boundary->shape.x = NULL;
     boundary->shape.e = boundary->shape.order = NULL;
-    boundary->box = (Box2 *)(x + 8 * (size_t)mesh->nodes);
-    boundary->way = boundary->box + mesh->springs;
-    boundary->point = (int *)(boundary->way + mesh->nodes);
-    int *numbers = boundary->point + mesh->nodes;
-    for (int i = 0; i < 2; i++) {
-        NearList *list = &boundary->list[i];
-        list->x = x + 4 * i * (size_t)mesh->nodes;
-        list->p = list->x + 2 * (size_t)mesh->nodes;
-        list->first = numbers;
-        list->edge = numbers + mesh->nodes + 1;
-        numbers += near_ints(mesh);
-    }
-    boundary->sides = (unsigned char *)numbers;
-    boundary->role = boundary->sides + mesh->springs;
+    boundary->p = boundary->x + 2 * nodes;
+    boundary->box = (Box2 *)(boundary->p + 2 * nodes);
+    boundary->way = boundary->box + springs;
+    boundary->point = (int *)(boundary->way + nodes);
+    boundary->last = boundary->point + nodes;
+    boundary->near = boundary->last + nodes;
+    boundary->sides = (unsigned char *)(boundary->near + NEAR_A_NODE * nodes);
+    boundary->role = boundary->sides + springs;
 }
 
 /* ---- what is solid ------------------------------------------------------ */
@@ -97,7 +85,7 @@ static void find_boundary(Boundary *boundary, const System *system)
         if (boundary->role[i] != IN_A_TRIANGLE)
             boundary->point[boundary->points++] = i;
     boundary->version = system->version;
-    boundary->list[0].known = boundary->list[1].known = false;
+    boundary->known = false;
 }
 
 /* ---- who comes near whom ------------------------------------------------ */
@@ -113,7 +101,8 @@ static const Box2 nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
 /* What a node passes, without the motion that all have in common. */
 static void take_way(Boundary *boundary, int node)
 {
-    const double *p = boundary->p, *mean = boundary->mean;
+    const double *p = boundary->moves ? boundary->p : NULL;
+    const double *mean = boundary->mean;
     Box2 *box = &boundary->way[node];
     *box = nothing;
     for (int c = 0; c < 2; c++) {
@@ -155,7 +144,7 @@ static void sort_from_last(Boundary *boundary)
 
 static void make_boxes(Boundary *boundary, const System *system)
 {
-    const double *x = boundary->x, *p = boundary->p;
+    const double *x = boundary->x, *p = boundary->moves ? boundary->p : NULL;
     boundary->widest = boundary->mean[0] = boundary->mean[1] = 0;
     Box2 all = nothing;
     for (int i = 0; i < boundary->points; i++) {
@@ -219,18 +208,17 @@ static int next_box(const Boundary *boundary, const System *system, int i,
 }
 
 /* Goes through all points once; false: there is no room. */
-static bool list_near(Boundary *boundary, const System *system, NearList *list)
+static bool list_near(Boundary *boundary, const System *system)
 {
     int room = NEAR_A_NODE * boundary->shape.nodes, count = 0, place = 0, edge;
     for (int i = 0; i < boundary->points; i++) {
-        list->first[i] = count;
         while ((edge = next_box(boundary, system, i, &place)) >= 0) {
             if (count == room)
                 return false;
-            list->edge[count++] = edge;
+            boundary->near[count++] = edge;
         }
+        boundary->last[i] = count;
     }
-    list->first[boundary->points] = count;
     return true;
 }
 
@@ -240,30 +228,29 @@ void boundary_sort(Boundary *boundary, const System *system, const double *x,
     size_t bytes = 2 * (size_t)boundary->shape.nodes * sizeof *x;
     if (boundary->version != system->version)
         find_boundary(boundary, system);
-    NearList *list = boundary->now = &boundary->list[p != NULL];
-    boundary->x = x;
-    boundary->p = p;
+    if (boundary->known && boundary->moves == (p != NULL) &&
+        boundary->alpha == alpha && boundary->margin == margin &&
+        memcmp(boundary->x, x, bytes) == 0 &&
+        (!p || memcmp(boundary->p, p, bytes) == 0))
+        return;
+    boundary->known = true;
+    boundary->moves = p != NULL;
     boundary->alpha = alpha;
     boundary->margin = margin;
-    if (list->known && list->alpha == alpha && list->margin == margin &&
-        memcmp(list->x, x, bytes) == 0 &&
-        (!p || memcmp(list->p, p, bytes) == 0))
-        return;
-    make_boxes(boundary, system);
-    list->known = list_near(boundary, system, list);
-    list->alpha = alpha;
-    list->margin = margin;
-    memcpy(list->x, x, bytes);
+    memcpy(boundary->x, x, bytes);
     if (p)
-        memcpy(list->p, p, bytes);
+        memcpy(boundary->p, p, bytes);
+    make_boxes(boundary, system);
+    boundary->listed = list_near(boundary, system);
 }
 
-int boundary_next(Boundary *boundary, const System *system, int i, int *place)
+int boundary_next(const Boundary *boundary, const System *system, int i,
+                  int *place)
 {
-    const NearList *list = boundary->now;
-    if (!list->known)
+    if (!boundary->listed)
         return next_box(boundary, system, i, place);
-    int k = *place > 0 ? *place : list->first[i];
-    *place = k < list->first[i + 1] ? k + 1 : 0;
-    return *place > 0 ? list->edge[k] : -1;
+    int first = i > 0 ? boundary->last[i - 1] : 0;
+    int k = *place > 0 ? *place : first;
+    *place = k < boundary->last[i] ? k + 1 : 0;
+    return *place > 0 ? boundary->near[k] : -1;
 }

@@ -31,32 +31,26 @@ static double spring_law_value(SpringLaw law, double e)
     double over = beyond(law, e), change = e - law.e_n;
     double within = smaller(fabs(e), law.yield);
     double sum =
-        within * (fabs(e) - 0.5 * within) + 0.5 * (1 - law.flow) * over * over;
+        within * (fabs(e) - 0.5 * within) + 0.5 * law.hard * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
 }
 
 double spring_law_slope(SpringLaw law, double e)
 {
     double within = smaller(fabs(e), law.yield);
-    double tau = copysign(within + (1 - law.flow) * beyond(law, e), e);
+    double tau = copysign(within + law.hard * beyond(law, e), e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
 double spring_law_curvature(SpringLaw law, double e)
 {
-    return law.theta + (beyond(law, e) > 0 ? 1 - law.flow : 1);
-}
-
-/* gamma >= 0: how far the spring flows at e. */
-static double spring_law_flow(SpringLaw law, double e)
-{
-    return law.flow * beyond(law, e);
+    return law.theta + (beyond(law, e) > 0 ? law.hard : 1);
 }
 
 /* V(e + t) - V(e) - V'(e) t >= 0: the integral of (t - s) V''(e + s) over s = 0
- * ... t, mirrored so that t >= 0.  V'' is 1 - flow + theta everywhere, and flow
- * more where the spring is elastic.  Nothing is subtracted but ends of the way,
- * so no digits are lost while H is not many powers of ten below 1. */
+ * ... t, mirrored so that t >= 0.  V'' is hard + theta everywhere, and flow
+ * more where the spring is elastic.  Nothing is subtracted but ends of the way.
+ */
 static double spring_law_remainder(SpringLaw law, double e, double t)
 {
     double start = copysign(1, t) * e, way = fabs(t);
@@ -64,7 +58,7 @@ static double spring_law_remainder(SpringLaw law, double e, double t)
     double to = smaller(law.yield - start, way);
     double within = from > 0 && to < way ? 2 * law.yield : to - from;
     double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
-    return 0.5 * (1 - law.flow + law.theta) * t * t + law.flow * elastic;
+    return 0.5 * (law.hard + law.theta) * t * t + law.flow * elastic;
 }
 
 /* d is an eigenvector, with (2k/l2) (2 tau' q + l2 tau); across it is
@@ -94,6 +88,22 @@ Plasticity *plasticity_of(const System *system)
     return system_data(system, &plastic_energy);
 }
 
+/* Of spring s, without damping. */
+static inline SpringLaw law_of(const Plasticity *data, int s)
+{
+    double H = data->hardening;
+    return (SpringLaw){.ep = data->ep[s],
+                       .yield = data->yield + H * data->kappa[s],
+                       .flow = 1 / (1 + H),
+                       .hard = H / (1 + H)};
+}
+
+SpringLaw plasticity_law(const System *system, int s)
+{
+    const Plasticity *data = plasticity_of(system);
+    return data ? law_of(data, s) : (SpringLaw){.yield = INFINITY, .hard = 1};
+}
+
 /* One spring, as all functions need it. */
 typedef struct FlowSpring {
     const int *e;
@@ -104,18 +114,15 @@ typedef struct FlowSpring {
 
 static inline FlowSpring flow_spring(const Place *at, int s)
 {
-    const Plasticity *data = at->term->data;
     const Damping *damping = at->damping;
-    FlowSpring spring = {
-        .e = at->system->e + 2 * s,
-        .k = at->system->k[s],
-        .l2 = at->system->l2[s],
-        .law = {.yield = data->yield + data->hardening * data->kappa[s],
-                .flow = 1 / (1 + data->hardening),
-                .theta = damping ? damping->theta : 0,
-                .e_n = damping ? damping->E_n[s] - data->ep[s] : 0}};
+    FlowSpring spring = {.e = at->system->e + 2 * s,
+                         .k = at->system->k[s],
+                         .l2 = at->system->l2[s],
+                         .law = law_of(at->term->data, s)};
+    spring.law.theta = damping ? damping->theta : 0;
+    spring.law.e_n = damping ? damping->E_n[s] - spring.law.ep : 0;
     spring.strain =
-        spring_strain(spring.e, spring.l2, at->x, spring.d) - data->ep[s];
+        spring_strain(spring.e, spring.l2, at->x, spring.d) - spring.law.ep;
     return spring;
 }
 
@@ -207,7 +214,7 @@ static void end(Term *term, System *system, const double *x, const double *v,
     at.term = term;
     for (int s = 0; s < system->springs; s++) {
         FlowSpring spring = flow_spring(&at, s);
-        double gamma = spring_law_flow(spring.law, spring.strain);
+        double gamma = spring.law.flow * beyond(spring.law, spring.strain);
         if (!(gamma > 0) || spring_is_broken(system, s))
             continue;
         data->ep[s] += copysign(gamma, spring.strain);

@@ -171,9 +171,9 @@ static bool get(const Place *at, int i, double way, Element *element)
         element->from = edge;
         element_vectors(element, at->x, element->v);
         measure(self, element);
-        if (!boundary->p && element->s >= 1)
+        if (!boundary->moves && element->s >= 1)
             continue;
-        element->block = boundary->p ? -1 : block_of(self, pair);
+        element->block = boundary->moves ? -1 : block_of(self, pair);
         return true;
     }
     (void)way;

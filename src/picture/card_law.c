@@ -21,9 +21,9 @@ typedef struct LawNow {
     Place at;
     Element element;
     SpringLaw spring;
-    double ep, breaks; /* strains, of the spring: plastic; where it breaks */
-    double reach;      /* the unit of the axis */
-    double x, felt;    /* where it is on the axis, NaN: nowhere; how much */
+    double breaks;  /* the strain at which the spring does */
+    double reach;   /* the unit of the axis */
+    double x, felt; /* where it is on the axis, NaN: nowhere; how much */
 } LawNow;
 
 typedef struct Law {
@@ -77,7 +77,8 @@ static double slip_value(const void *now, double v)
 static double spring_value(const void *data, double s)
 {
     const LawNow *now = data;
-    return s > now->breaks ? 0 : spring_law_slope(now->spring, s - now->ep);
+    return s > now->breaks ? 0
+                           : spring_law_slope(now->spring, s - now->spring.ep);
 }
 
 #define GAPS   "gap d in m", "W in J"
@@ -107,14 +108,11 @@ static void find_spring(LawNow *now, int s)
     const Plasticity *flow = plasticity_of(system);
     const Fracture *tear = fracture_of(system);
     double d[2];
-    now->ep = flow ? flow->ep[s] : 0;
-    now->spring.yield =
-        flow ? flow->yield + flow->hardening * flow->kappa[s] : INFINITY;
-    now->spring.flow = flow ? 1 / (1 + flow->hardening) : 0;
+    now->spring = plasticity_law(system, s);
     now->breaks = tear ? fracture_strength(tear, s) : INFINITY;
     now->x = spring_strain(system->e + 2 * s, system->l2[s], now->at.x, d);
     now->felt = spring_is_broken(system, s) ? -INFINITY
-                : flow ? fabs(now->ep) + 1e-3 * fabs(now->x)
+                : flow ? fabs(now->spring.ep) + 1e-3 * fabs(now->x)
                        : now->x / now->breaks;
     now->reach =
         flow ? fmax(4 * now->spring.yield, 1.2 * fabs(now->x)) : now->breaks;
@@ -182,7 +180,7 @@ void law_facts(const Simulation *simulation, Facts *facts)
     const Law *law = law_now(simulation, 0, &now);
     if (!law || simulation->runs > 1)
         return;
-    bool flowed = law->kind != &plastic_energy || now.ep != 0;
+    bool flowed = law->kind != &plastic_energy || now.spring.ep != 0;
     fact_words(facts, "law",
                isnan(now.x) ? "nothing is near enough"
                : flowed     ? law->now

@@ -110,21 +110,6 @@ static void node_force(const System *system, const double *x, int node,
     free(f);
 }
 
-/* tau and tau' of a spring with this strain: its own law, where it flows. */
-static void spring_law(const System *system, int s, double strain, double *tau,
-                       double *bend)
-{
-    const Plasticity *flow = plasticity_of(system);
-    *tau = strain;
-    *bend = 1;
-    if (!flow)
-        return;
-    SpringLaw law = {.yield = flow->yield + flow->hardening * flow->kappa[s],
-                     .flow = 1 / (1 + flow->hardening)};
-    *tau = spring_law_slope(law, strain - flow->ep[s]);
-    *bend = spring_law_curvature(law, strain - flow->ep[s]);
-}
-
 /* A text in a lower corner of the stage, the one farther from the mouse. */
 static void draw_note(const Plot *stage, const Facts *facts, const char *text)
 {
@@ -183,10 +168,13 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     const int *e = system->e + 2 * s;
     Filter filter = pane->simulation->options.filter;
     bool solid = system_find_term(system, &neo_hookean_energy) != NULL;
-    double k = solid ? NAN : system->k[s], l2 = system->l2[s], tau, bend, d[2];
+    double k = solid ? NAN : system->k[s], l2 = system->l2[s], d[2];
     spring_strain(e, l2, pane_x(pane), d);
     double d2 = d[0] * d[0] + d[1] * d[1];
-    spring_law(system, s, (d2 - l2) / l2, &tau, &bend);
+    const SpringLaw law = plasticity_law(system, s);
+    double e_s = (d2 - l2) / l2 - law.ep;
+    double tau = spring_law_slope(law, e_s);
+    double bend = spring_law_curvature(law, e_s);
     const double across = 4 * k * tau;
     const double along = 4 * k / l2 * (2 * bend * d2 + l2 * tau);
     Facts facts = {0};

@@ -93,16 +93,17 @@ static void spring(Spot *spot, Jet *sum, const void *data, int s)
             between(spot, system->e[2 * s], system->e[2 * s + 1], axis, false);
         E = plus(E, 1 / (Real)system->l2[s], times(d, d));
     }
-    Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0, part = 0;
-    Real held = fabsl(e), over = 0; /* |e| = held + over */
+    Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0;
+    Real held = fabsl(e), over = 0, hard = 1; /* |e| = held + over */
     if (flow) {
         kappa = flow->kappa[s];
-        part = jittered(spot, 1 / (1 + (Real)flow->hardening)); /* a double */
+        hard = flow->hardening / (1 + (Real)flow->hardening);
+        hard = jittered(spot, hard); /* a double */
         held = fminl(held, flow->yield + flow->hardening * kappa);
         over = fabsl(e) - held;
     }
-    V = chain(E, held * (held / 2 + over) + (1 - part) * over * over / 2,
-              copysignl(held + (1 - part) * over, e), over > 0 ? 1 - part : 1);
+    V = chain(E, held * (held / 2 + over) + hard * over * over / 2,
+              copysignl(held + hard * over, e), over > 0 ? hard : 1);
     Jet rate = E;
     rate.f -= theta > 0 ? strain_at(system, s, spot->at->x_n) : 0;
     V = plus(V, theta / 2, times(rate, rate));
