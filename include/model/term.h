@@ -44,11 +44,13 @@ Place place_at(const System *system, const double *x_n, const double *u,
  * returns its functions; after the last one NULL. */
 const TermKind *next_energy(Place *at);
 
-/* A step's begin or end, h in s. */
-typedef Status TermBegin(Term *term, System *system, const double *x,
-                         const double *v, double h);
-typedef void TermEnd(Term *term, System *system, const double *x,
-                     const double *v, double h);
+/* A step's begin or end. */
+typedef struct TermStep {
+    System *system;
+    Term *term;
+    const double *x, *v; /* [2n] m, m/s */
+    double h;            /* s */
+} TermStep;
 
 struct TermKind {
     /* In messages; NULL: no option brings it. */
@@ -137,8 +139,8 @@ struct TermKind {
      * of a term have changed, or entries of the Hessian: factors and bounds
      * that were made with them are then dropped.  begin returns OK,
      * OUT_OF_MEMORY. */
-    TermBegin *begin;
-    TermEnd *end;
+    Status (*begin)(const TermStep *step);
+    void (*end)(const TermStep *step);
 
     /* Raises (bound_raise) *stiffest to a bound of the curvature's size at
      * rest, J/m^2, and *force, J/m, to the size of a force that a vanishing

@@ -19,16 +19,15 @@ static bool renew(double *old, double new)
 }
 
 /* The springs of the step from x_n.  A broken one stays broken. */
-static Status begin(Term *term, System *system, const double *x_n,
-                    const double *v_n, double h)
+static Status begin(const TermStep *step)
 {
-    Damping *data = term->data;
-    double theta = data->eta / h;
+    System *system = step->system;
+    Damping *data = step->term->data;
+    double theta = data->eta / step->h;
     bool changed = renew(&data->theta, theta);
-    (void)v_n;
     for (int s = 0; s < system->springs; s++) {
         double d[2], l2 = system->l2[s];
-        data->E_n[s] = spring_strain(system->e + 2 * s, l2, x_n, d);
+        data->E_n[s] = spring_strain(system->e + 2 * s, l2, step->x, d);
         double d2 = d[0] * d[0] + d[1] * d[1];
         double mean = theta > 0 ? (l2 + theta * d2) / (1 + theta) : l2;
         changed |= renew(&data->l2[s], mean);
@@ -39,20 +38,18 @@ static Status begin(Term *term, System *system, const double *x_n,
     return STATUS_OK;
 }
 
-static void end(Term *term, System *system, const double *x, const double *v,
-                double h)
+static void end(const TermStep *step)
 {
-    const Damping *data = term->data;
+    System *system = step->system;
+    const Damping *data = step->term->data;
     double sum = 0, d[2];
-    (void)v;
-    (void)h;
     for (int s = 0; s < system->springs; s++) {
         double l2 = system->l2[s];
-        double E = spring_strain(system->e + 2 * s, l2, x, d);
+        double E = spring_strain(system->e + 2 * s, l2, step->x, d);
         double change = E - data->E_n[s];
         sum += system->k[s] * l2 * data->theta * change * change;
     }
-    system_lose(system, term->kind, sum);
+    system_lose(system, &damping, sum);
 }
 
 /* Those of springs, with the numbers of the last step. */

@@ -52,12 +52,11 @@ static int most_loaded(const Fracture *fracture, const System *system,
 
 /* Breaks them; the energy that was in them, and in cells that end with them, is
  * what the potential has less afterwards. */
-static void end(Term *term, System *system, const double *x, const double *v,
-                double h)
+static void end(const TermStep *step)
 {
-    Fracture *fracture = term->data;
-    (void)v;
-    (void)h;
+    System *system = step->system;
+    Fracture *fracture = step->term->data;
+    const double *x = step->x;
     memset(fracture->taken, 0, (size_t)system->nodes);
     int s = most_loaded(fracture, system, x);
     if (s < 0)
@@ -69,7 +68,7 @@ static void end(Term *term, System *system, const double *x, const double *v,
         system->k[s] = 0;
         fracture->broken++;
     }
-    system_lose(system, term->kind, energy - system_potential(system, x));
+    system_lose(system, step->term->kind, energy - system_potential(system, x));
     system_changed(system, false);
 }
 

@@ -92,15 +92,13 @@ static Place place_of_source(const Place *at)
 }
 
 /* Normal forces and tangents at x_n. */
-static Status begin(Term *term, System *system, const double *x_n,
-                    const double *v_n, double h)
+static Status begin(const TermStep *step)
 {
-    Friction *friction = term->data;
-    Place at = place_at(system, x_n, NULL, x_n);
-    (void)v_n;
-    at.term = term;
+    Friction *friction = step->term->data;
+    Place at = place_at(step->system, step->x, NULL, step->x);
+    at.term = step->term;
     at = place_of_source(&at);
-    friction->e = friction->slip_speed * h;
+    friction->e = friction->slip_speed * step->h;
     friction->slides = 0;
     for (ElementWalk walk = elements_from(&at, NULL, 0);
          elements_next(&walk);) {
@@ -109,16 +107,16 @@ static Status begin(Term *term, System *system, const double *x_n,
             walk.kind->rub(&at, &walk.element, slide.row.v, &slide.carry);
         slide.row.factor = 1;
         slide.row.more = 0;
-        slide.carry *= h;
+        slide.carry *= step->h;
         if (!(slide.row.r > 0))
             continue;
         if (friction->slides == friction->room) {
             int room = 2 * friction->room + 64;
-            friction = realloc(term->data,
+            friction = realloc(step->term->data,
                                sizeof *friction + (size_t)room * sizeof slide);
             if (!friction)
                 return STATUS_OUT_OF_MEMORY;
-            term->data = friction;
+            step->term->data = friction;
             friction->room = room;
         }
         friction->slide[friction->slides++] = slide;
@@ -127,17 +125,15 @@ static Status begin(Term *term, System *system, const double *x_n,
 }
 
 /* What was rubbed off in this step. */
-static void end(Term *term, System *system, const double *x, const double *v,
-                double h)
+static void end(const TermStep *step)
 {
-    const Friction *friction = term->data;
-    (void)x;
+    const Friction *friction = step->term->data;
     for (int i = 0; i < friction->slides; i++) {
         const Slide *slide = &friction->slide[i];
         double vectors[4];
-        element_vectors(&slide->row, v, vectors);
-        double y = h * along(&slide->row, vectors) - slide->carry;
-        system_lose(system, term->kind,
+        element_vectors(&slide->row, step->v, vectors);
+        double y = step->h * along(&slide->row, vectors) - slide->carry;
+        system_lose(step->system, step->term->kind,
                     slide->row.r * friction_slope(y, friction->e) * y);
     }
 }

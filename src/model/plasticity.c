@@ -203,15 +203,13 @@ static double remainder_along(const Place *at, const double *p, double alpha)
 }
 
 /* What has flowed stays: ep moves by gamma, the yield strain grows. */
-static void end(Term *term, System *system, const double *x, const double *v,
-                double h)
+static void end(const TermStep *step)
 {
-    Plasticity *data = term->data;
-    Place at = place_at(system, x, NULL, x);
+    System *system = step->system;
+    Plasticity *data = step->term->data;
+    Place at = place_at(system, step->x, NULL, step->x);
     bool changed = false;
-    (void)v;
-    (void)h;
-    at.term = term;
+    at.term = step->term;
     for (int s = 0; s < system->springs; s++) {
         FlowSpring spring = flow_spring(&at, s);
         double gamma = spring.law.flow * beyond(spring.law, spring.strain);
@@ -219,7 +217,7 @@ static void end(Term *term, System *system, const double *x, const double *v,
             continue;
         data->ep[s] += copysign(gamma, spring.strain);
         data->kappa[s] += gamma;
-        system_lose(system, term->kind,
+        system_lose(system, &plastic_energy,
                     spring.k * spring.l2 * data->yield * gamma);
         changed = true;
     }

@@ -54,15 +54,15 @@ static Status add_pair(SelfContact *self, SelfPair pair)
 
 /* The pairs that come near if all go on as they do get blocks; the list is made
  * of x_n and v_n alone, so that a step knows nothing of those before it. */
-static Status begin(Term *term, System *system, const double *x_n,
-                    const double *v_n, double h)
+static Status begin(const TermStep *step)
 {
-    SelfContact *self = term->data;
+    System *system = step->system;
+    SelfContact *self = step->term->data;
     Boundary *boundary = &self->boundary;
     int old = self->pairs, edge, place = 0;
     bool grown = old > self->sorted;
     Status status = STATUS_OK;
-    boundary_sort(boundary, system, x_n, v_n, h, self->d_hat);
+    boundary_sort(boundary, system, step->x, step->v, step->h, self->d_hat);
     for (int i = 0; i < boundary->points && !status; i++)
         while (!status &&
                (edge = boundary_next(boundary, system, i, &place)) >= 0)

@@ -110,8 +110,8 @@ static Status end_step(TimeIntegrator *run, Status failure)
     System *system = run->system;
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->end)
-            system->term[t].kind->end(&system->term[t], system, run->x, run->v,
-                                      run->h);
+            system->term[t].kind->end(
+                &(TermStep){system, &system->term[t], run->x, run->v, run->h});
     return run->status;
 }
 
@@ -164,8 +164,8 @@ Status time_integrator_begin(TimeIntegrator *run)
     run->moves = prescribed_begin(run);
     for (int t = 0; t < system->terms && !status; t++)
         if (system->term[t].kind->begin)
-            status = system->term[t].kind->begin(&system->term[t], system,
-                                                 run->x, run->v, run->h);
+            status = system->term[t].kind->begin(
+                &(TermStep){system, &system->term[t], run->x, run->v, run->h});
     if (status)
         return end_step(run, status);
     begin_hand(run);

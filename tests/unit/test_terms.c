@@ -273,8 +273,8 @@ static void make_case(const Row *row, Random *random, Case *c)
     c->h = random_logarithmic(random, 1e-3, 1);
     for (int i = 0; i < system->terms; i++)
         if (system->term[i].kind->begin)
-            CHECK_STATUS(system->term[i].kind->begin(&system->term[i], system,
-                                                     c->x_n, c->u, c->h),
+            CHECK_STATUS(system->term[i].kind->begin(&(TermStep){
+                             system, &system->term[i], c->x_n, c->u, c->h}),
                          STATUS_OK);
     c->at = place_at(system, c->x_n, c->u, c->x);
     c->at.w = random_logarithmic(random, 0.1, 10);
