@@ -34,7 +34,7 @@ typedef struct Cells {
 extern const TermKind cell_energy;
 
 /* Adds all triangles of the mesh, or gives those that are there this stiffness,
- * J/m^2, k_c.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+ * J/m^2, k_c.  Returns OK, OUT_OF_MEMORY. */
 Status cells_set(System *system, const SquareMesh *shape, double stiffness);
 
 #endif

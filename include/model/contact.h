@@ -84,10 +84,9 @@ typedef struct Contact {
 /* sum of W over all pairs of nodes and obstacles; data: Contact. */
 extern const TermKind contact_energy;
 
-/* Adds the term with copies of the obstacles.
- * Returns OK, INVALID_INPUT (too many, or two with a node), TOO_LARGE,
- * OUT_OF_MEMORY. */
-Status contact_add(System *system, const Barrier *barrier, int obstacles,
+/* Puts the term in, gives it these obstacles, of which at most one has a node,
+ * or takes it out where there are none.  Returns OK, OUT_OF_MEMORY. */
+Status contact_set(System *system, const Barrier *barrier, int obstacles,
                    const Obstacle *obstacle);
 
 /* The system's obstacles, or NULL. */

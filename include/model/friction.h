@@ -46,8 +46,7 @@ extern const TermKind friction_energy, self_friction_energy;
 double friction_work_of_obstacles(const System *system, const double *u);
 
 /* Adds one of the two, gives it this number, or takes it out.  Returns OK,
- * TOO_LARGE, OUT_OF_MEMORY.
- */
+ * OUT_OF_MEMORY. */
 Status friction_set(System *system, const TermKind *kind, bool wanted,
                     double slip_speed);
 

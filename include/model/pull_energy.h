@@ -27,7 +27,7 @@ typedef struct Pull {
 } Pull;
 
 /* Adds a pull of one of these kinds, or changes the one that there is.
- * Returns OK, OUT_OF_MEMORY, TOO_LARGE (no room in the list). */
+ * Returns OK, OUT_OF_MEMORY. */
 Status pull_set(System *system, const TermKind *kind, const Pull *pull);
 
 /* The hand of a system, or NULL; its numbers may be changed. */

@@ -45,7 +45,7 @@ extern const TermKind self_contact_energy;
 extern const ElementKind self_contact_elements;
 
 /* Adds the term, or gives it these numbers: of a node and an obstacle, and the
- * coefficient of friction.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+ * coefficient of friction.  Returns OK, OUT_OF_MEMORY. */
 Status self_contact_set(System *system, const SquareMesh *mesh,
                         const Barrier *barrier, double friction);
 

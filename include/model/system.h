@@ -66,10 +66,10 @@ Status system_create_pins(System *system);
 /* Accepts NULL and a zeroed struct. */
 void system_free(System *system);
 
-/* Puts a term at its place of the list, which from now on owns data, one piece
- * of malloc or NULL; after a failure it is freed.  Returns OK, TOO_LARGE (the
- * list is full). */
-Status system_add_term(System *system, const TermKind *kind, void *data);
+/* The data of the first term of this kind; where there is none, one is put at
+ * its place of the list, with so many bytes that are 0.  NULL: no memory, or
+ * the list is full. */
+void *system_term(System *system, const TermKind *kind, size_t bytes);
 
 /* The first term of this kind, and its data, or NULL. */
 Term *system_find_term(const System *system, const TermKind *kind);

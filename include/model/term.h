@@ -58,7 +58,7 @@ struct TermKind {
 
     /* Puts the term in with the numbers of its option, gives them to the one
      * that is there, or takes it out where all are 0; NULL: it asks for more
-     * than these.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+     * than these.  Returns OK, OUT_OF_MEMORY. */
     Status (*set)(System *system, const struct SquareMesh *mesh,
                   const double *number);
 

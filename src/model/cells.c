@@ -1,7 +1,6 @@
 #include "model/cells.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "model/area.h"
@@ -154,21 +153,19 @@ const TermKind cell_energy = {
 Status cells_set(System *system, const SquareMesh *shape, double stiffness)
 {
     size_t numbers = 3 * 4 * (size_t)shape->cells;
-    Cells *cells = system_data(system, &cell_energy);
-    if (cells) {
-        cells->c = cells->area * stiffness;
-        return STATUS_OK;
-    }
-    cells = calloc(1, sizeof *cells + 2 * numbers * sizeof(int));
+    Cells *cells = system_term(system, &cell_energy,
+                               sizeof *cells + 2 * numbers * sizeof(int));
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
-    cells->triangles = 4 * shape->cells;
     cells->area = 0.5 * shape->spacing * shape->spacing;
     cells->c = cells->area * stiffness;
+    if (cells->triangles > 0)
+        return STATUS_OK;
+    cells->triangles = 4 * shape->cells;
     cells->node = (int *)(cells + 1);
     cells->spring = cells->node + numbers;
     for (int t = 0; t < cells->triangles; t++)
         square_mesh_triangle(shape, t, cells->node + 3 * t,
                              cells->spring + 3 * t);
-    return system_add_term(system, &cell_energy, cells);
+    return STATUS_OK;
 }

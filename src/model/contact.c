@@ -1,7 +1,6 @@
 #include "model/contact.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/mathematics.h"
@@ -252,28 +251,22 @@ const TermKind contact_energy = {
     .end_of_step = true,
 };
 
-Status contact_add(System *system, const Barrier *barrier, int obstacles,
+Status contact_set(System *system, const Barrier *barrier, int obstacles,
                    const Obstacle *obstacle)
 {
-    if (obstacles < 0 || obstacles > CONTACT_MAX_OBSTACLES)
-        return STATUS_INVALID_INPUT;
-    Contact *contact = calloc(1, sizeof *contact);
+    if (obstacles == 0) {
+        system_remove_term(system, &contact_energy);
+        return STATUS_OK;
+    }
+    Contact *contact = system_term(system, &contact_energy, sizeof *contact);
     if (!contact)
         return STATUS_OUT_OF_MEMORY;
     contact->barrier = *barrier;
     contact->obstacles = obstacles;
     contact->ball = -1;
-    Status status = STATUS_OK;
-    for (int k = 0; k < obstacles; k++) {
-        contact->obstacle[k] = obstacle[k];
-        if (obstacle[k].node < 0)
-            continue;
-        if (contact->ball >= 0)
-            status = STATUS_INVALID_INPUT;
-        contact->ball = k;
-    }
-    if (!status)
-        return system_add_term(system, &contact_energy, contact);
-    free(contact);
-    return status;
+    memcpy(contact->obstacle, obstacle, (size_t)obstacles * sizeof *obstacle);
+    for (int k = 0; k < obstacles; k++)
+        if (obstacle[k].node >= 0)
+            contact->ball = k;
+    return STATUS_OK;
 }

@@ -1,7 +1,7 @@
 #include "model/damping.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 #include "model/mass_spring_energy.h"
 
@@ -66,27 +66,24 @@ static Status set(System *system, const struct SquareMesh *mesh,
                   const double *number)
 {
     size_t springs = (size_t)system->springs;
-    Damping *data = damping_of(system);
-    double eta = number[0];
     (void)mesh;
-    if (eta == 0)
+    if (number[0] == 0) {
         system_remove_term(system, &damping);
-    else if (data)
-        data->eta = eta;
-    if (eta == 0 || data)
         return STATUS_OK;
-    data = calloc(1, sizeof *data + 3 * springs * sizeof(double));
+    }
+    Damping *data = system_term(system, &damping,
+                                sizeof *data + 3 * springs * sizeof(double));
     if (!data)
         return STATUS_OUT_OF_MEMORY;
-    data->eta = eta;
+    data->eta = number[0];
+    if (data->E_n)
+        return STATUS_OK;
     data->E_n = (double *)(data + 1);
     data->k = data->E_n + springs;
     data->l2 = data->k + springs;
-    for (size_t s = 0; s < springs; s++) {
-        data->k[s] = system->k[s];
-        data->l2[s] = system->l2[s];
-    }
-    return system_add_term(system, &damping, data);
+    memcpy(data->k, system->k, springs * sizeof *data->k);
+    memcpy(data->l2, system->l2, springs * sizeof *data->l2);
+    return STATUS_OK;
 }
 
 const TermKind damping = {

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "model/mass_spring_energy.h"
@@ -76,15 +75,16 @@ static Status set(System *system, const struct SquareMesh *mesh,
                   const double *number)
 {
     (void)mesh;
-    if (number[0] == 0 || fracture_of(system))
+    if (number[0] == 0)
         return STATUS_OK;
-    Fracture *data = calloc(1, sizeof *data + (size_t)system->nodes);
+    Fracture *data =
+        system_term(system, &fracture, sizeof *data + (size_t)system->nodes);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->strength = number[0];
     data->taken = (unsigned char *)(data + 1);
     system->breaks = true;
-    return system_add_term(system, &fracture, data);
+    return STATUS_OK;
 }
 
 const TermKind fracture = {

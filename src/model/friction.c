@@ -243,19 +243,15 @@ double friction_work_of_obstacles(const System *system, const double *u)
 Status friction_set(System *system, const TermKind *kind, bool wanted,
                     double slip_speed)
 {
-    const TermKind *source =
-        kind == &friction_energy ? &contact_energy : &self_contact_energy;
-    if (!wanted)
+    if (!wanted) {
         system_remove_term(system, kind);
-    Friction *friction = system_data(system, kind);
-    if (friction)
-        friction->slip_speed = slip_speed;
-    if (!wanted || friction)
         return STATUS_OK;
-    friction = calloc(1, sizeof *friction);
+    }
+    Friction *friction = system_term(system, kind, sizeof *friction);
     if (!friction)
         return STATUS_OUT_OF_MEMORY;
     friction->slip_speed = slip_speed;
-    friction->source = source;
-    return system_add_term(system, kind, friction);
+    friction->source =
+        kind == &friction_energy ? &contact_energy : &self_contact_energy;
+    return STATUS_OK;
 }

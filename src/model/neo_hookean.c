@@ -1,7 +1,6 @@
 #include "model/neo_hookean.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/mathematics.h"
 #include "model/area.h"
@@ -185,31 +184,27 @@ static void cut_cells(const SquareMesh *mesh, System *system, NeoHookean *data)
 
 static Status set(System *system, const SquareMesh *mesh, const double *number)
 {
-    NeoHookean *data = system_data(system, &neo_hookean_energy);
-    Status status = STATUS_OK;
+    size_t triangles = 2 * (size_t)mesh->cells;
+    double young = number[1], nu = number[2];
     if (number[0] == 0)
         return STATUS_OK; /* springs, since the start */
-    if (!data) {
-        size_t triangles = 2 * (size_t)mesh->cells;
-        data = calloc(1, sizeof *data + triangles * (sizeof *data->weight +
-                                                     sizeof *data->node));
-        if (!data)
-            return STATUS_OUT_OF_MEMORY;
-        data->triangles = (int)triangles;
-        data->area = 0.5 * mesh->spacing * mesh->spacing;
-        data->weight = (double(*)[2][3])(data + 1);
-        data->node = (int(*)[3])(data->weight + triangles);
-        cut_cells(mesh, system, data);
-        system->breaks = true; /* some k are 0 */
-        system_remove_term(system, &mass_spring_energy);
-        status = system_add_term(system, &neo_hookean_energy, data);
-    }
-    double young = number[1], nu = number[2];
-    if (!status) {
-        data->mu = young / (2 * (1 + nu));
-        data->lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
-    }
-    return status;
+    NeoHookean *data = system_term(
+        system, &neo_hookean_energy,
+        sizeof *data + triangles * (sizeof *data->weight + sizeof *data->node));
+    if (!data)
+        return STATUS_OUT_OF_MEMORY;
+    data->mu = young / (2 * (1 + nu));
+    data->lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
+    if (data->triangles > 0)
+        return STATUS_OK;
+    data->triangles = (int)triangles;
+    data->area = 0.5 * mesh->spacing * mesh->spacing;
+    data->weight = (double(*)[2][3])(data + 1);
+    data->node = (int(*)[3])(data->weight + triangles);
+    cut_cells(mesh, system, data);
+    system->breaks = true; /* some k are 0 */
+    system_remove_term(system, &mass_spring_energy);
+    return STATUS_OK;
 }
 
 const TermKind neo_hookean_energy = {

@@ -1,7 +1,6 @@
 #include "model/plasticity.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "model/damping.h"
 #include "model/mass_spring_energy.h"
@@ -243,19 +242,17 @@ static Status set(System *system, const struct SquareMesh *mesh,
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
-    if (number[0] == 0 || plasticity_of(system))
+    if (number[0] == 0)
         return STATUS_OK;
-    Plasticity *data = calloc(1, sizeof *data + 2 * springs * sizeof(double));
+    Plasticity *data = system_term(system, &plastic_energy,
+                                   sizeof *data + 2 * springs * sizeof(double));
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->yield = number[0];
     data->hardening = number[1];
     data->ep = (double *)(data + 1);
     data->kappa = data->ep + springs;
-    Term *elastic = system_find_term(system, &mass_spring_energy);
-    if (!elastic)
-        return system_add_term(system, &plastic_energy, data);
-    *elastic = (Term){.kind = &plastic_energy, .data = data};
+    system_remove_term(system, &mass_spring_energy);
     return STATUS_OK;
 }
 

@@ -1,7 +1,6 @@
 #include "model/pull_energy.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* w c of coordinate i; with a huge omega2, w keeps it below overflow. */
 static double stiffness(const Place *at, double w, int i)
@@ -82,14 +81,12 @@ const TermKind hand_energy = {PULL, .place = PLACE_HAND};
 
 Status pull_set(System *system, const TermKind *kind, const Pull *pull)
 {
-    Term *term = system_find_term(system, kind);
-    Pull *own = term ? term->data : malloc(sizeof *own);
+    Pull *own = system_term(system, kind, sizeof *own);
     if (!own)
         return STATUS_OUT_OF_MEMORY;
-    if (term)
-        system_changed(system, true);
     *own = *pull;
-    return term ? STATUS_OK : system_add_term(system, kind, own);
+    system_changed(system, true);
+    return STATUS_OK;
 }
 
 Pull *hand_energy_of(const System *system)

@@ -374,17 +374,12 @@ SelfContact *self_contact_of(const System *system)
 Status self_contact_set(System *system, const SquareMesh *mesh,
                         const Barrier *barrier, double friction)
 {
-    SelfContact *self = self_contact_of(system);
-    Status status = STATUS_OK;
-    if (!self) {
-        self = calloc(1, sizeof *self + boundary_bytes(mesh));
-        if (!self)
-            return STATUS_OUT_OF_MEMORY;
+    SelfContact *self = system_term(system, &self_contact_energy,
+                                    sizeof *self + boundary_bytes(mesh));
+    if (!self)
+        return STATUS_OUT_OF_MEMORY;
+    if (!self->boundary.box)
         boundary_lay_out(mesh, self + 1, &self->boundary);
-        status = system_add_term(system, &self_contact_energy, self);
-    }
-    if (status)
-        return status;
     self->d_hat = barrier->d_hat;
     self->c = barrier->c / 8;
     self->friction = friction;

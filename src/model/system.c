@@ -22,8 +22,9 @@ Status system_create(int nodes, int springs, System *system)
         return STATUS_OUT_OF_MEMORY;
     system->l2 = system->m + n;
     system->k = system->l2 + count;
-    return springs > 0 ? system_add_term(system, &mass_spring_energy, NULL)
-                       : STATUS_OK;
+    return springs == 0 || system_term(system, &mass_spring_energy, 1)
+               ? STATUS_OK
+               : STATUS_OUT_OF_MEMORY;
 }
 
 void system_changed(System *system, bool pattern)
@@ -59,22 +60,6 @@ void system_free(System *system)
     *system = (System){0};
 }
 
-Status system_add_term(System *system, const TermKind *kind, void *data)
-{
-    int place = system->terms;
-    if (place == SYSTEM_MAX_TERMS) {
-        free(data);
-        return STATUS_TOO_LARGE;
-    }
-    for (; place > 0 && system->term[place - 1].kind->place > kind->place;
-         place--)
-        system->term[place] = system->term[place - 1];
-    system->term[place] = (Term){.kind = kind, .data = data};
-    system->terms++;
-    system_changed(system, true);
-    return STATUS_OK;
-}
-
 Term *system_find_term(const System *system, const TermKind *kind)
 {
     for (int t = 0; t < system->terms; t++)
@@ -87,6 +72,21 @@ void *system_data(const System *system, const TermKind *kind)
 {
     const Term *term = system_find_term(system, kind);
     return term ? term->data : NULL;
+}
+
+void *system_term(System *system, const TermKind *kind, size_t bytes)
+{
+    int place = system->terms;
+    void *data = system_data(system, kind);
+    if (data || place == SYSTEM_MAX_TERMS || !(data = calloc(1, bytes)))
+        return data;
+    for (; place > 0 && system->term[place - 1].kind->place > kind->place;
+         place--)
+        system->term[place] = system->term[place - 1];
+    system->term[place] = (Term){.kind = kind, .data = data};
+    system->terms++;
+    system_changed(system, true);
+    return data;
 }
 
 void system_remove_term(System *system, const TermKind *kind)

@@ -198,29 +198,20 @@ static Status set_obstacles(const Options *options, const SquareMesh *mesh,
                             System *system)
 {
     const Barrier barrier = barrier_of(options);
-    Contact *contact = contact_of(system);
+    const Contact *contact = contact_of(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
     int fixed = (int)(options->grounds + options->balls);
     int count = list_obstacles(options, list);
     int had = contact ? contact->obstacles : 0;
-    Status status = STATUS_OK;
     for (int k = 1; k <= count - fixed && k <= had; k++)
         memcpy(list[count - k].o, contact->obstacle[had - k].o, sizeof list->o);
     if (count > 0 && system->nodes > mesh->nodes)
         list[count - 1].node = mesh->nodes;
-    if (count != had) {
-        system_remove_term(system, &friction_energy);
-        system_remove_term(system, &contact_energy);
-    }
-    if (count != had && count > 0)
-        status = contact_add(system, &barrier, count, list);
-    if (status || count == 0)
-        return status;
-    contact = contact_of(system);
-    contact->barrier = barrier;
-    memcpy(contact->obstacle, list, (size_t)count * sizeof *list);
-    return friction_set(system, &friction_energy, options->friction > 0,
-                        options->slip_speed);
+    Status status = contact_set(system, &barrier, count, list);
+    return status ? status
+                  : friction_set(system, &friction_energy,
+                                 count > 0 && options->friction > 0,
+                                 options->slip_speed);
 }
 
 /* Contact between bodies, and its friction.  An edge must be longer than the

@@ -84,7 +84,7 @@ static Real strain_at(const System *system, int s, const double *x)
 static void spring(Spot *spot, Jet *sum, const void *data, int s)
 {
     const System *system = spot->at->system;
-    const Plasticity *flow = data;
+    const Plasticity *flow = data == plasticity_of(system) ? data : NULL;
     const Damping *damped = spot->at->u ? damping_of(system) : NULL;
     Real theta = damped ? damped->eta / spot->h : 0;
     Jet E = {.f = -1}, V;

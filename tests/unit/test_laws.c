@@ -48,7 +48,7 @@ static void point_on_wall(const double n[2], double friction, double slip_speed,
                            .friction = friction,
                            .node = -1};
     few_masses(1, 0)->gravity[1] = -gravity;
-    CHECK_STATUS(contact_add(&few, &(Barrier){0.01, 1}, 1, &wall), STATUS_OK);
+    CHECK_STATUS(contact_set(&few, &(Barrier){0.01, 1}, 1, &wall), STATUS_OK);
     if (friction > 0)
         CHECK_STATUS(friction_set(&few, &friction_energy, true, slip_speed),
                      STATUS_OK);
@@ -86,7 +86,7 @@ TEST(terms_stand_in_their_order)
     static const int order[] = {1, 4, 2, 5, 0, 3};
     few_masses(2, 1); /* and the springs' term */
     for (int i = 0; i < 6; i++)
-        CHECK_STATUS(system_add_term(&few, &kinds[i], NULL), STATUS_OK);
+        CHECK(system_term(&few, &kinds[i], 1));
     for (int i = 0; i < 6; i++)
         CHECK(few.term[i + 1].kind == &kinds[order[i]]);
 }
@@ -130,11 +130,11 @@ TEST(broken_springs_do_nothing)
     few_masses(2, 1);
     CHECK_STATUS(plastic_energy.set(&few, NULL, (double[]){0.1, 0}), STATUS_OK);
     const Plasticity *flow = plasticity_of(&few);
-    plastic_energy.end(&few.term[0], &few, x, x, 1);
+    plastic_energy.end(&(TermStep){&few, few.term, x, x, 1});
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14); /* it does while it is whole */
     few.k[0] = 0;
     unsigned version = few.version;
-    plastic_energy.end(&few.term[0], &few, far, far, 1);
+    plastic_energy.end(&(TermStep){&few, few.term, far, far, 1});
     CHECK(few.version == version);
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14);
     CHECK_NEAR(flow->kappa[0], 8 - 0.1, 1e-14);

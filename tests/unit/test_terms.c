@@ -86,7 +86,7 @@ static void make_contact(const Row *row, Random *random, Case *c)
         c->x_n[axis] = it.o[axis] + d * it.n[axis];
         c->x_n[2 + axis] = it.o[axis] + (it.node < 0 ? 9 * it.n[axis] : 0);
     }
-    CHECK_STATUS(contact_add(&c->system, &barrier, 1, &it), STATUS_OK);
+    CHECK_STATUS(contact_set(&c->system, &barrier, 1, &it), STATUS_OK);
     if (row->rubs)
         CHECK_STATUS(friction_set(&c->system, &friction_energy, true,
                                   random_logarithmic(random, 0.02, 50)),
