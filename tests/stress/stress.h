@@ -107,9 +107,8 @@ typedef struct Watch {
 bool watch_create(TimeIntegrator *run, Watch *watch);
 void watch_free(Watch *watch);
 
-/* After a change of the system: the run made anew, with its x, v and h, its
- * tolerance times `finer`. */
-Status watch_restart(TimeIntegrator *run, double finer);
+/* After a change of the system: the run made anew, with its x, v and h. */
+Status watch_restart(TimeIntegrator *run);
 
 /* One step, judged. */
 Verdict watch_step(Watch *watch);

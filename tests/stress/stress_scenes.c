@@ -193,7 +193,7 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
         Watch watch;
         if (shaken > 0)
             shake(shaken, run);
-        if ((shaken > 0 && watch_restart(run, 1)) || !watch_create(run, &watch))
+        if ((shaken > 0 && watch_restart(run)) || !watch_create(run, &watch))
             return snprintf(reason, 512, "no restart"), VERDICT_WRONG;
         for (int step = 0; step < steps && worst != VERDICT_WRONG; step++) {
             Verdict verdict = watch_step(&watch);

@@ -389,14 +389,13 @@ void watch_free(Watch *watch)
     *watch = (Watch){0};
 }
 
-Status watch_restart(TimeIntegrator *run, double finer)
+Status watch_restart(TimeIntegrator *run)
 {
     TimeIntegrator old = *run;
     NewtonSettings settings = {.h = old.h, .tolerance = 1};
     if (old.newton)
         settings = old.newton->settings;
     settings.h = old.h;
-    settings.tolerance *= finer;
     Status status = time_integrator_create(old.method, old.system, &settings,
                                            old.x, old.v, run);
     time_integrator_free(&old);

@@ -4,6 +4,7 @@
  */
 #include "test.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -165,6 +166,26 @@ TEST(average_vector_field_keeps_energy)
         for (int step = 0; step < rows[i].steps; step++)
             CHECK_NEAR(total_of(&make_steps(square, 1)->run[0]), start,
                        1e-12L * start);
+    }
+}
+
+/* What flies undisturbed keeps its velocity, for every length of step and also
+ * far out, where x + h v is rounded and so springs are strained a little. */
+TEST(free_flight_is_straight)
+{
+    for (int i = 0; i < 26; i++) {
+        double h = pow(10, i / 2 - 9), far = i % 2 ? 1e6 : 0, off = 0;
+        double strain = (far + 10 * h) * DBL_EPSILON;
+        Simulation *square =
+            simulate("--segments 3 --stretch 1 --tolerance 1e-10 --timestep %g "
+                     "--at %g,%g --velocity 3,-2",
+                     h, far, far);
+        for (int s = 0; s < square->system.springs; s++)
+            square->system.l2[s] *= pow(1 + strain_of(square, s), 2);
+        make_steps(square, 3);
+        for (int c = 0; c < 2 * 16; c++)
+            off = fmax(off, fabs(square->run[0].v[c] - (c % 2 ? -2 : 3)));
+        CHECK_AT_MOST(off, 1e-10 + 1e4 * fmin(strain * h, strain / h));
     }
 }
 

@@ -133,6 +133,23 @@ TEST(the_curve_goes_through_the_step)
     }
 }
 
+static void give_up(int number)
+{
+    stop = number;
+}
+
+/* A line of the script waits for its step only while steps are made. */
+TEST(scripts_wait_while_it_runs)
+{
+    begin_script("0 pause\n9 step\n", "square --segments 2");
+    signal(SIGALRM, give_up);
+    alarm(20); /* s; it takes milliseconds */
+    CHECK_STATUS(player_run(&player), STATUS_OK);
+    alarm(0);
+    CHECK(!stop && player.past.step == 1 && player_stands(&player));
+    end();
+}
+
 /* Frames until nothing is computed any more. */
 static void work_off(void)
 {
