@@ -62,8 +62,7 @@ typedef Status Deed(struct Player *player, const Command *command);
 typedef struct CommandRow {
     Deed *deed;       /* NULL: nothing but what every command does */
     const char *word; /* in scripts; NULL: not there */
-    const char *does; /* for whoever reads or writes one, and hovers over a
-                         chip */
+    const char *does; /* for whoever reads or writes one */
     unsigned flags;
     const char *keys; /* "Space", "Ctrl+R", several: "?|F1", "*": any; NULL */
     /* What it does, for the list of keys; "": told with the row before it;

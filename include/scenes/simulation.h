@@ -157,11 +157,8 @@ int simulation_point(const Simulation *simulation, double at[2]);
 void simulation_predict(Simulation *simulation, double x, double y);
 
 /* How fast the body of run 0 deforms: the largest speed of a node, m/s, beside
- * the rigid motion with the body's momentum and angular momentum.
- *   centre  out, m/s, speed of the centre of mass
- *   turn    out, rad/s, of that rigid motion, anticlockwise */
-double simulation_deforming(const Simulation *simulation, double *centre,
-                            double *turn);
+ * the rigid motion with the body's momentum and angular momentum. */
+double simulation_deforming(const Simulation *simulation);
 
 /* omega of the fastest small oscillation around the state of run 0, 1/s: M
  * mode'' = -H mode with the Hessian of P as it is; NaN where there is none, or

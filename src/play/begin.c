@@ -121,23 +121,19 @@ bool player_veils(const Player *player)
 Status player_check_answer(Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
-    char *text = player->typed, *end;
-    double guess, over = 1, truth = show_number(&player->show, page->answer);
-    for (char *at = text; *at; at++)
-        *at = *at == ',' ? '.' : *at;
-    guess = strtod(text, &end);
-    if (end > text && *end == '/')
-        over = strtod(end + 1, &end);
-    if (end == text || *end || !isfinite(guess / over))
+    const OptionRow any = {
+        .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
+    double guess, truth = show_number(&player->show, page->answer);
+    if (!option_read(&any, player->typed, &guess) || !isfinite(guess))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
-    bool right = fabs(guess / over - truth) <= 0.02 * fabs(truth);
+    bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
     player->told = page;
     player->answers++;
     player->right += right;
     Status status = player_obey_lines(player, page->tell);
-    player_note(player, "%s: %s, it is %s (%d of %d right so far)", text,
-                right ? "right" : "no", number_with(truth, 5).text,
-                player->right, player->answers);
+    player_note(player, "%s: %s, it is %s (%d of %d right so far)",
+                player->typed, right ? "right" : "no",
+                number_with(truth, 5).text, player->right, player->answers);
     player_deselect(player);
     return status;
 }

@@ -319,7 +319,6 @@ Status obey_default(Player *player, const Command *command)
 /* The next number, and after the last one none. */
 Status obey_select(Player *player, const Command *command)
 {
-    (void)command;
     const OptionRow *number[OPTIONS_MOST];
     int count = player_row(player, number);
     int next = player->selected + 1;
@@ -375,7 +374,6 @@ static const char *method_label(const Command *change)
 
 Status obey_method(Player *player, const Command *command)
 {
-    (void)command;
     Command change;
     Status status = find_method(player, player->active, &change);
     if (!status)

@@ -182,34 +182,6 @@ static void explain_number(const Player *player, Show *show)
                  idle ? idle : row->help);
 }
 
-/* What a sentence can say of a chip or a step of the time line under the mouse;
- * false: of nothing. */
-static bool explain_over(const Player *player, Show *show)
-{
-    const Paper *paper = player->view ? view_paper(player->view) : NULL;
-    if (!paper || player->sheet)
-        return false;
-    Layout layout =
-        show_layout(show, paper->canvas.width, paper->canvas.height);
-    long step = show_step_at(show, &layout, player->mouse.x);
-    const Entry *entry = past_entry(&player->past, player->active, step);
-    if (show->over.zone == ZONE_CHIP && show->over.index < show->chips)
-        snprintf(show->sentence, SHOW_TEXT, "%s: %s",
-                 show->chip[show->over.index].key,
-                 command_row(player->chip[show->over.index])->does);
-    else if (show->over.zone == ZONE_TIME && show->bars > 0 && entry &&
-             step > 0)
-        snprintf(show->sentence, SHOW_TEXT,
-                 "step %ld: %d update%s%s%s; a click leads there", step,
-                 entry->outcome.updates, entry->outcome.updates == 1 ? "" : "s",
-                 entry->outcome.status ? ", " : "",
-                 entry->outcome.status ? status_text(entry->outcome.status)
-                                       : "");
-    else
-        return false;
-    return true;
-}
-
 /* The chip of a command: its first key, and what that does now: word number
  * `word` of those of its row. */
 static void add_chip(Player *player, CommandKind kind, int word, bool lit)
@@ -384,6 +356,9 @@ static void fill_time(Player *player)
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
     long newest = past_newest(past);
+    double time = 0; /* that of panes that have ended stands still */
+    for (int p = 0; p < past_panes(past); p++)
+        time = fmax(time, simulation_time(&past->machine[p].simulation));
     size_t used = (size_t)snprintf(show->time_text, SHOW_TEXT, "%s %ld",
                                    turn ? turn : "step", past->step);
     if (newest > past->step)
@@ -392,7 +367,7 @@ static void fill_time(Player *player)
     if (turn)
         return;
     used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
-                             "   t = %.4g s", player_time(player));
+                             "   t = %.4g s", time);
     if (player->speed != 0)
         snprintf(show->time_text + used, SHOW_TEXT - used,
                  "   %.4g steps a frame", ldexp(1, player->speed));
@@ -466,7 +441,6 @@ void player_fill(Player *player)
                  player->left, show);
     player_fill_sheet(player);
     show_describe(show);
-    explained = explain_over(player, show) || explained;
     if (player->explains && explained && !player->typing)
         show->message[0] = '\0';
 }

@@ -158,7 +158,6 @@ static Status open_line(Player *player, const char *line)
  * be read leaves the field as it is. */
 Status obey_enter(Player *player, const Command *command)
 {
-    (void)command;
     char typed[sizeof player->typed];
     Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
@@ -182,7 +181,6 @@ Status obey_enter(Player *player, const Command *command)
 
 Status obey_close(Player *player, const Command *command)
 {
-    (void)command;
     player_deselect(player);
     return STATUS_OK;
 }
@@ -394,8 +392,8 @@ static Status hover(Player *player)
         under.hit.zone == show->over.zone &&
         under.hit.index == show->over.index && pick.kind == show->hover.kind &&
         pick.index == show->hover.index && pick.pane == show->hover.pane;
-    bool idle = pick.kind == PICK_NONE && under.hit.zone != ZONE_TIME &&
-                !show->lecture; /* where terms light up */
+    bool idle = pick.kind == PICK_NONE && !show->lecture; /* whose terms light
+                                                             up */
     if (under.hit.zone == ZONE_CELL)
         show->chosen = under.hit.index;
     show->over = under.hit;

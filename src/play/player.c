@@ -48,16 +48,6 @@ Options player_numbers(const Player *player)
     return options;
 }
 
-double player_time(const Player *player)
-{
-    const Past *past = &player->past;
-    int pane = player->active;
-    for (int p = 0;
-         p < past_panes(past) && past_ended(past, pane, past->step) >= 0; p++)
-        pane = p;
-    return simulation_time(&past->machine[pane].simulation);
-}
-
 bool player_stands(const Player *player)
 {
     return player->mode >= MODE_PAUSE;

@@ -4,6 +4,9 @@
 
 #include "play/player.h"
 
+/* All deeds are called alike, whether they need to know the command or not. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
 /* s, of a frame in which steps are made; then inputs are looked at. */
 static const double SLICE = 0.05;
 
@@ -45,11 +48,8 @@ const Simulation *player_simulation(const Player *player);
 const Options *player_settings(const Player *player);
 Options player_numbers(const Player *player);
 
-/* s: that of the pane whose numbers are shown, or where it has ended that of
- * another one. */
-double player_time(const Player *player);
-
-bool player_stands(const Player *player); /* no step is made by itself */
+/* Whether no step is made by itself. */
+bool player_stands(const Player *player);
 
 /* ---- steps.c ------------------------------------------------------------- */
 

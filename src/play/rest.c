@@ -27,26 +27,11 @@ static bool is_rigid(const Machine *machine)
 {
     const Simulation *simulation = &machine->simulation;
     const unsigned body = NEEDS_MESH | NEEDS_TIME;
-    double centre, turn;
     return (simulation->scene->needs & body) == body &&
            simulation_is_handled(simulation) && simulation->runs == 1 &&
            machine->control->hand < 0 && system_is_free(&simulation->system) &&
            !system_has_gravity(&simulation->system) &&
-           simulation_deforming(simulation, &centre, &turn) <=
-               simulation->options.tolerance;
-}
-
-static void tell_drift(Player *player)
-{
-    double centre, turn;
-    const Simulation *simulation = player_simulation(player);
-    simulation_deforming(simulation, &centre, &turn);
-    bool turns =
-        fabs(turn) * simulation->mesh.side > simulation->options.tolerance;
-    player_note(player,
-                "nothing deforms any more: free as it is, it drifts on at "
-                "%.2g m/s%s; pull a node, right click pins one, R begins again",
-                centre, turns ? " and turns" : "");
+           simulation_deforming(simulation) <= simulation->options.tolerance;
 }
 
 /* What stands still although forces are left, or may be. */
@@ -121,7 +106,9 @@ void player_judge(Player *player)
     else if (mode == MODE_HELD)
         tell_tolerance(player);
     else if (mode == MODE_DRIFT && player->mode != MODE_DRIFT)
-        tell_drift(player);
+        player_note(player, "nothing deforms any more: free as it is, it "
+                            "drifts on; pull a node, right click pins one, R "
+                            "begins again");
     if (!player_stands(player))
         player->mode = mode;
     const LecturePage *page = player_settings(player)->page;

@@ -45,7 +45,6 @@ Status obey_switched(Player *player, const Command *command)
 
 Status obey_full(Player *player, const Command *command)
 {
-    (void)command;
     if (player->window)
         window_set_full(!window_is_full());
     return STATUS_OK;
@@ -70,7 +69,6 @@ Status obey_column(Player *player, const Command *command)
 /* What is open ends first; then, asked twice, the program. */
 Status obey_escape(Player *player, const Command *command)
 {
-    (void)command;
     bool asked = player->leaving;
     player->leaving = false;
     if (player->blank)
@@ -155,7 +153,6 @@ static const char *reason_of(Status status)
 /* The frame as it is, in the present folder. */
 Status obey_shot(Player *player, const Command *command)
 {
-    (void)command;
     enum { WIDTH = 1280, HEIGHT = 800 };
     char name[80];
     Paper *paper = player->view ? view_paper(player->view) : NULL;
@@ -181,7 +178,6 @@ Status obey_shot(Player *player, const Command *command)
 /* Begins a film of all that is drawn, or ends it. */
 Status obey_film(Player *player, const Command *command)
 {
-    (void)command;
     char name[80];
     Recording *recording = &player->recording;
     Status status;
@@ -209,7 +205,6 @@ Status obey_film(Player *player, const Command *command)
  * a script, which leads here again and stays. */
 Status obey_hash(Player *player, const Command *command)
 {
-    (void)command;
     const Command pause = {.kind = COMMAND_PAUSE};
     char name[80], way[200];
     Script *journal = &player->journal;

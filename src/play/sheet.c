@@ -37,7 +37,6 @@ void player_close_sheet(Player *player)
 /* All scenes, or the run again.  The one that is open is chosen. */
 Status obey_sheet(Player *player, const Command *command)
 {
-    (void)command;
     const Options *options = player_settings(player);
     bool opens = !player->sheet;
     player_close_sheet(player);
@@ -168,6 +167,5 @@ Status player_open_cell(Player *player, int cell)
 
 Status obey_open(Player *player, const Command *command)
 {
-    (void)command;
     return player_open_cell(player, player->show.chosen);
 }

@@ -110,7 +110,6 @@ static bool has_updates(const Player *player)
 /* From the first line of a step to the end of the one before. */
 Status obey_back(Player *player, const Command *command)
 {
-    (void)command;
     long step = player->past.step;
     player_stop(player);
     if (step == 0)
@@ -130,7 +129,6 @@ Status obey_back(Player *player, const Command *command)
 /* Steps, updates, lines, and steps again. */
 Status obey_finer(Player *player, const Command *command)
 {
-    (void)command;
     static const char *const text[] = {
         "N and \u2190 go by whole steps",
         "N and \u2190 go by updates of Newton's method",

@@ -305,12 +305,11 @@ static void mean_of(const System *system, const double *values, double mean[2])
     mean[1] = sum[1] / mass;
 }
 
-double simulation_deforming(const Simulation *simulation, double *centre,
-                            double *turn)
+double simulation_deforming(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
-    double x_c[2], v_c[2], momentum = 0, inertia = 0, fastest = 0;
+    double x_c[2], v_c[2], momentum = 0, inertia = 0, turn = 0, fastest = 0;
     mean_of(system, x, x_c);
     mean_of(system, v, v_c);
     for (int i = 0; i < 2 * system->nodes; i += 2) {
@@ -319,11 +318,11 @@ double simulation_deforming(const Simulation *simulation, double *centre,
                     (rx * (v[i + 1] - v_c[1]) - ry * (v[i] - v_c[0]));
         inertia += system->m[i / 2] * (rx * rx + ry * ry);
     }
-    *centre = math_hypot(v_c[0], v_c[1]);
-    *turn = inertia > 0 ? momentum / inertia : 0;
+    if (inertia > 0)
+        turn = momentum / inertia;
     for (int i = 0; i < 2 * system->nodes; i += 2) {
-        double speed = math_hypot(v[i] - v_c[0] + *turn * (x[i + 1] - x_c[1]),
-                                  v[i + 1] - v_c[1] - *turn * (x[i] - x_c[0]));
+        double speed = math_hypot(v[i] - v_c[0] + turn * (x[i + 1] - x_c[1]),
+                                  v[i + 1] - v_c[1] - turn * (x[i] - x_c[0]));
         fastest = speed <= fastest ? fastest : speed; /* NaN stays NaN */
     }
     return fastest;
