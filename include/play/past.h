@@ -134,10 +134,6 @@ typedef struct Past {
 void past_create(bool keeps, bool goes_on, Past *past);
 void past_free(Past *past);
 
-/* Whether a change makes the state at which it is given another one: a point is
- * dragged elsewhere, a node that is pinned stops. */
-bool past_moves(const Command *edit);
-
 /* New runs from step 0, side by side.  Returns as simulation_create; what was
  * there before is shown then as soon as past_iterate has made it. */
 Status past_begin(Past *past, const Options *options, int panes, int gesture,
@@ -207,8 +203,5 @@ long past_last_seen(const Past *past, int pane, long step);
 
 /* What plots show of a pane's steps.  history out */
 void past_history(const Past *past, int pane, History *history);
-
-/* s of one step; 1 in scenes without time. */
-double machine_pace(const Machine *machine);
 
 #endif

@@ -196,9 +196,6 @@ uint64_t player_hash(const Player *player);
 /* The present options of all panes.  Returns how many. */
 int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
 
-/* Steps a second that are wanted. */
-double player_rate(const Player *player);
-
 /* What the page does when it opens: its own commands. */
 Status player_open_page(Player *player);
 

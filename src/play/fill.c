@@ -206,7 +206,6 @@ static void add_chip(Player *player, CommandKind kind, int word, bool lit)
 /* The keys that matter now. */
 static void fill_chips(Player *player)
 {
-    static char back[KEY_TEXT];
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_settings(player);
     bool time = simulation->scene->needs & NEEDS_TIME;
@@ -230,9 +229,6 @@ static void fill_chips(Player *player)
         add_chip(player, COMMAND_PAGES, 0, player->column == COLUMN_PAGES);
     } else if (player->left) {
         add_chip(player, COMMAND_PAGE_BACK, 0, true);
-        snprintf(back, sizeof back, "back to page %d",
-                 (int)(player->left - lecture_pages) + 1);
-        player->show.chip[player->show.chips - 1].label = back;
     }
     add_chip(player, COMMAND_RESTART, 0, ended);
     if (newton)

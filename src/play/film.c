@@ -93,24 +93,6 @@ static Status start_ffmpeg(Film *film, const Canvas *canvas)
     return film->pipe ? STATUS_OK : STATUS_FILE_FAILED;
 }
 
-/* All bytes of the frame into the pipe; a signal may come in between. */
-static Status send_frame(Film *film)
-{
-    const char *bytes = (const char *)film->frame;
-    size_t size = 4 * (size_t)film->width * (size_t)film->height;
-    while (size > 0) {
-        ssize_t wrote = write(fileno(film->pipe), bytes, size);
-        if (wrote < 0 && errno != EINTR) {
-            film->reason = "ffmpeg ended before the film did";
-            return STATUS_FILE_FAILED;
-        }
-        bytes += wrote > 0 ? wrote : 0;
-        size -= wrote > 0 ? (size_t)wrote : 0;
-    }
-    film->frames++;
-    return STATUS_OK;
-}
-
 Status film_add(Film *film, const Canvas *canvas, int shown)
 {
     Status status = film->frame ? STATUS_OK : start_ffmpeg(film, canvas);
@@ -124,17 +106,13 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
         memcpy(film->frame + row * (size_t)y,
                canvas->pixels + (size_t)canvas->width * (size_t)y,
                there * sizeof *film->frame);
-    for (int i = 0; i < shown && !status; i++)
-        status = send_frame(film);
-    return status;
-}
-
-/* The end of the pipe, and of ffmpeg.  Returns whether it ended well. */
-static bool end_ffmpeg(Film *film)
-{
-    bool well = film->pipe && pclose(film->pipe) == 0;
-    film->pipe = NULL;
-    return well;
+    for (int i = 0; i < shown; i++, film->frames++)
+        if (fwrite(film->frame, sizeof *film->frame * row, (size_t)film->height,
+                   film->pipe) < (size_t)film->height) {
+            film->reason = "ffmpeg ended before the film did";
+            return STATUS_FILE_FAILED;
+        }
+    return STATUS_OK;
 }
 
 Status film_close(Film *film)
@@ -142,9 +120,10 @@ Status film_close(Film *film)
     struct stat info = {0};
     if (!film_runs(film))
         return STATUS_OK;
-    bool well = end_ffmpeg(film);
+    bool well = film->pipe && pclose(film->pipe) == 0;
     bool full = stat(film->output.temporary, &info) == 0 && info.st_size > 0;
     const char *reason = film->reason;
+    film->pipe = NULL;
     if (!reason && film->frames == 0)
         reason = "no frame was drawn for it";
     else if (!reason && (!well || !full))
@@ -159,7 +138,8 @@ Status film_close(Film *film)
 void film_discard(Film *film)
 {
     int reason = errno;
-    end_ffmpeg(film);
+    if (film->pipe)
+        pclose(film->pipe);
     output_discard(&film->output, false);
     free(film->frame);
     *film = (Film){0};

@@ -460,12 +460,6 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
         return page_clicked(player, under);
     case ZONE_CELL:
         return player_open_cell(player, index);
-    case ZONE_STRIP:
-        player_note(player,
-                    "elasto %s: G shows all scenes, Shift+G all pages of the "
-                    "lecture; Page Down turns them",
-                    player->scene->name);
-        return STATUS_OK;
     case ZONE_STAGE:
         if (under->pane != player->active)
             status = ask(player, COMMAND_PANE, under->pane);

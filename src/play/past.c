@@ -314,7 +314,8 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 
 /* ---- machines ------------------------------------------------------------ */
 
-double machine_pace(const Machine *machine)
+/* s of one step; 1 in scenes without time. */
+static double pace_of(const Machine *machine)
 {
     const Simulation *simulation = &machine->simulation;
     return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
@@ -606,7 +607,7 @@ static Status go_on(Past *past, int pane, Status status)
     machine->substeps += moved;
     if (past->making && status)
         past->worst = status;
-    double middle = simulation_time(simulation) + 0.5 * machine_pace(machine);
+    double middle = simulation_time(simulation) + 0.5 * pace_of(machine);
     const Entry *to = past_entry(past, pane, machine->step + 1);
     bool more = to ? machine->substeps < to->substeps
                    : moved && middle < past->target &&
@@ -662,7 +663,7 @@ static Status begin_making(Past *past)
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
-        double pace = machine_pace(machine);
+        double pace = pace_of(machine);
         if (pace <= longest || has_failed(past_entry(past, p, machine->step)))
             continue;
         longest = pace;
@@ -834,7 +835,9 @@ static bool drags(const Command *edit)
            edit->kind == COMMAND_PLACE;
 }
 
-bool past_moves(const Command *edit)
+/* Whether the state at which it is given becomes another one: a node that is
+ * pinned stops, too. */
+static bool moves(const Command *edit)
 {
     return drags(edit) || edit->kind == COMMAND_PIN;
 }
@@ -927,7 +930,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
         return STATUS_OUT_OF_MEMORY;
     if (edit->kind == branch->edit.kind) /* what undo tells: the last of it */
         branch->edit = *edit;
-    forget_behind(past, past->step - past_moves(edit));
+    forget_behind(past, past->step - moves(edit));
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)
             status = change_entry(past, p, edit,
@@ -952,9 +955,8 @@ const Command *past_undo(Past *past, int way)
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     for (int b = low + 1; b <= high; b++) {
         const Branch *branch = &past->branch[b];
-        forget_behind(past, branch->fresh
-                                ? -1
-                                : branch->first - past_moves(&branch->edit));
+        forget_behind(
+            past, branch->fresh ? -1 : branch->first - moves(&branch->edit));
     }
     stop_work(past);
     leave_all(past);

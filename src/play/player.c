@@ -21,11 +21,6 @@ static const double EARLY = 0.002; /* s, how early a frame may come */
 
 /* ---- what is asked often ------------------------------------------------- */
 
-double player_rate(const Player *player)
-{
-    return FRAME_RATE * ldexp(1, player->speed);
-}
-
 const Machine *player_machine(const Player *player)
 {
     return &player->past.machine[player->active];
@@ -186,7 +181,8 @@ Status player_start(Player *player)
 
 Status player_frame(Player *player)
 {
-    double period = 1 / fmin(FRAME_RATE, player_rate(player));
+    double period =
+        ldexp(1.0 / FRAME_RATE, player->speed < 0 ? -player->speed : 0);
     double start = clock_now();
     Status status = obey_inputs(player);
     if (!status && !player->past.works)

@@ -157,23 +157,6 @@ Status player_follow(Player *player)
 
 /* ---- what happens as a step is shown ------------------------------------- */
 
-/* A failure beyond all numbers: what is shown then is the last state that can
- * be seen, at most ten times as large as the first. */
-static Status show_last_good(Player *player)
-{
-    long step = player->past.step;
-    long good = past_last_seen(&player->past, 0, step);
-    if (good == step)
-        return STATUS_OK;
-    Status status = player_show(player, good, false, THEN_NOTHING);
-    player_note(player,
-                "step %ld ends beyond all numbers; shown is step %ld, the last "
-                "below ten times the size",
-                step + 1, good);
-    player->warning = true;
-    return status;
-}
-
 Status player_bear(Player *player, Status status)
 {
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
@@ -188,15 +171,24 @@ Status player_bear(Player *player, Status status)
 /* The work has come to its end. */
 static Status step_shown(Player *player, Status status, long before)
 {
+    const Past *past = &player->past;
     Then then = player->then;
     bool failed = status && !status_is_unconverged(status);
     player->then = THEN_NOTHING;
     player->changed = true;
-    if (failed && player->past.step == before) { /* it tells why */
+    if (failed && past->step == before) { /* it tells why */
+        long seen = past_last_seen(past, 0, before);
         bool lost = then == THEN_JUDGE && status == STATUS_NOT_FINITE;
         player->sampled = -1;
         status = player_bear(player, status);
-        return !status && lost ? show_last_good(player) : status;
+        if (status || !lost || seen == before)
+            return status;
+        player_note(player,
+                    "step %ld ends beyond all numbers; shown is step %ld, the "
+                    "last below ten times the size",
+                    before + 1, seen);
+        player->warning = true;
+        return player_show(player, seen, false, THEN_NOTHING);
     }
     status = record_step(player);
     if (!status && then == THEN_JUDGE)
