@@ -29,9 +29,6 @@ typedef struct Film {
     const char *reason; /* why it failed, if errno does not say it; or NULL */
 } Film;
 
-/* Whether there is a program ffmpeg in the path. */
-bool film_is_possible(void);
-
 /* Begins a film; nothing is written before the first frame.
  *   name     in, its end says the kind
  *   film     out; end it with film_close in any case

@@ -6,17 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/plot.h"
-
 #include "play/playing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
-
-bool player_explains(const Options *options)
-{
-    return options->page || options->scene->explains;
-}
 
 Status player_own_options(Player *player, const char *scene,
                           const LecturePage *page, Options *options, int *count)
@@ -77,7 +70,8 @@ Status obey_restart(Player *player, const Command *command)
     }
     if (moves)
         player->mode = MODE_PAUSE;
-    else if (player->mode >= MODE_END && !player_explains(options))
+    else if (player->mode >= MODE_END && !options->page &&
+             !options->scene->explains)
         player->mode = MODE_RUN;
     player->lens = moves ? player->lens : LENS_FITS;
     return player_begin(player, options, panes, command);
@@ -115,27 +109,6 @@ bool player_veils(const Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
     return page && page->ask && player->told != page && player->asks;
-}
-
-/* Two of a hundred are near enough for what was calculated on paper. */
-Status player_check_answer(Player *player)
-{
-    const LecturePage *page = player_settings(player)->page;
-    const OptionRow any = {
-        .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
-    double guess, truth = show_number(&player->show, page->answer);
-    if (!option_read(&any, player->typed, &guess) || !isfinite(guess))
-        return player_refuse(player, "a number is wanted: 0.25 or 1/4");
-    bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
-    player->told = page;
-    player->answers++;
-    player->right += right;
-    Status status = player_obey_lines(player, page->tell);
-    player_note(player, "%s: %s, it is %s (%d of %d right so far)",
-                player->typed, right ? "right" : "no",
-                number_with(truth, 5).text, player->right, player->answers);
-    player_deselect(player);
-    return status;
 }
 
 /* The page that is asked for: by its name; the next one or the one before; the
@@ -213,22 +186,4 @@ Status obey_cell(Player *player, const Command *command)
     if (map->column == column && map->row == row)
         return STATUS_OK;
     return envelope_visit(simulation, column, row);
-}
-
-/* The square with the cell's numbers, from its start: commands that a script
- * can repeat. */
-Status player_load_cell(Player *player, long cell)
-{
-    const Options map = player_simulation(player)->options;
-    char lines[256];
-    snprintf(lines, sizeof lines,
-             "scene square;set segments %g;set stretch %.17g;"
-             "set timestep %.17g;set stiffness %.17g;pause;restart",
-             map.segments, map.stretch,
-             envelope_timestep((int)(cell % ENVELOPE_COLUMNS)),
-             envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
-    Status status = player_obey_lines(player, lines);
-    player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
-                map.page ? ", Page Down goes on" : "");
-    return status;
 }

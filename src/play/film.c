@@ -38,11 +38,6 @@ static const FilmKind *kind_of(const char *name)
     return NULL;
 }
 
-bool film_is_possible(void)
-{
-    return system("command -v ffmpeg >/dev/null 2>&1") == 0;
-}
-
 Status film_open(const char *name, Film *film, char *message, size_t size)
 {
     char shown[128];
@@ -52,7 +47,7 @@ Status film_open(const char *name, Film *film, char *message, size_t size)
         snprintf(message, size,
                  "--film: '%s' does not end in .mp4, .webm, .gif or .apng",
                  shown);
-    else if (!film_is_possible())
+    else if (system("command -v ffmpeg >/dev/null 2>&1") != 0)
         snprintf(message, size,
                  "--film: '%s' needs the program ffmpeg: apt-get install "
                  "ffmpeg; --frames DIR needs nothing",

@@ -15,15 +15,10 @@ EM_JS(void, page_film, (const char *name), { Page.film(UTF8ToString(name)); });
 EM_JS(void, page_film_end, (int keep), { Page.filmEnd(keep); });
 /* clang-format on */
 
-bool film_is_possible(void)
-{
-    return page_films();
-}
-
 Status film_open(const char *name, Film *film, char *message, size_t size)
 {
     *film = (Film){0};
-    if (!film_is_possible()) {
+    if (!page_films()) {
         snprintf(message, size, "this browser makes no films of a page");
         return STATUS_INVALID_INPUT;
     }

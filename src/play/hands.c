@@ -10,6 +10,7 @@
 
 #include "base/mathematics.h"
 #include "picture/picture.h"
+#include "picture/plot.h"
 #include "play/playing.h"
 #include "scenes/scene.h"
 
@@ -154,6 +155,28 @@ static Status open_line(Player *player, const char *line)
     return player_obey(player, &command);
 }
 
+/* The number that was typed against the page's answer, which is shown from now
+ * on.  Two of a hundred are near enough for what was calculated on paper. */
+static Status check_answer(Player *player)
+{
+    const LecturePage *page = player_settings(player)->page;
+    const OptionRow any = {
+        .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
+    double guess, truth = show_number(&player->show, page->answer);
+    if (!option_read(&any, player->typed, &guess) || !isfinite(guess))
+        return player_refuse(player, "a number is wanted: 0.25 or 1/4");
+    bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
+    player->told = page;
+    player->answers++;
+    player->right += right;
+    Status status = player_obey_lines(player, page->tell);
+    player_note(player, "%s: %s, it is %s (%d of %d right so far)",
+                player->typed, right ? "right" : "no",
+                number_with(truth, 5).text, player->right, player->answers);
+    player_deselect(player);
+    return status;
+}
+
 /* The page is opened, the answer is checked, or the number is set; what cannot
  * be read leaves the field as it is. */
 Status obey_enter(Player *player, const Command *command)
@@ -163,7 +186,7 @@ Status obey_enter(Player *player, const Command *command)
     Status status;
     memcpy(typed, player->typed, sizeof typed);
     if (player->selected < 0 && !lists(player))
-        return player_check_answer(player);
+        return check_answer(player);
     if (player->selected < 0) {
         status = open_line(player, typed);
         player->typing = player->typing && status;
@@ -245,6 +268,24 @@ static int near_node(const Player *player, const Under *under)
     return nearest;
 }
 
+/* The square with the cell's numbers, from its start: commands that a script
+ * can repeat. */
+static Status load_cell(Player *player, long cell)
+{
+    const Options map = player_simulation(player)->options;
+    char lines[256];
+    snprintf(lines, sizeof lines,
+             "scene square;set segments %g;set stretch %.17g;"
+             "set timestep %.17g;set stiffness %.17g;pause;restart",
+             map.segments, map.stretch,
+             envelope_timestep((int)(cell % ENVELOPE_COLUMNS)),
+             envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
+    Status status = player_obey_lines(player, lines);
+    player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
+                map.page ? ", Page Down goes on" : "");
+    return status;
+}
+
 /* Takes what is under the mouse. */
 static Status take(Player *player, const Under *under)
 {
@@ -275,7 +316,7 @@ static Status take(Player *player, const Under *under)
     case PICK_SWITCH:
         return ask(player, COMMAND_FLIP, under->pick.index);
     case PICK_CELL:
-        return player_load_cell(player, under->pick.index);
+        return load_cell(player, under->pick.index);
     case PICK_PLACE:
         if (page && page->predict && !player_simulation(player)->done)
             return ask_at(player, COMMAND_PREDICT, 0, under->pick.point);

@@ -29,11 +29,6 @@ Status player_ask_set(Player *player, const OptionRow *row, double value)
     return player_ask(player, COMMAND_SET, row - option_rows, value, 0);
 }
 
-void player_next_gesture(Player *player)
-{
-    player->gesture = ++player->gestures;
-}
-
 void player_note(Player *player, const char *format, ...)
 {
     va_list arguments;
@@ -53,7 +48,7 @@ static void begin_gesture(Player *player, const Command *command)
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
         player->gesture = player->held;
     else if (!command->joins)
-        player_next_gesture(player);
+        player->gesture = ++player->gestures;
     if (command->kind == COMMAND_GRAB)
         player->held = player->gesture;
 }

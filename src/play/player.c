@@ -282,8 +282,8 @@ Status player_create(const Options *options, int count, const char *line,
         return status;
     player->asks = player->window && !options->script;
     player->attended = player->window || options->script || options->page;
-    if (options->paused ||
-        (player->asks && options->steps < 0 && player_explains(options)))
+    if (options->paused || (player->asks && options->steps < 0 &&
+                            (options->page || options->scene->explains)))
         player->mode = MODE_PAUSE;
     status = recording_open(&player->given[0], count, &player->recording);
     past_create(player->attended || player->view,

@@ -32,9 +32,6 @@ Status player_ask(Player *player, CommandKind kind, long number, double x,
                   double y);
 Status player_ask_set(Player *player, const OptionRow *row, double value);
 
-/* What is done from here on is undone by itself. */
-void player_next_gesture(Player *player);
-
 /* A line below the picture. */
 void player_note(Player *player, const char *format, ...);
 
@@ -138,17 +135,8 @@ Status player_own_options(Player *player, const char *scene,
                           const LecturePage *page, Options *options,
                           int *count);
 
-/* Loads a cell of the envelope as a square of its own. */
-Status player_load_cell(Player *player, long cell);
-
-/* Whether the window begins with a pause. */
-bool player_explains(const Options *options);
-
-/* Whether the page in the window waits for a guess; and holds the number that
- * was typed against the page's answer, which is shown from now on.  Returns
- * INVALID_INPUT where it is none. */
+/* Whether the page in the window waits for a guess. */
 bool player_veils(const Player *player);
-Status player_check_answer(Player *player);
 
 /* Commands with a ; between them, which are undone at once; NULL: none. */
 Status player_obey_lines(Player *player, const char *lines);

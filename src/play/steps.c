@@ -254,7 +254,7 @@ static Status let_go(Player *player)
     int gesture = player->gesture, panes = past_panes(&player->past);
     if (past_control(&player->past, 0)->hand < 0 || player->holds)
         return STATUS_OK;
-    player_next_gesture(player);
+    player->gesture = ++player->gestures;
     player->sampled = -1;
     Status status = player_change(player, &release, 0, panes, false);
     player->gesture = gesture;
