@@ -42,8 +42,6 @@ typedef struct Trace {
     double h, tolerance;        /* s, m/s, that the step was made with */
     int updates;                /* records of this step; more than fit in */
     const NewtonRecord *record; /* memory: the last of them */
-    int updates_before;         /* of the step before, drawn in grey */
-    const NewtonRecord *record_before;
     /* The present update, from line 3 on. */
     int iteration;         /* 0, 1, ... */
     const double *x;       /* [2n] m, x^i, where p was made */

@@ -48,13 +48,10 @@ typedef struct Station {
 } Station;
 
 typedef struct Rounds {
-    long step;           /* the one that they are of; 0: none */
     double h, tolerance; /* s, m/s, that it was made with */
-    int size;            /* 2n */
+    int size;            /* 2n; 0: nobody asks for them */
     Records made;        /* one a round that has a record; behind them, what is
                             known of round made.count */
-    Records before;      /* of the step before, or of this step with other
-                            settings; none: not known */
     Round *round;
     int room;        /* of it */
     bool ended;      /* round [count] is there: the last one made an update */
@@ -66,8 +63,7 @@ typedef struct Rounds {
     int places;
 } Rounds;
 
-/* Before a step.  What was there is kept as the step before it where it was
- * that one, or this one with other settings. */
+/* Before a step. */
 void rounds_begin(Rounds *rounds, const Simulation *simulation);
 
 /* Before a Newton iteration: where a minimisation begins. */

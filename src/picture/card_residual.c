@@ -20,17 +20,17 @@ static void extend_range(const NewtonRecord *records, int count,
 /* Points, bounds hollow, joined by lines from the one before, in/out: at first
  * not finite. */
 static void draw_updates(const Plot *plot, const NewtonRecord *records,
-                         int count, double before[2], double radius,
-                         Colour colour)
+                         int count, double before[2])
 {
+    const double radius = 3.5;
     for (int i = 0; i < count; i++) {
         const double point[2] = {isfinite(before[0]) ? before[0] + 1 : 1,
                                  records[i].residual};
         if (isfinite(before[0]))
-            plot_line(plot, before, point, 1.3, colour);
+            plot_line(plot, before, point, 1.3, COLOUR_P);
         bool bound = records[i].kind == RESIDUAL_BOUND;
         plot_hollow(plot, point, radius + bound, bound ? radius - 1 : 0,
-                    colour);
+                    COLOUR_P);
         memcpy(before, point, sizeof point);
     }
 }
@@ -61,32 +61,28 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
 void residual_draw(const Plot *card)
 {
     const Trace *trace = show_pane(card->show)->update;
-    if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
-                   !(trace->residual > 0))) {
+    if (!trace || (trace->updates == 0 && !(trace->residual > 0))) {
         cards_hint(card, "{explicit}an explicit method solves nothing\n"
                          "a point for each Newton update");
         return;
     }
     double range[2] = {0.3 * trace->tolerance, 30 * trace->tolerance};
-    double from[2][2] = {{NAN}, {NAN}};
-    int last = trace->updates - 1, before = trace->updates_before;
+    double from[2] = {NAN};
+    int last = trace->updates - 1;
     bool pending =
         trace->residual > 0 && isfinite(trace->residual) &&
         (trace->line >= LINE_SOLVE || trace->line == LINE_NONE) &&
         !(last >= 0 && trace->record[last].residual == trace->residual);
     const NewtonRecord now = {.residual = trace->residual, .kind = trace->kind};
     extend_range(trace->record, trace->updates, range);
-    extend_range(trace->record_before, before, range);
     extend_range(&now, pending, range);
-    double most = fmax(fmax(trace->updates + pending, before), 4);
+    double most = fmax(trace->updates + pending, 4);
     Axis x = {0.5, most + 0.5, false, true, "update"};
     Axis y = {pow(10, floor(log10(range[0]))), pow(10, ceil(log10(range[1]))),
               true, false, NULL};
     Plot plot = plot_create(card, x, y);
     bool time = card->simulation->scene->needs & NEEDS_TIME;
-    draw_updates(&plot, trace->record_before, before, from[0], 2.5,
-                 COLOUR_BORDER);
     draw_tolerance(&plot, trace->tolerance, time ? trace->h : 0);
-    draw_updates(&plot, trace->record, trace->updates, from[1], 3.5, COLOUR_P);
-    draw_updates(&plot, &now, pending, from[1], 3.5, COLOUR_P);
+    draw_updates(&plot, trace->record, trace->updates, from);
+    draw_updates(&plot, &now, pending, from);
 }

@@ -342,7 +342,7 @@ static bool watch(void *user, const NewtonRecord *record)
     if (machine->simulation.scene->step) /* an update is a step */
         machine->outcome.change = record->change;
     const Newton *newton = listened_to(&machine->simulation);
-    if (newton && machine->rounds.step > 0)
+    if (newton && machine->rounds.size > 0)
         rounds_add(&machine->rounds, newton, record);
     Records *records = &machine->records;
     if (records_fit(records, records->count + 1))
@@ -724,8 +724,8 @@ Status past_finish(Past *past)
     return status;
 }
 
-/* Whether it is short work to make the step that is aimed at once more, with
- * the one before, where panes would only find its state. */
+/* Whether it is short work to make the step that is aimed at once more, where
+ * panes would only find its state. */
 static bool is_short(const Past *past)
 {
     enum { SHORT = 400000 }; /* nodes times updates */
@@ -739,7 +739,7 @@ static bool is_short(const Past *past)
             machine->stands && (behind == 1 || (behind == 0 && machine->known));
         if (!knows && simulation->run[0].newton && entry->substeps > 0 &&
             simulation_is_handled(simulation))
-            work += 2 * simulation->system.nodes * (1 + entry->outcome.updates);
+            work += simulation->system.nodes * (1 + entry->outcome.updates);
     }
     return 0 < work && work < SHORT;
 }
@@ -754,7 +754,7 @@ void past_aim(Past *past, long step, bool again)
     if (past->aim == 0 || past->aim > newest || !past->keeps ||
         !(again || is_short(past)))
         return;
-    past->from = past->aim > 2 ? past->aim - 2 : 0;
+    past->from = past->aim - 1;
     for (int p = 0; p < past_panes(past); p++)
         rounds_clear(&past->machine[p].rounds);
     leave_all(past);
@@ -801,7 +801,6 @@ static Status begin_pane(Past *past, int pane, const Options *options)
     machine->control = control_keep(control);
     machine->outcome = (Outcome){.status = machine->simulation.status};
     rounds_clear(&machine->rounds);
-    machine->rounds.step = 0;
     if (past->keeps)
         status = keep_state(past, pane, entry);
     return status ? status : land(past, pane, 0);

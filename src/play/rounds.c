@@ -32,7 +32,7 @@ void rounds_clear(Rounds *rounds)
         free_round(&rounds->round[i]);
     free(rounds->x_tilde);
     rounds->x_tilde = NULL;
-    rounds->made.count = rounds->before.count = rounds->places = 0;
+    rounds->made.count = rounds->places = 0;
     rounds->bytes = 0;
     rounds->ended = rounds->passed = false;
 }
@@ -42,21 +42,13 @@ void rounds_free(Rounds *rounds)
     rounds_clear(rounds);
     free(rounds->round);
     free(rounds->made.row);
-    free(rounds->before.row);
     free(rounds->place);
     *rounds = (Rounds){0};
 }
 
 void rounds_begin(Rounds *rounds, const Simulation *simulation)
 {
-    long step = simulation->steps + 1;
-    bool near = rounds->step == step || rounds->step + 1 == step;
-    const Records last = rounds->made;
     rounds_clear(rounds);
-    rounds->made = rounds->before;
-    rounds->before = last;
-    rounds->before.count = near ? last.count : 0;
-    rounds->step = step;
     rounds->h = simulation->options.timestep;
     rounds->tolerance = simulation->options.tolerance;
     rounds->size = 2 * simulation->system.nodes;
@@ -337,8 +329,6 @@ const double *rounds_trace(const Rounds *rounds, int place, Trace *trace)
                      .iteration = over ? count - 1 : at.round,
                      .updates = over ? count : at.round,
                      .record = row,
-                     .updates_before = rounds->before.count,
-                     .record_before = rounds->before.row,
                      .projected = -1,
                      .x_tilde = rounds->x_tilde};
     if (rounds->room == 0)
