@@ -90,8 +90,10 @@ typedef struct Player {
     Options given[OPTIONS_MAX_PANES]; /* of the command line */
     char line[1024];                  /* it, without files and scripts */
     Script script;                    /* of the command line */
-    View *view;                       /* NULL: nothing is drawn */
-    bool window;                      /* the view is a window: it takes keys */
+    bool draws;                       /* frames, on this paper */
+    Paper paper;
+    int size[2]; /* its pixels; 0: those of the window */
+    bool window;                      /* it is a window's, which takes keys */
     bool attended; /* a window or a script: it may pause and go back */
     bool quit;     /* somebody asked for the end */
     bool refused;  /* a line of the script made no sense */
@@ -173,10 +175,14 @@ Status player_obey(Player *player, const Command *command);
  * player_obey. */
 Status player_input(Player *player, const Input *input);
 
-/* Draws, shows and records the state if there is a view. */
+/* Draws, shows and records the state, if anything is drawn. */
 Status player_draw(Player *player);
 
-/* The same on any paper, which nobody sees. */
+/* The paper, in the size that it has now; NULL: nothing is drawn, or there is
+ * not enough memory. */
+Paper *player_paper(Player *player);
+
+/* The frame on any paper, which nobody sees. */
 void player_paint(Player *player, Paper *paper);
 
 /* Until the window is closed, or to the end. */

@@ -1,7 +1,5 @@
-/* view.h - where frames are shown: the window, or a surface that nobody sees.
- *
- * Both work alike: draw on view_paper, then view_show.  The window is that of
- * window_sdl.c on a computer, of window_web.c in a page.
+/* view.h - the window: that of window_sdl.c on a computer, of window_web.c in a
+ * page.
  */
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H
@@ -10,8 +8,6 @@
 #include <stddef.h>
 
 #include "picture/paper.h"
-
-typedef struct View View;
 
 /* What happened at keyboard, mouse or window. */
 typedef enum InputKind {
@@ -41,22 +37,6 @@ typedef struct Input {
     double x, y; /* pixels of the paper */
     double amount;
 } Input;
-
-/* The paper for a surface in memory, or for the window: then its size is 0, 0.
- *   view  out; free it with view_free
- * Returns OK, OUT_OF_MEMORY. */
-Status view_create(int width, int height, View **view);
-
-/* Closes the window, too.  Accepts NULL. */
-void view_free(View *view);
-
-/* The paper, in the size that the view has now; NULL: not enough memory. */
-Paper *view_paper(View *view);
-
-/* Shows what is on the paper.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
-Status view_show(View *view);
-
-/* ---- the window --------------------------------------------------------- */
 
 /* There is one at a time; false: window_failure tells why there is none.
  *   size  [2] in, its pixels; 0: 1280 x 800, or what fits on the screen

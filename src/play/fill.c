@@ -422,9 +422,9 @@ void player_fill(Player *player)
     show->strain =
         player->strain != (show->pane[0].simulation->scene->strain > 0);
     show->bare = player->bare;
-    show->letter = player->window ? window_letter()
-                   : player->view ? SMALL_LETTER
-                                  : 0;
+    show->letter = player->window  ? window_letter()
+                   : player->draws ? SMALL_LETTER
+                                   : 0;
     if (player->column == COLUMN_KEYS)
         fill_help(show);
     if (player->column == COLUMN_OPTIONS)

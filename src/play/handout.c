@@ -58,7 +58,7 @@ static Status draw_picture(Player *player, FILE *file)
 {
     char *bytes = NULL;
     size_t size = 0;
-    Paper *paper = view_paper(player->view);
+    Paper *paper = player_paper(player);
     FILE *picture = paper ? open_memstream(&bytes, &size) : NULL;
     if (!picture)
         return STATUS_OUT_OF_MEMORY;
@@ -90,8 +90,9 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
     options->headless = options->quiet = true;
     options->steps = page->picture;
     Status status = player_create(options, 1, "elasto", stop, player);
-    if (!status)
-        status = view_create(PICTURE_WIDTH, PICTURE_HEIGHT, &player->view);
+    player->draws = true;
+    player->size[0] = PICTURE_WIDTH;
+    player->size[1] = PICTURE_HEIGHT;
     if (!status)
         status = go_to_picture(player, page);
     if (status && status == player->past.machine[0].simulation.status)

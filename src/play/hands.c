@@ -34,7 +34,7 @@ typedef struct Under {
 static Under look(Player *player)
 {
     const Mouse *mouse = &player->mouse;
-    const Paper *paper = view_paper(player->view);
+    const Paper *paper = player_paper(player);
     Show *show = &player->show;
     Under under = {.layout = show_layout(show, paper ? paper->canvas.width : 1,
                                          paper ? paper->canvas.height : 1),

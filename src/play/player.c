@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -72,6 +73,41 @@ bool player_ended(const Player *player)
 
 /* ---- drawing ------------------------------------------------------------- */
 
+/* Once: pictures without words are pictures, too. */
+static void tell_of_font(const Paper *paper)
+{
+    static bool told;
+    const char *given = getenv("ELASTO_FONT");
+    bool wanted = !given || given[0] != '\0'; /* empty: no words, please */
+    if (paper->text || !wanted || told)
+        return;
+    told = true;
+    fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have no "
+                    "words (ELASTO_FONT=FILE.ttf names another font)\n");
+}
+
+Paper *player_paper(Player *player)
+{
+    Paper *paper = &player->paper;
+    const Canvas *canvas = &paper->canvas;
+    int size[2] = {player->size[0], player->size[1]};
+    if (!player->draws)
+        return NULL;
+    if (size[0] == 0)
+        window_size(size);
+    for (int i = 0; i < 2; i++)
+        size[i] = (int)fmin(fmax(size[i], 1), CANVAS_MAX_SIZE);
+    if (canvas->pixels && canvas->width == size[0] && canvas->height == size[1])
+        return paper;
+    paper_free(paper);
+    if (paper_create(size[0], size[1], paper)) {
+        paper_free(paper);
+        return NULL;
+    }
+    tell_of_font(paper);
+    return paper;
+}
+
 void player_paint(Player *player, Paper *paper)
 {
     player_fill(player);
@@ -84,20 +120,20 @@ void player_paint(Player *player, Paper *paper)
 Status player_draw(Player *player)
 {
     player->changed = false;
-    if (!player->view)
+    if (!player->draws)
         return STATUS_OK;
     if (player->past.works && !player->past.making) {
         player->changed = true; /* as soon as it is there */
         return STATUS_OK;
     }
-    Paper *paper = view_paper(player->view);
+    Paper *paper = player_paper(player);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
     bool fresh = player->sampled != player->past.step;
     bool filmed = film_runs(&player->recording.film);
     player->sampled = player->past.step;
     player_paint(player, paper);
-    Status status = view_show(player->view);
+    Status status = player->size[0] ? STATUS_OK : window_show(&paper->canvas);
     int shown = player->speed < 0 ? 1 << -player->speed : 1; /* in a film */
     if (!status && (fresh || filmed))
         status = recording_frame(&player->recording, &paper->canvas,
@@ -191,7 +227,7 @@ Status player_frame(Player *player)
     if (player->sampled < 0) /* a new run: step 0 is a frame too */
         player->due = now + period;
     bool due = !player->window || now >= player->due - EARLY;
-    bool first = player->sampled < 0 && player->view;
+    bool first = player->sampled < 0 && player->draws;
     bool works = player->past.works;
     bool begins = works && player->began > start; /* first that is drawn */
     bool lives = player->sheet && player->window;
@@ -236,17 +272,13 @@ Status player_run(Player *player)
 /* ---- beginning and end --------------------------------------------------- */
 
 /* A window; or if there is no screen, a surface for the frames. */
-static Status open_view(Player *player)
+static void open_view(Player *player)
 {
     Options *options = &player->given[0];
     char reason[256] = "", shown[256];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
-    Status status = STATUS_OK;
-    if (!options->headless) {
+    if (!options->headless)
         player->window = window_open("elasto", size, options->fullscreen);
-        if (player->window)
-            status = view_create(0, 0, &player->view);
-    }
     if (!options->headless && !player->window) {
         window_failure(reason, sizeof reason);
         window_close();
@@ -259,10 +291,9 @@ static Status open_view(Player *player)
     }
     if (!player->window && options->steps < 0 && !options->script)
         options->steps = UNSEEN_STEPS;
-    if (!player->window && (options->frames || options->film))
-        status = view_create(size[0] > 0 ? size[0] : FRAME_SIZE,
-                             size[1] > 0 ? size[1] : FRAME_SIZE, &player->view);
-    return status;
+    player->draws = player->window || options->frames || options->film;
+    for (int i = 0; i < 2 && !player->window; i++)
+        player->size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
 }
 
 Status player_create(const Options *options, int count, const char *line,
@@ -276,17 +307,16 @@ Status player_create(const Options *options, int count, const char *line,
     player->started = clock_now();
     Status status = script_read(options->script, &player->script,
                                 player->message, sizeof player->message);
-    if (!status)
-        status = open_view(player);
     if (status)
         return status;
+    open_view(player);
     player->asks = player->window && !options->script;
     player->attended = player->window || options->script || options->page;
     if (options->paused || (player->asks && options->steps < 0 &&
                             (options->page || options->scene->explains)))
         player->mode = MODE_PAUSE;
     status = recording_open(&player->given[0], count, &player->recording);
-    past_create(player->attended || player->view,
+    past_create(player->attended || player->draws,
                 player->attended && options->steps < 0, &player->past);
     if (!status)
         status = player_begin(player, player->given, count, &begin);
@@ -301,6 +331,13 @@ Status player_create(const Options *options, int count, const char *line,
     return status;
 }
 
+static void close_view(Player *player)
+{
+    paper_free(&player->paper);
+    window_close();
+    player->draws = false;
+}
+
 Status player_finish(Player *player)
 {
     Status rest = STATUS_OK;
@@ -308,15 +345,14 @@ Status player_finish(Player *player)
         rest = player_write_rest(player);
         player_label_panes(player);
     }
-    view_free(player->view);
-    player->view = NULL;
+    close_view(player);
     Status closed = recording_close(&player->recording);
     return rest ? rest : closed;
 }
 
 void player_free(Player *player)
 {
-    view_free(player->view);
+    close_view(player);
     recording_close(&player->recording);
     past_free(&player->past);
     player_leave_step(player);

@@ -96,7 +96,7 @@ Status obey_escape(Player *player, const Command *command)
  * again. */
 Status obey_camera(Player *player, const Command *command)
 {
-    const Paper *paper = player->view ? view_paper(player->view) : NULL;
+    const Paper *paper = player_paper(player);
     Show *show = &player->show;
     if (command->kind == COMMAND_FIT)
         player->lens = LENS_FITS;
@@ -155,7 +155,7 @@ Status obey_shot(Player *player, const Command *command)
 {
     enum { WIDTH = 1280, HEIGHT = 800 };
     char name[80];
-    Paper *paper = player->view ? view_paper(player->view) : NULL;
+    Paper *paper = player_paper(player);
     Paper own = {0};
     Status status = STATUS_OK;
     if (!paper) {
@@ -182,7 +182,7 @@ Status obey_film(Player *player, const Command *command)
     Recording *recording = &player->recording;
     Status status;
     bool ends = film_runs(&recording->film);
-    if (!player->view)
+    if (!player->draws)
         return player_refuse(player, "nothing is drawn that could be filmed");
     if (ends) {
         status = recording_end_film(recording);

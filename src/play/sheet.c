@@ -132,7 +132,7 @@ void player_fill_sheet(Player *player)
 Status obey_choose(Player *player, const Command *command)
 {
     Show *show = &player->show;
-    const Paper *paper = player->view ? view_paper(player->view) : NULL;
+    const Paper *paper = player_paper(player);
     const char *key = command->text;
     bool up = strcmp(key, "Up") == 0, upright = up || strcmp(key, "Down") == 0;
     int way = up || strcmp(key, "Left") == 0 ? -1 : 1, i = show->chosen + way;

@@ -16,7 +16,7 @@ static char folder[] = "/tmp/elasto-session-XXXXXX";
 
 static Layout layout_now(void)
 {
-    const Canvas *canvas = &view_paper(player.view)->canvas;
+    const Canvas *canvas = &player_paper(&player)->canvas;
     return show_layout(&player.show, canvas->width, canvas->height);
 }
 
@@ -57,7 +57,7 @@ static uint64_t seen(const char *what)
     if (player.changed)
         CHECK_STATUS(player_draw(&player), STATUS_OK);
     memcpy(player.note, note, sizeof note);
-    const Canvas *canvas = &view_paper(player.view)->canvas;
+    const Canvas *canvas = &player_paper(&player)->canvas;
     return hash_box(canvas, strcmp(what, "cards") == 0
                                 ? layout_now().column
                                 : (Box){0, 0, canvas->width, canvas->height});
@@ -76,7 +76,8 @@ static void begin_session(const char *line)
     begin_script("0 pause\n", line);
     open_player = true;
     mouse[0] = mouse[1] = -1;
-    CHECK_STATUS(view_create(SIDE, SIDE, &player.view), STATUS_OK);
+    player.draws = true;
+    player.size[0] = player.size[1] = SIDE;
     seen(""); /* a window shows the scene before anything is put in */
 }
 
