@@ -150,8 +150,8 @@ static Obstacle ceiling_of(const Options *options)
 }
 
 /* The obstacles of the options, normals made units, and after them the scene's
- * own; returns how many. */
-static int list_obstacles(const Options *options,
+ * own, which is this free node, or none, -1; returns how many. */
+static int list_obstacles(const Options *options, int node,
                           Obstacle list[CONTACT_MAX_OBSTACLES])
 {
     int count = 0, ceiling = -1;
@@ -176,6 +176,8 @@ static int list_obstacles(const Options *options,
         list[i].node = -1;
         list[i].friction = i == ceiling ? 0 : options->friction;
     }
+    if (node >= 0)
+        list[count - 1].node = node;
     return count;
 }
 
@@ -201,12 +203,11 @@ static Status set_obstacles(const Options *options, const SquareMesh *mesh,
     const Contact *contact = contact_of(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
     int fixed = (int)(options->grounds + options->balls);
-    int count = list_obstacles(options, list);
+    int ball = system->nodes > mesh->nodes ? mesh->nodes : -1;
+    int count = list_obstacles(options, ball, list);
     int had = contact ? contact->obstacles : 0;
     for (int k = 1; k <= count - fixed && k <= had; k++)
         memcpy(list[count - k].o, contact->obstacle[had - k].o, sizeof list->o);
-    if (count > 0 && system->nodes > mesh->nodes)
-        list[count - 1].node = mesh->nodes;
     Status status = contact_set(system, &barrier, count, list);
     return status ? status
                   : friction_set(system, &friction_energy,
@@ -373,38 +374,41 @@ const char *body_needs_end_of_step(const Options *options)
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
-/* Whether all is where the system's terms let it be: off the obstacles, and no
- * cell or triangle turned over.
- *   only  so many obstacles are looked at, and no cells; -1: everything */
-static Status check_place(const System *system, const double *x, int only,
-                          Refusal told)
+/* Whether no node is on or in one of the first obstacles, so many.
+ *   x  [2n] m */
+static Status check_gaps(const Contact *contact, int obstacles,
+                         const System *system, const double *x, Refusal told)
 {
-    const Contact *contact = contact_of(system);
-    Place at = place_at(system, NULL, NULL, x);
-    for (int k = 0; contact && k < contact->obstacles; k++)
-        if (contact->obstacle[k].kind == OBSTACLE_BALL &&
-            !(contact->obstacle[k].radius > 0))
+    for (int k = 0; k < obstacles; k++) {
+        const Obstacle *obstacle = &contact->obstacle[k];
+        if (obstacle->kind == OBSTACLE_BALL && !(obstacle->radius > 0))
             return refuse(told, "obstacle %d: its radius must be above 0", k);
-    for (const TermKind *kind; (kind = next_energy(&at));) {
-        ElementWalk walk = {0};
-        if (kind->allowed == elements_allowed && kind->element->reach)
-            walk = elements_from(&at, NULL, 0);
-        while (walk.kind && elements_next(&walk)) {
-            bool obstacle = kind == &contact_energy;
-            if (walk.element.s > 0 ||
-                (only >= 0 && !(obstacle && walk.element.from < only)))
-                continue;
-            return obstacle
-                       ? refuse(told,
-                                "obstacle %d: node %d would begin at a "
-                                "distance of %g m; it must be above 0",
-                                walk.element.from, walk.element.node[0],
-                                walk.element.s)
-                       : refuse(told,
-                                "at node %d a cell begins turned over (%.3g of "
-                                "its area); it must not",
-                                walk.element.node[0], walk.element.s);
+        for (int i = 0; i < system->nodes; i++) {
+            double d = contact_pair_gap(contact, x, i, k).d;
+            if (contact_has_pair(contact, system, i, k) && !(d > 0))
+                return refuse(told,
+                              "obstacle %d: node %d would begin at a distance "
+                              "of %g m; it must be above 0",
+                              k, i, d);
         }
+    }
+    return STATUS_OK;
+}
+
+/* Whether no cell or triangle is turned over. */
+static Status check_areas(const System *system, const double *x, Refusal told)
+{
+    Place at = place_at(system, NULL, NULL, x);
+    for (const TermKind *kind; (kind = next_energy(&at));) {
+        if (!kind->element || !kind->element->reach)
+            continue;
+        for (ElementWalk walk = elements_from(&at, NULL, 0);
+             elements_next(&walk);)
+            if (!(walk.element.s > 0))
+                return refuse(told,
+                              "at node %d a cell begins turned over (%.3g of "
+                              "its area); it must not",
+                              walk.element.node[0], walk.element.s);
     }
     return STATUS_OK;
 }
@@ -437,15 +441,16 @@ bool simulation_has_room(const Simulation *simulation, const Options *options,
     Refusal told = {message, size};
     Status status = STATUS_OK;
     for (int run = 0; run < simulation->runs && !status; run++) {
-        const Options own = options_of_run(simulation, run, options);
-        SquareMesh mesh = {0};
-        System system = {0};
-        status = build(&own, &mesh, &system);
-        if (!status)
-            status = check_place(&system, simulation->run[run].x,
-                                 (int)(own.grounds + own.balls), told);
-        system_free(&system);
-        square_mesh_free(&mesh);
+        const TimeIntegrator *own = &simulation->run[run];
+        const Options its = options_of_run(simulation, run, options);
+        Contact contact = {.ball = -1};
+        int node = simulation->mesh.nodes;
+        node = own->system->nodes > node ? node : -1;
+        int count = list_obstacles(&its, node, contact.obstacle);
+        if (node >= 0)
+            contact.ball = count - 1;
+        status = check_gaps(&contact, (int)(its.grounds + its.balls),
+                            own->system, own->x, told);
     }
     for (int k = 0; k < options->balls && !status; k++)
         if (is_in_a_cell(&simulation->mesh, simulation->run[0].x,
@@ -500,7 +505,7 @@ Status body_check(const Options *options, Refusal told)
         return refuse(told, "--ceiling: STOP is %g; it must not be above Y",
                       ceiling[2]);
     Obstacle list[CONTACT_MAX_OBSTACLES];
-    if (list_obstacles(options, list) == 0 && !options->cells &&
+    if (list_obstacles(options, -1, list) == 0 && !options->cells &&
         !options->state && options->material == 0 && !options->self_contact)
         return STATUS_OK;
     SquareMesh mesh = {0};
@@ -513,8 +518,11 @@ Status body_check(const Options *options, Refusal told)
                    : STATUS_OUT_OF_MEMORY;
     if (!status)
         status = check_overlap(options, x, told);
+    const Contact *contact = contact_of(&system);
+    if (!status && contact)
+        status = check_gaps(contact, contact->obstacles, &system, x, told);
     if (!status)
-        status = check_place(&system, x, -1, told);
+        status = check_areas(&system, x, told);
     free(x);
     system_free(&system);
     square_mesh_free(&mesh);
