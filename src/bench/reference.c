@@ -7,26 +7,6 @@
 /* Results that are extrapolated from. */
 enum { REFERENCE_COLUMNS = 6 };
 
-/* The angular frequency of the fastest oscillation, at most.  Gershgorin:
- * omega^2 <= 2 max over nodes of (sum of the stiffnesses of its springs) / m,
- * each at most 2 k (3 |d|^2 / l2 - 1), or 2 k where it is compressed.
- *   sum  [n] zeros */
-static double fastest(const System *system, const double *x, long double *sum)
-{
-    double largest = 0;
-    for (int s = 0; s < system->springs; s++) {
-        int i = system->e[2 * s], j = system->e[2 * s + 1];
-        double dx = x[2 * i] - x[2 * j], dy = x[2 * i + 1] - x[2 * j + 1];
-        double ratio = (dx * dx + dy * dy) / system->l2[s];
-        double stiffness = 2 * system->k[s] * fmax(3 * ratio - 1, 1);
-        sum[i] += stiffness;
-        sum[j] += stiffness;
-    }
-    for (int i = 0; i < system->nodes; i++)
-        largest = fmax(largest, (double)sum[i] / system->m[i]);
-    return sqrt(2 * largest);
-}
-
 /* v += h a(x): each spring pulls with 2 k (|d|^2/l2 - 1) d. */
 static void reference_kick(const System *system, const long double *x,
                            long double h, long double *v)
@@ -90,11 +70,11 @@ static void reference_interval(const System *system, long double H,
 }
 
 Status reference_create(const System *system, const double *x, const double *v,
-                        double time, int times, Reference *out)
+                        double time, long intervals, Reference *out)
 {
     size_t size = 2 * (size_t)system->nodes;
     *out = (Reference){.system = system};
-    long double *work = calloc(4 * size, sizeof *work);
+    long double *work = malloc(4 * size * sizeof *work);
     out->x = malloc(size * sizeof *out->x);
     out->v = malloc(size * sizeof *out->v);
     if (!work || !out->x || !out->v) {
@@ -105,8 +85,6 @@ Status reference_create(const System *system, const double *x, const double *v,
         out->x[i] = x[i];
         out->v[i] = v[i];
     }
-    long intervals = 1 + (long)(time * fastest(system, x, work) / 2);
-    intervals *= times;
     for (long i = 0; i < intervals; i++)
         reference_interval(system, (long double)time / intervals, out, work);
     free(work);

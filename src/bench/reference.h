@@ -18,12 +18,12 @@ typedef struct Reference {
 } Reference;
 
 /* The state after `time` from x [2n] m, v [2n] m/s.
- *   times  so many intervals more than those with which H times the angular
- *          frequency of the fastest oscillation is 2
- *   out    free it with reference_free in any case
+ *   intervals  so many that H times the angular frequency of the fastest
+ *              oscillation is 1 at most
+ *   out        free it with reference_free in any case
  * Returns OK, OUT_OF_MEMORY. */
 Status reference_create(const System *system, const double *x, const double *v,
-                        double time, int times, Reference *out);
+                        double time, long intervals, Reference *out);
 void reference_free(Reference *reference);
 
 /* sqrt(sum m |x - reference|^2 / sum m), m.  x [2n] in. */

@@ -77,8 +77,13 @@ static Status create_problem(const Motion *motion, int segments,
         problem->v[2 * i] = -motion->spin * x[2 * i + 1];
         problem->v[2 * i + 1] = motion->spin * x[2 * i];
     }
-    return reference_create(system, x, problem->v, motion->time, 2,
-                            &problem->exact);
+    /* Eight springs at a node, each of 2k (3 |d|^2 / l2 - 1) at most: by
+     * Gershgorin omega^2 is below twice their sum over m. */
+    double along =
+        2 * system->k[0] * (3 * motion->stretch * motion->stretch - 1);
+    double omega = sqrt(2 * 8 * along / system->m[0]);
+    return reference_create(system, x, problem->v, motion->time,
+                            2 + (long)(motion->time * omega), &problem->exact);
 }
 
 /* From nothing to the end, once. */

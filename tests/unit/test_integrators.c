@@ -61,7 +61,7 @@ TEST(orders_are_as_in_the_table)
     Way way = {integrator_methods, SOLVER_NEWTON};
     Simulation *start = moving_square(&way, 1);
     const TimeIntegrator *at = &start->run[0];
-    CHECK_STATUS(reference_create(at->system, at->x, at->v, TIME, 4, &exact),
+    CHECK_STATUS(reference_create(at->system, at->x, at->v, TIME, 64, &exact),
                  STATUS_OK);
     for (way = (Way){0}; next_way(&way);) {
         int order = way.method->order;
