@@ -71,14 +71,10 @@ typedef struct NewtonSettings {
 
 /* What was done since the object was made.  Nothing reads it to decide. */
 typedef struct NewtonCounters {
-    long minimisations;
     long iterations; /* Newton updates */
-    long gradients;  /* evaluations of grad E */
     long factorisations;
     long solves;
     long projected;  /* blocks projected, summed over factorisations */
-    long trials;     /* energies looked at by the line search */
-    long skipped;    /* tests passed without a factor */
     long cycles;     /* of multigrid */
     long local;      /* its sweeps of tiles where folds run */
     long saddles;    /* left along negative curvature */

@@ -340,7 +340,6 @@ static void take_gradient(Newton *newton)
 {
     const Iterate *at = &newton->at;
     incremental_potential_gradient(&at->E, at->u, at->x, at->g);
-    newton->counters.gradients++;
     newton->record.factorised = false;
     newton->record.projected = 0;
     newton->record.shift = 0;
@@ -360,18 +359,14 @@ static Status direction_at(Newton *newton)
         newton->residual =
             residual_per_norm(newton) *
             system_inverse_mass_norm(newton->system, newton->at.g);
-        if (newton_test(newton, 0) == STATUS_OK) {
-            newton->counters.skipped++;
+        if (newton_test(newton, 0) == STATUS_OK)
             return STATUS_OK;
-        }
     }
     if (newton->record.iteration < 0 && !newton->rounding.blurred &&
         filter_projects(newton->settings.filter) &&
         newton->residual <= NEAR_REST * newton->tolerance &&
-        test_at_rest(newton) == STATUS_OK) {
-        newton->counters.skipped++;
+        test_at_rest(newton) == STATUS_OK)
         return STATUS_OK;
-    }
     Status status = newton_factor(newton);
     return status ? status : solve_and_test(newton);
 }

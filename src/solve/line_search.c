@@ -60,7 +60,6 @@ Status step_length(Newton *newton)
     record->trials = 0;
     Status status =
         line_search_backtrack(step_difference, &step, &record->alpha, &looks);
-    newton->counters.trials += record->trials;
     if (!status)
         return STATUS_OK;
     record->change = 0;

@@ -159,7 +159,6 @@ static void evaluate(Newton *newton)
     mg->directed = mg->cycle.set_up = false;
     newton->residual = mg->bound;
     newton->kind = RESIDUAL_BOUND;
-    newton->counters.gradients++;
 }
 
 /* The test of Algorithm 3 at x.  Returns OK, RUNNING, NOT_FINITE. */
@@ -278,7 +277,6 @@ static Status search_step(Newton *newton)
     if (!(record->slope <= 0))
         return STATUS_NOT_DESCENT;
     record->alpha = lowest(&along, &record->trials);
-    newton->counters.trials += record->trials;
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
     record->change = quartic_value(&along, record->alpha);

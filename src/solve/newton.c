@@ -43,7 +43,6 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
     newton->lent = false;
     newton->sum = newton->size = 0;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
-    newton->counters.minimisations++;
     rounding_start(newton);
     newton->residual = 0;
     newton->kind = RESIDUAL_VALUE;
@@ -258,7 +257,7 @@ Status newton_tell(Newton *newton, const NewtonRecord *record)
 /* All of them are long. */
 void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
 {
-    const long *more = &counters->minimisations;
+    const long *more = &counters->iterations;
     for (size_t i = 0; i < sizeof *sum / sizeof *more; i++)
-        (&sum->minimisations)[i] += more[i];
+        (&sum->iterations)[i] += more[i];
 }

@@ -385,7 +385,6 @@ TEST(work_is_limited_by_the_size)
         CHECK_AT_MOST(did.iterations, fmax(250000 / nodes, 1000));
         CHECK_AT_MOST(did.factorisations, 2.0 * did.iterations + 10);
         CHECK_AT_MOST(did.solves, 8.0 * did.iterations + 10);
-        CHECK_AT_MOST(did.trials, 66.0 * did.iterations);
     }
     /* a wall that comes in parts gets no more than one that does not */
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");
