@@ -31,7 +31,7 @@ run_faulty() {
     kind=$1 at=$2 every=$3
     shift 3
     begin_files
-    timeout 60 env ${every:+FAULT_ALL=1} FAULT="$kind" FAULT_AT="$at" \
+    timeout 300 env ${every:+FAULT_ALL=1} FAULT="$kind" FAULT_AT="$at" \
         FAULT_FILE="$work/count" LD_PRELOAD="$preload" "$faulty" --headless \
         --steps 2 --segments 2 --quiet --states s.csv --log l.csv "$@" \
         >out 2>error
@@ -212,7 +212,7 @@ screens() {
         SDL_VIDEODRIVER=nonsense; do
         rm -rf frames
         env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" \
-            "$setting" timeout 60 "$elasto" --steps 2 --quiet --size 160x120 \
+            "$setting" timeout 300 "$elasto" --steps 2 --quiet --size 160x120 \
             >out 2>error || echo "$setting: exit $?"
         [ "$(wc -l <error)" -eq 1 ] && grep -q '^no screen: .*frames/$' error ||
             echo "$setting: $(cat error)"

@@ -135,9 +135,8 @@ closes() {
     rm -f seen
     "$lecture" states=seen >out 2>err &
     pid=$!
+    until_true test -s out || echo 'no step' # SDL may make a window twice
     until_true find_window || echo 'no window'
-    sleep 0.5
-    window=$(xdotool search --name '^lecture: ' | tail -n 1)
     "$@" "$window" || echo "$1 failed"
     until_true has_ended "$pid" || {
         echo 'it does not close'
@@ -150,27 +149,39 @@ closes() {
     [ -s seen ] && [ ! -e seen.part ] || echo 'states are not whole'
 }
 escape() {
-    timeout 20 xdotool windowfocus --sync "$1" key Escape
+    timeout $timeout xdotool windowfocus --sync "$1" key Escape
 }
 # The upper right node, 150 and 107 pixels from the middle of the window, is led
 # upwards from (0.7, 0.5) to (0.7, 0.7933); Space stops that, and R puts it back.
 lives() {
-    timeout 20 xdotool windowfocus --sync "$1" mousemove --window "$1" 452 191 \
-        sleep 0.3 mousedown 1 sleep 0.2 mousemove --window "$1" 450 130 \
-        sleep 1.5 key space sleep 0.3
-    led=$(tail -n 1 seen.part)
-    echo "$led" | awk -F , '{ off = ($4 - 0.7) ^ 2 + ($5 - 0.7933) ^ 2
-        if (!(off < 1e-4)) print "the node is led to " $4 " " $5 }'
-    sleep 0.5
-    [ "$led" = "$(tail -n 1 seen.part)" ] || echo 'Space does not stop it'
-    timeout 20 xdotool mouseup 1 key r sleep 0.2 key space sleep 0.5
-    awk -F , -v from="${led%%,*}" '$1 == from + 1 && $3 == 24 { back = $4 " " $5
-        seen = $4 > 0.65 && $4 <= 0.7 && $5 < 0.52 }
-        END { if (!seen) print "R puts it back to " back }' seen.part
+    timeout $timeout xdotool windowfocus --sync "$1" \
+        mousemove --window "$1" 452 191 mousedown 1 \
+        mousemove --window "$1" 450 130
+    until_true is_led || echo "the node is led to $(tail -n 1 seen.part)"
+    xdotool key space
+    until_true stands || echo 'Space does not stop it'
+    xdotool mouseup 1 key r key space
+    until_true is_back || echo 'R does not put it back'
     escape "$1"
+}
+is_led() {
+    tail -n 1 seen.part | awk -F , '{ off = ($4 - 0.7) ^ 2 + ($5 - 0.7933) ^ 2
+        exit !($3 == 24 && off < 1e-4) }'
+}
+stands() {
+    step=$(tail -n 1 seen.part)
+    sleep 0.5
+    [ "$step" = "$(tail -n 1 seen.part)" ]
+}
+is_back() { # in one step, as nothing else moves it
+    awk -F , '$3 == 24 { back = back || last > 0.78 && $4 > 0.65 &&
+            $4 <= 0.7 && $5 < 0.52
+        last = $5 } END { exit !back }' seen.part
 }
 
 start_screen 1000x1000
+# Else SDL ignores a click that it reads at the time of the focus.
+export SDL_MOUSE_FOCUS_CLICKTHROUGH=1
 verdict it_lives "$(closes lives)"
 verdict escape_closes_the_window "$(closes escape)"
 if compile_close_window; then

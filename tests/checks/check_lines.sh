@@ -18,7 +18,7 @@ refusals() {
     ls -A >../before.$$
     while IFS='|' read -r expected words arguments; do
         # shellcheck disable=SC2086
-        timeout 60 "$elasto" $arguments >../out.$$ 2>../error.$$
+        timeout 300 "$elasto" $arguments >../out.$$ 2>../error.$$
         code=$?
         [ $code = "$expected" ] || echo "$arguments: exit $code"
         [ "$(wc -l <../error.$$)" -eq 1 ] && grep -q -e "$words" ../error.$$ ||
@@ -134,7 +134,7 @@ fi
 scenes() {
     while IFS='|' read -r expected rows arguments && read -r test; do
         # shellcheck disable=SC2086
-        timeout 60 "$elasto" $arguments --headless --states states --log log \
+        timeout 300 "$elasto" $arguments --headless --states states --log log \
             >summary 2>error
         code=$?
         [ $code = "$expected" ] || echo "$arguments: exit $code"

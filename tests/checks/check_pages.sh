@@ -10,13 +10,13 @@ pages=$(awk 'END { print NR }' list)
 verdict every_page_opens_by_number_and_by_name "$(
     awk '{ print $2 }' list >names
     while read -r name; do
-        timeout 60 "$elasto" --lecture "$name" --headless --quiet --steps 1 \
+        timeout 300 "$elasto" --lecture "$name" --headless --quiet --steps 1 \
             --size 480x300 --frames "frames_$name" 2>error
         code=$?
         [ $code = 0 ] || [ $code = 3 ] || echo "$name: exit $code: $(cat error)"
         [ -s "frames_$name/frame_000000.png" ] || echo "$name: no picture"
     done <names
-    timeout 60 "$elasto" --lecture "$pages" --headless --quiet --steps 0 \
+    timeout 300 "$elasto" --lecture "$pages" --headless --quiet --steps 0 \
         --size 480x300 --frames last
     last=$(tail -n 1 names)
     cmp last/frame_000000.png "frames_$last/frame_000000.png" 2>&1
@@ -69,7 +69,7 @@ if [ -z "${LONG:-}" ]; then
     exit $failed
 fi
 
-timeout 300 "$elasto" --handout handout.html >output 2>error
+timeout 1200 "$elasto" --handout handout.html >output 2>error
 code=$?
 verdict the_handout_is_written "$(
     [ $code = 0 ] || echo "exit $code: $(cat error)"

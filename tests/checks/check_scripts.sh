@@ -62,7 +62,7 @@ verdict the_readme_names_every_key "$(keys_without_a_word)"
 # run SCENE: prints the hash of the end.
 run() {
     sed "s/SCENE/$1/" commands >"$1.script"
-    timeout 200 "$elasto" --headless --script "$1.script" "$1" >out 2>error
+    timeout 600 "$elasto" --headless --script "$1.script" "$1" >out 2>error
     code=$?
     case $code in
     0 | 2 | 3) sed -n 's/^state hash *//p' out ;;

@@ -3,7 +3,6 @@
 # the program whose window is open.
 screen=
 pid=
-timeout=20 # s, that anything may take
 # Drivers and libraries below SDL leak; the suites look for leaks of ours.
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
@@ -16,19 +15,6 @@ finish() {
 }
 trap finish EXIT
 
-# until_true COMMAND...: waits until it succeeds; fails after the time-out, and
-# later ones in the same test sooner.
-until_true() {
-    end=$(($(date +%s) + timeout))
-    until "$@" >/dev/null 2>&1; do
-        [ "$(date +%s)" -lt $end ] || {
-            timeout=2
-            return 1
-        }
-        sleep 0.02
-    done
-}
-
 # missing_program: the first of these that is not there, or nothing
 missing_program() {
     for program in "$@"; do
@@ -40,9 +26,10 @@ missing_program() {
 }
 
 # new_screen FILE SIZE: a server in the background, its number comes into FILE.
+# No key repeats, however late it comes up.
 new_screen() {
     rm -f "$1"
-    Xvfb -displayfd 3 -screen 0 "$2x24" -nolisten tcp -noreset \
+    Xvfb -displayfd 3 -screen 0 "$2x24" -nolisten tcp -noreset -r \
         3>"$1" >"$1.log" 2>&1 &
     server=$!
     until_true test -s "$1"
@@ -58,11 +45,6 @@ start_screen() {
     screen=$server
     DISPLAY=:$(cat display)
     export DISPLAY
-}
-
-# Whether this process is over.
-has_ended() {
-    ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"
 }
 
 # compile_close_window: the program that asks a window to close, as its

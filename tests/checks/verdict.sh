@@ -14,13 +14,28 @@ verdict() {
     fi
 }
 
-# until_there FILE: waits until it has something in it, ten seconds at most.
-until_there() {
-    tries=0
-    until [ -s "$1" ] || [ $tries -gt 1000 ]; do
-        sleep 0.01
-        tries=$((tries + 1))
+timeout=60 # s, that anything may take
+
+# until_true COMMAND...: waits until it succeeds; fails after the time-out, and
+# later ones in the same test sooner.
+until_true() {
+    end=$(($(date +%s) + timeout))
+    until "$@" >/dev/null 2>&1; do
+        [ "$(date +%s)" -lt $end ] || {
+            timeout=2
+            return 1
+        }
+        sleep 0.02
     done
+}
+
+until_there() { # FILE
+    until_true test -s "$1"
+}
+
+# Whether this process is over.
+has_ended() {
+    ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"
 }
 
 # A folder of its own, without a screen; it goes at the end.

@@ -143,7 +143,7 @@ TEST(scripts_wait_while_it_runs)
 {
     begin_script("0 pause\n9 step\n", "square --segments 2");
     signal(SIGALRM, give_up);
-    alarm(20); /* s; it takes milliseconds */
+    alarm(600); /* s; it takes milliseconds */
     CHECK_STATUS(player_run(&player), STATUS_OK);
     alarm(0);
     CHECK(!stop && player.past.step == 1 && player_stands(&player));
