@@ -39,7 +39,7 @@ passes() { # command...
         # shellcheck disable=SC3045
         ulimit -t 30 && ulimit -c 0
         export ELASTO=build/elasto CMOCKA_TEST_ABORT=1
-        timeout 300 "$@" >log 2>&1 </dev/null || exit 1
+        timeout -k 5 300 "$@" >log 2>&1 </dev/null || exit 1
     ) 2>/dev/null
 }
 

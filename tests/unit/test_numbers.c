@@ -632,9 +632,9 @@ typedef struct MapE {
     int springs; /* projected ones */
 } MapE;
 
-static MapE map_E(const Simulation *simulation, const Real at[2], Filter filter)
+static MapE map_E(const Simulation *simulation, unsigned parts,
+                  const Real at[2], Filter filter)
 {
-    unsigned parts = simulation->exhibit.parts;
     Real h = simulation->run[0].h, w = parts & PART_ELASTICITY ? h * h : 0;
     Real m = parts & PART_INERTIA ? 1 : 0;
     Real k = simulation->system.k[0], l2 = simulation->system.l2[0];
@@ -673,7 +673,8 @@ static Real searched_E(const Simulation *simulation, const Real at[2])
 {
     Real E[3];
     if (!simulation->descent.scalar)
-        return map_E(simulation, at, FILTER_NONE).value;
+        return map_E(simulation, simulation->exhibit.parts, at, FILTER_NONE)
+            .value;
     scalar_E(simulation, at[0], E);
     return E[0];
 }
@@ -688,7 +689,7 @@ static void tell_iterate(const Simulation *simulation)
     if (descent->scalar)
         near("residual", fabsl(E[1]), 1e-13L);
     for (int way = 0; way < 2 && !descent->scalar; way++) {
-        MapE map = map_E(simulation, at, ways[way]);
+        MapE map = map_E(simulation, simulation->exhibit.parts, at, ways[way]);
         near("slope", map.slope, 1e-9L * (1 + fabsl(map.slope)));
         near("residual", hypotl(map.g[0], map.g[1]), 1e-13L);
         Real size = fabsl(map.p[0]) + fabsl(map.p[1]);
@@ -703,7 +704,7 @@ static void tell_landscape(const Simulation *simulation)
     const Descent *descent = &simulation->descent;
     const double *o = simulation->exhibit.target;
     Real at[2] = {descent->point[0], descent->point[1]};
-    MapE E = map_E(simulation, at, FILTER_NONE);
+    MapE E = map_E(simulation, simulation->exhibit.parts, at, FILTER_NONE);
     is_point("place", at[0], at[1]);
     is_point("x tilde", o[0], o[1]);
     near("E", E.value, 1e-13L * (1 + E.value));
@@ -732,7 +733,7 @@ static void tell_search(const Simulation *simulation)
     MapE map = {.springs = 0};
     scalar_E(simulation, at[0], E);
     if (!scalar)
-        map = map_E(simulation, at, filter);
+        map = map_E(simulation, simulation->exhibit.parts, at, filter);
     p[0] = scalar ? -E[1] / E[2] : map.p[0];
     p[1] = map.p[1];
     value = searched_E(simulation, at);
@@ -769,27 +770,19 @@ static void tell_search(const Simulation *simulation)
 
 static void tell_dial(const Simulation *simulation)
 {
-    Real h = simulation->run[0].h, d[2], P = 0, g[2], inertia = 0;
+    Real h = simulation->run[0].h, d[2];
     const double *x = simulation->run[0].x;
-    for (int i = 0; i < 2; i++) {
-        g[i] = d[i] = x[i] - (Real)simulation->exhibit.target[i];
-        inertia += d[i] * d[i] / 2;
-    }
-    for (int pin = 1; pin <= 2; pin++) {
-        Real k = simulation->system.k[0], l2 = simulation->system.l2[0];
-        Real e[2] = {(Real)x[0] - x[2 * pin], (Real)x[1] - x[2 * pin + 1]};
-        Real s = (e[0] * e[0] + e[1] * e[1]) / l2 - 1;
-        P += l2 * k / 2 * s * s;
-        for (int i = 0; i < 2; i++)
-            g[i] += h * h * 2 * k * s * e[i];
-    }
-    CHECK_AT_MOST(hypotl(g[0], g[1]), 1e-13L * (1 + 100 * h * h));
+    const Real at[2] = {x[0], x[1]};
+    const MapE E = map_E(simulation, PART_BOTH, at, FILTER_NONE);
+    for (int i = 0; i < 2; i++)
+        d[i] = x[i] - (Real)simulation->exhibit.target[i];
+    CHECK_AT_MOST(hypotl(E.g[0], E.g[1]), 1e-13L * (1 + 100 * h * h));
     is("h", h);
     is_point("minimiser", x[0], x[1]);
     is("distance", hypotl(d[0], d[1]));
-    near("inertia", inertia, 1e-15L);
-    near("elasticity", h * h * P, 1e-13L * h * h);
-    near("P", P, 1e-13L);
+    near("inertia", (d[0] * d[0] + d[1] * d[1]) / 2, 1e-15L);
+    near("elasticity", E.elastic, 1e-13L * h * h);
+    near("P", E.elastic / (h * h), 1e-13L);
     for (int i = -2; i <= 1; i++) /* the marks on the path */
         is("h", powl(10, i));
 }
