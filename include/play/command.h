@@ -51,7 +51,7 @@ enum {
     KEPT = 2,    /* belongs into the script of a session */
     SCREEN = 4,  /* concerns what is shown: obeyed while a step is computed;
                     all else ends that work first */
-    LATEST = 8,  /* of several in one drag the last one is enough */
+    LATEST = 8,  /* of several in one drag the last one does what all do */
     QUIET = 16   /* leaves the message of before */
 };
 

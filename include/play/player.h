@@ -76,7 +76,7 @@ typedef struct Mouse {
 typedef struct Side {
     int place;     /* MODE_WALK: in its rounds; -1: it shows the whole step */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
-    char ghost_label[64];
+    char ghost_label[96];
     char label[64]; /* what is different here */
 } Side;
 
@@ -137,7 +137,6 @@ typedef struct Player {
     const LecturePage *left; /* the page that was last open, or NULL */
     const LecturePage *told; /* the page whose answer is shown, or NULL */
     bool asks;               /* pages wait for a guess before they tell */
-    int answers, right;      /* numbers that were guessed, and how well */
     bool strain, bare, blank;
     unsigned closed; /* cards that are not as the picture has them */
     int large;       /* the enlarged card, */

@@ -46,27 +46,13 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
 
 /* ---- the step once more: the counterfactual ------------------------------ */
 
-/* What a value is called in a sentence. */
-static void value_words(const OptionRow *row, const Options *options,
-                        char *text, size_t size)
-{
-    char value[COMMAND_TEXT_SIZE];
-    option_value(row, options, value, sizeof value);
-    if (strcmp(value, "none") != 0)
-        snprintf(text, size, "%s %s", row->label, value);
-    else
-        snprintf(text, size, "%s",
-                 row->slot == OPTION_SLOT(filter) ? "no projection"
-                                                  : "full step");
-}
-
-/* "no projection: E +206 in 12 updates" */
+/* "projection none: E +206 in 12 updates" */
 static void tell_outcome(const OptionRow *row, const Options *options,
                          const Outcome *outcome, char *text, size_t size)
 {
-    char words[80];
-    value_words(row, options, words, sizeof words);
-    snprintf(text, size, "%s: E %+.3g in %d update%s%s%s", words,
+    char value[COMMAND_TEXT_SIZE];
+    option_value(row, options, value, sizeof value);
+    snprintf(text, size, "%s %s: E %+.3g in %d update%s%s%s", row->label, value,
              outcome->change, outcome->updates,
              outcome->updates == 1 ? "" : "s", outcome->status ? ", " : "",
              outcome->status ? status_text(outcome->status) : "");
@@ -77,13 +63,15 @@ static void keep_ghost(Player *player, const OptionRow *row)
 {
     const Simulation *simulation = player_simulation(player);
     Side *side = &player->side[player->active];
+    char value[COMMAND_TEXT_SIZE];
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     side->ghost = malloc(bytes);
     if (!side->ghost)
         return;
     memcpy(side->ghost, simulation->run[0].x, bytes);
-    value_words(row, player_settings(player), side->ghost_label,
-                sizeof side->ghost_label);
+    option_value(row, player_settings(player), value, sizeof value);
+    snprintf(side->ghost_label, sizeof side->ghost_label, "%s %s", row->label,
+             value);
 }
 
 /* The change, and the present step once more with it, from its own start; what
@@ -367,20 +355,11 @@ static Status find_method(Player *player, int pane, Command *change)
     return STATUS_OK;
 }
 
-static const char *method_label(const Command *change)
-{
-    return integrator_methods[(int)change->x].label;
-}
-
 Status obey_method(Player *player, const Command *command)
 {
     Command change;
     Status status = find_method(player, player->active, &change);
-    if (!status)
-        status = obey_set(player, &change);
-    if (!status)
-        player_note(player, "method: %s", method_label(&change));
-    return status;
+    return status ? status : obey_set(player, &change);
 }
 
 /* ---- panes --------------------------------------------------------------- */
@@ -406,7 +385,8 @@ Status obey_add_pane(Player *player, const Command *command)
     if (status)
         return status;
     player->active = panes;
-    player_note(player, "beside it: %s", method_label(&change));
+    player_note(player, "beside it: %s",
+                integrator_methods[(int)change.x].label);
     return STATUS_OK;
 }
 

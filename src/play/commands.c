@@ -253,6 +253,15 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
     return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
 }
 
+/* Whether the next line, of the same drag, does all that this one does. */
+static bool is_covered(const ScriptLine *line)
+{
+    return command_row(line->command.kind)->flags & LATEST &&
+           line->gesture == line[1].gesture && line->step == line[1].step &&
+           line->command.kind == line[1].command.kind &&
+           line->command.number == line[1].command.number;
+}
+
 Status script_write(const char *name, const Script *script)
 {
     Output output;
@@ -260,14 +269,18 @@ Status script_write(const char *name, const Script *script)
     if (status)
         return status;
     errno = 0;
+    int gesture = 0; /* of the line before */
     for (size_t i = 0; i < script->count; i++) {
         char line[512];
         const ScriptLine *at = &script->line[i];
         Command command = at->command;
+        if (i + 1 < script->count && is_covered(at))
+            continue;
         if (at->gesture) /* drags go on with what was grabbed by themselves */
-            command.joins = i > 0 && at->gesture == at[-1].gesture &&
+            command.joins = at->gesture == gesture &&
                             command.kind != COMMAND_DRAG &&
                             command.kind != COMMAND_RELEASE;
+        gesture = at->gesture;
         command_format(&command, line, sizeof line);
         fprintf(output.file, "%ld %s\n", at->step, line);
     }

@@ -167,12 +167,9 @@ static Status check_answer(Player *player)
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
     player->told = page;
-    player->answers++;
-    player->right += right;
     Status status = player_obey_lines(player, page->tell);
-    player_note(player, "%s: %s, it is %s (%d of %d right so far)",
-                player->typed, right ? "right" : "no",
-                number_with(truth, 5).text, player->right, player->answers);
+    player_note(player, "%s: %s, it is %s", player->typed,
+                right ? "right" : "no", number_with(truth, 5).text);
     player_deselect(player);
     return status;
 }

@@ -53,28 +53,6 @@ static void begin_gesture(Player *player, const Command *command)
         player->held = player->gesture;
 }
 
-/* The line that was noted as number `at` goes if it was refused, or takes the
- * place of the one before it if both are of one drag. */
-static void settle_line(Player *player, size_t at, bool refused)
-{
-    Script *journal = &player->journal;
-    ScriptLine *line = journal->line + at;
-    bool follows = at > 0 && line[-1].gesture == line->gesture &&
-                   line[-1].step == line->step &&
-                   line[-1].command.kind == line->command.kind &&
-                   line[-1].command.number == line->command.number;
-    /* What goes along is where all of them have put it. */
-    bool along =
-        line->command.kind == COMMAND_PLACE &&
-        past_along(&player->past, player->active, line->command.number);
-    follows = follows && !along;
-    if (!refused && follows && command_row(line->command.kind)->flags & LATEST)
-        line[-1] = *line;
-    else if (!refused)
-        return;
-    journal->count = at;
-}
-
 /* ---- obeying ------------------------------------------------------------- */
 
 /* How many there are of what the number of a command counts. */
@@ -206,7 +184,8 @@ Status player_obey(Player *player, const Command *asked)
     }
     if (past->now > now && command.kind != COMMAND_REDO)
         tell_left(player, step, newest);
-    if (noted && player->journal.count == at + 1)
-        settle_line(player, at, status == STATUS_INVALID_INPUT);
+    if (noted && player->journal.count == at + 1 &&
+        status == STATUS_INVALID_INPUT)
+        player->journal.count = at;
     return player_bear(player, status);
 }

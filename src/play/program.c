@@ -228,7 +228,5 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
         recording_discard(&player->recording);
         return program_end(player, status);
     }
-    if (options->panes > 1 && !options->quiet)
-        fprintf(stderr, "%d panes: %s\n", options->panes, line);
     return PROGRAM_PLAYS;
 }

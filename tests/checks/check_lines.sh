@@ -102,12 +102,10 @@ END
 verdict messages_are_one_line "$(names)"
 
 verdict summaries_have_what_was_done_in_each_pane "$(
-    "$elasto" --headless --steps 2 --timestep 0.004,0.01 2>error |
+    "$elasto" --headless --steps 2 --timestep 0.004,0.01 |
         sed -n 's/^pane.* h //p; s/^steps  *\([0-9]*\)$/\1/p
             s/^simulated time *//p' | tr '\n' ';' |
         grep -qx '0.004 s;5;0.02 s;0.01 s;2;0.02 s;' || echo 'other numbers'
-    grep -qx '2 panes: elasto --headless --timestep 0.004,0.01' error ||
-        cat error
     [ -z "$("$elasto" --headless --quiet --steps 5 2>&1)" ] || echo 'not quiet'
 )"
 
