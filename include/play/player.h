@@ -204,23 +204,19 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
 /* What the page does when it opens: its own commands. */
 Status player_open_page(Player *player);
 
-/* Finishes the files and frees all but the numbers that a summary needs.
+/* Finishes the files and frees all but the numbers that the summary needs.
  * Returns OK, OUT_OF_MEMORY or FILE_FAILED. */
 Status player_finish(Player *player);
 void player_free(Player *player);
-
-/* What a run did, in a few lines at its end; the caller checks the stream. */
-void summary_print(FILE *file, const Player *player);
 
 /* Writes the lecture as an HTML file to options->handout; it appears when it is
  * whole.
  *   player   workspace; it must stay where it is
  *   stop     in, not 0 ends it after the present page: INTERRUPTED
- *   message  [size] out, what is wrong, where errno does not tell
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno), INTERRUPTED, or how a page
  * could not be drawn. */
 Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
-                     Player *player, char *message, size_t size);
+                     Player *player);
 
 /* ---- the program --------------------------------------------------------- */
 

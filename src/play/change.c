@@ -400,13 +400,6 @@ Status obey_end_pane(Player *player, const Command *command)
     return status ? status : player_follow(player);
 }
 
-/* The pane whose numbers are shown. */
-Status obey_pane(Player *player, const Command *command)
-{
-    player->active = (int)command->number;
-    return STATUS_OK;
-}
-
 /* ---- hands --------------------------------------------------------------- */
 
 /* Pins a node, or sets it free. */

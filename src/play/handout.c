@@ -120,11 +120,10 @@ static Status write_page(FILE *file, const LecturePage *page, Player *player)
 }
 
 Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
-                     Player *player, char *message, size_t size)
+                     Player *player)
 {
     Output output;
     const Listing *head = listing_find("src/play/handout.html");
-    message[0] = '\0';
     Status status = output_open(options->handout, &output);
     if (status)
         return status;
@@ -133,7 +132,8 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
     for (const LecturePage *page = lecture_pages; page->name && !status;
          page++) {
         Options of_page;
-        status = lecture_options(page, &of_page, message, size);
+        char message[256];
+        status = lecture_options(page, &of_page, message, sizeof message);
         if (status)
             break; /* which a test rules out */
         status = play_page(&of_page, stop, player);

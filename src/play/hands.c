@@ -199,12 +199,6 @@ Status obey_enter(Player *player, const Command *command)
     return status;
 }
 
-Status obey_close(Player *player, const Command *command)
-{
-    player_deselect(player);
-    return STATUS_OK;
-}
-
 /* ---- the row of numbers and the time line -------------------------------- */
 
 /* A number follows the mouse: from its value where the drag began. */

@@ -15,13 +15,13 @@ static const double SLICE = 0.05;
 Deed obey_pause, obey_next, obey_back, obey_finer, obey_goto,
     obey_undo; /* walk.c */
 Deed obey_set, obey_default, obey_select, obey_raise, obey_switch, obey_method,
-    obey_add, obey_add_pane, obey_end_pane, obey_pane, obey_pin, obey_grab,
-    obey_drag, obey_place, obey_box, obey_obstacle, obey_handle; /* change.c */
+    obey_add, obey_add_pane, obey_end_pane, obey_pin, obey_grab, obey_drag,
+    obey_place, obey_box, obey_obstacle, obey_handle; /* change.c */
 Deed obey_scene, obey_restart, obey_page, obey_predict, obey_cell; /* begin.c */
-Deed obey_speed, obey_switched, obey_full, obey_column, obey_escape,
-    obey_camera, obey_card, obey_shot, obey_film, obey_hash; /* screen.c */
-Deed obey_type, obey_enter, obey_close;                      /* hands.c */
-Deed obey_sheet, obey_choose, obey_open;                     /* sheet.c */
+Deed obey_screen, obey_column, obey_escape, obey_camera, obey_card, obey_shot,
+    obey_film, obey_hash;                /* screen.c */
+Deed obey_type, obey_enter;              /* hands.c */
+Deed obey_sheet, obey_choose, obey_open; /* sheet.c */
 
 /* Says why a command makes no sense here.  Returns INVALID_INPUT. */
 Status player_refuse(Player *player, const char *why);
@@ -80,13 +80,6 @@ Status player_bear(Player *player, Status status);
 
 /* What tables still lack of the past that is shown. */
 Status player_write_rest(Player *player);
-
-/* ---- rest.c -------------------------------------------------------------- */
-
-/* After a step that nobody has asked for: stops at the first one that did not
- * converge, at the end, and at rest, and says so; a run of a given number of
- * steps ends by itself and does not. */
-void player_judge(Player *player);
 
 /* ---- walk.c -------------------------------------------------------------- */
 

@@ -23,30 +23,39 @@ int player_first_speed(const Options *options)
     return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
 }
 
-/* Twice or half as fast. */
-Status obey_speed(Player *player, const Command *command)
+/* Speed, which doubles or halves; what is on or off; which pane's numbers are
+ * shown. */
+Status obey_screen(Player *player, const Command *command)
 {
-    int speed = player->speed + (command->kind == COMMAND_FASTER ? 1 : -1);
-    if (speed >= SPEED_LEAST && speed <= SPEED_MOST)
-        player->speed = speed;
-    return STATUS_OK;
-}
-
-/* What is on or off. */
-Status obey_switched(Player *player, const Command *command)
-{
-    bool *what = command->kind == COMMAND_COLOURS ? &player->strain
-                 : command->kind == COMMAND_BARE  ? &player->bare
-                 : command->kind == COMMAND_BLANK ? &player->blank
-                                                  : &player->quit;
-    *what = !*what;
-    return STATUS_OK;
-}
-
-Status obey_full(Player *player, const Command *command)
-{
-    if (player->window)
-        window_set_full(!window_is_full());
+    switch (command->kind) {
+    case COMMAND_FASTER:
+        player->speed += player->speed < SPEED_MOST;
+        break;
+    case COMMAND_SLOWER:
+        player->speed -= player->speed > SPEED_LEAST;
+        break;
+    case COMMAND_COLOURS:
+        player->strain = !player->strain;
+        break;
+    case COMMAND_BARE:
+        player->bare = !player->bare;
+        break;
+    case COMMAND_BLANK:
+        player->blank = !player->blank;
+        break;
+    case COMMAND_FULL:
+        if (player->window)
+            window_set_full(!window_is_full());
+        break;
+    case COMMAND_PANE:
+        player->active = (int)command->number;
+        break;
+    case COMMAND_CLOSE:
+        player_deselect(player);
+        break;
+    default:
+        player->quit = true;
+    }
     return STATUS_OK;
 }
 
