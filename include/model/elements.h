@@ -84,10 +84,6 @@ struct ElementKind {
                         const double P[4], double alpha);
     double (*reach)(const Place *at, const Element *element, const double P[4]);
 
-    /* c >= 0 with w Hessian + c I positive semi-definite in a and b; NULL: 0.
-     */
-    double (*concave)(const Place *at, const Element *element);
-
     /* Of what friction acts on: mu times the normal force, N.  It slides by
      * t.(da, db), t [4] out, on what goes along at `carry`, m/s, out. */
     double (*rub)(const Place *at, const Element *element, double t[4],

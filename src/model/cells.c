@@ -111,14 +111,6 @@ static double remainder_along(const Place *at, const Element *element,
                               barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
 }
 
-/* The lower eigenvalue across is that of slope K (area_hessian). */
-static double concave(const Place *at, const Element *element)
-{
-    const Cells *cells = cells_of(at);
-    return -at->w * cells->c / CELL_J_HAT / (2 * cells->area) *
-           barrier_slope(element->s / CELL_J_HAT);
-}
-
 /* The curvature where the barrier begins, and the force there if it went on
  * without bending: both by g = K e with sides of the rest length. */
 static void bounds(const Place *at, double *stiffest, double *force)
@@ -137,8 +129,7 @@ static const ElementKind triangle = {.count = count,
                                      .gradient = cell_gradient,
                                      .hessian = edge_hessian,
                                      .remainder = remainder_along,
-                                     .reach = cell_reach,
-                                     .concave = concave};
+                                     .reach = cell_reach};
 
 const TermKind cell_energy = {
     .name = "cells that cannot turn over",

@@ -204,12 +204,6 @@ static double remainder_along(const Place *at, const Element *element,
                          barrier_remainder(s, (pn + k) / barrier->d_hat));
 }
 
-/* A ball's curvature bends down by force/r across the normal. */
-static double concave(const Place *at, const Element *element)
-{
-    return at->w * contact_force(barrier_of(at), element->s) / element->r;
-}
-
 /* Where the barrier begins: 2 c/d_hat^2, and the force 2 c/d_hat half way. */
 static void bounds(const Place *at, double *stiffest, double *force)
 {
@@ -239,7 +233,6 @@ const ElementKind contact_elements = {.count = count,
                                       .hessian = contact_hessian,
                                       .remainder = remainder_along,
                                       .reach = reach,
-                                      .concave = concave,
                                       .rub = rub};
 
 const TermKind contact_energy = {

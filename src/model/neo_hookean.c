@@ -114,16 +114,6 @@ static double reach(const Place *at, const Element *element, const double P[4])
     return area_reach(ELEMENT_LIMIT * element->s, J1, J2);
 }
 
-/* mu I + c1 K + c2 (K f)(K f)^T, where K has the eigenvalues 1 and -1. */
-static double concave(const Place *at, const Element *element)
-{
-    const NeoHookean *data = data_of(at);
-    double c2 = curvature_in_J(data, element->s);
-    double down = fabs(slope_in_J(data, element->s)) - data->mu +
-                  fmax(-c2, 0) * square_of(element->v);
-    return at->w * data->area * fmax(down, 0);
-}
-
 /* At F = I the Hessian is mu (I - K) + (lambda + mu) (K f)(K f)^T; a node has
  * the weights 1/l of a triangle's height l. */
 static void bounds(const Place *at, double *stiffest, double *force)
@@ -142,8 +132,7 @@ static const ElementKind triangle = {.count = count,
                                      .gradient = gradient,
                                      .hessian = hessian,
                                      .remainder = remainder_along,
-                                     .reach = reach,
-                                     .concave = concave};
+                                     .reach = reach};
 
 /* The triangle's own f1 and f2: [f1 f2] = [x_b - x_a, x_c - x_a] B with the
  * inverse B of the same at rest. */

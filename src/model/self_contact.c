@@ -300,17 +300,6 @@ static double reach(const Place *at, const Element *element, const double P[4])
     return ELEMENT_LIMIT * first;
 }
 
-/* Of a matrix [[0, b], [b, c]], c >= 0, the lower eigenvalue is -b at least;
- * |(w_t, e_n)|^2 <= 3 |(dq, de)|^2. */
-static double concave(const Place *at, const Element *element)
-{
-    const SelfContact *self = data_of(at);
-    double F = at->w * force(self, element->s), d = sqrt(element->s);
-    const double *e = element->v + 2;
-    bool beside = element->r > 0 && element->r < 1;
-    return beside ? 3 * F / sqrt(dot(e, e)) : 2 * F / (d * self->d_hat);
-}
-
 /* mu F; slides with w_t. */
 static double rub(const Place *at, const Element *element, double t[4],
                   double *carry)
@@ -335,7 +324,6 @@ const ElementKind self_contact_elements = {.look = look,
                                            .hessian = hessian,
                                            .remainder = remainder_along,
                                            .reach = reach,
-                                           .concave = concave,
                                            .rub = rub};
 
 /* ---- the term ----------------------------------------------------------- */

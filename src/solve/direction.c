@@ -377,7 +377,10 @@ Status direction_bends_up(Newton *newton, double times)
 {
     const SearchDirection *search = &newton->search;
     int projected;
-    if (newton->settings.filter == FILTER_NONE ||
+    bool seen =
+        newton->record.factorised && /* it has a factor as it is */
+        (search->filter == FILTER_NONE || newton->record.projected == 0);
+    if (newton->settings.filter == FILTER_NONE || seen ||
         incremental_potential_concave(&newton->at, newton->x_trial) < times)
         return STATUS_OK;
     Status status = assemble(newton, FILTER_ON_DEMAND, &projected);
