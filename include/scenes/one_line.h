@@ -12,7 +12,7 @@
  * one line, says what it seems to say, and a terminal obeys nothing.
  * A text that does not fit loses its middle: "abc...xyz".
  *   text  in, or NULL: ""
- *   line  [size] out, ends with '\0'; may be the text itself */
+ *   line  [size] out, 12 at least; may be the text itself */
 void one_line(const char *text, char *line, size_t size);
 
 /* Where the line goes that says why something is refused, [size]. */

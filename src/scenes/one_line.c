@@ -42,16 +42,11 @@ static bool is_control(unsigned code)
 
 void one_line(const char *text, char *line, size_t size)
 {
-    if (size == 0)
-        return;
     if (!text)
         text = "";
     size_t length = strlen(text), room = size - 1;
     if (length <= room) {
         memmove(line, text, length + 1);
-    } else if (room <= 2 * sizeof CUT) {
-        memmove(line, text, room);
-        line[room] = '\0';
     } else {
         /* Neither part begins or ends inside a character. */
         size_t left = (room - (sizeof CUT - 1)) / 2;

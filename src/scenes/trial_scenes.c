@@ -102,24 +102,20 @@ static double energy_later(const Simulation *simulation, TimeIntegrator *run)
 }
 
 /* Runs to the end again and again, until a clock that ticks in tenths of a
- * millisecond, as a browser's does, can tell how long one takes.  The first
- * run of several does not count: its code is cold. */
+ * millisecond, as a browser's does, can tell how long one takes. */
 static Status measure_run(Simulation *simulation,
                           const IntegratorMethod *method, long steps,
                           TimeIntegrator *run, double *seconds)
 {
     const double enough = 0.01; /* s */
     double start = clock_now();
-    Status status = run_to_end(simulation, method, steps, run);
-    *seconds = clock_now() - start;
-    if (*seconds >= enough)
-        return status;
-    start = clock_now();
-    for (int runs = 1; !status && *seconds * runs < enough; runs++) {
+    Status status;
+    int runs = 0;
+    do {
         time_integrator_free(run);
         status = run_to_end(simulation, method, steps, run);
-        *seconds = (clock_now() - start) / runs;
-    }
+        *seconds = (clock_now() - start) / ++runs;
+    } while (!status && *seconds * runs < enough);
     return status;
 }
 
