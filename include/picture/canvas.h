@@ -26,6 +26,9 @@ typedef struct Box {
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);
 
+/* What two boxes share, the first of them at corners >= 0. */
+Box box_shared(Box a, Box b);
+
 /* Shortens the line x, y, x, y to the box and a margin around it (Liang and
  * Barsky 1984); false: nothing of it is there. */
 bool box_cut(const Box *box, double margin, double line[4]);

@@ -1,5 +1,5 @@
-/* paper.h - what a frame is drawn on: a canvas, texts in a size that fits it,
- * and pictures that are kept from frame to frame because they seldom change.
+/* paper.h - what a frame is drawn on: a canvas and texts in a size that fits
+ * it.
  *
  * Sizes are in ems, the size of plain texts; layout.h says how many pixels one
  * has.  A line is `unit` pixels wide, 1 where the em has 14 pixels.
@@ -9,13 +9,7 @@
 
 #include "picture/text.h"
 
-/* What is kept between frames. */
-typedef enum Keep {
-    KEEP_MAP,     /* the contours of the landscape */
-    KEEP_SPY,     /* the pattern of the Hessian and its factor */
-    KEEP_NATURAL, /* that of the Hessian as it is written */
-    KEEP_COUNT
-} Keep;
+enum { PAPER_MAP_OF = 17 };
 
 typedef struct Paper {
     Canvas canvas;
@@ -23,8 +17,10 @@ typedef struct Paper {
     double em;    /* pixels */
     double unit;  /* pixels */
     double least; /* ems, no letter but scripts is smaller */
-    Canvas kept[KEEP_COUNT];
-    uint64_t key[KEEP_COUNT]; /* of what is kept; 0: nothing */
+    /* The contours of the landscape, kept from frame to frame, and all that
+     * they depend on. */
+    Canvas map;
+    double map_of[PAPER_MAP_OF];
 } Paper;
 
 /* White paper of this size in pixels, ready for the em that its layout has;
@@ -66,14 +62,5 @@ int paper_width(Paper *paper, Face face, double size, const char *markup);
  * pixels it took, downwards. */
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup);
-
-/* The picture that is kept for this purpose, if it has this size and was drawn
- * for this key; else a white one of this size, to be drawn now, with *drawn
- * false.  NULL: not enough memory. */
-Canvas *paper_keep(Paper *paper, Keep keep, uint64_t key, int width, int height,
-                   bool *drawn);
-
-/* A key out of count bytes, never 0 (FNV-1a). */
-uint64_t paper_key(uint64_t key, const void *bytes, size_t count);
 
 #endif

@@ -116,11 +116,15 @@ bool box_contains(Box box, double x, double y)
            y < box.y + box.height;
 }
 
+Box box_shared(Box a, Box b)
+{
+    return touched(a, b.x, b.y, (double)b.x + b.width, (double)b.y + b.height);
+}
+
 Box canvas_clip(Canvas *canvas, Box box)
 {
     Box before = canvas->clip, whole = {0, 0, canvas->width, canvas->height};
-    canvas->clip = touched(whole, box.x, box.y, (double)box.x + box.width,
-                           (double)box.y + box.height);
+    canvas->clip = box_shared(whole, box);
     return before;
 }
 
@@ -144,8 +148,7 @@ static void mix_span(uint32_t *row, int left, int right, Colour colour,
 
 void canvas_fill(Canvas *canvas, Box box, Colour colour)
 {
-    Box seen = touched(canvas->clip, box.x, box.y, (double)box.x + box.width,
-                       (double)box.y + box.height);
+    Box seen = box_shared(canvas->clip, box);
     for (int j = seen.y; j < seen.y + seen.height; j++)
         mix_span(canvas_row(canvas, j), seen.x, seen.x + seen.width, colour,
                  opacity(colour));

@@ -227,7 +227,6 @@ void law_draw(const Plot *card)
             continue;
         if (i == run) {
             plot_disc(&plot, at[0], dot, COLOUR_P);
-            plot_keep_disc(&plot, at[0], dot);
         } else if (simulation->runs > 1) {
             plot_words(&plot, 1, at, 0.6, 1, FACE_REGULAR, COLOUR_P,
                        names[run]);

@@ -3,9 +3,6 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* More nodes than the card has pixels show nothing. */
-enum { SPY_NODES = 4500 };
-
 /* What a block holds. */
 enum { NOTHING, FILL, ENTRY };
 
@@ -40,81 +37,56 @@ static unsigned char *make_pattern(const System *system, bool natural,
     return block;
 }
 
-/* The block in row i, column j of n, at least a pixel large. */
-static void draw_square(Canvas *canvas, int n, int i, int j, Colour colour)
+/* The block in row i, column j of n, at least so many pixels large; with a gap
+ * to the next one where there is room. */
+static Box block_box(Box square, int n, int i, int j, int least)
 {
-    int side = canvas->width;
-    int x = (int)((long)j * side / n), y = (int)((long)i * side / n);
-    int wide = (int)((long)(j + 1) * side / n) - x;
-    int high = (int)((long)(i + 1) * side / n) - y;
-    if (n * 5 < side) { /* a gap between the blocks */
-        wide--;
-        high--;
-    }
-    canvas_fill(canvas, (Box){x, y, wide > 1 ? wide : 1, high > 1 ? high : 1},
-                colour);
+    int side = square.width, gap = n * 5 < side;
+    int x = j * side / n, y = i * side / n;
+    int wide = (j + 1) * side / n - x - gap,
+        high = (i + 1) * side / n - y - gap;
+    return (Box){square.x + x, square.y + y, wide > least ? wide : least,
+                 high > least ? high : least};
 }
 
 /* Above the diagonal the matrix, below it the factor with its fill. */
-static void draw_pattern(Canvas *canvas, int n, const unsigned char *block)
+static void draw_pattern(Canvas *canvas, Box square, int n,
+                         const unsigned char *block)
 {
     for (int j = 0; j < n; j++)
-        for (int i = j + 1; i < n; i++) {
-            int what = block[(size_t)j * (size_t)n + (size_t)i];
+        for (int i = j; i < n; i++) {
+            int what =
+                i == j ? ENTRY : block[(size_t)j * (size_t)n + (size_t)i];
             if (what == ENTRY)
-                draw_square(canvas, n, j, i, COLOUR_X);
+                canvas_fill(canvas, block_box(square, n, j, i, 1), COLOUR_X);
             if (what != NOTHING)
-                draw_square(canvas, n, i, j,
+                canvas_fill(canvas, block_box(square, n, i, j, 1),
                             what == ENTRY ? COLOUR_X : 0xffe0a060u);
         }
-    for (int i = 0; i < n; i++)
-        draw_square(canvas, n, i, i, COLOUR_X);
 }
 
-/* The four blocks of a spring; < 0: of none. */
-static void light_spring(Paper *paper, const System *system, int spring,
-                         bool natural, Box square)
-{
-    if (spring < 0 || spring >= system->springs)
-        return;
-    const int *e = system->e + 2 * spring;
-    const long place[2] = {node_place(system, e[0], natural),
-                           node_place(system, e[1], natural)};
-    int n = system->nodes, least = paper_pixels(paper, 0.35);
-    int size = square.width / n > least ? square.width / n : least;
-    for (int k = 0; k < 4; k++) {
-        int x = square.x + (int)(place[k % 2] * square.width / n);
-        int y = square.y + (int)(place[k / 2] * square.width / n);
-        canvas_card(&paper->canvas, (Box){x - 1, y - 1, size + 2, size + 2},
-                    COLOUR_PROJECT, COLOUR_WHITE);
-    }
-}
-
-/* Made once for a mesh and so many springs, then copied; the spring under the
- * mouse is lit, or the newest one. */
+/* The pattern; the four blocks of the spring under the mouse are lit, or those
+ * of the newest one. */
 static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
     const Pick *hover = &card->show->hover;
-    const int facts[3] = {system->nodes, system->springs, springs};
-    uint64_t key = paper_key(natural, facts, sizeof facts);
-    bool drawn = false, over = hover->kind == PICK_SPRING;
-    Canvas *kept = paper_keep(paper, natural ? KEEP_NATURAL : KEEP_SPY, key,
-                              square.width, square.width, &drawn);
-    unsigned char *block =
-        !kept || drawn ? NULL : make_pattern(system, natural, springs);
+    unsigned char *block = make_pattern(system, natural, springs);
+    int lit = hover->kind == PICK_SPRING       ? hover->index
+              : natural && card->show->lecture ? springs - 1
+                                               : -1;
     if (block)
-        draw_pattern(kept, system->nodes, block);
+        draw_pattern(&paper->canvas, square, system->nodes, block);
     free(block);
-    if (!kept)
-        return;
-    canvas_copy(&paper->canvas, kept, square.x, square.y);
-    light_spring(paper, system,
-                 over                             ? hover->index
-                 : natural && card->show->lecture ? springs - 1
-                                                  : -1,
-                 natural, square);
+    for (int k = 0; k < 4 && lit >= 0 && lit < system->springs; k++) {
+        const int *e = system->e + 2 * lit;
+        Box box = block_box(
+            square, system->nodes, node_place(system, e[k / 2], natural),
+            node_place(system, e[k % 2], natural), paper_pixels(paper, 0.35));
+        canvas_card(&paper->canvas, box_inset(box, -1), COLOUR_PROJECT,
+                    COLOUR_WHITE);
+    }
 }
 
 /* What the newest spring adds, if there is room below the patterns. */
@@ -142,7 +114,7 @@ void spy_draw(const Plot *card)
         side = inside.height - line - below;
     int springs = page && page->writes ? lecture_spring(card->simulation) + 1
                                        : system->springs;
-    if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1)
+    if (side < 4 * line || system->nodes > side)
         cards_hint(card,
                    side < 4 * line ? "enlarge it" : "too many nodes to draw");
     else {

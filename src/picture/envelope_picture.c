@@ -48,7 +48,7 @@ static Box envelope_box(const Plot *stage, int column, int row)
 void envelope_draw(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.map;
-    plot_on(stage, &plot_room, (Axis){.log = true, .label = "h in s"},
+    plot_on(stage, (Axis){.log = true, .label = "h in s"},
             (Axis){.log = true, .label = "k in J/m\u00b2"});
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++)

@@ -46,6 +46,13 @@ void fact_point(Facts *facts, const char *name, const double point[2])
     memcpy(new->value, point, sizeof new->value);
 }
 
+void fact_matrix(Facts *facts, const char *const names[3], const double H[3],
+                 double none)
+{
+    for (int k = 0; k < 3; k++)
+        fact(facts, names[k], fabs(H[k]) < none ? 0 : H[k]);
+}
+
 /* Where a search ended that is no minimum: the gradient is 0 there, too. */
 static void add_end(const Simulation *simulation, Facts *facts)
 {
@@ -286,11 +293,14 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
             line->words[used++] = *from++;
             continue;
         }
-        const Fact *one = find_fact(facts, line->run, from + 1);
+        bool minus = from[1] == '-';
+        const Fact *found = find_fact(facts, line->run, from + 1 + minus);
         name = strcspn(from, ":}");
-        if (!one)
+        if (!found)
             return false;
-        put_fact(one, from[name] == ':' ? from + name + 1 : "",
+        Fact one = *found;
+        one.value[0] *= minus ? -1 : 1;
+        put_fact(&one, from[name] == ':' ? from + name + 1 : "",
                  line->words + used, sizeof line->words - used);
         used += strlen(line->words + used);
         from += strcspn(from, "}") + 1;

@@ -3,9 +3,9 @@
  * A text is lines of markup with facts: "line 5: {alpha} = {length:/}".  A line
  * with a fact that is not known now is left out; so a fact without words is a
  * switch, and of several lines the first one that is known is often all that is
- * wanted.  Beside those of the markup (text.h) all braces are facts; after a
- * colon stands the number of digits, 3 if nothing does, a / where 1/4 is to be
- * read, a ' where a number with a sign needs parentheses.
+ * wanted.  Beside those of the markup (text.h) all braces are facts, {-H} is
+ * -H; after a colon stands the number of digits, 3 if nothing does, a / where
+ * 1/4 is to be read, a ' where a number with a sign needs parentheses.
  *
  * "#warning " in front of a line is its colour, "#warning* " is bold, too. What
  * stands after a line "@" is said for each run, 1, 2 and 3, with what is known
@@ -18,12 +18,15 @@
 
 enum { FACTS_TEXT = 512 };
 
-/* A number, NaN: not known; words, NULL: not known; a switch; a point [2].  Of
- * several facts with one name the first counts. */
+/* A number, NaN: not known; words, NULL: not known; a switch; a point [2]; xx,
+ * xy and yy of a matrix, 0 where they are less than `none`.  Of several facts
+ * with one name the first counts. */
 void fact(Facts *facts, const char *name, double value);
 void fact_words(Facts *facts, const char *name, const char *words);
 void fact_when(Facts *facts, const char *name, bool on);
 void fact_point(Facts *facts, const char *name, const double point[2]);
+void fact_matrix(Facts *facts, const char *const names[3], const double H[3],
+                 double none);
 
 /* A line as it is written, and where in its text. */
 typedef struct TextLine {

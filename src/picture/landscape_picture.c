@@ -66,45 +66,55 @@ static void draw_ground(const Plot *plot)
         }
 }
 
-/* The map as it was kept, or drawn and kept; the key is all it depends on. */
+/* The map as it was kept, or drawn and kept. */
 static void show_map(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     const System *system = &simulation->system;
     const Exhibit *exhibit = &simulation->exhibit;
-    const double settings[] = {system->k[0], system->l2[0], system->m[0],
-                               simulation->run[0].h};
-    uint64_t key = paper_key(0, &plot->camera, sizeof plot->camera);
-    key = paper_key(key, settings, sizeof settings);
-    key = paper_key(key, exhibit->target, sizeof exhibit->target);
-    key = paper_key(key, &exhibit->parts, sizeof exhibit->parts);
-    key = paper_key(key, simulation->run[0].x + 2, 4 * sizeof(double));
-    bool drawn = false;
-    Canvas *kept = paper_keep(plot->paper, KEEP_MAP, key, plot->box.width,
-                              plot->box.height, &drawn);
-    if (!kept)
-        return;
-    if (!drawn) {
-        Paper paper = *plot->paper;
-        Plot map = *plot;
-        paper.canvas = *kept;
-        map.paper = &paper;
+    const Camera *camera = &plot->camera;
+    const double *x = simulation->run[0].x;
+    Paper *paper = plot->paper, small = *paper;
+    Plot map = *plot;
+    const double of[PAPER_MAP_OF] = {camera->scale[0],
+                                     camera->scale[1],
+                                     camera->origin[0],
+                                     camera->origin[1],
+                                     plot->box.width,
+                                     plot->box.height,
+                                     system->k[0],
+                                     system->l2[0],
+                                     system->m[0],
+                                     exhibit->target[0],
+                                     exhibit->target[1],
+                                     exhibit->parts,
+                                     simulation->run[0].h,
+                                     x[2],
+                                     x[3],
+                                     x[4],
+                                     x[5]};
+    if (memcmp(paper->map_of, of, sizeof of) != 0) {
+        memset(paper->map_of, 0, sizeof of);
+        canvas_free(&paper->map);
+        if (canvas_create(plot->box.width, plot->box.height, &paper->map))
+            return;
+        small.canvas = paper->map;
+        map.paper = &small;
         map.box.x = map.box.y = 0;
         map.camera.origin[0] -= plot->box.x;
         map.camera.origin[1] -= plot->box.y;
         draw_ground(&map);
+        memcpy(paper->map_of, of, sizeof of);
     }
-    canvas_copy(&plot->paper->canvas, kept, plot->box.x, plot->box.y);
+    canvas_copy(&paper->canvas, &paper->map, plot->box.x, plot->box.y);
 }
 
-/* x_tilde with its name, off the ring of its handle. */
-static void name_target(Plot *plot)
+/* x_tilde's name, off the ring of its handle. */
+static void name_target(const Plot *plot)
 {
-    const double(*target)[2] = &plot->simulation->exhibit.target;
-    plot_keep_disc(plot, *target, 11);
     if (plot->text)
-        plot_words(plot, 1, target, 0.9, 1.1, FACE_BOLD, COLOUR_X_TILDE,
-                   "{xt}");
+        plot_words(plot, 1, &plot->simulation->exhibit.target, 0.9, 1.1,
+                   FACE_BOLD, COLOUR_X_TILDE, "{xt}");
 }
 
 /* The map, the springs, the pins and x_tilde. */
@@ -113,8 +123,7 @@ static Plot draw_map(const Plot *stage)
     const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
-    Plot plot =
-        plot_on(stage, &plot_room, (Axis){.label = "x in m"}, (Axis){0});
+    Plot plot = plot_on(stage, (Axis){.label = "x in m"}, (Axis){0});
     show_map(&plot);
     plot_springs(&plot, system, x, 3.5, COLOUR_REST);
     for (int i = 1; i < system->nodes; i++)
@@ -140,10 +149,10 @@ static void draw_updates(const Plot *plot, const Descent *descent)
     }
 }
 
-/* A direction with its name and slope beside its tip, or further on; uphill in
+/* A direction; then its name and slope beside its tip, or further on; uphill in
  * red. */
-static void draw_direction(Plot *plot, const double p[2], Colour colour,
-                           const char *name, double slope)
+static void draw_direction(const Plot *plot, bool named, const double p[2],
+                           Colour colour, const char *name, double slope)
 {
     const double *from = plot->simulation->descent.point;
     double length = math_hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
@@ -152,11 +161,11 @@ static void draw_direction(Plot *plot, const double p[2], Colour colour,
                                 {from[0] + far * p[0], from[1] + far * p[1]}};
     char words[80];
     colour = slope > 0 ? COLOUR_WARNING : colour;
-    plot_arrow(plot, from, p, 1, 2.2, colour);
+    if (!named)
+        plot_arrow(plot, from, p, 1, 2.2, colour);
     plot_place(plot, place[0], at);
-    if (!name || !box_contains(plot->box, at[0], at[1]))
+    if (!named || !name || !box_contains(plot->box, at[0], at[1]))
         return;
-    plot_keep_line(plot, from, place[0]);
     snprintf(words, sizeof words, "%s (slope %s)", name,
              number_with(slope, 2).text);
     plot_words(plot, 2, place, 0.8, 1, FACE_BOLD, colour, words);
@@ -164,7 +173,7 @@ static void draw_direction(Plot *plot, const double p[2], Colour colour,
 
 /* That of the run; and, with both parts on the map, the one that it does not
  * take: projected where its own is not, as it is where its own is projected. */
-static void draw_directions(Plot *plot, bool both)
+static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
@@ -178,31 +187,13 @@ static void draw_directions(Plot *plot, bool both)
     if (own[0] == 0 && own[1] == 0)
         return;
     slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
-    if (both && !alone && math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
-        draw_direction(plot, p, COLOUR_GHOST,
-                       raw ? "with projection" : "without", slope);
-    if (both || !alone)
-        draw_direction(plot, own, COLOUR_P, alone, descent->slope);
-}
-
-/* Words keep off the springs, the iterate, its direction and x_tilde, which
- * gets its own. */
-static void keep_places(Plot *plot)
-{
-    const Simulation *simulation = plot->simulation;
-    const Descent *descent = &simulation->descent;
-    const double tip[2] = {descent->point[0] + descent->direction[0],
-                           descent->point[1] + descent->direction[1]};
-    const System *system = &simulation->system;
-    const double *x = simulation->run[0].x;
-    for (int s = 0; s < system->springs; s++)
-        plot_keep_line(plot, x + 2 * system->e[2 * s],
-                       x + 2 * system->e[2 * s + 1]);
-    for (int i = 1; i < system->nodes; i++)
-        plot_keep_disc(plot, x + 2 * i, 14);
-    plot_keep_line(plot, descent->point, tip);
-    plot_keep_disc(plot, descent->point, 11);
-    name_target(plot);
+    for (int named = 0; named < 2; named++) {
+        if (both && !alone && math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
+            draw_direction(plot, named, p, COLOUR_GHOST,
+                           raw ? "with projection" : "without", slope);
+        if (both || !alone)
+            draw_direction(plot, named, own, COLOUR_P, alone, descent->slope);
+    }
 }
 
 void landscape_facts(const Simulation *simulation, Facts *facts)
@@ -274,25 +265,20 @@ void landscape_draw(Plot *stage)
     bool raw = simulation->options.filter == FILTER_NONE;
     if (show->lecture && raw && !show->veiled && !simulation->done)
         draw_model(&plot);
-    for (int i = 0; i < 2; i++)
-        plot_keep_box(&plot, stage_switch_box(stage, i));
-    if (plot.text)
-        keep_places(&plot);
     bool both = !show->lecture || (raw && !show->lecture->predict);
     if (!show->veiled)
         draw_directions(&plot, plot.text && both);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
+    name_target(&plot);
 }
 
 /* ---- the dial ----------------------------------------------------------- */
 
 /* The path of the minimiser; a disc for every power of ten of h. */
-static void draw_walk(Plot *plot, const Walk *walk)
+static void draw_walk(const Plot *plot, const Walk *walk)
 {
-    for (int i = 1; i < WALK_POINTS; i++) {
+    for (int i = 1; i < WALK_POINTS; i++)
         plot_line(plot, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
-        plot_keep_line(plot, walk->point[i - 1], walk->point[i]);
-    }
     for (int i = 10; i < WALK_POINTS; i += 10)
         plot_disc(plot, walk->point[i], 4.5, COLOUR_X);
 }
@@ -308,7 +294,6 @@ void dial_draw(Plot *stage)
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     if (!stage->text)
         return;
-    plot_keep_disc(&plot, simulation->run[0].x, 9);
     name_target(&plot);
     for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10) {
         char words[64];

@@ -209,15 +209,11 @@ static void draw_mass_step(Plot *stage)
         {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v\u2032"},
         {step.x, way, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
         {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a(x\u2032)"}};
-    for (int i = 0; i < 4 + backward; i++) {
-        const double *a = arrow[i].a, *d = arrow[i].d;
-        plot_arrow(stage, a, d, 1, arrow[i].width, arrow[i].colour);
-        plot_keep_line(stage, a, (double[2]){a[0] + d[0], a[1] + d[1]});
-    }
+    for (int i = 0; i < 4 + backward; i++)
+        plot_arrow(stage, arrow[i].a, arrow[i].d, 1, arrow[i].width,
+                   arrow[i].colour);
     plot_ring(stage, step.new_x, 9, 2.4, COLOUR_X);
-    plot_keep_disc(stage, step.new_x, 10);
-    plot_keep_disc(stage, step.x, 11);
-    plot_keep_disc(stage, tip, 11);
+    plot_disc(stage, step.x, 8, COLOUR_X);
     if (!stage->text)
         return;
     plot_words(stage, 1, (const double(*)[2])step.new_x, 0.9, 1.15, FACE_BOLD,

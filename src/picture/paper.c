@@ -23,8 +23,7 @@ void paper_free(Paper *paper)
         return;
     canvas_free(&paper->canvas);
     text_free(paper->text);
-    for (int k = 0; k < KEEP_COUNT; k++)
-        canvas_free(&paper->kept[k]);
+    canvas_free(&paper->map);
     *paper = (Paper){0};
 }
 
@@ -143,34 +142,4 @@ int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
         y += extent.above + extent.below;
     }
     return (int)ceil(y - box.y);
-}
-
-Canvas *paper_keep(Paper *paper, Keep keep, uint64_t key, int width, int height,
-                   bool *drawn)
-{
-    Canvas *kept = &paper->kept[keep];
-    *drawn = paper->key[keep] == key && kept->pixels && kept->width == width &&
-             kept->height == height;
-    if (*drawn)
-        return kept;
-    paper->key[keep] = 0;
-    if (kept->width != width || kept->height != height) {
-        canvas_free(kept);
-        if (canvas_create(width, height, kept)) {
-            canvas_free(kept);
-            return NULL;
-        }
-    }
-    canvas_clear(kept, 0xffffffffu);
-    paper->key[keep] = key;
-    return kept;
-}
-
-uint64_t paper_key(uint64_t key, const void *bytes, size_t count)
-{
-    const unsigned char *byte = bytes;
-    key = key ? key : 0xcbf29ce484222325u;
-    for (size_t i = 0; i < count; i++)
-        key = (key ^ byte[i]) * 0x100000001b3u;
-    return key ? key : 1;
 }

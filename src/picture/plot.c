@@ -19,7 +19,6 @@ static const double TICK_SIZE = 0.82;    /* ems, letters at the axes */
 static const double TICK_ROOM = 5;       /* ems, a number to the right needs */
 static const double LINE_ROOM = 1.6;     /* ems, one above the other needs */
 static const double NUMBER_ROOM = 3.1;   /* ems, left of the plot */
-static const double BELOW_ROOM = 1.5;    /* ems, below it */
 static const double NUMBER_BELOW = 0.25; /* ems, from the plot to a number */
 static const double HEAD = 0.62;         /* ems, length of an arrow's head */
 static const double ARROW_LEAST = 1.5;   /* ems, the longest arrow has */
@@ -158,26 +157,34 @@ static int number_room(Paper *paper, const Axis *axis, int height)
     return most;
 }
 
+/* So many ems of room above and below a plot, and left of it for its numbers.
+ */
+static Box inner_box(const Plot *outer, const Axis *y, double above,
+                     double below)
+{
+    Paper *paper = outer->paper;
+    Box box = outer->box;
+    int left = number_room(paper, y, box.height);
+    box.x += left;
+    box.y += paper_pixels(paper, above);
+    box.width -= left + paper_pixels(paper, 0.6);
+    box.height -= paper_pixels(paper, above + below);
+    box.width = box.width < 1 ? 1 : box.width;
+    box.height = box.height < 1 ? 1 : box.height;
+    return box;
+}
+
 Plot plot_create(const Plot *card, Axis x, Axis y)
 {
     Plot plot = *card;
-    Paper *paper = card->paper;
-    Box outer = card->box;
     plot.x = x;
     plot.y = y;
-    int left = number_room(paper, &y, outer.height);
-    int above = paper_pixels(paper, 0.5);
-    int width = outer.width - left - paper_pixels(paper, 0.6);
-    int height = outer.height - above - paper_pixels(paper, BELOW_ROOM);
-    plot.box = (Box){outer.x + left, outer.y + above, width < 1 ? 1 : width,
-                     height < 1 ? 1 : height};
+    plot.box = inner_box(card, &y, 0.5, 1.5);
     set_camera(&plot, 0, &x);
     set_camera(&plot, 1, &y);
     draw_axes(&plot);
     return plot;
 }
-
-const PlotRoom plot_room = {3.2, 4, 2.4, 4.2};
 
 /* What the camera sees from low to high. */
 static void set_range(Axis *axis, double low, double high)
@@ -186,24 +193,17 @@ static void set_range(Axis *axis, double low, double high)
     axis->high = axis->log ? pow(10, high) : high;
 }
 
-Plot plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y)
+Plot plot_on(const Plot *stage, Axis x, Axis y)
 {
     Plot plot = *stage;
-    Box box = stage->box;
     double low[2], high[2];
+    const Box *box = &plot.box;
     plot.x = x;
     plot.y = y;
-    if (stage->text) {
-        box.x += paper_pixels(stage->paper, room->left);
-        box.width -= paper_pixels(stage->paper, room->wide);
-        box.y += paper_pixels(stage->paper, room->above);
-        box.height -= paper_pixels(stage->paper, room->high);
-        if (box.width < 1 || box.height < 1)
-            box = stage->box;
-    }
-    plot.box = box;
-    camera_world(&stage->camera, box.x, box.y + box.height, low);
-    camera_world(&stage->camera, box.x + box.width, box.y, high);
+    if (stage->text)
+        plot.box = inner_box(stage, &y, 2.2, 1.7);
+    camera_world(&stage->camera, box->x, box->y + box->height, low);
+    camera_world(&stage->camera, box->x + box->width, box->y, high);
     set_range(&plot.x, low[0], high[0]);
     if (y.high == 0)
         set_range(&plot.y, low[1], high[1]);

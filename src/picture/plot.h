@@ -22,8 +22,6 @@ typedef struct Axis {
                           that of y in the upper right corner */
 } Axis;
 
-enum { PLOT_LINES = 64, PLOT_BOXES = 48 };
-
 typedef struct Plot {
     Paper *paper; /* NULL: it only tells where things are */
     const Show *show;
@@ -35,10 +33,6 @@ typedef struct Plot {
     bool text;     /* there is room for words */
     double em;     /* pixels */
     int flow[2];   /* pixels, where the next words of the legend go */
-    /* Pixels, what words keep off: lines x, y, x, y; boxes. */
-    int lines, boxes;
-    double line[PLOT_LINES][4];
-    Box taken[PLOT_BOXES];
 } Plot;
 
 /* The smallest 1, 2, 5 times a power of ten that is not below value > 0; the
@@ -52,12 +46,8 @@ Plot plot_create(const Plot *card, Axis x, Axis y);
 /* Axes over a stage, drawn where there is room for words: what its camera sees
  * of x and y, the powers of ten of a logarithmic one; where y.high is not 0,
  * its own range.
- *   room  ems left, left and right, above, above and below of the axes */
-typedef struct PlotRoom {
-    double left, wide, above, high;
-} PlotRoom;
-extern const PlotRoom plot_room;
-Plot plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
+ */
+Plot plot_on(const Plot *stage, Axis x, Axis y);
 
 /* Where a point is drawn, pixels; not finite where it has no place. */
 void plot_place(const Plot *plot, const double *at, double pixel[2]);
@@ -128,15 +118,10 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...);
 /* Lower left: a line as long as so many metres. */
 void plot_scale(const Plot *plot);
 
-/* What words shall not cover; what there is no room for is left out. */
-void plot_keep_line(Plot *plot, const double *a, const double *b);
-void plot_keep_disc(Plot *plot, const double *at, double radius);
-void plot_keep_box(Plot *plot, Box box);
-
-/* Writes the words beside one of these points, `gap` ems from it, off all that
- * is kept, on a ground of thin white, and keeps the later ones off them.
+/* Writes the words beside one of these points, `gap` ems from it, off what has
+ * been drawn, which is found by its pixels, on a ground of thin white.
  *   at  [points][2] in; the first ones are preferred */
-void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
+void plot_words(const Plot *plot, int points, const double (*at)[2], double gap,
                 double size, Face face, Colour colour, const char *words);
 
 /* "1e5" as people write it, with so many digits, or three: 100000, 2.5e7,

@@ -23,8 +23,8 @@ void race_bounds(const Plot *stage, double bounds[4])
     bounds[3] = 3; /* below the switch */
 }
 
-/* The points of a method joined, hollow where it explodes later; words keep
- * off the lines.  Returns the last one; NULL: there is none. */
+/* The points of a method joined, hollow where it explodes later.  Returns the
+ * last one; NULL: there is none. */
 static const RacePoint *draw_method(Plot *plot, int method)
 {
     const Simulation *simulation = plot->simulation;
@@ -36,11 +36,10 @@ static const RacePoint *draw_method(Plot *plot, int method)
         const double now[2] = {place_of(simulation, point), point->error};
         if (!(point->error > 0))
             continue;
-        if (last) {
-            const double before[2] = {place_of(simulation, last), last->error};
-            plot_line(plot, before, now, 2.2, colour);
-            plot_keep_line(plot, before, now);
-        }
+        if (last)
+            plot_line(plot,
+                      (double[2]){place_of(simulation, last), last->error}, now,
+                      2.2, colour);
         plot_hollow(plot, now, 5, point->stable ? 0 : 3, colour);
         last = point;
     }
@@ -51,12 +50,11 @@ static const RacePoint *draw_method(Plot *plot, int method)
 void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    static const PlotRoom room = {4, 5, 1.6, 3.6};
     const RacePoint *last[RACE_METHODS];
     bool over_h = simulation->exhibit.parts;
     bool wide = stage->text && stage->box.width > NAMED * stage->em;
     Plot plot = plot_on(
-        stage, &room,
+        stage,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true, .label = "error in m"});
     for (int i = 0; i < RACE_METHODS; i++)

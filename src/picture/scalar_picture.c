@@ -139,7 +139,7 @@ static void draw_search(const Plot *plot, const Update *update, bool slopes,
 void curve_draw(Plot *stage)
 {
     Update update = last_update(stage->simulation);
-    Plot plot = plot_on(stage, &plot_room, (Axis){.label = "x"}, (Axis){0});
+    Plot plot = plot_on(stage, (Axis){.label = "x"}, (Axis){0});
     draw_search(&plot, &update, false, !stage->show->veiled);
 }
 
@@ -183,7 +183,6 @@ void tangent_bounds(const Plot *stage, double bounds[4])
  * and have a line at 0. */
 static Plot tangent_plot(const Plot *stage, int half)
 {
-    static const PlotRoom room[2] = {{3.2, 4, 2.2, 3.6}, {3.2, 4, 2, 3.8}};
     const Descent *descent = &stage->simulation->descent;
     double high = half ? 2 : 4;
     for (int i = 0; i <= descent->count; i++) {
@@ -195,7 +194,7 @@ static Plot tangent_plot(const Plot *stage, int half)
     part.box.height /= 2;
     part.box.y += half * part.box.height;
     Plot plot =
-        plot_on(&part, &room[half], (Axis){.label = half ? "x in m" : NULL},
+        plot_on(&part, (Axis){.label = half ? "x in m" : NULL},
                 (Axis){.low = half ? -0.25 * high : -high, .high = high});
     plot_line(&plot, (double[2]){plot.x.low, 0}, (double[2]){plot.x.high, 0}, 1,
               COLOUR_GREY);

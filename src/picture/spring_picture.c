@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/mass_spring_energy.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "scenes/small_scenes.h"
@@ -59,18 +60,6 @@ static void spring_coil(Plot *stage, const double *x, Colour colour)
     }
 }
 
-/* The Hessian of its energy over d with these curvatures: xx, xy, yy. */
-static void find_hessian(const double *d, double along, double across,
-                         double H[3])
-{
-    double length = math_hypot(d[0], d[1]);
-    double n[2] = {length > 0 ? d[0] / length : 1,
-                   length > 0 ? d[1] / length : 0};
-    H[0] = along * n[0] * n[0] + across * n[1] * n[1];
-    H[1] = (along - across) * n[0] * n[1];
-    H[2] = along * n[1] * n[1] + across * n[0] * n[0];
-}
-
 /* The eigenvectors of its block, longer the larger the eigenvalue, red where it
  * is negative. */
 static void spring_eigenvectors(Plot *stage, const double *x,
@@ -107,26 +96,21 @@ void spring_draw(Plot *stage)
 
 /* ---- cards -------------------------------------------------------------- */
 
-/* "Hxx", ... of the Hessian, "Pxx", ... of the projected one, and, with a
- * minus, of the other blocks of the matrix for both ends. */
-static void add_hessian(const Simulation *simulation, const SpringFacts *now,
-                        Facts *facts)
+/* Of the Hessian, and of the projected one. */
+static void add_hessian(const Simulation *simulation, Facts *facts)
 {
-    static const char *const names[4][3] = {{"Hxx", "Hxy", "Hyy"},
-                                            {"-Hxx", "-Hxy", "-Hyy"},
-                                            {"Pxx", "Pxy", "Pyy"},
-                                            {"-Pxx", "-Pxy", "-Pyy"}};
-    bool turned = simulation->options.filter == FILTER_ABS;
-    double least = turned ? -1 : 0, H[3];
-    for (int i = 0; i < 4; i++) {
-        double along = now->along, across = now->across;
-        find_hessian(simulation->run[0].x,
-                     i < 2 ? along : fmax(along, least * along),
-                     i < 2 ? across : fmax(across, least * across), H);
-        for (int k = 0; k < 3; k++) {
-            bool none = fabs(H[k]) < 1e-12 * simulation->system.k[0];
-            fact(facts, names[i][k], none ? 0 : i % 2 ? -H[k] : H[k]);
-        }
+    static const char *const names[2][3] = {{"Hxx", "Hxy", "Hyy"},
+                                            {"Pxx", "Pxy", "Pyy"}};
+    const System *system = &simulation->system;
+    double k = system->k[0], H[3];
+    Filter filter = simulation->options.filter;
+    for (int i = 0; i < 2; i++) {
+        spring_hessian(simulation->run[0].x, system->l2[0], k,
+                       i == 0                 ? FILTER_NONE
+                       : filter == FILTER_ABS ? FILTER_ABS
+                                              : FILTER_CLAMP,
+                       H);
+        fact_matrix(facts, names[i], H, 1e-12 * k);
     }
 }
 
@@ -177,7 +161,7 @@ void length_facts(const Simulation *simulation, Facts *facts)
         fact(facts, after[i], turned ? fabs(now.block[i]) : now.projected[i]);
     }
     fact(facts, "negative", fmin(2 * fmin(now.along, now.across), 0));
-    add_hessian(simulation, &now, facts);
+    add_hessian(simulation, facts);
     if (simulation->options.page)
         add_differences(simulation, facts);
     fact_when(facts, "root", both);

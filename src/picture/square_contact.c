@@ -8,7 +8,6 @@
 #include "base/mathematics.h"
 
 static const double SLAB = 1;           /* ems, depth of a thin wall */
-static const double REST = 10;          /* times eps_v */
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 
@@ -46,26 +45,6 @@ bool square_next_touch(const SpringPen *pen, Touch *touch)
     for (int c = 0; c < 2; c++)
         touch->force[c] = push * gap.n[c] + rub * t[c];
     return true;
-}
-
-/* By how many more nodes of a run slide than friction holds. */
-static int count_sliding(const SpringPen *pen)
-{
-    int more = 0;
-    for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);)
-        more += touch.rough ? (touch.slides ? 1 : -1) : 0;
-    return more;
-}
-
-/* Whether a run as a whole hardly moves along the wall; what sways does. */
-static bool rests(const SpringPen *pen, const Obstacle *wall)
-{
-    const double *v = pen->simulation->run[pen->run].v;
-    double sum = 0;
-    int nodes = pen->system->nodes;
-    for (int i = 0; i < nodes; i++)
-        sum += v[2 * i] * wall->n[1] - v[2 * i + 1] * wall->n[0];
-    return fabs(sum) < REST * pen->simulation->options.slip_speed * nodes;
 }
 
 /* The largest force that an obstacle and its friction put on a node of these
@@ -110,15 +89,11 @@ void square_contact_forces(const SpringPen *pen, int runs)
 }
 
 /* Under the left end of a run's first wall, if it has a slope: its coefficient
- * of friction as a part of the options' and of the slope, and, unless that is
- * asked for, what most of the nodes that touch it do; nothing as they settle.
- */
+ * of friction as a part of the options' and of the slope. */
 static void draw_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
-    bool told = !pen->show->veiled && pen->simulation->steps > 0;
-    int more = count_sliding(pen);
     double em = stage->em, grip = pen->simulation->grip[pen->run];
     double left[2], at[2], slope = -wall->n[0] / wall->n[1];
     if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
@@ -133,13 +108,10 @@ static void draw_words(const SpringPen *pen)
         at[1] -= low;
     }
     paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
-                at[1] + 1.5 * em, ALIGN_LEFT, "%s%s\u03bc = %s tan %s\u00b0%s",
+                at[1] + 1.5 * em, ALIGN_LEFT, "%s%s\u03bc = %s tan %s\u00b0",
                 grip > 0 ? number_of(grip).text : "", grip > 0 ? " " : "",
                 number_of(wall->friction / fabs(slope)).text,
-                number_of(fabs(atan(slope)) / DEGREE).text,
-                told && more > 0                       ? ": slides"
-                : told && more < 0 && rests(pen, wall) ? ": holds"
-                                                       : "");
+                number_of(fabs(atan(slope)) / DEGREE).text);
 }
 
 /* The half plane as far as the stage goes, or a slab, and how far it reaches.

@@ -361,17 +361,13 @@ int lecture_spring(const Simulation *simulation)
 /* Of the block [[H, -H], [-H, H]] of the newest spring, kJ/m^2. */
 static void add_block(const Simulation *simulation, Facts *facts)
 {
-    static const char *const names[] = {"Bxx",  "Bxy",  "Byy",
-                                        "-Bxx", "-Bxy", "-Byy"};
+    static const char *const names[] = {"Bxx", "Bxy", "Byy"};
     const System *system = &simulation->system;
-    int spring = lecture_spring(simulation);
-    double d[2], H[3], l2 = system->l2[spring];
-    spring_strain(system->e + 2 * spring, l2, simulation->run[0].x, d);
-    spring_hessian(d, l2, system->k[spring], simulation->options.filter, H);
-    for (int i = 0; i < 6; i++) {
-        bool none = fabs(H[i % 3]) < 1e-7 * system->k[spring];
-        fact(facts, names[i], none ? 0 : (i < 3 ? 1e-3 : -1e-3) * H[i % 3]);
-    }
+    int s = lecture_spring(simulation);
+    double d[2], H[3], l2 = system->l2[s], k = 1e-3 * system->k[s];
+    spring_strain(system->e + 2 * s, l2, simulation->run[0].x, d);
+    spring_hessian(d, l2, k, simulation->options.filter, H);
+    fact_matrix(facts, names, H, 1e-7 * k);
 }
 
 /* What pages say of the mesh, the Hessian and one row of M a = f. */

@@ -16,11 +16,11 @@ static const double LEGEND_SIZE = 0.92; /* ems */
 static const double SCALE_PART = 0.08;  /* of the stage, the least scale */
 static const double FARTHEST = 1e6;     /* pixels */
 static const double LINE_HEIGHT = 1.3;  /* ems of the words */
-/* What a place costs: for the whole of it on other words, for the part of its
- * width that lines cross, outside of the stage, and for each place that would
- * have been preferred. */
-static const double COST_WORDS = 10, COST_LINE = 4, COST_OUTSIDE = 30,
-                    COST_LATER = 0.08;
+/* What a place costs: full of ink, outside of the plot, and for each place that
+ * would have been preferred. */
+static const double COST_INK = 60, COST_OUTSIDE = 30, COST_LATER = 0.08;
+static const double AIR = 0.2; /* ems, between words and ink */
+static const Colour INK = 190; /* of 255, a pixel is no ground below that */
 
 /* ---- numbers ------------------------------------------------------------ */
 
@@ -121,65 +121,23 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
 
 /* ---- off what is drawn -------------------------------------------------- */
 
-/* Whether a place can be counted in pixels. */
-static bool is_near(const double at[2])
-{
-    return fabs(at[0]) < FARTHEST && fabs(at[1]) < FARTHEST;
-}
-
-void plot_keep_line(Plot *plot, const double *a, const double *b)
-{
-    double *line = plot->line[plot->lines % PLOT_LINES];
-    if (plot->lines == PLOT_LINES)
-        return;
-    plot_place(plot, a, line);
-    plot_place(plot, b, line + 2);
-    plot->lines += is_near(line) && is_near(line + 2);
-}
-
-void plot_keep_box(Plot *plot, Box box)
-{
-    if (plot->boxes < PLOT_BOXES)
-        plot->taken[plot->boxes++] = box;
-}
-
-void plot_keep_disc(Plot *plot, const double *at, double radius)
-{
-    double p[2], r = radius * plot->paper->unit;
-    int size = (int)ceil(2 * r);
-    plot_place(plot, at, p);
-    if (is_near(p))
-        plot_keep_box(plot, (Box){(int)floor(p[0] - r), (int)floor(p[1] - r),
-                                  size, size});
-}
-
-/* The area that two boxes share. */
-static double shared_area(Box a, Box b)
-{
-    double wide = fmin(a.x + a.width, b.x + b.width) - fmax(a.x, b.x);
-    double high = fmin(a.y + a.height, b.y + b.height) - fmax(a.y, b.y);
-    return fmax(wide, 0) * fmax(high, 0);
-}
-
-/* The length of a line inside a box. */
-static double length_inside(Box box, const double line[4])
-{
-    double part[4] = {line[0], line[1], line[2], line[3]};
-    bool inside = box_cut(&box, 0, part);
-    return inside ? math_hypot(part[2] - part[0], part[3] - part[1]) : 0;
-}
-
+/* Of a place, the part that has ink, and the part outside of the plot. */
 static double place_cost(const Plot *plot, Box place)
 {
-    double area = (double)place.width * place.height, cost = 0;
-    for (int i = 0; i < plot->boxes; i++)
-        cost += COST_WORDS * shared_area(place, plot->taken[i]) / area;
-    for (int i = 0; i < plot->lines; i++)
-        cost += COST_LINE * length_inside(place, plot->line[i]) / place.width;
-    return cost + COST_OUTSIDE * (1 - shared_area(place, plot->box) / area);
+    const Canvas *canvas = &plot->paper->canvas;
+    Box seen = box_shared(place, box_shared(plot->box, canvas->clip));
+    double area = (double)place.width * place.height, ink = 0;
+    for (int y = seen.y; y < seen.y + seen.height; y++)
+        for (int x = seen.x; x < seen.x + seen.width; x++) {
+            Colour pixel = canvas->pixels[y * canvas->width + x];
+            ink += (pixel & 255) < INK || (pixel >> 8 & 255) < INK ||
+                   (pixel >> 16 & 255) < INK;
+        }
+    return (COST_INK * ink - COST_OUTSIDE * seen.width * seen.height) / area +
+           COST_OUTSIDE;
 }
 
-void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
+void plot_words(const Plot *plot, int points, const double (*at)[2], double gap,
                 double size, Face face, Colour colour, const char *words)
 {
     Paper *paper = plot->paper;
@@ -194,13 +152,14 @@ void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
         const int *to = side[i % 8];
         double p[2];
         plot_place(plot, at[i / 8], p);
-        if (!is_near(p))
+        if (!(fabs(p[0]) < FARTHEST && fabs(p[1]) < FARTHEST))
             continue;
         double apart = (i % 8 < 4 ? gap : 0.7 * gap) * paper->em;
         Box place = {(int)(p[0] + to[0] * (apart + 0.5 * wide) - 0.5 * wide),
                      (int)(p[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
                      wide, high};
-        double cost = place_cost(plot, place) + COST_LATER * i;
+        Box wider = box_inset(place, -paper_pixels(paper, AIR));
+        double cost = place_cost(plot, wider) + COST_LATER * i;
         if (cost < least) {
             least = cost;
             best = place;
@@ -213,5 +172,4 @@ void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
                 COLOUR_PANEL);
     paper_write(paper, face, size, colour, best.x, best.y, ALIGN_LEFT, "%s",
                 words);
-    plot_keep_box(plot, best);
 }

@@ -51,9 +51,9 @@ Number __real_number_of(double value);
 Number __wrap_number_with(double value, int digits);
 Number __wrap_number_of(double value);
 Plot __real_plot_create(const Plot *card, Axis x, Axis y);
-Plot __real_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
+Plot __real_plot_on(const Plot *stage, Axis x, Axis y);
 Plot __wrap_plot_create(const Plot *card, Axis x, Axis y);
-Plot __wrap_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
+Plot __wrap_plot_on(const Plot *stage, Axis x, Axis y);
 
 Number __wrap_number_with(double value, int digits)
 {
@@ -78,11 +78,11 @@ Plot __wrap_plot_create(const Plot *card, Axis x, Axis y)
     return plot;
 }
 
-Plot __wrap_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y)
+Plot __wrap_plot_on(const Plot *stage, Axis x, Axis y)
 {
     const char *before = listens;
     listens = NULL;
-    Plot plot = __real_plot_on(stage, room, x, y);
+    Plot plot = __real_plot_on(stage, x, y);
     listens = before;
     return plot;
 }
@@ -403,8 +403,7 @@ static void tell_law(const Simulation *simulation)
  * P' over it. */
 static void tell_block(const Simulation *simulation, int spring)
 {
-    static const char *const names[2][3] = {{"Bxx", "Bxy", "Byy"},
-                                            {"-Bxx", "-Bxy", "-Byy"}};
+    static const char *const names[] = {"Bxx", "Bxy", "Byy"};
     const System *system = &simulation->system;
     const int *e = system->e + 2 * spring;
     const double *x = simulation->run[0].x;
@@ -417,8 +416,7 @@ static void tell_block(const Simulation *simulation, int spring)
     for (int i = 0; i < 3; i++) {
         Real part = d[i / 2] * d[(i + 1) / 2] / r2;
         Real H = part * along + ((i != 1) - part) * across;
-        near(names[0][i], H / 1000, 1e-9L * k);
-        near(names[1][i], -H / 1000, 1e-9L * k);
+        near(names[i], H / 1000, 1e-9L * k);
     }
 }
 
@@ -579,13 +577,10 @@ static void tell_spring(const Simulation *simulation)
                            high - 4 * k * x * x / (l * l)},
                           {up * x * x + flat * y * y, (up - flat) * x * y,
                            up * y * y + flat * x * x}};
-    static const char *const names[4][3] = {{"Hxx", "Hxy", "Hyy"},
-                                            {"Pxx", "Pxy", "Pyy"},
-                                            {"-Hxx", "-Hxy", "-Hyy"},
-                                            {"-Pxx", "-Pxy", "-Pyy"}};
-    for (int i = 0; i < 12; i++)
-        near(names[i / 3][i % 3], (i < 6 ? 1 : -1) * H[i / 3 % 2][i % 3],
-             1e-12L * k);
+    static const char *const names[] = {"Hxx", "Hxy", "Hyy",
+                                        "Pxx", "Pxy", "Pyy"};
+    for (int i = 0; i < 6; i++)
+        near(names[i], H[i / 3][i % 3], 1e-12L * k);
     static const char *const differences[] = {"Dxx", "Dxy", "Dyy"};
     for (int i = 0; i < 3; i++) /* the third derivatives times 1e-8/6 m^2 */
         near(differences[i], H[0][i], 1e-6L * k);
