@@ -14,9 +14,16 @@
 
 #include "model/system.h"
 
+/* A spring that may break. */
+typedef struct Candidate {
+    double load; /* strain over strength, > 1 */
+    int spring;
+} Candidate;
+
 typedef struct Fracture {
     double strength;      /* s_c > 0, a strain */
     int broken;           /* springs so far, without slits of the scene */
+    Candidate *candidate; /* [springs] room */
     unsigned char *taken; /* [nodes] one of its springs broke in this step */
 } Fracture;
 

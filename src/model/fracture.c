@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/mass_spring_energy.h"
@@ -29,24 +30,30 @@ double fracture_strength(const Fracture *fracture, int s)
     return fracture->strength * (1 + SCATTER * scatter_of(s));
 }
 
-/* The spring with the highest load, strain over strength, above 1, at whose
- * nodes none has broken in this step; -1: there is none. */
-static int most_loaded(const Fracture *fracture, const System *system,
-                       const double *x)
+/* The most loaded candidates first; equal loads by number. */
+static int compare(const void *one, const void *other)
 {
-    double most = 1;
-    int found = -1;
+    const Candidate *a = one, *b = other;
+    if (a->load != b->load)
+        return a->load > b->load ? -1 : 1;
+    return a->spring - b->spring;
+}
+
+/* Collects and sorts them, once for all breaks of a step, for thousands may
+ * break at once; returns how many. */
+static int find_candidates(Fracture *fracture, const System *system,
+                           const double *x)
+{
+    int count = 0;
     for (int s = 0; s < system->springs; s++) {
-        const int *e = system->e + 2 * s;
-        double d[2], strain = spring_strain(e, system->l2[s], x, d);
+        double d[2];
+        double strain = spring_strain(system->e + 2 * s, system->l2[s], x, d);
         double load = strain / fracture_strength(fracture, s);
-        if (load > most && !spring_is_broken(system, s) &&
-            !fracture->taken[e[0]] && !fracture->taken[e[1]]) {
-            most = load;
-            found = s;
-        }
+        if (load > 1 && !spring_is_broken(system, s))
+            fracture->candidate[count++] = (Candidate){load, s};
     }
-    return found;
+    qsort(fracture->candidate, (size_t)count, sizeof(Candidate), compare);
+    return count;
 }
 
 /* Breaks them; the energy that was in them, and in cells that end with them, is
@@ -55,34 +62,42 @@ static void end(const TermStep *step)
 {
     System *system = step->system;
     Fracture *fracture = step->term->data;
-    const double *x = step->x;
-    memset(fracture->taken, 0, (size_t)system->nodes);
-    int s = most_loaded(fracture, system, x);
-    if (s < 0)
+    int count = find_candidates(fracture, system, step->x);
+    if (count == 0)
         return;
-    double energy = system_potential(system, x);
-    for (; s >= 0; s = most_loaded(fracture, system, x)) {
-        fracture->taken[system->e[2 * s]] = 1;
-        fracture->taken[system->e[2 * s + 1]] = 1;
+    double energy = system_potential(system, step->x);
+    memset(fracture->taken, 0, (size_t)system->nodes);
+    for (int k = 0; k < count; k++) {
+        int s = fracture->candidate[k].spring;
+        unsigned char *i = &fracture->taken[system->e[2 * s]];
+        unsigned char *j = &fracture->taken[system->e[2 * s + 1]];
+        if (*i || *j)
+            continue;
+        *i = *j = 1;
         system->k[s] = 0;
         fracture->broken++;
     }
-    system_lose(system, step->term->kind, energy - system_potential(system, x));
+    system_lose(system, step->term->kind,
+                energy - system_potential(system, step->x));
     system_changed(system, false);
 }
 
 static Status set(System *system, const struct SquareMesh *mesh,
                   const double *number)
 {
+    size_t springs = (size_t)system->springs;
     (void)mesh;
     if (number[0] == 0)
         return STATUS_OK;
     Fracture *data =
-        system_term(system, &fracture, sizeof *data + (size_t)system->nodes);
+        system_term(system, &fracture,
+                    sizeof *data + springs * sizeof *data->candidate +
+                        (size_t)system->nodes);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->strength = number[0];
-    data->taken = (unsigned char *)(data + 1);
+    data->candidate = (Candidate *)(data + 1);
+    data->taken = (unsigned char *)(data->candidate + springs);
     system->breaks = true;
     return STATUS_OK;
 }
