@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct Motion {
     const char *name;
@@ -36,7 +37,7 @@ typedef struct Problem {
     const Motion *motion;
     Simulation simulation; /* its system is what runs are made with */
     double *v;             /* [2n] m/s at the start */
-    double *exact;         /* [2n] m, where the masses really are at the end */
+    double *exact;         /* [4n] m, m/s, at the end; then [4n] room */
 } Problem;
 
 /* One run, or the fastest of several equal ones. */
@@ -54,33 +55,55 @@ typedef struct Ladder {
     Rung rung[RUNGS];
 } Ladder;
 
-/* Velocity Verlet with omega h <= 0.05, and with h/2: the errors of order h^2
- * cancel in x(h/2) + (x(h/2) - x(h))/3, and what is left is of order h^4. */
+/* Lagrange: sum over j of w_j f(1/n_j) is the value at 0 of the polynomial in
+ * 1/n^2 through all f, with w_j = product over i of n_j^2 / (n_j^2 - n_i^2). */
+static double weight_of(int j, int columns)
+{
+    double weight = 1;
+    for (int i = 1; i <= columns; i++)
+        weight *= i == j ? 1 : (double)(j * j) / (j * j - i * i);
+    return weight;
+}
+
+/* Each interval H, omega H <= 1, is crossed by velocity Verlet in 1, 2, ... 6
+ * steps; these results are extrapolated to steps of length 0.  Verlet is
+ * symmetric, its error has even powers of the step, and what is left is
+ * O(H^12) (Gragg 1965). */
 static Status find_exact(Problem *problem)
 {
+    enum { COLUMNS = 6 };
     const Motion *motion = problem->motion;
     System *system = &problem->simulation.system;
-    const double *x = problem->simulation.run[0].x;
     /* Eight springs at a node, each of 2k (3 |d|^2 / l2 - 1) at most: by
      * Gershgorin omega^2 is below twice their sum over m. */
     double along =
         2 * system->k[0] * (3 * motion->stretch * motion->stretch - 1);
     double omega = sqrt(2 * 8 * along / system->m[0]);
-    long steps = 1 + (long)(20 * motion->time * omega);
-    Status status = STATUS_OK;
-    for (int half = 0; half < 2 && !status; half++, steps *= 2) {
-        NewtonSettings settings = {.h = motion->time / (double)steps,
-                                   .tolerance = 1};
-        TimeIntegrator run;
-        status = time_integrator_create(integrator_method("verlet"), system,
-                                        &settings, x, problem->v, &run);
-        while (!status && run.steps < steps)
-            status = time_integrator_step(&run);
-        for (size_t i = 0; i < run.size && !status; i++)
-            problem->exact[i] =
-                half ? (4 * run.x[i] - problem->exact[i]) / 3 : run.x[i];
-        time_integrator_free(&run);
+    long intervals = 1 + (long)(motion->time * omega);
+    double H = motion->time / (double)intervals;
+    TimeIntegrator run;
+    Status status =
+        time_integrator_create(integrator_method("verlet"), system,
+                               &(NewtonSettings){.h = H, .tolerance = 1},
+                               problem->simulation.run[0].x, problem->v, &run);
+    size_t both = 2 * run.size; /* v is behind x */
+    double *start = problem->exact + both;
+    if (!status)
+        memcpy(problem->exact, run.x, both * sizeof *start);
+    for (long k = 0; k < intervals && !status; k++) {
+        memcpy(start, problem->exact, both * sizeof *start);
+        for (int j = 1; j <= COLUMNS && !status; j++) {
+            double weight = weight_of(j, COLUMNS);
+            memcpy(run.x, start, both * sizeof *start);
+            run.memory_h = 0;
+            run.h = H / j;
+            for (int step = 0; step < j && !status; step++)
+                status = time_integrator_step(&run);
+            for (size_t i = 0; i < both; i++)
+                problem->exact[i] += weight * (run.x[i] - start[i]);
+        }
     }
+    time_integrator_free(&run);
     return status;
 }
 
@@ -108,7 +131,7 @@ static Status create_problem(const Motion *motion, int segments,
         return status;
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
-    problem->v = malloc(4 * (size_t)system->nodes * sizeof *problem->v);
+    problem->v = malloc(10 * (size_t)system->nodes * sizeof *problem->v);
     if (!problem->v)
         return STATUS_OUT_OF_MEMORY;
     problem->exact = problem->v + 2 * system->nodes;
