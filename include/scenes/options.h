@@ -96,10 +96,11 @@ typedef struct Names {
 
 #define NAMES_OF(table) ((Names){table, sizeof *(table)})
 
-/* Name i, NULL behind the last; the place of a name, -1: there is none; how
- * many there are. */
+/* Name i, NULL behind the last; the place of a name, or of a number from 1 too,
+ * -1: there is none; how many there are. */
 const char *name_at(Names names, int i);
 int name_place(Names names, const char *name);
+int name_or_number(Names names, const char *text);
 int names_count(Names names);
 
 /* When another number takes effect. */

@@ -257,10 +257,8 @@ _Static_assert(sizeof option_rows / sizeof *option_rows - 1 <= OPTIONS_MOST,
 
 const OptionRow *option_find(const char *name)
 {
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->name[0] && strcmp(row->name, name) == 0)
-            return row;
-    return NULL;
+    int place = name_place(NAMES_OF(option_rows), name);
+    return place >= 0 && name[0] ? &option_rows[place] : NULL;
 }
 
 const char *name_at(Names names, int i)
@@ -275,6 +273,15 @@ int name_place(Names names, const char *name)
         if (strcmp(name_at(names, i), name) == 0)
             return i;
     return -1;
+}
+
+int name_or_number(Names names, const char *text)
+{
+    char *end;
+    long number = strtol(text, &end, 10);
+    if (end == text || *end)
+        return name_place(names, text);
+    return number >= 1 && number <= names_count(names) ? (int)number - 1 : -1;
 }
 
 int names_count(Names names)

@@ -1,8 +1,5 @@
 #include "scenes/scene.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "scenes/small_scenes.h"
 #include "scenes/body.h"
 
@@ -148,12 +145,6 @@ const Scene scenes[] = {
 
 const Scene *scene_find(const char *text)
 {
-    char *end;
-    long number = strtol(text, &end, 10);
-    bool is_number = end != text && *end == '\0';
-    for (const Scene *scene = scenes; scene->name; scene++)
-        if (is_number ? number == scene - scenes + 1
-                      : strcmp(scene->name, text) == 0)
-            return scene;
-    return NULL;
+    int place = name_or_number(NAMES_OF(scenes), text);
+    return place < 0 ? NULL : &scenes[place];
 }
