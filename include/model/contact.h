@@ -81,7 +81,8 @@ typedef struct Contact {
     int ball; /* the obstacle whose centre is a node, at most one; -1 */
 } Contact;
 
-/* sum of W over all pairs of nodes and obstacles; data: Contact. */
+/* sum of W over all pairs of nodes and obstacles, its elements, of which s is
+ * the gap, n and r those of Gap; data: Contact. */
 extern const TermKind contact_energy;
 
 /* Puts the term in, gives it these obstacles, of which at most one has a node,
@@ -103,9 +104,5 @@ double contact_node_radius(const Contact *contact, int node);
 /* The gap of a pair in positions x [2n] m. */
 Gap contact_pair_gap(const Contact *contact, const double *x, int node,
                      int obstacle);
-
-/* Its elements, one for each pair, for friction: s is the gap, n and r are
- * those of Gap. */
-extern const ElementKind contact_elements;
 
 #endif

@@ -124,4 +124,9 @@ void elements_concave(const Place *at, double *sum);
     .remainder = elements_remainder, .reach = elements_reach,                  \
     .allowed = elements_allowed, .concave = elements_concave
 
+/* What every ElementKind has, for its table: its source calls them so. */
+#define ELEMENT_FUNCTIONS                                                      \
+    .count = count, .get = get, .nodes = nodes, .value = value,                \
+    .gradient = gradient, .hessian = hessian, .remainder = remainder_along
+
 #endif

@@ -36,13 +36,10 @@ typedef struct SelfContact {
     SelfPair *pair;  /* [room] sorted, and then the others */
 } SelfContact;
 
-/* sum of W over all points and edges; data: SelfContact. */
+/* sum of W over all points and edges; data: SelfContact.  Its elements are
+ * those that are near: a is q, b is e, s is d^2/d_hat^2, n points from the edge
+ * to p, r is the place on the edge, 0 ... 1. */
 extern const TermKind self_contact_energy;
-
-/* Its elements, one for each point and edge that are near, for friction: a is
- * q and b is e; s is d^2/d_hat^2, n points from the edge to p, r is the place
- * on the edge, 0 ... 1. */
-extern const ElementKind self_contact_elements;
 
 /* Adds the term, or gives it these numbers: of a node and an obstacle, and the
  * coefficient of friction.  Returns OK, OUT_OF_MEMORY. */

@@ -52,13 +52,13 @@ static bool get(const Place *at, int t, double way, Element *element)
     return true;
 }
 
-static double cell_value(const Place *at, const Element *element)
+static double value(const Place *at, const Element *element)
 {
     return cells_of(at)->c * barrier_value(element->s / CELL_J_HAT);
 }
 
 /* grad J in e1 and e2 is (S e2, -S e1)/(2 A0) with S v = (v_y, -v_x). */
-static void cell_gradient(const Place *at, const Element *element, double g[4])
+static void gradient(const Place *at, const Element *element, double g[4])
 {
     const double *e1 = element->v, *e2 = element->v + 2;
     double factor = cells_of(at)->c / CELL_J_HAT / (2 * cells_of(at)->area) *
@@ -69,8 +69,8 @@ static void cell_gradient(const Place *at, const Element *element, double g[4])
     g[3] = factor * e1[0];
 }
 
-static bool edge_hessian(const Place *at, const Element *element, Filter filter,
-                         double H[4][4])
+static bool hessian(const Place *at, const Element *element, Filter filter,
+                    double H[4][4])
 {
     double s = element->s / CELL_J_HAT, q = 1 / (2 * cells_of(at)->area);
     const AreaCurvature curvature = {
@@ -92,8 +92,7 @@ static void cell_along(const Place *at, const Element *element,
 }
 
 /* J + alpha J1 + alpha^2 J2 = (1-F) J */
-static double cell_reach(const Place *at, const Element *element,
-                         const double P[4])
+static double reach(const Place *at, const Element *element, const double P[4])
 {
     double J1, J2;
     cell_along(at, element, P, &J1, &J2);
@@ -121,15 +120,8 @@ static void bounds(const Place *at, double *stiffest, double *force)
     bound_raise(force, c / sqrt(cells->area));
 }
 
-static const ElementKind triangle = {.count = count,
-                                     .get = get,
-                                     .blocks = count,
-                                     .nodes = nodes,
-                                     .value = cell_value,
-                                     .gradient = cell_gradient,
-                                     .hessian = edge_hessian,
-                                     .remainder = remainder_along,
-                                     .reach = cell_reach};
+static const ElementKind triangle = {ELEMENT_FUNCTIONS, .blocks = count,
+                                     .reach = reach};
 
 const TermKind cell_energy = {
     .name = "cells that cannot turn over",

@@ -135,7 +135,7 @@ static int nodes(const Place *at, int block, int node[3])
     return 2;
 }
 
-static double contact_value(const Place *at, const Element *element)
+static double value(const Place *at, const Element *element)
 {
     const Barrier *barrier = barrier_of(at);
     return barrier->c * barrier_value(element->s / barrier->d_hat);
@@ -151,8 +151,8 @@ static void gradient(const Place *at, const Element *element, double g[4])
 
 /* c f''/d_hat^2 n n^T, and where nothing is projected the ball's curvature
  * (c/d_hat) f'/r (I - n n^T), which is negative. */
-static bool contact_hessian(const Place *at, const Element *element,
-                            Filter filter, double H[4][4])
+static bool hessian(const Place *at, const Element *element, Filter filter,
+                    double H[4][4])
 {
     const Barrier *barrier = barrier_of(at);
     const double *n = element->n;
@@ -224,20 +224,12 @@ static double rub(const Place *at, const Element *element, double t[4],
     return obstacle->friction * contact_force(&contact->barrier, element->s);
 }
 
-const ElementKind contact_elements = {.count = count,
-                                      .get = get,
-                                      .blocks = blocks,
-                                      .nodes = nodes,
-                                      .value = contact_value,
-                                      .gradient = gradient,
-                                      .hessian = contact_hessian,
-                                      .remainder = remainder_along,
-                                      .reach = reach,
-                                      .rub = rub};
+static const ElementKind pairs = {ELEMENT_FUNCTIONS, .blocks = blocks,
+                                  .reach = reach, .rub = rub};
 
 const TermKind contact_energy = {
     .name = "contact",
-    ELEMENTS(contact_elements),
+    ELEMENTS(pairs),
     .energy = "contact",
     .place = PLACE_CONTACT,
     .bounds = bounds,

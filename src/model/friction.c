@@ -207,14 +207,7 @@ static double remainder_along(const Place *at, const Element *element,
                                            friction_of(at)->e);
 }
 
-static const ElementKind slides = {.count = count,
-                                   .get = get,
-                                   .blocks = blocks,
-                                   .nodes = nodes,
-                                   .value = value,
-                                   .gradient = gradient,
-                                   .hessian = hessian,
-                                   .remainder = remainder_along};
+static const ElementKind slides = {ELEMENT_FUNCTIONS, .blocks = blocks};
 
 const TermKind friction_energy = {
     ELEMENTS(slides),        .name = "friction", .loss = "friction",

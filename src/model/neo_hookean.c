@@ -124,14 +124,7 @@ static void bounds(const Place *at, double *stiffest, double *force)
     bound_raise(force, size * sqrt(data->area));
 }
 
-static const ElementKind triangle = {.count = count,
-                                     .get = get,
-                                     .blocks = count,
-                                     .nodes = nodes,
-                                     .value = value,
-                                     .gradient = gradient,
-                                     .hessian = hessian,
-                                     .remainder = remainder_along,
+static const ElementKind triangle = {ELEMENT_FUNCTIONS, .blocks = count,
                                      .reach = reach};
 
 /* The triangle's own f1 and f2: [f1 f2] = [x_b - x_a, x_c - x_a] B with the

@@ -314,17 +314,9 @@ static double rub(const Place *at, const Element *element, double t[4],
     return self->friction * force(self, element->s);
 }
 
-const ElementKind self_contact_elements = {.look = look,
-                                           .count = count,
-                                           .get = get,
-                                           .blocks = blocks,
-                                           .nodes = nodes,
-                                           .value = value,
-                                           .gradient = gradient,
-                                           .hessian = hessian,
-                                           .remainder = remainder_along,
-                                           .reach = reach,
-                                           .rub = rub};
+static const ElementKind near_pairs = {ELEMENT_FUNCTIONS, .blocks = blocks,
+                                       .look = look, .reach = reach,
+                                       .rub = rub};
 
 /* ---- the term ----------------------------------------------------------- */
 
@@ -343,7 +335,7 @@ static void free_pairs(void *data)
 
 const TermKind self_contact_energy = {
     .name = "bodies that touch",
-    ELEMENTS(self_contact_elements),
+    ELEMENTS(near_pairs),
     .energy = "contact",
     .place = PLACE_CONTACT,
     .begin = begin,
