@@ -92,8 +92,8 @@ typedef struct Player {
     Script script;                    /* of the command line */
     bool draws;                       /* frames, on this paper */
     Paper paper;
-    int size[2]; /* its pixels; 0: those of the window */
-    bool window;                      /* it is a window's, which takes keys */
+    int size[2];   /* its pixels; 0: those of the window */
+    bool window;   /* it is a window's, which takes keys */
     bool attended; /* a window or a script: it may pause and go back */
     bool quit;     /* somebody asked for the end */
     bool refused;  /* a line of the script made no sense */
@@ -138,13 +138,13 @@ typedef struct Player {
     const LecturePage *told; /* the page whose answer is shown, or NULL */
     bool asks;               /* pages wait for a guess before they tell */
     bool strain, bare, blank;
-    unsigned closed; /* cards that are not as the picture has them */
-    int large;       /* the enlarged card, */
-    int selected;    /* and the number that is lit; -1: none */
-    uint64_t added;  /* bit r: row r of the options is in the row of numbers */
-    bool typing;     /* every key belongs into what is typed: */
-    char typed[28];  /* for the selected number, or a page of the list */
-    bool leaving;    /* Escape found nothing to close: once more ends it */
+    unsigned closed;      /* cards that are not as the picture has them */
+    int large;            /* the enlarged card, */
+    const OptionRow *lit; /* and the number that is lit; NULL: none */
+    uint64_t added; /* bit r: row r of the options is in the row of numbers */
+    bool typing;    /* every key belongs into what is typed: */
+    char typed[28]; /* for the selected number, or a page of the list */
+    bool leaving;   /* Escape found nothing to close: once more ends it */
     CommandKind chip[LAYOUT_CHIPS];        /* what the chips ask for */
     const OptionRow *number[OPTIONS_MOST]; /* what the row has */
     int numbers;

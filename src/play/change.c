@@ -193,10 +193,7 @@ Status obey_add(Player *player, const Command *command)
     player->added |= (uint64_t)1 << (row - option_rows);
     player->column = COLUMN_CARDS;
     player_deselect(player);
-    player->numbers = player_row(player, player->number);
-    for (int i = 0; i < player->numbers; i++)
-        if (player->number[i] == row)
-            player->selected = i;
+    player->lit = row;
     player_note(player, "%s: %s; type a value and Enter", row->name, row->help);
     return STATUS_OK;
 }
@@ -268,24 +265,22 @@ Status obey_set(Player *player, const Command *command)
     return player_change(player, &change, from, to, false);
 }
 
-Status player_pace(Player *player, int index, int paces)
+Status player_pace(Player *player, const OptionRow *row, int paces)
 {
-    const OptionRow *number[OPTIONS_MOST];
     const Options now = player_numbers(player);
-    if (index >= player_row(player, number))
-        return player_refuse(player, "there is no number to change here");
-    if (number[index]->count > 1)
+    if (row->count > 1)
         return player_refuse(player, "several numbers: type them");
-    return player_ask_set(player, number[index],
-                          option_paced(number[index], &now, paces));
+    return player_ask_set(player, row, option_paced(row, &now, paces));
 }
 
-/* The selected number a pace up or down. */
+/* The lit number, or else the first one, a pace up or down. */
 Status obey_raise(Player *player, const Command *command)
 {
-    if (player->selected < 0)
-        player->selected = 0;
-    return player_pace(player, player->selected,
+    const OptionRow *number[OPTIONS_MOST];
+    if (player_row(player, number) == 0)
+        return player_refuse(player, "there is no number to change here");
+    player->lit = player->lit ? player->lit : number[0];
+    return player_pace(player, player->lit,
                        command->kind == COMMAND_RAISE ? 1 : -1);
 }
 
@@ -308,10 +303,11 @@ Status obey_default(Player *player, const Command *command)
 Status obey_select(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
-    int count = player_row(player, number);
-    int next = player->selected + 1;
+    int next = 0, count = player_row(player, number);
+    for (int i = 0; i < count; i++)
+        next = number[i] == player->lit ? i + 1 : next;
     player_deselect(player);
-    player->selected = next < count ? next : -1;
+    player->lit = next < count ? number[next] : NULL;
     return STATUS_OK;
 }
 

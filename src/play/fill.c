@@ -112,13 +112,8 @@ static void fill_settings(Player *player)
     Show *show = &player->show;
     const Options shown = player_numbers(player), *options = &shown;
     const OptionRow *all[OPTIONS_MOST];
-    int lit = player->selected;
-    const OptionRow *was =
-        lit >= 0 && lit < player->numbers ? player->number[lit] : NULL;
+    show->selected = -1;
     player->numbers = player_row(player, player->number);
-    for (int i = 0; was && i < player->numbers; i++)
-        if (player->number[i] == was)
-            player->selected = i;
     for (int i = 0; i < player->numbers; i++) {
         const OptionRow *row = player->number[i];
         Setting *setting = &show->setting[show->settings++];
@@ -132,15 +127,14 @@ static void fill_settings(Player *player)
                      start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
         setting->off = strcmp(now, "none") == 0 || player_idle(player, row);
+        if (row == player->lit)
+            show->selected = i;
+        if (row == player->lit && player->typing)
+            snprintf(setting->value, SHOW_VALUE, "%s_", player->typed);
     }
     if (player_all_numbers(player, all) > player->numbers)
         show->setting[show->settings++] =
             (Setting){"", "+ more", 0, false, false};
-    show->selected = player->selected;
-    if (player->typing && player->selected >= 0 &&
-        player->selected < player->numbers)
-        snprintf(show->setting[player->selected].value, SHOW_VALUE, "%s_",
-                 player->typed);
 }
 
 /* All numbers of the scene, what they are, and why some have no meaning now. */
@@ -172,10 +166,12 @@ static void fill_options(Player *player)
  * lit. */
 static void explain_number(const Player *player, Show *show)
 {
-    int i = show->over.zone == ZONE_SETTING ? show->over.index : show->selected;
-    if (i < 0 || i >= player->numbers)
+    int over = show->over.index;
+    const OptionRow *row = player->lit;
+    if (show->over.zone == ZONE_SETTING && over < player->numbers)
+        row = player->number[over];
+    if (!row)
         return;
-    const OptionRow *row = player->number[i];
     const char *idle = player_idle(player, row);
     if (idle || row->help[0])
         snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,

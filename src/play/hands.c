@@ -76,7 +76,7 @@ static bool lists(const Player *player)
 /* Who listens to the keys. */
 static Keyboard keyboard_now(const Player *player)
 {
-    bool number = player->selected >= 0 && player->selected < player->numbers;
+    bool number = player->lit;
     bool list = lists(player);
     bool asks = player_veils(player) && player_settings(player)->page->answer;
     if (player->typing && (number || list || asks))
@@ -90,7 +90,7 @@ static Keyboard keyboard_now(const Player *player)
 
 void player_deselect(Player *player)
 {
-    player->selected = -1;
+    player->lit = NULL;
     player->typing = false;
     player->typed[0] = '\0';
 }
@@ -126,7 +126,7 @@ Status obey_type(Player *player, const Command *command)
     } else if (length + strlen(letter) < sizeof player->typed) {
         strcat(typed, letter); /* for more there is no room */
     }
-    if (player->selected >= 0)
+    if (player->lit)
         player_note(player, "a number is typed: Enter sets it, Esc leaves it");
     else
         player_note(player, "%s %s_: Enter %s it, Esc leaves it",
@@ -182,14 +182,14 @@ Status obey_enter(Player *player, const Command *command)
     Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
     memcpy(typed, player->typed, sizeof typed);
-    if (player->selected < 0 && !lists(player))
+    if (!player->lit && !lists(player))
         return check_answer(player);
-    if (player->selected < 0) {
+    if (!player->lit) {
         status = open_line(player, typed);
         player->typing = player->typing && status;
         return status;
     }
-    const OptionRow *row = player->number[player->selected];
+    const OptionRow *row = player->lit;
     made.number = row - option_rows;
     if (row->count > 1 || !option_read(row, typed, &made.x))
         memcpy(made.text, typed, sizeof typed);
@@ -205,12 +205,12 @@ Status obey_enter(Player *player, const Command *command)
 static Status drag_number(Player *player)
 {
     Mouse *mouse = &player->mouse;
-    if (mouse->index >= player->numbers)
+    const OptionRow *row = player->lit;
+    if (!row)
         return STATUS_OK;
-    const OptionRow *row = player->number[mouse->index];
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
     if (row->count > 1)
-        return player_pace(player, mouse->index, 1);
+        return player_pace(player, row, 1);
     if (row->pace > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
@@ -455,11 +455,10 @@ static Status number_pressed(Player *player, int index, int clicks)
     Mouse *mouse = &player->mouse;
     if (index >= player->numbers) /* the plus behind them */
         return ask(player, COMMAND_OPTIONS, 0);
-    player->selected = index;
+    player->lit = player->number[index];
     player->changed = true;
     if (clicks == 2)
-        return ask(player, COMMAND_DEFAULT,
-                   player->number[index] - option_rows);
+        return ask(player, COMMAND_DEFAULT, player->lit - option_rows);
     mouse->drag = COMMAND_SET;
     mouse->index = index;
     mouse->options = player_numbers(player);
@@ -570,17 +569,17 @@ static Status released(Player *player)
                                       : status;
     }
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
-        mouse->index < player->numbers &&
-        player->number[mouse->index]->kind == OPTION_NAME)
-        return player_pace(player, mouse->index, 1);
+        player->lit && player->lit->kind == OPTION_NAME)
+        return player_pace(player, player->lit, 1);
     return STATUS_OK;
 }
 
 static Status wheeled(Player *player, double amount)
 {
     Under under = look(player);
-    if (under.hit.zone == ZONE_SETTING)
-        return player_pace(player, under.hit.index, amount > 0 ? 1 : -1);
+    if (under.hit.zone == ZONE_SETTING && under.hit.index < player->numbers)
+        return player_pace(player, player->number[under.hit.index],
+                           amount > 0 ? 1 : -1);
     if (under.hit.zone == ZONE_TIME)
         return ask(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
     if (under.hit.zone != ZONE_STAGE)

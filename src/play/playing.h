@@ -111,8 +111,8 @@ int player_row(const Player *player, const OptionRow *found[OPTIONS_MOST]);
 int player_all_numbers(const Player *player,
                        const OptionRow *found[OPTIONS_MOST]);
 
-/* The number in this place of the row goes so many paces up. */
-Status player_pace(Player *player, int index, int paces);
+/* The number goes so many paces up. */
+Status player_pace(Player *player, const OptionRow *row, int paces);
 
 /* Why a number has no meaning now; NULL: it has one. */
 const char *player_idle(const Player *player, const OptionRow *row);
@@ -152,7 +152,7 @@ void player_close_sheet(Player *player);
 
 /* ---- hands.c ------------------------------------------------------------- */
 
-/* Without a number that is selected or typed. */
+/* Without a number that is lit or typed. */
 void player_deselect(Player *player);
 
 /* ---- fill.c -------------------------------------------------------------- */

@@ -86,7 +86,7 @@ Status obey_escape(Player *player, const Command *command)
         player_close_sheet(player);
     else if (player->column == COLUMN_KEYS)
         player->column = COLUMN_CARDS;
-    else if (player->selected >= 0)
+    else if (player->lit)
         player_deselect(player);
     else if (player->column)
         player->column = COLUMN_CARDS;

@@ -563,10 +563,10 @@ static void random_keys_stay_in_their_field(void **unused)
         bool enter = !mesh && random_below(&random, 2) == 0;
         if (enter)
             press_key("Return");
-        set = enter && player.selected < 0;
+        set = enter && !player.lit;
         refused += enter && !set;
         press_key("Escape");
-        CHECK(player.selected < 0 && past_panes(&player.past) == 1 &&
+        CHECK(!player.lit && past_panes(&player.past) == 1 &&
               player_stands(&player));
         if (set && player.past.step == 2) /* else it begins again with it */
             CHECK(all_but(place) == rest);
