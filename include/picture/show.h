@@ -205,7 +205,8 @@ typedef struct Show {
 
     /* The time line: steps 1 ... bars; `step` is the one shown. */
     long bars, step;
-    const StepBar *bar;
+    StepBar (*bar)(const void *past, long step); /* NULL: no bars are drawn */
+    const void *past;
     char time_text[SHOW_TEXT]; /* "step 12   t = 0.24 s   real time x 0.5" */
 
     /* The last line. */

@@ -100,7 +100,6 @@ typedef struct Machine {
     long before;     /* the simulation's steps before the last of them */
     Outcome outcome; /* of the step that is made, or the last one */
     bool failed;     /* that one could not be made */
-    double begin;    /* J, total energy at step 0 */
     Rounds rounds;
     bool known; /* rounds and records are of the step it stands at, or failed
                    after it */

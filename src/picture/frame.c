@@ -130,13 +130,14 @@ static void draw_bars(Paper *paper, Box bars, const Show *show)
     double pitch = (double)bars.width / frame_span(show);
     long group = (long)ceil(LEAST_BAR / pitch), most = MOST_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
-    for (long s = 0; s < show->bars; s++)
-        most = show->bar[s].updates > most ? show->bar[s].updates : most;
+    for (long s = 1; s <= show->bars; s++)
+        most = (long)fmax(most, show->bar(show->past, s).updates);
     for (long s = 0; s < show->bars; s += group) {
         StepBar bar = {0, false};
         for (long k = s; k < s + group && k < show->bars; k++) {
-            bar.updates = (int)fmax(bar.updates, show->bar[k].updates);
-            bar.unconverged |= show->bar[k].unconverged;
+            StepBar one = show->bar(show->past, k + 1);
+            bar.updates = (int)fmax(bar.updates, one.updates);
+            bar.unconverged |= one.unconverged;
         }
         int left = (int)(s * pitch), right = (int)((s + group) * pitch) - gap;
         int high = least + (int)((bars.height - least) *

@@ -481,22 +481,17 @@ Status obey_box(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* A ground or a ball goes as far as the bodies leave room. */
+/* A ground or a ball goes where the bodies leave room. */
 Status obey_obstacle(Player *player, const Command *command)
 {
     Options moved = *player_settings(player);
     double *at = obstacle_at(&moved, (int)command->number);
-    const double from[2] = {at[0], at[1]};
-    Command change = *command;
-    bool room = false;
-    for (double part = 1; part > 0.005 && !room; part /= 2) {
-        change.x = at[0] = from[0] + part * (command->x - from[0]);
-        change.y = at[1] = from[1] + part * (command->y - from[1]);
-        room = true;
-        for (int p = 0; p < past_panes(&player->past); p++)
-            room = room && has_room(player, p, &moved);
-    }
-    return room ? change_all(player, &change) : STATUS_INVALID_INPUT;
+    at[0] = command->x;
+    at[1] = command->y;
+    for (int p = 0; p < past_panes(&player->past); p++)
+        if (!has_room(player, p, &moved))
+            return STATUS_INVALID_INPUT;
+    return change_all(player, command);
 }
 
 /* It pulls, or lets go. */

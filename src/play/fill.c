@@ -1,7 +1,6 @@
 /* fill.c - what the player knows, as the Show that the pictures read. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -284,31 +283,13 @@ static void fill_hand(Player *player)
                    .target = {control->at[0], control->at[1]}};
 }
 
-/* The time line.  Nothing is drawn where memory is missing. */
-static void fill_bars(Player *player)
+/* What the time line tells of a step. */
+static StepBar bar_of(const void *shown, long step)
 {
-    static StepBar *bar;
-    static long room;
-    Show *show = &player->show;
-    const Past *past = &player->past;
-    long newest = past_newest(past);
-    if (!past->keeps)
-        return;
-    if (newest > room) {
-        StepBar *grown = realloc(bar, 2 * (size_t)newest * sizeof *bar);
-        if (!grown)
-            return;
-        bar = grown;
-        room = 2 * newest;
-    }
-    for (long step = 1; step <= newest; step++) {
-        const Outcome *outcome =
-            &past_entry(past, player->active, step)->outcome;
-        bar[step - 1] =
-            (StepBar){outcome->updates, status_is_unconverged(outcome->status)};
-    }
-    show->bars = newest;
-    show->bar = bar;
+    const Player *player = shown;
+    const Outcome *outcome =
+        &past_entry(&player->past, player->active, step)->outcome;
+    return (StepBar){outcome->updates, status_is_unconverged(outcome->status)};
 }
 
 void player_label_panes(Player *player)
@@ -408,7 +389,9 @@ void player_fill(Player *player)
     fill_chips(player);
     fill_hand(player);
     fill_time(player);
-    fill_bars(player);
+    show->bars = player->past.keeps ? past_newest(&player->past) : 0;
+    show->bar = bar_of;
+    show->past = player;
     show->step = player->past.step;
     snprintf(show->message, SHOW_TEXT, "%s", player->note);
     show->warning = player->warning;

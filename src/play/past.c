@@ -375,11 +375,7 @@ static void free_simulation(Machine *machine)
 static Status make_simulation(Machine *machine, const Options *options)
 {
     free_simulation(machine);
-    Status status =
-        simulation_create(options, watch, machine, &machine->simulation);
-    if (!status && (machine->simulation.scene->needs & NEEDS_TIME))
-        machine->begin = simulation_energies(&machine->simulation, 0).total;
-    return status;
+    return simulation_create(options, watch, machine, &machine->simulation);
 }
 
 static Status use_control(Machine *machine, const Control *control)

@@ -194,7 +194,7 @@ static void print_pane(FILE *file, const Machine *machine)
         print(file, "simulated time", "%g s", simulation_time(simulation));
     print_newton(file, simulation);
     if (in_time) {
-        print(file, "energy at start", "%.9g J", machine->begin);
+        print(file, "energy at start", "%.9g J", simulation->start[0]);
         print(file, "energy at end", "%.9g J",
               simulation_energies(simulation, 0).total);
     }
