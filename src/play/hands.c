@@ -3,6 +3,7 @@
  * What is under the mouse is a question to the layout and to the pictures; what
  * is done about it is a command, as a script could say it.
  */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -95,37 +96,29 @@ void player_deselect(Player *player)
     player->typed[0] = '\0';
 }
 
-/* The letter that a key types; "": none.  letter [size] out */
-static void key_letter(const char *key, char *letter, size_t size)
+/* The letter that a key types; '\0': none. */
+static char key_letter(const char *key)
 {
     bool shift = strncmp(key, "Shift+", 6) == 0;
     const char *name = shift ? key + 6 : key;
-    bool one = name[0] && (!name[1] || (unsigned char)name[0] >= 0x80);
-    snprintf(letter, size, "%.4s",
-             strcmp(name, "Space") == 0 ? " "
-             : one                      ? name
-                                        : "");
-    if (one && !shift && name[0] >= 'A' && name[0] <= 'Z')
-        letter[0] = (char)(name[0] - 'A' + 'a');
+    if (strcmp(name, "Space") == 0)
+        return ' ';
+    return name[1] ? '\0' : (char)(shift ? name[0] : tolower(name[0]));
 }
 
 /* One letter more or less.  The first one opens the field. */
 Status obey_type(Player *player, const Command *command)
 {
-    char *typed = player->typed, letter[8];
+    char *typed = player->typed;
     bool list = lists(player);
     if (!player->typing)
-        typed[0] = '\0';
+        memset(typed, 0, sizeof player->typed);
     player->typing = true;
     size_t length = strlen(typed);
-    key_letter(command->text, letter, sizeof letter);
-    if (strcmp(command->text, "Backspace") == 0) {
-        while (length > 0 && ((unsigned char)typed[--length] & 0xc0) == 0x80)
-            continue; /* of a letter of several bytes */
-        typed[length] = '\0';
-    } else if (length + strlen(letter) < sizeof player->typed) {
-        strcat(typed, letter); /* for more there is no room */
-    }
+    if (strcmp(command->text, "Backspace") == 0)
+        typed[length > 0 ? length - 1 : 0] = '\0';
+    else if (length + 1 < sizeof player->typed)    /* there is room for more */
+        typed[length] = key_letter(command->text); /* behind it are zeros */
     if (player->lit)
         player_note(player, "a number is typed: Enter sets it, Esc leaves it");
     else

@@ -162,21 +162,17 @@ static const char *reason_of(Status status)
 /* The frame as it is, in the present folder. */
 Status obey_shot(Player *player, const Command *command)
 {
-    enum { WIDTH = 1280, HEIGHT = 800 };
     char name[80];
+    const bool draws = player->draws;
+    player->draws = true;
     Paper *paper = player_paper(player);
-    Paper own = {0};
-    Status status = STATUS_OK;
-    if (!paper) {
-        status = paper_create(WIDTH, HEIGHT, &own);
-        paper = &own;
-    }
+    Status status = paper ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    player->draws = draws;
     free_name(player, ".png", name, sizeof name);
-    if (!status) {
+    if (paper) {
         player_paint(player, paper);
         status = png_file_write(name, &paper->canvas);
     }
-    paper_free(&own);
     if (status)
         player_note(player, "not saved: %s", reason_of(status));
     else
