@@ -48,11 +48,6 @@ typedef struct Recording {
     char message[512];              /* the first failure in one line; "" */
 } Recording;
 
-/* Whether tables have names of tables.
- *   message  [size] out, one line after INVALID_INPUT
- * Returns OK or INVALID_INPUT. */
-Status recording_check(const Options *options, char *message, size_t size);
-
 /* Opens what options->frames, film and the tables ask for; makes the folder.
  *   recording  out; close it in any case
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED, as all functions here do, or

@@ -119,8 +119,6 @@ typedef struct OptionRow {
     OptionKind kind;
     int slot;         /* of its first number */
     size_t offset;    /* OPTION_TEXT: of its field in Options */
-    const char *ends; /* of a file: how its name may end, "": in any way; NULL:
-                         the text is none */
     int count;        /* numbers of one value; 0: one */
     unsigned fewer;   /* bit n: it may have only n numbers, */
     const double *rest; /* [count] the others are these */

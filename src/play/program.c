@@ -316,8 +316,6 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
-    if (recording_check(options, message, sizeof message))
-        return misuse(message);
     if (options->handout) {
         code = make_handout(options, stop, player);
         *player = (Player){0};

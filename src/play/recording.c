@@ -1,6 +1,5 @@
 #include "play/recording.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -212,7 +211,6 @@ static Status open_table(const Options *options, Recording *recording, int t)
     return note(recording, table_open(name, &recording->table[t]), name);
 }
 
-/* Folders, film, tables. */
 Status recording_open(const Options *options, int panes, Recording *recording)
 {
     *recording = (Recording){.folder = options->frames,
@@ -231,35 +229,6 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     if (status)
         recording_discard(recording); /* what stood there before stays */
     return status;
-}
-
-/* Whether a name ends in one of these, or in nothing that begins with a letter:
- * other endings promise other formats. */
-static bool is_called(const char *name, const char *ends)
-{
-    const char *slash = strrchr(name, '/');
-    const char *end = strrchr(slash ? slash + 1 : name, '.');
-    if (!end || !isalpha((unsigned char)end[1]))
-        return true;
-    const char *found = strcasestr(ends, end);
-    return found && !isalnum((unsigned char)found[strlen(end)]);
-}
-
-Status recording_check(const Options *options, char *message, size_t size)
-{
-    char shown[64];
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        const char *name =
-            row->ends && row->ends[0] ? given_name(options, row->offset) : NULL;
-        if (!name || is_called(name, row->ends))
-            continue;
-        one_line(name, shown, sizeof shown);
-        snprintf(message, size,
-                 "--%s '%s': its name ends in %s, or has no ending", row->name,
-                 shown, row->ends);
-        return STATUS_INVALID_INPUT;
-    }
-    return STATUS_OK;
 }
 
 /* FOLDER/frame_000012.png */
@@ -308,7 +277,6 @@ static Status check_tables(Recording *recording)
     return status;
 }
 
-/* Run by run. */
 Status recording_states(Recording *recording,
                         const Simulation *const *simulation, int count,
                         long step)
@@ -335,7 +303,6 @@ Status recording_states(Recording *recording,
     return status ? status : check_tables(recording);
 }
 
-/* The numbers of the record, in the order of the columns. */
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane)
 {

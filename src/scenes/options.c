@@ -102,8 +102,6 @@ REASON(nothing_flows, options->yield > 0,
 #define AGAIN                 .effect = EFFECT_AGAIN
 #define TERM(kind)            .term = &(kind)
 #define IDLE(why)             .idle = why
-#define FILE_OF(endings)      .ends = endings
-#define TABLE                 FILE_OF(".csv, .txt, .dat, .log, .npz")
 #define ROW(n, longest, adds) .place = n, .letters = longest, .pace = adds
 
 /* No range lets a product of two numbers become infinite, or lose digits. */
@@ -147,7 +145,7 @@ const OptionRow option_rows[] = {
           "; top:2 of body 2"),
      NEEDS(BODY)},
     {TEXT(state, "FILE", "begins at the last step of what --states wrote"),
-     NEEDS(BODY), FILE_OF("")},
+     NEEDS(BODY)},
     {RANGE(WHOLE, "state-step", state_step, "N", "or at this one of its steps",
            "", -1, 0, 1e15),
      NEEDS(BODY), IDLE(no_state)},
@@ -225,24 +223,20 @@ const OptionRow option_rows[] = {
      .count = 2, .between = 'x'},
     {SWITCH(fullscreen, "F11 or Esc leaves it")},
     {SWITCH(headless, "no window even where there is a screen")},
-    {TEXT(frames, "DIR", "a PNG of every drawn step"), FILE_OF("")},
-    {TEXT(states, "FILE", "CSV or .npz of every step; \"-\": standard output"),
-     TABLE},
-    {TEXT(log, "FILE", "the same, a row per Newton iteration"), TABLE},
-    {TEXT(energies, "FILE", "the same of the ledger at every step, J"), TABLE},
+    {TEXT(frames, "DIR", "a PNG of every drawn step")},
+    {TEXT(states, "FILE", "CSV or .npz of every step; \"-\": standard output")},
+    {TEXT(log, "FILE", "the same, a row per Newton iteration")},
+    {TEXT(energies, "FILE", "the same of the ledger at every step, J")},
     {TEXT(springs, "FILE", "the same of the springs at every step"),
-     NEEDS(MESH), TABLE},
-    {TEXT(vtk, "DIR", "every step for ParaView, and their list"), NEEDS(MESH),
-     FILE_OF("")},
-    {TEXT(film, "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif"),
-     FILE_OF("")},
-    {TEXT(script, "FILE", "commands, each line: STEP COMMAND"), FILE_OF("")},
+     NEEDS(MESH)},
+    {TEXT(vtk, "DIR", "every step for ParaView, and their list"), NEEDS(MESH)},
+    {TEXT(film, "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif")},
+    {TEXT(script, "FILE", "commands, each line: STEP COMMAND")},
     {VALUE(PAGE, "lecture", "[PAGE]", "page by page; Page Down is the next one",
            ""),
      .names = {lecture_pages, sizeof *lecture_pages}},
     {SWITCH(big, "letters have a 35th of the height")},
-    {TEXT(handout, "FILE", "all pages as one HTML file, and end"),
-     FILE_OF(".html, .htm")},
+    {TEXT(handout, "FILE", "all pages as one HTML file, and end")},
     {SWITCH(quiet, "no summary")},
     {SWITCH(help, "this; --help commands: what scripts can say"),
      .letter = 'h'},

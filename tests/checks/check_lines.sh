@@ -36,7 +36,6 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|from 1 to $pages|--lecture $((pages + 1))
 2|from 1 to $pages|--lecture 2x
 2|'circle'|circle --lecture
-2|ends in .html, .htm|--handout x.pdf
 1|missing/x.html|--handout missing/x.html
 2|line 1.*'jump'.*--help commands$|--headless --script jump
 2|nowhere: No such file|--headless --script nowhere
@@ -46,10 +45,6 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 1|n.npz: it is being written already|--headless --states n.npz --springs ./n.npz
 2|--springs.*'circle' has no square|circle --springs n.csv
 2|--vtk.*'spring'|spring --vtk n
-2|.csv, .txt, .dat, .log, .npz, or|--states s.npy
-2|its name ends in|--log l.json
-2|its name ends in|--states d/k.csv.part
-2|its name ends in|--film n.apng --log n.apng
 2|.mp4, .webm, .gif or .apng|--headless --film n.avi
 2|.mp4, .webm, .gif or .apng|--headless --film -
 2|does not end|--headless --film n.avi --timestep 0.004,0.01
