@@ -93,7 +93,7 @@ typedef struct Pane {
     const Simulation *simulation;
     const double *x;         /* [2n] m, to be drawn; NULL: those of run 0 */
     const double *ghost;     /* [2n] m, the outcome with other settings */
-    const char *ghost_label; /* "without projection" */
+    const char *ghost_label; /* "projection none: ..." */
     const History *history;  /* energies (or radii) over time */
     const Trace *trace;
     const char *label; /* over the pane where there are several */

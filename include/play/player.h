@@ -76,15 +76,9 @@ typedef struct Mouse {
 typedef struct Side {
     int place;     /* MODE_WALK: in its rounds; -1: it shows the whole step */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
-    char ghost_label[96];
-    char label[64]; /* what is different here */
+    char ghost_label[160]; /* which one, and what it was */
+    char label[64];        /* what is different here */
 } Side;
-
-/* Of a step that is taken again: what it was. */
-typedef struct Retake {
-    char had[160]; /* "no projection: E +206 in 12 updates" */
-    Station at;    /* the place in it; round -1: none */
-} Retake;
 
 typedef struct Player {
     Options given[OPTIONS_MAX_PANES]; /* of the command line */
@@ -109,7 +103,8 @@ typedef struct Player {
     Mode mode;
     int fine; /* one on is: 0 a step, 1 an update, 2 a line */
     Then then;
-    Retake retake;
+    Station
+        retaken; /* the place in a step that is taken again; round -1: none */
     int still;   /* steps in a row that needed no update, up to this one, */
     int rigid;   /* and those in which nothing has deformed */
     bool holds;  /* the hand has not let go since it took a node */

@@ -47,54 +47,41 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
 /* ---- the step once more: the counterfactual ------------------------------ */
 
 /* "projection none: E +206 in 12 updates" */
-static void tell_outcome(const OptionRow *row, const Options *options,
-                         const Outcome *outcome, char *text, size_t size)
+static void tell_outcome(const Player *player, const OptionRow *row, char *text,
+                         size_t size)
 {
+    const Outcome *outcome = &player_machine(player)->outcome;
     char value[COMMAND_TEXT_SIZE];
-    option_value(row, options, value, sizeof value);
+    option_value(row, player_settings(player), value, sizeof value);
     snprintf(text, size, "%s %s: E %+.3g in %d update%s%s%s", row->label, value,
              outcome->change, outcome->updates,
              outcome->updates == 1 ? "" : "s", outcome->status ? ", " : "",
              outcome->status ? status_text(outcome->status) : "");
 }
 
-/* Keeps the positions of the active pane as a ghost. */
-static void keep_ghost(Player *player, const OptionRow *row)
-{
-    const Simulation *simulation = player_simulation(player);
-    Side *side = &player->side[player->active];
-    char value[COMMAND_TEXT_SIZE];
-    size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
-    side->ghost = malloc(bytes);
-    if (!side->ghost)
-        return;
-    memcpy(side->ghost, simulation->run[0].x, bytes);
-    option_value(row, player_settings(player), value, sizeof value);
-    snprintf(side->ghost_label, sizeof side->ghost_label, "%s %s", row->label,
-             value);
-}
-
 /* The change, and the present step once more with it, from its own start; what
- * it was before stays as a ghost. */
+ * it was before stays as a ghost of the active pane. */
 static Status retake_step(Player *player, const Command *change, int from,
                           int to)
 {
     Past *past = &player->past;
-    Retake *retake = &player->retake;
+    Side *side = &player->side[player->active];
     const OptionRow *row = &option_rows[change->number];
     const Machine *machine = player_machine(player);
+    const Simulation *simulation = &machine->simulation;
+    size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     int place = player_place(player, player->active);
     bool failed = machine->failed;
     long step = past->step + failed;
-    *retake = (Retake){.at = {.round = -1}};
+    player->retaken = (Station){.round = -1};
     if (place >= 0 && player->fine > 0)
-        retake->at = machine->rounds.place[place];
-    tell_outcome(row, player_settings(player), &machine->outcome, retake->had,
-                 sizeof retake->had);
+        player->retaken = machine->rounds.place[place];
     player_leave_step(player);
-    if (row->effect == EFFECT_AGAIN && !failed &&
-        !machine->simulation.scene->step)
-        keep_ghost(player, row);
+    tell_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
+    if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
+        side->ghost = malloc(bytes);
+    if (side->ghost)
+        memcpy(side->ghost, simulation->run[0].x, bytes);
     Status status = player_change(player, change, from, to, !failed);
     if (status)
         return status;
@@ -107,15 +94,16 @@ static Status retake_step(Player *player, const Command *change, int from,
 void player_tell_retake(Player *player)
 {
     const Past *past = &player->past;
-    const Station *at = &player->retake.at;
-    const Machine *machine = player_machine(player);
-    char has[120];
-    if (at->round >= 0 && machine->rounds.places > 2)
+    const Rounds *rounds = &player_machine(player)->rounds;
+    const Station *at = &player->retaken;
+    char has[160];
+    if (at->round >= 0 && rounds->places > 2)
         player_stand_at(player, player->active,
-                        rounds_find(&machine->rounds, at->round, at->line));
-    tell_outcome(&option_rows[past->branch[past->now].edit.number],
-                 player_settings(player), &machine->outcome, has, sizeof has);
-    player_note(player, "%s; %s", player->retake.had, has);
+                        rounds_find(rounds, at->round, at->line));
+    tell_outcome(player, &option_rows[past->branch[past->now].edit.number], has,
+                 sizeof has);
+    player_note(player, "%s; %s", player->side[player->active].ghost_label,
+                has);
 }
 
 /* ---- numbers and methods ------------------------------------------------- */
