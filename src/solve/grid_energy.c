@@ -37,19 +37,20 @@ FAST static void gradient(const Pass *pass)
         double sum[LANES] = {0};
         EACH_NODE_OF (grid, band) {
             const int q = at.first + e;
-            double fx = grid.m[q + at.node] * ax[q];
-            double fy = grid.m[q + at.node] * ay[q];
+            Pair mass = PAIR(grid.m, q + at.node);
+            Pair fx = mass * PAIR(ax, q), fy = mass * PAIR(ay, q);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         fx += s.c * s.s * s.dx;                                                \
         fy += s.c * s.s * s.dy;                                                \
+        IN_ORDER(fx, fy);                                                      \
     }
             ALL_SPRINGS(ADD, at)
 #undef ADD
-            gx[q] = fx;
-            gy[q] = fy;
-            sum[e] += grid.per_m[q + at.node] * (fx * fx + fy * fy);
+            PAIR(gx, q) = fx;
+            PAIR(gy, q) = fy;
+            PAIR(sum, e) += PAIR(grid.per_m, q + at.node) * (fx * fx + fy * fy);
         }
         grid.sums[band * MAX_SUMS] = sum_of(sum);
     }
@@ -64,7 +65,8 @@ double grid_gradient(const Grid *grid, double *g)
 
 /* By how much more one end of a spring moves than the other. */
 #define ALONG_SPRING(to)                                                       \
-    double ux = px[q] - px[q + (to)], uy = py[q] - py[q + (to)]
+    Pair ux = PAIR(px, q) - PAIR(px, q + (to));                                \
+    Pair uy = PAIR(py, q) - PAIR(py, q + (to))
 
 /* out = -b - H p, H clamped, and |out|_(M^-1)^2. */
 FAST static void remainder_of(const Pass *pass)
@@ -77,28 +79,33 @@ FAST static void remainder_of(const Pass *pass)
         double sum[LANES] = {0}, most[LANES] = {0}, largest = 0;
         EACH_NODE_OF (grid, band) {
             const int q = at.first + e;
-            double size = fabs(px[q]) + fabs(py[q]);
-            double fx = grid.m[q + at.node] * px[q];
-            double fy = grid.m[q + at.node] * py[q];
+            Pair hx = PAIR(px, q), hy = PAIR(py, q);
+            Pair mass = PAIR(grid.m, q + at.node);
+            Pair fx = mass * hx, fy = mass * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
-        double iso = s.s > 0 ? s.s : 0;                                        \
-        double along = 2 + (s.s - iso) / safe(s.d2);                           \
-        along = (along > 0 ? along : 0) * (s.dx * ux + s.dy * uy);             \
+        Pair iso = WHERE(s.s > 0, s.s);                                        \
+        Pair along = 2 + (s.s - iso) / safe(s.d2);                             \
+        along = WHERE(along > 0, along) * (s.dx * ux + s.dy * uy);             \
         fx += s.c * (iso * ux + along * s.dx);                                 \
         fy += s.c * (iso * uy + along * s.dy);                                 \
+        IN_ORDER(fx, fy);                                                      \
     }
             ALL_SPRINGS(ADD, at)
 #undef ADD
-            fx = -bx[q] - fx;
-            fy = -by[q] - fy;
-            to_x[q] = fx;
-            to_y[q] = fy;
-            sum[e] += grid.per_m[q + at.node] * (fx * fx + fy * fy);
-            most[e] = size > most[e] ? size : most[e];
+            fx = -PAIR(bx, q) - fx;
+            fy = -PAIR(by, q) - fy;
+            PAIR(to_x, q) = fx;
+            PAIR(to_y, q) = fy;
+            PAIR(sum, e) += PAIR(grid.per_m, q + at.node) * (fx * fx + fy * fy);
         }
+        EACH_RUN_OF (grid, band)
+            EACH_OF (NEXT(at, LANES)) {
+                double size = fabs(px[at.first + e]) + fabs(py[at.first + e]);
+                most[e] = size > most[e] ? size : most[e];
+            }
         for (int e = 0; e < LANES; e++)
             largest = most[e] > largest ? most[e] : largest;
         grid.sums[band * MAX_SUMS] = sum_of(sum);
@@ -127,22 +134,25 @@ FAST static void along_line(const Pass *pass)
         double sum[4][LANES] = {{0}};
         EACH_NODE_OF (grid, band) {
             const int q = at.first + e;
-            double f1 = 0, f2 = 0, f3 = 0, p2 = px[q] * px[q] + py[q] * py[q];
+            Pair hx = PAIR(px, q), hy = PAIR(py, q), f1 = {0}, f2 = {0};
+            Pair f3 = {0}, p2 = hx * hx + hy * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
-        double B = 2 * (s.dx * ux + s.dy * uy), C = ux * ux + uy * uy;         \
+        Pair B = 2 * (s.dx * ux + s.dy * uy), C = ux * ux + uy * uy;           \
         f1 += s.c * (B * B + 2 * s.s * C);                                     \
         f2 += s.c * B * C;                                                     \
         f3 += s.c * C * C;                                                     \
+        IN_ORDER(f1, f2);                                                      \
+        IN_ORDER(f3, p2);                                                      \
     }
             OWN_SPRINGS(ADD, at)
 #undef ADD
-            sum[0][e] += gx[q] * px[q] + gy[q] * py[q];
-            sum[1][e] += 0.25 * f1 + 0.5 * grid.m[q + at.node] * p2;
-            sum[2][e] += 0.5 * f2;
-            sum[3][e] += 0.25 * f3;
+            PAIR(sum[0], e) += PAIR(gx, q) * hx + PAIR(gy, q) * hy;
+            PAIR(sum[1], e) += 0.25 * f1 + 0.5 * PAIR(grid.m, q + at.node) * p2;
+            PAIR(sum[2], e) += 0.5 * f2;
+            PAIR(sum[3], e) += 0.25 * f3;
         }
         for (int s = 0; s < 4; s++)
             grid.sums[band * MAX_SUMS + s] = sum_of(sum[s]);

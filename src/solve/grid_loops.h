@@ -59,28 +59,39 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
  * end are left out; they are outside and stay 0. */
 #ifdef __wasm_simd128__
 #define NEXT(at, lanes)                                                        \
-    ((at).end - (at).first < (lanes) ? ((at).end - (at).first + 3) & ~3        \
-                                     : (lanes))
+    ((at).end - (at).first < (lanes)                                           \
+         ? ((at).end - (at).first + (lanes) / 4 - 1) & -((lanes) / 4)          \
+         : (lanes))
 #else
 #define NEXT(at, lanes) (lanes)
 #endif
 
-/* A loop whose numbers are Few: in a page so many of single precision at once,
- * for there what comes from several springs has to be added up in order
- * (IN_ORDER) to stay in registers; elsewhere one, as in any loop. */
+/* A loop whose numbers are Few (or Pairs): in a page so many of single (or
+ * double) precision at once, for there what comes from several springs has to
+ * be added up in order (IN_ORDER) to stay in registers; elsewhere one, as in
+ * any loop. */
 #ifdef __wasm_simd128__
 typedef float Few __attribute__((vector_size(16), aligned(4)));
-typedef int FewBits __attribute__((vector_size(16)));
+typedef double Pair __attribute__((vector_size(16), aligned(8)));
+enum { PAIRED = 2 };
 #define FEW(a, q)      (*(Few *)((a) + (q)))
+#define PAIR(a, q)     (*(Pair *)((a) + (q)))
 #define IN_ORDER(a, b) __asm__ volatile("" : "+r"(a), "+r"(b))
-#define EACH_FEW(lanes)                                                        \
-    _Pragma("clang loop unroll(disable)") for (int e = 0; e < (lanes); e += 4)
-#define WHERE(condition, a) ((Few)((FewBits)(condition) & (FewBits)(a)))
+#define EACH_BY(n, lanes)                                                      \
+    _Pragma("clang loop unroll(disable)") for (int e = 0; e < (lanes); e += n)
+#define EACH_FEW(lanes)  EACH_BY (4, lanes)
+#define EACH_PAIR(lanes) EACH_BY (2, lanes)
+#define WHERE(condition, a)                                                    \
+    ((__typeof__(a))((condition) & (__typeof__(condition))(a)))
 #else
 typedef float Few;
+typedef double Pair;
+enum { PAIRED = 0 };
 #define FEW(a, q)           ((a)[q])
+#define PAIR(a, q)          ((a)[q])
 #define IN_ORDER(a, b)      (void)0
 #define EACH_FEW(lanes)     EACH_OF (lanes)
+#define EACH_PAIR(lanes)    EACH_OF (lanes)
 #define WHERE(condition, a) ((condition) ? (a) : 0)
 #endif
 
@@ -114,8 +125,8 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     return at;
 }
 
-/* The nodes of a band, LANES at once, with `at`; or each of them, `e` of so
- * many. */
+/* The nodes of a band, LANES at once, with `at`; or each Pair of them, `e` of
+ * so many. */
 #define EACH_RUN_OF(grid, band)                                                \
     for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
          i++)                                                                  \
@@ -124,25 +135,25 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
                  at.first += LANES)
 #define EACH_NODE_OF(grid, band)                                               \
     EACH_RUN_OF (grid, band)                                                   \
-        EACH_OF (NEXT(at, LANES))
+        EACH_PAIR (NEXT(at, LANES))
 
 /* What a loop reads of a spring: d = x_i - x_j, |d|^2, s = |d|^2 - l2, c. */
 typedef struct Spring {
-    double dx, dy, d2, s, c;
+    Pair dx, dy, d2, s, c;
 } Spring;
 
 /* From node q to node q + to, with its numbers at q + at. */
 INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
 {
     const double *x = grid->x, *y = x + grid->rows.plane;
-    double dx = x[q] - x[q + to], dy = y[q] - y[q + to];
-    double d2 = dx * dx + dy * dy;
-    return (Spring){dx, dy, d2, d2 - grid->l2[kind][q + at],
-                    grid->c[kind][q + at]};
+    Pair dx = PAIR(x, q) - PAIR(x, q + to), dy = PAIR(y, q) - PAIR(y, q + to);
+    Pair d2 = dx * dx + dy * dy;
+    return (Spring){dx, dy, d2, d2 - PAIR(grid->l2[kind], q + at),
+                    PAIR(grid->c[kind], q + at)};
 }
 
 /* What may divide. */
-INLINE double safe(double d2)
+INLINE Pair safe(Pair d2)
 {
     return d2 + 1e-300;
 }

@@ -47,6 +47,55 @@ INLINE double step_of(double f1, double f2, double f3, double f4, double *lower)
     return go;
 }
 
+/* What relaxing a node needs: its gradient, and sums over its springs. */
+enum { GX, GY, ISO, XX, XY, YY, CX, CY, CC, NEGATIVE, AROUND };
+
+/* That of LANES nodes of a row.  The steps that follow wait less for each other
+ * in a loop of their own. */
+INLINE void look_around(const Grid *grid, NodeRun at, double of[AROUND][LANES])
+{
+    const double *const ax = grid->away, *const ay = ax + grid->rows.plane;
+    EACH_PAIR (NEXT(at, LANES)) {
+        const int q = at.first + e;
+        Pair mass = PAIR(grid->m, q + at.node), iso = mass;
+        Pair gx = mass * PAIR(ax, q), gy = mass * PAIR(ay, q);
+        Pair xx = {0}, xy = {0}, yy = {0};
+        Pair cx = {0}, cy = {0}, c = {0}, negative = {0};
+#define ADD(kind, to, numbers)                                                 \
+    {                                                                          \
+        Spring s = spring_of(grid, kind, q, to, numbers);                      \
+        Pair f = s.c * s.s, fx = s.c * s.dx, fy = s.c * s.dy;                  \
+        gx += f * s.dx;                                                        \
+        gy += f * s.dy;                                                        \
+        IN_ORDER(gx, gy);                                                      \
+        iso += f;                                                              \
+        negative += WHERE(f < 0, f);                                           \
+        IN_ORDER(iso, negative);                                               \
+        xx += fx * s.dx;                                                       \
+        xy += fx * s.dy;                                                       \
+        cx += fx;                                                              \
+        IN_ORDER(xx, xy);                                                      \
+        yy += fy * s.dy;                                                       \
+        cy += fy;                                                              \
+        IN_ORDER(yy, cy);                                                      \
+        c += s.c;                                                              \
+        IN_ORDER(c, cx);                                                       \
+    }
+        ALL_SPRINGS(ADD, at)
+#undef ADD
+        PAIR(of[GX], e) = gx;
+        PAIR(of[GY], e) = gy;
+        PAIR(of[ISO], e) = iso;
+        PAIR(of[XX], e) = xx;
+        PAIR(of[XY], e) = xy;
+        PAIR(of[YY], e) = yy;
+        PAIR(of[CX], e) = cx;
+        PAIR(of[CY], e) = cy;
+        PAIR(of[CC], e) = c;
+        PAIR(of[NEGATIVE], e) = negative;
+    }
+}
+
 /* LANES nodes of a row, none of which share a spring. */
 INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
 {
@@ -54,29 +103,13 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
     const double *const tx = grid->x_tilde, *const ty = tx + plane;
     double *const x = grid->x, *const y = x + plane;
     double *const ax = grid->away, *const ay = ax + plane;
+    double of[AROUND][LANES];
+    look_around(grid, at, of);
     EACH_OF (NEXT(at, LANES)) {
         const int q = at.first + e;
-        double mass = grid->m[q + at.node], gx = mass * ax[q];
-        double gy = mass * ay[q], xx = 0, xy = 0, yy = 0;
-        double cx = 0, cy = 0, c = 0, iso = mass, negative = 0;
-#define ADD(kind, to, numbers)                                                 \
-    {                                                                          \
-        Spring s = spring_of(grid, kind, q, to, numbers);                      \
-        double f = s.c * s.s, fx = s.c * s.dx, fy = s.c * s.dy;                \
-        gx += f * s.dx;                                                        \
-        gy += f * s.dy;                                                        \
-        xx += fx * s.dx;                                                       \
-        xy += fx * s.dy;                                                       \
-        yy += fy * s.dy;                                                       \
-        cx += fx;                                                              \
-        cy += fy;                                                              \
-        c += s.c;                                                              \
-        iso += f;                                                              \
-        negative += f < 0 ? f : 0;                                             \
-    }
-        ALL_SPRINGS(ADD, at)
-#undef ADD
-        double A = iso + 2 * xx, B = 2 * xy, C = iso + 2 * yy, trace = A + C;
+        double gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
+        double A = of[ISO][e] + 2 * of[XX][e], B = 2 * of[XY][e];
+        double C = of[ISO][e] + 2 * of[YY][e], trace = A + C;
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
         double a = good ? A : A - negative, d = good ? C : C - negative;
         double det = a * d - B * B;
@@ -85,7 +118,8 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
         double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
         double p2 = px * px + py * py, f1 = gx * px + gy * py, lower;
         double f2 = 0.5 * (A * px * px + 2 * B * px * py + C * py * py);
-        double f3 = p2 * (cx * px + cy * py), f4 = 0.25 * c * p2 * p2;
+        double f3 = p2 * (of[CX][e] * px + of[CY][e] * py);
+        double f4 = 0.25 * of[CC][e] * p2 * p2;
         double go = step_of(f1, f2, f3, f4, &lower);
         double to_x = ax[q] + go * px, to_y = ay[q] + go * py;
         ax[q] = to_x;

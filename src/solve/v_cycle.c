@@ -60,17 +60,18 @@ INLINE bool has_row(int rows, int i)
 
 /* ---- tensors ---- */
 
-/* Number e of an array, or some from there on, in single precision. */
-#ifdef __wasm_simd128__ /* clang makes no use of this instruction */
-INLINE Few narrow(const double *from, int e)
+/* A number, or two pairs, in single precision. */
+INLINE Few narrow(Pair low, Pair high)
 {
-    v128_t low = wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e));
-    v128_t high = wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e + 2));
-    return (Few)wasm_i32x4_shuffle(low, high, 0, 1, 4, 5);
-}
+#ifdef __wasm_simd128__ /* clang makes no use of this instruction */
+    v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
+    v128_t more = wasm_f32x4_demote_f64x2_zero((v128_t)high);
+    return (Few)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);
 #else
-#define narrow(from, e) ((float)(from)[e])
+    (void)high;
+    return (float)low;
 #endif
+}
 
 /* Those of springs that start in a row: iso and along clamped (psd.h). */
 INLINE void tensor_row(const VCycle *cycle, int i)
@@ -80,20 +81,15 @@ INLINE void tensor_row(const VCycle *cycle, int i)
     for (int odd = 0; odd < 2; odd++)
         for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
              at.first += WIDE_LANES) {
-            double far[3][WIDE_LANES];
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         const float *const own_c = cycle->c[kind] + at.first + (numbers);      \
-        EACH_OF (WIDE_LANES) {                                                 \
-            Spring s = spring_of(&grid, kind, at.first + e, to, numbers);      \
-            far[0][e] = s.dx;                                                  \
-            far[1][e] = s.dy;                                                  \
-            far[2][e] = s.s;                                                   \
-        }                                                                      \
         EACH_FEW (NEXT(at, WIDE_LANES)) {                                      \
             const int q = at.first + e;                                        \
-            Few dx = narrow(far[0], e), dy = narrow(far[1], e);                \
-            Few t = narrow(far[2], e), iso = WHERE(t > 0, t);                  \
+            Spring s = spring_of(&grid, kind, q, to, numbers);                 \
+            Spring z = spring_of(&grid, kind, q + PAIRED, to, numbers);        \
+            Few dx = narrow(s.dx, z.dx), dy = narrow(s.dy, z.dy);              \
+            Few t = narrow(s.s, z.s), iso = WHERE(t > 0, t);                   \
             Few along = 2 + (t - iso) / (dx * dx + dy * dy + 1e-35f);          \
             Few c = FEW(own_c, e);                                             \
             along = WHERE(along > 0, along);                                   \
@@ -460,11 +456,9 @@ FAST static void take(const Grid *grid, double factor, const double *a,
 {
     for (const double *end = a + 2 * grid->rows.plane; a < end;
          a += WIDE_LANES, b += WIDE_LANES) {
-        double product[WIDE_LANES];
-        EACH_OF (WIDE_LANES)
-            product[e] = factor * a[e];
         EACH_FEW (WIDE_LANES)
-            FEW(b, e) = narrow(product, e);
+            FEW(b, e) =
+                narrow(factor * PAIR(a, e), factor * PAIR(a, e + PAIRED));
     }
 }
 
