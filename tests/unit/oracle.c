@@ -80,6 +80,15 @@ static Real strain_at(const System *system, int s, const double *x)
     return (dx * dx + dy * dy) / system->l2[s] - 1;
 }
 
+/* A spring that has flowed begins the next step where V'' jumps: rounding of
+ * its strain, some units of 1 + E, says on which side. */
+static Real edge_of_flow(Spot *spot, Real E)
+{
+    return spot->jitter ? 8 * DBL_EPSILON * (1 + fabsl(E)) *
+                              random_uniform(spot->jitter, -1, 1)
+                        : 0;
+}
+
 /* k l2 V(E): slides, plasticity.h, damping.h */
 static void spring(Spot *spot, Jet *sum, const void *data, int s)
 {
@@ -95,15 +104,18 @@ static void spring(Spot *spot, Jet *sum, const void *data, int s)
     }
     Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0;
     Real held = fabsl(e), over = 0, hard = 1; /* |e| = held + over */
+    bool flows = false;
     if (flow) {
         kappa = flow->kappa[s];
         hard = flow->hardening / (1 + (Real)flow->hardening);
         hard = jittered(spot, hard); /* a double */
-        held = fminl(held, flow->yield + flow->hardening * kappa);
+        Real yield = flow->yield + flow->hardening * (Real)kappa;
+        held = fminl(held, yield);
         over = fabsl(e) - held;
+        flows = fabsl(e) - yield > edge_of_flow(spot, E.f);
     }
     V = chain(E, held * (held / 2 + over) + hard * over * over / 2,
-              copysignl(held + hard * over, e), over > 0 ? hard : 1);
+              copysignl(held + hard * over, e), flows ? hard : 1);
     Jet rate = E;
     rate.f -= theta > 0 ? strain_at(system, s, spot->at->x_n) : 0;
     V = plus(V, theta / 2, times(rate, rate));

@@ -4,6 +4,7 @@
 #include "test.h"
 #include "stress.h"
 
+#include <stdio.h>
 #include <string.h>
 
 TEST(named_cases_keep_the_promise)
@@ -74,6 +75,21 @@ TEST(the_faces_of_a_slit_touch)
                     "--tolerance 3.96e-06 --friction 0.61 --cells off --yield "
                     "0.0124 --hardening 1.71 --barrier 0.00139,2.69e+05",
                     1) >= 1);
+}
+
+/* Their second step begins where springs have just flowed and V'' jumps: either
+ * side is right. */
+TEST(springs_on_the_edge_of_flow_are_judged)
+{
+    static const double stretch[] = {0.6336, 0.6686, 0.6904, 0.7034};
+    for (int i = 0; i < 4; i++) {
+        char line[160];
+        snprintf(line, sizeof line,
+                 "square --segments 3 --stiffness 2.41e6 --density 8.93e-5 "
+                 "--timestep 13.1 --yield 7e-4 --hardening 1.5e-4 --stretch %g",
+                 stretch[i]);
+        CHECK(judged_of(line, 3) >= 3);
+    }
 }
 
 /* Steps that break one promise each, and else are those of the slides. */
