@@ -102,8 +102,9 @@ addEventListener('drop', async (event) => {
 // alone.
 let line = [];
 let bare = false;
-let shown = '';
+let shown = ''; // the address that was read or written
 const fromAddress = () => {
+  shown = location.hash;
   const [words, mark] = location.hash.slice(1).split('&');
   bare = mark === 'bare';
   return words ? words.split('+').filter(Boolean).map(decodeURIComponent) : ['--lecture'];
@@ -113,8 +114,9 @@ const toAddress = (words) =>
   words.map((word) => encodeURIComponent(word).replace(/%2C/g, ',')).join('+') +
   (bare ? '&bare' : '');
 
-// Scene, page and changed numbers stand in the address.
+// Scene, page and changed numbers stand in the address; one that waits to be read stays.
 const follow = () => {
+  if (location.hash !== shown) return;
   const words = ask('web_address', 'string').split('\n').filter(Boolean);
   if (!words.length || toAddress(words) === shown) return;
   shown = toAddress(words);

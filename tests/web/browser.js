@@ -9,10 +9,10 @@ const path = require('path');
 
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
-// Asks a tab until something is true.
+// Asks a tab until something is true; a busy machine needs long.
 const untilIn =
   (tab) =>
-  async (expression, ms = 60000) => {
+  async (expression, ms = 300000) => {
     for (const end = Date.now() + ms; Date.now() < end; await sleep(20))
       if (await tab.run(expression)) return;
     throw new Error(`${tab.url}: waited in vain for ${expression}`);
@@ -30,6 +30,7 @@ const launch = async () => {
   );
   const waiting = new Map();
   const listeners = [];
+  chromium.once('exit', () => waiting.forEach(({ fail }) => fail(new Error('Chromium ended'))));
   let number = 0;
   let rest = '';
   chromium.stdio[4].on('data', (data) => {

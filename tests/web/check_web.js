@@ -27,7 +27,7 @@ const verdict = (name, wrong) => {
 // A line without a window, in a tab that is open already; its summary.
 const headless = async (tab, line) => {
   await tab.run(
-    `$('summary').textContent = ''; location.hash = ${JSON.stringify(at(line).split('#')[1])}`,
+    `$('summary').textContent = $('said').textContent = ''; location.hash = ${JSON.stringify(at(line).split('#')[1])}`,
   );
   await tab.until(`/state hash/.test($('summary').textContent) || $('said').textContent`);
   return tab.run(`$('summary').textContent || $('said').textContent`);
@@ -105,13 +105,18 @@ const sameTables = async (browser) => {
 
 // A session ends with Y: a hash, and a script that arrives as a download and
 // leads the program to it.
+// What waits for half a second, a long touch, waits for `patience`.
+const TOUCH = `const later = setTimeout; var patience = 500;
+  setTimeout = (deed, ms) => later(deed, ms === 500 ? patience : ms);`;
+// Ten more frames.
+const more = async (tab) => tab.until(`stats.frames > ${await tab.run('stats.frames')} + 9`);
 const SESSIONS = {
   mouse: async (tab) => {
     await tab.mouse('mousePressed', 400, 350, { button: 'right' });
     await tab.mouse('mouseReleased', 400, 350, { button: 'right' });
     await tab.mouse('mousePressed', 450, 300);
     for (let i = 1; i <= 6; i++) await tab.mouse('mouseMoved', 450 + 25 * i, 300 - 20 * i);
-    await sleep(400);
+    await more(tab);
     await tab.mouse('mouseReleased', 600, 180);
     await tab.key('Space');
     await tab.mouse('mouseWheel', 400, 300, { deltaX: 0, deltaY: -200 });
@@ -125,12 +130,13 @@ const SESSIONS = {
   touch: async (tab) => {
     await tab.key('Space');
     await tab.touch('touchStart', [400, 350]);
-    await tab.until(`/pinned/.test(ask('web_text', 'string'))`, 9000).catch(() => {});
+    await tab.until(`/pinned/.test(ask('web_text', 'string'))`);
+    await tab.run('patience = 1e6'); // the next touches are none, however late they move
     await tab.touch('touchEnd');
     await tab.key('Space');
     await tab.touch('touchStart', [450, 300]);
     for (let i = 1; i <= 6; i++) await tab.touch('touchMove', [450 + 20 * i, 300 - 15 * i]);
-    await sleep(400);
+    await more(tab);
     await tab.touch('touchEnd');
     await tab.key('Space');
     await tab.touch('touchStart', [350, 300], [450, 300]);
@@ -145,15 +151,17 @@ const sessions = async (browser) => {
   for (const [name, session] of Object.entries(SESSIONS)) {
     const downloads = path.join(folder, name);
     fs.mkdirSync(downloads);
-    const tab = await browser.open(at(SQUARE));
+    const tab = await browser.open(at(SQUARE), { before: TOUCH });
     await tab.downloads(downloads);
-    await sleep(300);
+    await more(tab);
     await session(tab);
-    await sleep(300);
     await tab.key('y');
-    await sleep(700);
-    const text = await tab.run(`describe(), canvas.getAttribute('aria-label')`);
-    const script = fs.readdirSync(downloads).find((file) => /script$/.test(file));
+    const said = `(describe(), canvas.getAttribute('aria-label'))`;
+    await tab.until(`/state [0-9a-f]{16}/.test(${said})`);
+    const text = await tab.run(said);
+    const arrived = () => fs.readdirSync(downloads).find((file) => /script$/.test(file));
+    for (let tries = 0; !arrived() && tries < 3000; tries++) await sleep(100);
+    const script = arrived();
     const wrong = [...tab.trouble];
     if (!script) wrong.push('no script arrived: ' + text);
     else {
@@ -202,7 +210,7 @@ const saved = async (browser) => {
       before: CATCH,
     });
     await tab.key('0'); // what the first window says goes with the first key
-    await sleep(300);
+    await tab.until(`stats.frames > ${await tab.run('stats.frames')} + 1`);
     await tab.run(`ours = context.getImageData(0, 0, canvas.width, canvas.height).data`);
     await tab.key('s');
     await tab.until(`Object.keys(files).length === 1`);
@@ -226,7 +234,7 @@ const addresses = async (browser) => {
     if (key) await tab.key(key);
     await tab.run('looked = 0');
     await tab
-      .until(`location.hash === '#${expected}'`, 3000)
+      .until(`location.hash === '#${expected}'`, 60000)
       .catch(async () => wrong.push(`${key}: ${await tab.run('location.hash')}, not #${expected}`));
   };
   await follows('', PAGES[0].replace(' ', '+').replace(/\+.*/, ''));
@@ -236,15 +244,17 @@ const addresses = async (browser) => {
   await tab.run(`location.hash = 'circle+--timestep+0.05&bare'`);
   await follows('', 'circle+--timestep+0.05&bare');
   if (!(await tab.run('document.body.className === "bare"'))) wrong.push('not bare');
+  await tab.run(`heard = ''; new MutationObserver(() => (heard += $('said').textContent))
+    .observe($('said'), { childList: true })`); // it goes by itself
   await tab.key('y');
   await tab
-    .until(`/link .* copied/.test($('said').textContent)`, 3000)
+    .until(`/link .* copied/.test(heard)`, 60000)
     .catch(() => wrong.push('Y copies no link'));
   verdict('the_address_follows_what_is_shown', [...wrong, ...tab.trouble]);
 
   // A bad line says what the program says, and what was there goes on.
   const bad = [];
-  await tab.run(`location.hash = 'square+--segments+0'`);
+  await tab.run(`$('said').textContent = ''; location.hash = 'square+--segments+0'`);
   await tab.until(`$('said').textContent`);
   const [ours, theirs] = [
     native('square --segments 0').stderr.trim(),
@@ -253,11 +263,11 @@ const addresses = async (browser) => {
   if (ours !== theirs) bad.push(`'${theirs}', not '${ours}'`);
   await drop(tab, 'x.script', '3 no such command\n');
   await tab
-    .until(`/no command/.test($('said').textContent)`, 3000)
+    .until(`/no command/.test($('said').textContent)`, 60000)
     .catch(() => bad.push('the bad script is not named'));
   const frames = await tab.run('stats.frames');
   await tab.key('Space');
-  await tab.until(`stats.frames > ${frames}`, 3000).catch(() => bad.push('nothing goes on'));
+  await tab.until(`stats.frames > ${frames}`, 60000).catch(() => bad.push('nothing goes on'));
   verdict('bad_lines_and_scripts_are_one_sentence', bad);
 };
 
@@ -286,10 +296,10 @@ const lacking = async (browser) => {
     const tab = await browser.open(at('circle'), { before });
     await tab.run(`location.hash = ${JSON.stringify(line)}`);
     const found = `${expression}.includes('${expected}')`;
-    await tab.until(found, 5000).catch(() => wrong.push(expected));
+    await tab.until(found, 60000).catch(() => wrong.push(expected));
     const frames = await tab.run('stats.frames');
     if (before === full)
-      await tab.until(`stats.frames > ${frames}`, 3000).catch(() => wrong.push('nothing goes on'));
+      await tab.until(`stats.frames > ${frames}`, 60000).catch(() => wrong.push('nothing goes on'));
     await tab.close();
   };
   const said = `$('said').textContent`;
@@ -305,12 +315,11 @@ const lacking = async (browser) => {
   });
   await tab.until('stats.frames > 5');
   await tab.run(`away = true; document.dispatchEvent(new Event('visibilitychange'))`);
-  await sleep(100);
   const frames = await tab.run('stats.frames');
   await sleep(700);
   const after = await tab.run('stats.frames');
   await tab.run(`away = false; document.dispatchEvent(new Event('visibilitychange'))`);
-  await tab.until(`stats.frames > ${after}`, 3000).catch(() => {});
+  await tab.until(`stats.frames > ${after}`, 60000).catch(() => {});
   const back = await tab.run('stats.frames');
   verdict(
     'a_tab_in_the_background_stops',

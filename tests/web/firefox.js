@@ -14,8 +14,9 @@ const launch = async () => {
   fs.writeFileSync(path.join(profile, 'user.js'), 'user_pref("marionette.port", 0);');
   const flags = ['--headless', '--marionette', '--profile', profile];
   const firefox = spawn(process.env.FIREFOX || 'firefox-esr', flags, { stdio: 'ignore' });
-  for (let tries = 0; !fs.existsSync(port) && tries < 600; tries++) await sleep(100);
-  const socket = net.connect(Number(fs.readFileSync(port, 'utf8')), '127.0.0.1');
+  const written = () => fs.existsSync(port) && Number(fs.readFileSync(port, 'utf8'));
+  for (let tries = 0; !written() && tries < 3000; tries++) await sleep(100);
+  const socket = net.connect(written(), '127.0.0.1');
 
   const waiting = new Map();
   let rest = Buffer.alloc(0);
