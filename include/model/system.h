@@ -32,7 +32,7 @@ struct System {
     double *l2;            /* [springs] m^2, rest length squared, > 0 */
     double *k;             /* [springs] J/m^2, stiffness, > 0; see breaks */
     double gravity[2];     /* m/s^2, acceleration of every node */
-    unsigned char *pinned; /* [n] 1: the node never moves; NULL: no pins */
+    unsigned char *pinned; /* [n] 1: the node never moves; behind e */
     double *pin_v;         /* [2n] m/s, how pins are moved; NULL: not at all */
     bool breaks;           /* springs may be broken, or not there: k = 0 */
     int *order;            /* [n] elimination order, or NULL */
@@ -45,8 +45,8 @@ struct System {
                                     their term goes */
 };
 
-/* Allocates the arrays (pinned and order stay NULL), all zero; the list has the
- * springs' term where there are springs.
+/* Allocates the arrays (order stays NULL), all zero; the list has the springs'
+ * term where there are springs.
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
@@ -59,9 +59,6 @@ static inline bool spring_is_broken(const System *system, int s)
 /* After numbers were changed; with `pattern` also pins, or which nodes a term
  * is about. */
 void system_changed(System *system, bool pattern);
-
-/* Allocates system->pinned, all 0.  Returns OK, OUT_OF_MEMORY. */
-Status system_create_pins(System *system);
 
 /* Accepts NULL and a zeroed struct. */
 void system_free(System *system);

@@ -46,18 +46,13 @@ Contact *contact_of(const System *system)
     return system_data(system, &contact_energy);
 }
 
-static bool is_pinned(const System *system, int i)
-{
-    return system->pinned && system->pinned[i];
-}
-
 bool contact_has_pair(const Contact *contact, const System *system, int node,
                       int obstacle)
 {
     int ball = contact->obstacle[obstacle].node;
-    bool held = is_pinned(system, node) && !system->pin_v &&
+    bool held = system->pinned[node] && !system->pin_v &&
                 contact->obstacle[obstacle].motion.phases == 0;
-    return node != ball && !(held && (ball < 0 || is_pinned(system, ball)));
+    return node != ball && !(held && (ball < 0 || system->pinned[ball]));
 }
 
 double contact_node_radius(const Contact *contact, int node)

@@ -17,11 +17,12 @@ Status system_create(int nodes, int springs, System *system)
         return STATUS_INVALID_INPUT;
     size_t n = (size_t)nodes, count = (size_t)springs;
     system->m = calloc(n + 2 * count, sizeof *system->m);
-    system->e = calloc(2 * count + 1, sizeof *system->e);
+    system->e = calloc(1, 2 * count * sizeof *system->e + n);
     if (!system->m || !system->e)
         return STATUS_OUT_OF_MEMORY;
     system->l2 = system->m + n;
     system->k = system->l2 + count;
+    system->pinned = (unsigned char *)(system->e + 2 * count);
     return springs == 0 || system_term(system, &mass_spring_energy, 1)
                ? STATUS_OK
                : STATUS_OUT_OF_MEMORY;
@@ -31,12 +32,6 @@ void system_changed(System *system, bool pattern)
 {
     system->version++;
     system->pattern += pattern;
-}
-
-Status system_create_pins(System *system)
-{
-    system->pinned = calloc((size_t)system->nodes, sizeof *system->pinned);
-    return system->pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
 static void free_term(Term *term)
@@ -52,7 +47,6 @@ void system_free(System *system)
         return;
     free(system->m);
     free(system->e);
-    free(system->pinned);
     free(system->pin_v);
     free(system->order);
     for (int t = 0; t < system->terms; t++)
@@ -216,8 +210,6 @@ double system_potential(const System *system, const double *x)
 
 void system_clear_pinned(const System *system, double *g)
 {
-    if (!system->pinned)
-        return;
     for (int i = 0; i < system->nodes; i++)
         if (system->pinned[i])
             g[2 * i] = g[2 * i + 1] = 0;
@@ -228,7 +220,7 @@ bool system_is_free(const System *system)
     for (int t = 0; t < system->terms; t++)
         if (!system->term[t].kind->internal)
             return false;
-    return !system->pinned;
+    return !memchr(system->pinned, 1, (size_t)system->nodes);
 }
 
 void system_acceleration(const System *system, const double *x, double *a)

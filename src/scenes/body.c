@@ -126,10 +126,8 @@ static Status create_system(const Options *options, int more, SquareMesh *mesh,
         return STATUS_OUT_OF_MEMORY;
     for (int i = 0; i < system->nodes; i++)
         system->order[i] = i < mesh->nodes ? mesh->order[i] : i;
-    if (!options->pin)
-        return STATUS_OK;
-    status = system_create_pins(system);
-    return status ? status : pins_read(options->pin, mesh, system->pinned);
+    return options->pin ? pins_read(options->pin, mesh, system->pinned)
+                        : STATUS_OK;
 }
 
 _Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS + 2 <=
@@ -333,7 +331,7 @@ Status body_create(Simulation *simulation, int run)
     if (!status)
         status = x ? place_body(&options, mesh, run, x, v, (Refusal){0})
                    : STATUS_OUT_OF_MEMORY;
-    for (int i = 0; !status && system->pinned && i < system->nodes; i++)
+    for (int i = 0; !status && i < system->nodes; i++)
         if (system->pinned[i])
             v[2 * i] = v[2 * i + 1] = 0;
     if (!status)

@@ -72,7 +72,7 @@ Status create_tear(Simulation *simulation)
     System *system = &simulation->system;
     Status status = create_square(simulation);
     for (int i = 0; i < mesh->nodes && !status; i++) /* a pin set later stays */
-        if (system->pinned && system->pinned[i])
+        if (system->pinned[i])
             system->pin_v[2 * i] = copysign(0.2 * mesh->side, mesh->x[2 * i]);
     if (!status)
         cut(simulation, 0.5 * mesh->spacing, -0.12 * mesh->side,

@@ -29,8 +29,7 @@ Control *control_of(const Simulation *simulation)
         control->hand = hand->node;
         memcpy(control->at, hand->mouse, sizeof control->at);
     }
-    if (system->pinned)
-        memcpy(control->pinned, system->pinned, (size_t)system->nodes);
+    memcpy(control->pinned, system->pinned, (size_t)system->nodes);
     return control;
 }
 
@@ -148,30 +147,19 @@ static void stop_node(TimeIntegrator *run, int node)
     run->memory_h = 0;
 }
 
-/* A node whose pin comes or goes stands still.  A system without pins is the
- * one that never had any: its centre of mass is free. */
-static Status use_pins(Simulation *simulation, const Control *control)
+/* A node whose pin comes or goes stands still. */
+static void use_pins(Simulation *simulation, const Control *control)
 {
     System *system = &simulation->system;
-    bool any = false;
     for (int i = 0; i < system->nodes; i++) {
-        any = any || control->pinned[i];
-        if (simulation_is_pinned(simulation, i) == control->pinned[i])
+        if (system->pinned[i] == control->pinned[i])
             continue;
         system_changed(system, true);
         for (int r = 0; r < simulation->runs; r++)
             if (simulation->run[r].system == system)
                 stop_node(&simulation->run[r], i);
     }
-    if (any && !system->pinned && system_create_pins(system))
-        return STATUS_OUT_OF_MEMORY;
-    if (any) {
-        memcpy(system->pinned, control->pinned, (size_t)system->nodes);
-    } else {
-        free(system->pinned);
-        system->pinned = NULL;
-    }
-    return STATUS_OK;
+    memcpy(system->pinned, control->pinned, (size_t)system->nodes);
 }
 
 /* Far stiffer than a spring, so that the node goes to the mouse, and the
@@ -211,8 +199,7 @@ Status simulation_use(Simulation *simulation, const Control *control)
     double had[SIMULATION_MAX_RUNS];
     dissipated_so_far(simulation, had);
     Status status = use_options(simulation, &control->options);
-    if (!status)
-        status = use_pins(simulation, control);
+    use_pins(simulation, control);
     if (!status)
         status = use_hand(simulation, control);
     if (!status)

@@ -15,8 +15,6 @@ Status small_system(System *system, int held, double mass, double length,
                     double stiffness)
 {
     Status status = system_create(1 + held, held, system);
-    if (!status && held > 0)
-        status = system_create_pins(system);
     for (int i = 0; i <= held && !status; i++)
         system->m[i] = mass;
     for (int s = 0; s < held && !status; s++) {

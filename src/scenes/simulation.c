@@ -166,7 +166,7 @@ bool simulation_is_handled(const Simulation *simulation)
 
 bool simulation_is_pinned(const Simulation *simulation, int node)
 {
-    return simulation->system.pinned && simulation->system.pinned[node];
+    return simulation->system.pinned[node];
 }
 
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row)

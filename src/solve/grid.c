@@ -91,13 +91,13 @@ static void read_nodes(Grid *grid, const System *system, const double *m)
     double *const arrays[] = {grid->m, grid->per_m};
     grid->lightest = INFINITY;
     for (int k = 0; k < rows->nodes * rows->nodes; k++)
-        if (!(system->pinned && system->pinned[k]))
+        if (!system->pinned[k])
             grid->lightest = fmin(grid->lightest, m[2 * k]);
     grid->mass = unit_of(grid->lightest);
     grid->lightest *= grid->mass;
     for (int i = 0, node = 0, at = 0; i < rows->nodes; i++) {
         for (int j = 0; j < rows->nodes; j++, node++) {
-            bool held = system->pinned && system->pinned[node];
+            bool held = system->pinned[node];
             int q = place_of(rows, at, j);
             grid->m[q] = grid->mass * m[2 * node];
             grid->per_m[q] = held ? 0 : 1 / grid->m[q];
@@ -168,7 +168,7 @@ void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
             int q = place_of(rows, i, j);
-            bool held = pinned && pinned[node];
+            bool held = pinned[node];
             for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
                 double to = held ? at->u[k] : u_tilde[k];
                 grid->x[q] = unit * at->x[k];

@@ -101,9 +101,9 @@ static void drop_pinned(const System *system, const Triplets *triplets,
                         const Sparse *A, int *slot)
 {
     int masses = 2 * system->nodes;
-    for (int t = 0; system->pinned && t < masses; t++)
+    for (int t = 0; t < masses; t++)
         A->value[slot[t]] = system->pinned[t / 2];
-    for (int t = masses; system->pinned && t < triplets->count; t++)
+    for (int t = masses; t < triplets->count; t++)
         if (A->value[A->start[triplets->row[t]]] != 0 ||
             A->value[A->start[triplets->column[t]]] != 0)
             slot[t] = A->entries;
@@ -297,7 +297,7 @@ Status incremental_potential_solve(Iterate *at)
         if (system->term[t].kind->value && !system->term[t].kind->diagonal)
             return STATUS_RUNNING;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        if (!system->pinned || !system->pinned[i / 2])
+        if (!system->pinned[i / 2])
             at->u[i] = at->E.u_tilde[i];
         at->x[i] = at->E.x_n[i] + at->u[i];
     }

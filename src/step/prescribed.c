@@ -62,7 +62,7 @@ static void carry(const System *system, const Contact *contact, double way,
             continue;
         for (int i = 0; i < system->nodes; i++) {
             if (!contact_has_pair(contact, system, i, k) ||
-                (system->pinned && system->pinned[i])) /* it gives no way */
+                system->pinned[i]) /* it gives no way */
                 continue;
             double now[2] = {x_n[2 * i] + u[2 * i],
                              x_n[2 * i + 1] + u[2 * i + 1]};
@@ -89,7 +89,7 @@ static bool make_part(TimeIntegrator *run, const double *x_n, double part,
     for (int i = 0; i < 2 * system->nodes; i++) {
         u[i] = p[i] = first ? 0 : run->newton->at.u[i];
         before[i] = x_n[i] + u[i];
-        if (system->pin_v && system->pinned && system->pinned[i / 2])
+        if (system->pin_v && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
     }
     move_obstacles(contact, way);
@@ -154,7 +154,7 @@ static double pins_work(const TimeIntegrator *run, double weight, double *g)
     Place at = place_at(system, newton->at.E.x_n, newton->at.u, newton->at.x);
     double sum = 0;
     at.w = weight;
-    if (!system->pin_v || !system->pinned)
+    if (!system->pin_v)
         return 0;
     memset(g, 0, 2 * (size_t)system->nodes * sizeof *g);
     inertia_energy_gradient(system->nodes, newton->at.u, newton->u_tilde,

@@ -59,7 +59,6 @@ static void disturb(Random *random, bool pins)
     int side = body->segments + 1;
     double cell = 1.0 / body->segments;
     if (pins) {
-        CHECK_STATUS(system_create_pins(body), STATUS_OK);
         for (int i = 0; i < side; i++)
             body->pinned[i * side + side - 1] = 1;
         for (int i = 0; i <= body->nodes / 20; i++)

@@ -116,7 +116,6 @@ static void make_pair(double m0, double m1, double k)
     system_free(&pair);
     memset(&newton, 0, sizeof newton);
     CHECK_STATUS(system_create(2, 1, &pair), STATUS_OK);
-    CHECK_STATUS(system_create_pins(&pair), STATUS_OK);
     pair.e[1] = 1;
     pair.l2[0] = 1;
     pair.k[0] = k;

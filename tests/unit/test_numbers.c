@@ -145,7 +145,8 @@ static bool only_springs(const Simulation *simulation)
     Filter filter = simulation->options.filter;
     return system->terms == 1 && terms_made == 1 && made.timestep > 0 &&
            made.stiffness == simulation->options.stiffness &&
-           made.filter == filter && !system->pinned && system->nodes <= 25 &&
+           made.filter == filter && system_is_free(system) &&
+           system->nodes <= 25 &&
            system_find_term(system, &mass_spring_energy) && method &&
            strcmp(method->name, "backward-euler") == 0 &&
            system->gravity[1] == 0 &&
