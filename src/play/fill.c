@@ -89,13 +89,12 @@ static void value_text(const OptionRow *row, const Options *options,
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
         unit[0] = '\0'; /* of a gradient */
     option_value(row, options, value, sizeof value);
-    if (row->slot == OPTION_SLOT(integrator))
-        snprintf(
-            text, size, "%s",
-            simulation->runs > 1 && options->integrator < 0 &&
-                    simulation->run[0].method != simulation->run[1].method
-                ? "three Eulers"
-                : integrator_methods[(int)fmax(options->integrator, 0)].label);
+    if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
+        simulation->run[0].method != simulation->run[1].method)
+        snprintf(text, size, "three Eulers");
+    else if (row->slot == OPTION_SLOT(integrator))
+        snprintf(text, size, "%s",
+                 integrator_methods[(int)fmax(options->integrator, 0)].label);
     else if (strcmp(row->name, "solver") == 0 && simulation->steps > 0 &&
              simulation->run[0].newton &&
              simulation->run[0].newton->working != options->solver)

@@ -147,11 +147,14 @@ Status obey_card(Player *player, const Command *command)
 static void free_name(const Player *player, const char *end, char *name,
                       size_t size)
 {
-    const char *scene = player_simulation(player)->scene->name;
-    snprintf(name, size, "elasto_%s_%06ld%s", scene, player->past.step, end);
-    for (int i = 2; access(name, F_OK) == 0 && i < 100000; i++)
-        snprintf(name, size, "elasto_%s_%06ld_%d%s", scene, player->past.step,
-                 i, end);
+    char number[16] = "";
+    for (int i = 2; i < 100000; i++) {
+        snprintf(name, size, "elasto_%s_%06ld%s%s", player->scene->name,
+                 player->past.step, number, end);
+        if (access(name, F_OK) != 0)
+            return;
+        snprintf(number, sizeof number, "_%d", i);
+    }
 }
 
 static const char *reason_of(Status status)

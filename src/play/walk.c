@@ -129,17 +129,14 @@ Status obey_back(Player *player, const Command *command)
 /* Steps, updates, lines, and steps again. */
 Status obey_finer(Player *player, const Command *command)
 {
-    static const char *const text[] = {
-        "N and \u2190 go by whole steps",
-        "N and \u2190 go by updates of Newton's method",
-        "N and \u2190 go by lines of Algorithm 3",
-    };
+    static const char *const paces[] = {
+        "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
     if (!has_updates(player) && player->fine == 0)
         return player_refuse(player, "a step here has no finer ones");
     player->fine = (player->fine + 1) % 3;
     if (player->fine == 0 || !player_stands(player))
         player->mode = MODE_PAUSE;
-    player_note(player, "%s", text[player->fine]);
+    player_note(player, "N and \u2190 go by %s", paces[player->fine]);
     return STATUS_OK;
 }
 
