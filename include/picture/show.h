@@ -297,13 +297,14 @@ long show_step_at(const Show *show, const Layout *layout, double x);
  * number, cards that are hidden; and in the column, if asked for, the text of
  * its function or the list of pages, in which the page that was left is marked
  * where none is open.  Before show_describe. */
-typedef enum LectureColumn {
-    LECTURE_CARDS,
-    LECTURE_CODE,
-    LECTURE_PAGES
-} LectureColumn;
-void show_lecture(LectureColumn column, const struct LecturePage *left,
-                  Show *show);
+typedef enum Column {
+    COLUMN_CARDS,
+    COLUMN_CODE,
+    COLUMN_PAGES,
+    COLUMN_KEYS, /* and what follows: others fill it */
+    COLUMN_OPTIONS
+} Column;
+void show_lecture(Column column, const struct LecturePage *left, Show *show);
 
 /* Fills the facts of all panes. */
 void show_know(Show *show);

@@ -49,15 +49,6 @@ typedef enum Then {
     THEN_TELL   /* it was taken again: both outcomes are told */
 } Then;
 
-/* What the column shows. */
-typedef enum Column {
-    COLUMN_CARDS = LECTURE_CARDS,
-    COLUMN_CODE = LECTURE_CODE,
-    COLUMN_PAGES = LECTURE_PAGES,
-    COLUMN_KEYS,
-    COLUMN_OPTIONS
-} Column;
-
 typedef struct Mouse {
     double x, y; /* pixels */
     bool placed; /* where it rests at the start is known: now it can move */

@@ -141,12 +141,12 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
-void show_lecture(LectureColumn column, const LecturePage *left, Show *show)
+void show_lecture(Column column, const LecturePage *left, Show *show)
 {
     const Simulation *simulation = show_pane(show)->simulation;
     const LecturePage *page = simulation->options.page;
     const Picture *picture = picture_of(simulation->scene);
-    if (column == LECTURE_PAGES)
+    if (column == COLUMN_PAGES)
         fill_pages(page ? page : left, show);
     if (!page)
         return;
@@ -166,6 +166,6 @@ void show_lecture(LectureColumn column, const LecturePage *left, Show *show)
         if (open && picture->cards[c]->closed)
             show->closed &= ~(1u << c);
     }
-    if (column == LECTURE_CODE)
+    if (column == COLUMN_CODE)
         fill_code(page, show);
 }

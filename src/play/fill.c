@@ -410,9 +410,7 @@ void player_fill(Player *player)
     explain_number(player, show);
     bool explained = show->sentence[0];
     show->veiled = player_veils(player);
-    show_lecture(player->column >= COLUMN_KEYS ? LECTURE_CARDS
-                                               : (LectureColumn)player->column,
-                 player->left, show);
+    show_lecture(player->column, player->left, show);
     player_fill_sheet(player);
     show_describe(show);
     if (player->explains && explained && !player->typing)

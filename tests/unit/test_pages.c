@@ -84,7 +84,7 @@ static double known(const char *name, const char *fact)
     Simulation *simulation = open_page(name, "");
     simulation->options.page = lecture_find(name);
     show_create(simulation, &show);
-    show_lecture(LECTURE_CARDS, NULL, &show);
+    show_lecture(COLUMN_CARDS, NULL, &show);
     return show_number(&show, fact);
 }
 
@@ -134,7 +134,7 @@ TEST(claim_mesh)
         int lit = 0, from = -1;
         show_create(simulation, &show);
         simulation->steps = s;
-        show_lecture(LECTURE_CODE, NULL, &show);
+        show_lecture(COLUMN_CODE, NULL, &show);
         for (int i = 0; i < show.page.lines; i++)
             if (show.page.lit[i]) {
                 lit++;
@@ -1094,7 +1094,7 @@ TEST(words_of_all_pages_have_one_size)
             Show show;
             Paper paper;
             show_create(simulation, &show);
-            show_lecture(LECTURE_CARDS, NULL, &show);
+            show_lecture(COLUMN_CARDS, NULL, &show);
             show_know(&show);
             CHECK_STATUS(paper_create(width, height, &paper), STATUS_OK);
             show.settings = 9; /* as many as fill two rows */
@@ -1143,8 +1143,7 @@ TEST(letters_are_seen_from_the_back_row)
         Simulation *simulation = open_page(page->name, "");
         simulation->options.page = page;
         for (int i = 0; i < 4; i++) {
-            LectureColumn column =
-                i < 2 ? LECTURE_CARDS : (LectureColumn)(i - 1);
+            Column column = i < 2 ? COLUMN_CARDS : (Column)(i - 1);
             int s = (int)(page - lecture_pages + i) % 3;
             Show show;
             simulation->options.big = i == 1;
@@ -1158,9 +1157,9 @@ TEST(letters_are_seen_from_the_back_row)
                 lit += show.page.lit[k];
                 CHECK(!strstr(show.page.line[k], "FAIL("));
             }
-            if (column == LECTURE_CODE)
+            if (column == COLUMN_CODE)
                 CHECK(lit > 0 && show.page.lines >= 4 && show.page.lines <= 22);
-            if (column == LECTURE_CODE &&
+            if (column == COLUMN_CODE &&
                 strcmp(page->file, "src/lecture.c") == 0 &&
                 !(50 * (smallest_code + 0.5) > sizes[s][1]))
                 fail_msg("page %s at %d x %d: code of %d", page->name,
