@@ -14,16 +14,13 @@
 Status player_own_options(Player *player, const char *scene,
                           const LecturePage *page, Options *options, int *count)
 {
-    char program[] = "elasto", word[COMMAND_TEXT_SIZE];
-    char *arguments[] = {program, word, NULL};
     const Options *given = &player->given[0];
     *count = 1;
     if (page)
         return lecture_options(page, options, player->message,
                                sizeof player->message);
-    snprintf(word, sizeof word, "%s", scene);
-    Status status = options_parse(2, arguments, 0, options, player->message,
-                                  sizeof player->message);
+    Status status = options_of_line(scene, options, player->message,
+                                    sizeof player->message);
     if (status)
         return status;
     options->speed = given->speed;

@@ -233,7 +233,7 @@ static Status drag_edge(Player *player, const Under *under)
                : player_ask_set(player, option_find("stretch"), stretch);
 }
 
-/* The node nearest to the mouse, or -1: it is beside the body. */
+/* The node under the mouse, or nearest to it; -1: it is beside the body. */
 static int near_node(const Player *player, const Under *under)
 {
     const Pane *pane = &player->show.pane[under->pane];
@@ -241,6 +241,8 @@ static int near_node(const Player *player, const Under *under)
     const double *x = pane_x(pane);
     double reach = 0.75 * mesh->spacing;
     int nearest = -1;
+    if (under->pick.kind == PICK_NODE)
+        return under->pick.index;
     for (int i = 0; i < mesh->nodes; i++) {
         double away =
             math_hypot(x[2 * i] - under->at[0], x[2 * i + 1] - under->at[1]);
@@ -281,9 +283,6 @@ static Status take(Player *player, const Under *under)
     mouse->index = under->pick.index;
     show_hold(&player->show, under->pane);
     switch (under->pick.kind) {
-    case PICK_NODE:
-        mouse->drag = paused ? COMMAND_PLACE : COMMAND_GRAB;
-        return STATUS_OK;
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
         point = obstacle_at(&options, mouse->index);
@@ -307,7 +306,8 @@ static Status take(Player *player, const Under *under)
         mouse->drag = COMMAND_START;
         return ask_at(player, COMMAND_START, mouse->index, under->pick.point);
     default:
-        player->show.hover.kind = PICK_NONE; /* a spring beside the node */
+        if (under->pick.kind != PICK_NODE) /* a spring beside the node */
+            player->show.hover.kind = PICK_NONE;
         mouse->index = near_node(player, under);
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
                       : paused         ? COMMAND_PLACE
@@ -321,8 +321,7 @@ static Status take(Player *player, const Under *under)
 static Status pin(Player *player, const Under *under)
 {
     const Scene *scene = player_simulation(player)->scene;
-    int node = under->pick.kind == PICK_NODE ? under->pick.index
-                                             : near_node(player, under);
+    int node = near_node(player, under);
     if (node < 0 && (scene->needs & NEEDS_MESH) && !scene->step)
         return player_refuse(player, "no node is here: a right click on one "
                                      "pins it, or sets it free");
