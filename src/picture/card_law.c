@@ -174,6 +174,25 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
     return law;
 }
 
+bool law_gap(const Simulation *simulation, LawGap *gap)
+{
+    LawNow now;
+    const Law *law = law_now(simulation, 0, &now);
+    if (!law || simulation->runs > 1 || isnan(now.x) || !law->source ||
+        law->value == triangle_value)
+        return false;
+    const System *system = now.at.system;
+    bool self = law->source == &self_contact_energy;
+    gap->d_hat = self ? self_contact_of(system)->d_hat
+                      : contact_of(system)->barrier.d_hat;
+    gap->d = self ? sqrt(now.element.s) * gap->d_hat : now.element.s;
+    for (int c = 0; c < 2; c++) {
+        gap->node[c] = now.at.x[2 * now.element.node[0] + c];
+        gap->foot[c] = gap->node[c] - gap->d * now.element.n[c];
+    }
+    return true;
+}
+
 void law_facts(const Simulation *simulation, Facts *facts)
 {
     LawNow now;
@@ -187,6 +206,13 @@ void law_facts(const Simulation *simulation, Facts *facts)
                             : "no spring has flowed");
     fact(facts, "law x", flowed ? now.x : NAN);
     fact(facts, "law y", isnan(now.x) ? NAN : law->value(&now, now.x));
+    const SquareMesh *mesh = &simulation->mesh;
+    int last = mesh->bodies - 1, nodes = mesh->nodes / mesh->bodies;
+    double sum = 0;
+    for (int i = last * nodes; i < mesh->nodes; i++)
+        sum += simulation->run[0].x[2 * i];
+    if (law->kind == &self_friction_energy)
+        fact(facts, "gone", sum / nodes - simulation->options.body[last][0]);
 }
 
 /* The curve for the element of the first run; of springs all others are there,

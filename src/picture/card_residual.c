@@ -24,7 +24,8 @@ static void draw_updates(const Plot *plot, const NewtonRecord *records,
 {
     const double radius = 3.5;
     for (int i = 0; i < count; i++) {
-        const double point[2] = {isfinite(before[0]) ? before[0] + 1 : 1,
+        const double point[2] = {isfinite(before[0]) ? before[0] + 1
+                                                     : plot->x.low + 0.5,
                                  records[i].residual};
         if (isfinite(before[0]))
             plot_line(plot, before, point, 1.3, COLOUR_P);
@@ -76,13 +77,16 @@ void residual_draw(const Plot *card)
     const NewtonRecord now = {.residual = trace->residual, .kind = trace->kind};
     extend_range(trace->record, trace->updates, range);
     extend_range(&now, pending, range);
+    const LecturePage *page = card->show->lecture;
+    bool star = page && page->star; /* from 0, as the slides' program prints */
     double most = fmax(trace->updates + pending, 4);
-    Axis x = {0.5, most + 0.5, false, true, "update"};
+    Axis x = {0.5 - star, most + 0.5 - star, false, true,
+              star ? "iteration" : "update"};
     Axis y = {pow(10, floor(log10(range[0]))), pow(10, ceil(log10(range[1]))),
-              true, false, NULL};
+              true, false, star ? "residual, m/s" : NULL};
     Plot plot = plot_create(card, x, y);
     bool time = card->simulation->scene->needs & NEEDS_TIME;
-    draw_tolerance(&plot, trace->tolerance, time ? trace->h : 0);
+    draw_tolerance(&plot, trace->tolerance, time && !star ? trace->h : 0);
     draw_updates(&plot, trace->record, trace->updates, from);
     draw_updates(&plot, &now, pending, from);
 }

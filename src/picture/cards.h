@@ -60,6 +60,13 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show);
 /* What a page knows of its law, and where the scene is on it. */
 void law_facts(const Simulation *simulation, Facts *facts);
 
+/* The gap, m, where the law is felt most: from foot, on a wall or an edge, to a
+ * node.  Returns false where there is none that is below d_hat. */
+typedef struct LawGap {
+    double foot[2], node[2], d, d_hat;
+} LawGap;
+bool law_gap(const Simulation *simulation, LawGap *gap);
+
 /* A quantity of a history at this time, or at the last point before it, J; what
  * is only rounding beside the others, at that time and at the beginning, is 0;
  * infinite where the present energies are no numbers, NaN where there is no

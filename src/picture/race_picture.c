@@ -5,7 +5,8 @@
 #include "picture/colour_map.h"
 #include "scenes/small_scenes.h"
 
-static const double NAMED = 36; /* ems, for names beside the lines */
+static const double NAMED = 36;  /* ems, for names beside the lines */
+static const double NEAR = 0.01; /* m, the error that is asked for */
 
 /* Across: run time, or h where that is switched on. */
 static double place_of(const Simulation *simulation, const RacePoint *point)
@@ -18,9 +19,9 @@ void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.parts;
     bounds[0] = over_h ? -4.5 : -6.3;
-    bounds[1] = -10;
+    bounds[1] = over_h ? -12 : -10;
     bounds[2] = over_h ? -1.9 : 0.3;
-    bounds[3] = 3; /* below the switch */
+    bounds[3] = over_h ? 5 : 3; /* below the switch */
 }
 
 /* The points of a method joined, hollow where it explodes later.  Returns the
@@ -57,6 +58,12 @@ void race_draw(Plot *stage)
         stage,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true, .label = "error in m"});
+    const double at[2][2] = {{plot.x.low, NEAR}, {plot.x.high, NEAR}};
+    if (!over_h)
+        plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
+    if (!over_h && stage->text)
+        plot_text(&plot, at[1], -0.4, -1.3, 0.95, ALIGN_RIGHT, FACE_BOLD,
+                  COLOUR_TEXT, "1 cm");
     for (int i = 0; i < RACE_METHODS; i++)
         last[i] = draw_method(&plot, i);
     for (int i = 0; i < RACE_METHODS && wide; i++)
@@ -69,31 +76,55 @@ void race_draw(Plot *stage)
                        race_method(i)->label);
 }
 
+/* The quickest run that is so near, of an implicit method or an explicit one,
+ * NULL: there is none. */
+static const RacePoint *find_quickest(const Race *race, bool implicit)
+{
+    const RacePoint *best = NULL;
+    for (const RacePoint *at = race->point; at < race->point + race->count;
+         at++)
+        if (at->method->implicit == implicit && at->error <= NEAR &&
+            (!best || at->seconds < best->seconds))
+            best = at;
+    return best;
+}
+
 void race_facts(const Simulation *simulation, Facts *facts)
 {
+    static const char *const names[2][2] = {{"explicit", "explicit ms"},
+                                            {"implicit", "implicit ms"}};
+    for (int i = 0; i < 2; i++) {
+        const RacePoint *best = find_quickest(&simulation->exhibit.race, i > 0);
+        fact_words(facts, names[i][0], best ? best->method->label : "none");
+        fact(facts, names[i][1], best ? 1e3 * best->seconds : INFINITY);
+    }
     fact(facts, "methods", RACE_METHODS);
     fact_when(facts, "failed", simulation->status);
 }
 
-/* A number of a row of the table; "" where it is not known. */
-static void put_cell(char *cell, size_t size, double value, int digits,
-                     const char *unit)
+/* A number of a row of the table; nothing where it is not known. */
+static void put_cell(char *cell, size_t size, const char *sign, double value,
+                     int digits, const char *unit)
 {
     if (isfinite(value))
-        snprintf(cell, size, "%s%s", number_with(value, digits).text, unit);
+        snprintf(cell, size, "%s%.40s%s", sign, number_with(value, digits).text,
+                 unit);
 }
 
-/* A method a row: its errors with h, h/2 and h/4, the longest stable step, and
- * with h what is left of the energy after a second, and how long it took; a
- * narrow card has room for some of it. */
+/* A method a row: its error with h, by what it is divided as h is halved again
+ * and again, the longest stable step, and with h what is left of the energy
+ * after a second, and how long it took; a narrow card has room for some of it.
+ */
 void table_draw(const Plot *card)
 {
-    static const char *const heads[] = {"",          "4 ms",   "2 ms", "1 ms",
-                                        "stable at", "energy", "time"};
-    enum { COLUMNS = 7, CELL = 64 };
+    enum { COLUMNS = 9, HALVED = 4, CELL = 64 };
+    static const char *const heads[COLUMNS] = {"",          "error, m", "h/2",
+                                               "h/4",       "h/8",      "h/16",
+                                               "stable at", "energy",   "time"};
     static const double columns[2][COLUMNS] = {
-        {0, 0.56, 0, 0, 0.78, 0, 1}, {0, 0.37, 0.49, 0.61, 0.73, 0.86, 1}};
-    bool wide = card->box.width > 40 * card->paper->em;
+        {0, 0.56, 0, 0, 0, 0, 0.78, 0, 1},
+        {0, 0.31, 0.4, 0.475, 0.55, 0.625, 0.755, 0.88, 1}};
+    bool wide = card->box.width > 46 * card->paper->em;
     const Race *race = &card->simulation->exhibit.race;
     Paper *paper = card->paper;
     Box inside = card->box;
@@ -102,23 +133,27 @@ void table_draw(const Plot *card)
         char cell[COLUMNS][CELL] = {""};
         int method = row > 0 ? row - 1 : 0;
         const IntegratorMethod *shown = race_method(method);
+        const RacePoint *point =
+            &race->point[RACE_SHOWN * RACE_METHODS + method];
         snprintf(cell[0], CELL, "%s", shown->label);
-        for (int k = 0; k < 3; k++) {
-            int at = (RACE_SHOWN + k) * RACE_METHODS + method;
-            const RacePoint *point = &race->point[at];
-            put_cell(cell[1 + k], CELL, at < race->count ? point->error : NAN,
-                     2, "");
-            if (k > 0 || at >= race->count)
-                continue;
-            snprintf(cell[5], CELL, "explodes");
-            put_cell(cell[5], CELL, point->later, 3, "");
-            put_cell(cell[6], CELL, 1e3 * point->seconds, 2, " ms");
+        if (race->count > point - race->point) {
+            put_cell(cell[1], CELL, "", point->error, 2, "");
+            snprintf(cell[7], CELL, "explodes");
+            put_cell(cell[7], CELL, "\u00d7 ", point->later, 2, "");
+            put_cell(cell[8], CELL, "", 1e3 * point->seconds, 2, " ms");
+        }
+        for (int k = 1; k <= HALVED; k++) {
+            const RacePoint *half = point + RACE_METHODS;
+            if (race->count > half - race->point)
+                put_cell(cell[1 + k], CELL, "\u00f7 ",
+                         point->error / half->error, 2, "");
+            point = half;
         }
         if (shown->implicit)
-            snprintf(cell[4], CELL, "linear: any");
+            snprintf(cell[6], CELL, "linear: any");
         else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
-            snprintf(cell[4], CELL, "none");
-        put_cell(cell[4], CELL,
+            snprintf(cell[6], CELL, "none");
+        put_cell(cell[6], CELL, "",
                  shown->implicit ? NAN : 1e3 * race_stable(race, method), 3,
                  " ms");
         for (int c = 0; c < COLUMNS; c++)

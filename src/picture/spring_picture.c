@@ -11,6 +11,7 @@ enum { SPRING_COILS = 12 };
 
 static const double SPRING_REACH = 1.7;   /* m, seen at least */
 static const double SPRING_ARROW = 0.005; /* m/N, of the force */
+static const double SPRING_BESIDE = 0.13; /* m, beside the spring */
 static const double origin[2] = {0, 0};
 
 void spring_bounds(const Plot *stage, double bounds[4])
@@ -84,13 +85,17 @@ void spring_draw(Plot *stage)
     SpringFacts facts = facts_of_spring(simulation);
     bool projects = facts.across < 0 && !show->veiled;
     spring_circle(stage, l, COLOUR_FAINT, "l");
-    spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
+    if (!show->lecture || show->lecture->modes)
+        spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     spring_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
     if (show->lecture && show->lecture->modes && !show->veiled)
         spring_eigenvectors(stage, x, &facts, simulation->system.k[0]);
-    else
-        plot_arrow(stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
+    else if (facts.length > 0) { /* beside the spring */
+        double side = SPRING_BESIDE / facts.length;
+        const double from[2] = {x[0] - side * x[1], x[1] + side * x[0]};
+        plot_arrow(stage, from, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
+    }
     plot_disc(stage, x, 9, COLOUR_X);
 }
 
@@ -199,6 +204,11 @@ void profile_draw(const Plot *card)
     if (both) {
         plot_graph(&plot, root_over, system, 1.8, COLOUR_GHOST);
         plot_disc(&plot, root, 5, COLOUR_GHOST);
+        plot_words(&plot, 1, &(const double[2]){0, root_over(system, 0)}, 0.6,
+                   1.2, FACE_BOLD, COLOUR_GHOST,
+                   "P_{r} = 2k (|d| \u2212 l)\u00b2");
+        plot_words(&plot, 1, &(const double[2]){0, energy_over(system, 0)}, 0.6,
+                   1.2, FACE_BOLD, COLOUR_X, "P");
     }
     plot_disc(&plot, at, 6, COLOUR_TEXT);
 }

@@ -18,6 +18,7 @@ enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
 static const double ROOM = 1.14;       /* of the stage around the square */
+static const double LENS = 12;         /* ems, the side of a lens */
 static const double BARE_ROOM = 1.75;  /* the bare square: 57 % of the side */
 
 /* ---- how much of the world is seen -------------------------------------- */
@@ -307,6 +308,40 @@ static void draw_cuts(const SpringPen *pen)
     square_outline(pen, pen->x, false, COLOUR_X);
 }
 
+/* In the corner, the gap of the page's law so large that it is seen. */
+static void draw_lens(const SpringPen *pen)
+{
+    Plot lens = *pen->stage;
+    Canvas *canvas = &lens.paper->canvas;
+    LawGap gap;
+    char words[60];
+    int side = (int)(LENS * lens.em), air = (int)lens.em;
+    if (!pen->show->lecture || pen->show->veiled || lens.box.width < 2 * side ||
+        !law_gap(pen->simulation, &gap))
+        return;
+    lens.box = (Box){lens.box.x + lens.box.width - side - air, lens.box.y + air,
+                     side, side};
+    double bounds[4];
+    for (int c = 0; c < 4; c++)
+        bounds[c] = 0.5 * (gap.foot[c % 2] + gap.node[c % 2]) +
+                    (c < 2 ? -1.2 : 1.2) * gap.d_hat;
+    plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
+    canvas_card(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
+    Box before = canvas_clip(canvas, box_inset(lens.box, 1));
+    lens.camera = camera_create(lens.box, bounds, false, &LENS_FITS);
+    SpringPen near = square_pen(&lens, 0);
+    square_cells(&near, true);
+    square_contact_obstacles(&near);
+    near.radius = 4;
+    square_springs(&near);
+    square_nodes(&near);
+    plot_line(&lens, gap.foot, gap.node, 3, COLOUR_P);
+    snprintf(words, sizeof words, "d = %s mm", number_of(1e3 * gap.d).text);
+    paper_panel(lens.paper, FACE_BOLD, 1, COLOUR_P, lens.box.x + 0.6 * lens.em,
+                lens.box.y + 0.4 * lens.em, ALIGN_LEFT, words);
+    canvas_clip(canvas, before);
+}
+
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
 void square_draw(Plot *stage)
@@ -342,6 +377,7 @@ void square_draw(Plot *stage)
     if (show->bare)
         return;
     square_contact_forces(pen, runs);
+    draw_lens(pen);
     draw_signs(pen);
     draw_page_arrows(pen);
     draw_warnings(pen, folded);

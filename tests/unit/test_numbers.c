@@ -371,12 +371,18 @@ static void tell_law(const Simulation *simulation)
                 at, exact_gap(system, x, k % system->nodes, k / system->nodes));
         s = at / reach;
         value = c * (s - 1) * logl(s);
+        near("gap", 1e3L * at, 1e-10L);
     } else if (strcmp(law, "near") == 0) {
         at = nearest(simulation, &slip);
+        near("gap", 1e3L * at, 1e-10L);
         s = powl(at / reach, 2);
         value = c / 8 * (s - 1) * logl(s);
     } else if (strcmp(law, "rub") == 0) {
-        nearest(simulation, &at);
+        near("gap", 1e3L * nearest(simulation, &at), 1e-10L);
+        Real gone = 0; /* the upper block, whose nodes come last */
+        for (int i = system->nodes; i < 2 * system->nodes; i += 2)
+            gone += ((Real)x[i] - o->body[1][0]) / (system->nodes / 2);
+        near("gone", gone, 1e-12L);
         s = fminl(at / o->slip_speed, 1);
         value = s * (2 - s);
     } else if (strcmp(law, "triangle") == 0) {
@@ -788,7 +794,20 @@ static void tell_dial(const Simulation *simulation)
 static void tell_race(const Simulation *simulation)
 {
     const Race *race = &simulation->exhibit.race;
+    Real least[2] = {INFINITY, INFINITY}; /* explicit, implicit */
     is("methods", 9);
+    for (int k = 0; k < race->count; k++) {
+        const RacePoint *point = &race->point[k];
+        Real *best = &least[point->method->implicit];
+        if (point->error <= 0.01)
+            *best = fminl(*best, 1e3L * point->seconds);
+        for (int i = 0; i < race->count; i++) /* halved once */
+            if (race->point[i].method == point->method &&
+                fabs(race->point[i].h / point->h - 2) < 1e-9)
+                is("divided", race->point[i].error / point->error);
+    }
+    is("explicit ms", least[0]);
+    is("implicit ms", least[1]);
     for (int i = 0; i < RACE_METHODS; i++) { /* the table */
         Real stable = 0;
         for (int k = i; k < race->count; k += RACE_METHODS) {
