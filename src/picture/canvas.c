@@ -71,7 +71,6 @@ static void fill(uint32_t *row, size_t count, uint32_t colour)
             row[i] = colour;
 }
 
-/* pixels = colour, opaque. */
 void canvas_clear(Canvas *canvas, Colour colour)
 {
     fill(canvas->pixels, (size_t)canvas->width * (size_t)canvas->height,
@@ -420,7 +419,6 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
     canvas_ring(canvas, x, y, 0.5 * radius, radius, colour);
 }
 
-/* Row by row. */
 void canvas_copy(Canvas *canvas, const Canvas *from, int x, int y)
 {
     Box box = touched(canvas->clip, x, y, x + from->width, y + from->height);
@@ -430,7 +428,6 @@ void canvas_copy(Canvas *canvas, const Canvas *from, int x, int y)
                (size_t)box.width * sizeof *from->pixels);
 }
 
-/* Mixes the colour in by mask * alpha. */
 void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
                     const uint8_t *mask, Colour colour)
 {

@@ -24,21 +24,6 @@ static const double SMALLEST = 0.9;  /* ems, where the window is too small */
 static const double NARROW = 0.88;   /* a letter of a guessed one */
 static const double GUESSED_EM = 20; /* pixels */
 
-/* A line with zeros for its facts; they are no longer than that, mostly. */
-static void guess_line(const char *text, size_t length, TextLine *line)
-{
-    size_t used = 0;
-    for (const char *at = text; at < text + length; at++) {
-        bool fact = *at == '{' && !text_is_markup(text, at);
-        const char *put = fact ? "0000" : at;
-        size_t count = fact ? 4 : 1;
-        at += fact ? strcspn(at, "}") : 0;
-        memcpy(line->words + used, put, count);
-        used += used + 5 < sizeof line->words ? count : 0;
-    }
-    line->words[used] = '\0';
-}
-
 /* One text with its head in bold; facts NULL: guessed, and only measured.
  * Returns where the next one begins. */
 static int put_words(Paper *paper, Box inside, int y, double size, double head,
@@ -55,16 +40,9 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
         box.x += width;
         box.width -= width;
     }
-    for (const char *at = words->text; at && *at;) {
+    while (text_next(&line)) {
         int lines = (int)((inside.y + inside.height - box.y) / text_line(em));
-        size_t length = strcspn(at, "\n");
-        if (facts)
-            at = text_next(&line) ? line.rest : NULL;
-        else
-            guess_line(at, length, &line);
-        if (!facts)
-            at += length + (at[length] == '\n');
-        if (line.words[0] && (!draw || lines > 0))
+        if (!draw || lines > 0)
             box.y += paper_paragraph(paper, FACE_REGULAR, letters, COLOUR_TEXT,
                                      box, draw ? lines : 0, line.words);
     }

@@ -1,15 +1,14 @@
 #include "picture/colour_map.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Straight lines in RGB from the grey of rest. */
 Colour colour_of_strain(double strain, double range, Colour below, Colour above)
 {
-    double part = (strain < 0 ? -strain : strain) / range;
+    double part = fabs(strain) / range;
     return canvas_mix(COLOUR_REST, strain < 0 ? below : above,
-                      part >= 1  ? 1
-                      : part > 0 ? part
-                                 : 0);
+                      fmin(fmax(part, 0), 1));
 }
 
 /* Vermilion, green, blue, purple, brown, sky blue. */

@@ -100,8 +100,8 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "by gradient", descent->by_gradient);
     fact_when(facts, "Algorithm 1", descent->by_gradient && !descent->scalar);
     fact_when(facts, "Algorithm 3", !explicit && !descent->by_gradient);
-    fact_when(facts, "search", descent->scalar != NULL);
-    fact_when(facts, "search", !explicit && !descent->by_gradient);
+    fact_when(facts, "search",
+              descent->scalar || (!explicit && !descent->by_gradient));
     fact_when(facts, "raw", options->filter == FILTER_NONE);
     fact_when(facts, "whole", options->line_search == LINE_SEARCH_NONE);
     fact(facts, "springs", simulation->system.springs);
@@ -109,14 +109,6 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "done", simulation->done);
     fact_when(facts, "paused", show->paused);
     fact_when(facts, "told", !show->veiled);
-}
-
-/* "st", "nd", "rd", "th" */
-static const char *ordinal(int number)
-{
-    static const char *const ends[] = {"th", "st", "nd", "rd"};
-    bool teen = number / 10 % 10 == 1;
-    return teen || number % 10 > 3 ? "th" : ends[number % 10];
 }
 
 /* The step as far as it has come, or the last update of a search. */
@@ -129,7 +121,6 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     if (trace->projected >= 0) {
         fact(facts, "projected", trace->projected);
         fact_when(facts, "of springs", simulation_projects_springs(simulation));
-        fact_words(facts, "s", trace->projected == 1 ? "" : "s");
     }
     fact(facts, "h then", trace->h);
     fact(facts, "tolerance", trace->tolerance);
@@ -141,7 +132,6 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     bool rose = risen > 0 && simulation->scene->needs & NEEDS_TIME;
     fact(facts, "risen", rose ? risen : NAN);
     fact(facts, "nth", trace->iteration + 1);
-    fact_words(facts, "th", ordinal(trace->iteration + 1));
     fact_words(facts, "way", trace->slope > 0 ? "uphill" : "downhill");
     fact_when(facts, "uphill", trace->slope > 0);
     if (trace->trials > 0 || trace->line)
@@ -278,6 +268,7 @@ static void put_fact(const Fact *one, const char *format, char *out,
 /* Fills in the line of so many bytes; false: something in it is not known. */
 static bool fill_line(TextLine *line, const char *text, size_t length)
 {
+    static const Fact guess = {.words = "0000"};
     const Facts *facts = line->facts;
     const char *from = text, *end = text + length;
     size_t used = 0, name = strcspn(text, " *{");
@@ -294,7 +285,8 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
             continue;
         }
         bool minus = from[1] == '-';
-        const Fact *found = find_fact(facts, line->run, from + 1 + minus);
+        const Fact *found =
+            facts ? find_fact(facts, line->run, from + 1 + minus) : &guess;
         name = strcspn(from, ":}");
         if (!found)
             return false;
@@ -409,8 +401,8 @@ int words_flow(const Plot *card, int at[2], double size, double gap,
         at[1] += paper_pixels(paper, 1.35 * size);
     }
     if (draw)
-        paper_write(paper, line->face, size, line->colour, card->box.x + at[0],
-                    card->box.y + at[1], ALIGN_LEFT, "%s", line->words);
+        paper_panel(paper, line->face, size, line->colour, card->box.x + at[0],
+                    card->box.y + at[1], ALIGN_LEFT, line->words);
     at[0] += width + paper_pixels(paper, gap);
     return at[1] + paper_pixels(paper, 1.5 * size);
 }

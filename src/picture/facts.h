@@ -38,7 +38,8 @@ typedef struct TextLine {
     int run;
 } TextLine;
 
-/* All lines of a text that are known:
+/* All lines of a text that are known; without facts all, with zeros for them,
+ * which are as wide, mostly:
  *     for (TextLine line = text_of(facts, text); text_next(&line);)
  * At the end the words are "".  text may be NULL. */
 TextLine text_of(const Facts *facts, const char *text);

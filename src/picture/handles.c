@@ -21,7 +21,7 @@ void stage_handles(const Plot *stage)
     }
 }
 
-Box stage_switch_box(const Plot *stage, int i)
+static Box switch_box(const Plot *stage, int i)
 {
     const Box *box = &stage->box;
     int wide = (int)(SWITCH_WIDE * stage->em);
@@ -36,8 +36,7 @@ void stage_switches(const Plot *stage)
     Switch out[SCENE_MAX_SWITCHES];
     int count = exhibit_switches(stage->simulation, out);
     for (int i = 0; i < count && stage->text; i++) {
-        Box box = stage_switch_box(stage, i),
-            mark = box_inset(box, box.height / 4);
+        Box box = switch_box(stage, i), mark = box_inset(box, box.height / 4);
         bool on = out[i].on;
         canvas_card(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
                     COLOUR_BORDER);
@@ -59,7 +58,7 @@ bool handles_pick(const Plot *stage, double x, double y, Pick *pick)
     int switches = exhibit_switches(stage->simulation, out);
     int handles = exhibit_handles(stage->simulation, at);
     for (int i = 0; i < switches && stage->text; i++)
-        if (box_contains(stage_switch_box(stage, i), x, y)) {
+        if (box_contains(switch_box(stage, i), x, y)) {
             pick->kind = PICK_SWITCH;
             pick->index = i;
             return true;

@@ -451,8 +451,6 @@ const Lens LENS_FITS = {1, {0, 0}};
 
 static const double ZOOM_LEAST = 1e-3, ZOOM_MOST = 1e6;
 
-/* Pixels a metre that fit, times zoom; one for both directions unless
- * stretched. */
 Camera camera_create(Box box, const double bounds[4], bool stretched,
                      const Lens *lens)
 {

@@ -30,7 +30,6 @@ double plot_round_up(double value)
     return power * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
 }
 
-/* The smallest multiple of the distance of its numbers. */
 double plot_round_axis(double value)
 {
     double step = plot_round_up(value / PLOT_INTERVALS);

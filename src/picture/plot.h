@@ -140,9 +140,8 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane);
 /* Open rings where the scene's handles are. */
 void stage_handles(const Plot *stage);
 
-/* The scene's switches as chips in the upper right corner; where one is. */
+/* The scene's switches as chips in the upper right corner. */
 void stage_switches(const Plot *stage);
-Box stage_switch_box(const Plot *stage, int i);
 
 /* A switch or a handle under pixel (x, y): fills kind and index. */
 bool handles_pick(const Plot *stage, double x, double y, Pick *pick);

@@ -167,8 +167,8 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
     Filter filter = pane->simulation->options.filter;
-    bool solid = system_find_term(system, &neo_hookean_energy) != NULL;
-    double k = solid ? NAN : system->k[s], l2 = system->l2[s], d[2];
+    double k = solid_of(system) ? NAN : system->k[s]; /* NaN: no block */
+    double l2 = system->l2[s], d[2];
     spring_strain(e, l2, pane_x(pane), d);
     double d2 = d[0] * d[0] + d[1] * d[1];
     const SpringLaw law = plasticity_law(system, s);
@@ -182,10 +182,6 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     fact(&facts, "b", e[1]);
     fact(&facts, "l2", l2);
     fact(&facts, "strain", 100 * (math_hypot(d[0], d[1]) / sqrt(l2) - 1));
-    fact(&facts, "xx", 2 * k / l2 * (l2 * tau + 2 * bend * d[0] * d[0]));
-    fact(&facts, "xy", 2 * k / l2 * 2 * bend * d[0] * d[1]);
-    fact(&facts, "yy", 2 * k / l2 * (l2 * tau + 2 * bend * d[1] * d[1]));
-    fact_when(&facts, "block", !solid); /* of triangles an edge has none */
     fact(&facts, "across", across);
     fact(&facts, "along", along);
     if (filter_projects(filter) && fmin(along, across) < 0) {
@@ -195,22 +191,13 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     draw_note(stage, &facts, text_spring);
 }
 
-/* Whether a node has a place. */
-static bool is_placed(const Pane *pane, int node)
-{
-    const double *x = pane_x(pane) + 2 * (size_t)node;
-    return isfinite(x[0]) && isfinite(x[1]);
-}
-
 void square_hover(Plot *stage)
 {
     const Pane *pane = &stage->show->pane[stage->pane];
     const Pick *hover = &stage->show->hover;
     const System *system = &pane->simulation->system;
-    int i = hover->index, *e = system->e + 2 * i;
-    if (hover->kind == PICK_NODE && i < system->nodes && is_placed(pane, i))
-        note_node(stage, pane, i);
-    if (hover->kind == PICK_SPRING && i < system->springs &&
-        is_placed(pane, e[0]) && is_placed(pane, e[1]))
-        note_spring(stage, pane, i);
+    if (hover->kind == PICK_NODE && hover->index < system->nodes)
+        note_node(stage, pane, hover->index);
+    if (hover->kind == PICK_SPRING && hover->index < system->springs)
+        note_spring(stage, pane, hover->index);
 }

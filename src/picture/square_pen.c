@@ -220,12 +220,10 @@ static void draw_triangles(const SpringPen *pen, const NeoHookean *solid)
 int square_cells(const SpringPen *pen, bool all)
 {
     const NeoHookean *solid = solid_of(pen->system);
+    int count = 0, node[4];
     if (solid)
         draw_triangles(pen, solid);
-    if (solid)
-        return 0;
-    int count = 0, node[4];
-    for (int c = 0; c < pen->simulation->mesh.cells; c++) {
+    for (int c = 0; !solid && c < pen->simulation->mesh.cells; c++) {
         CellLook look = cell_look(pen->simulation, pen->x, c, node);
         count += look == CELL_FOLDED;
         if (look == CELL_FOLDED || (all && look == CELL_FLAT))

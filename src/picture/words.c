@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
+#include "picture/facts.h"
 #include "picture/plot.h"
 #include "base/mathematics.h"
 
@@ -24,7 +25,6 @@ static const Colour INK = 190; /* of 255, a pixel is no ground below that */
 
 /* ---- numbers ------------------------------------------------------------ */
 
-/* So many digits; a power of ten where there would be many zeros. */
 Number number_with(double value, int digits)
 {
     Number out;
@@ -99,24 +99,17 @@ void plot_scale(const Plot *plot)
 
 void plot_legend(Plot *plot, Colour colour, const char *format, ...)
 {
-    Paper *paper = plot->paper;
-    char words[128];
+    Plot room = *plot;
+    TextLine line = {.colour = colour};
+    double em = plot->paper->em;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(words, sizeof words, format, arguments);
+    vsnprintf(line.words, sizeof line.words, format, arguments);
     va_end(arguments);
-    int width = paper_width(paper, FACE_REGULAR, LEGEND_SIZE, words);
-    int margin = paper_pixels(paper, 0.9);
-    if (plot->flow[0] > 0 &&
-        plot->flow[0] + width > plot->box.width - 2 * margin) {
-        plot->flow[0] = 0;
-        plot->flow[1] += paper_pixels(paper, 1.35);
-    }
-    double x = plot->box.x + margin + plot->flow[0];
-    double y = plot->box.y + 0.6 * paper->em + plot->flow[1];
-    paper_panel(paper, FACE_REGULAR, LEGEND_SIZE, colour, x, y, ALIGN_LEFT,
-                words);
-    plot->flow[0] += width + paper_pixels(paper, 1.6);
+    room.box.x += (int)(0.9 * em);
+    room.box.y += (int)(0.6 * em);
+    room.box.width -= (int)(1.8 * em);
+    words_flow(&room, plot->flow, LEGEND_SIZE, 1.6, &line, true);
 }
 
 /* ---- off what is drawn -------------------------------------------------- */

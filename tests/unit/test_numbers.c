@@ -916,10 +916,6 @@ static void tell_hovered_spring(const Pane *pane, int s)
     near("strain", 100 * (hypotl(d[0], d[1]) / sqrtl(system->l2[s]) - 1),
          1e-11L);
     Real middle = (H[0] + H[2]) / 2, apart = hypotl((H[0] - H[2]) / 2, H[1]);
-    for (int i = 0; i < 3; i++) {
-        near("H", H[i], 1e-9L * most);
-        near("H", -H[i], 1e-9L * most);
-    }
     near("eigenvalue", 2 * (middle - apart), 1e-9L * most);
     near("eigenvalue", 2 * (middle + apart), 1e-9L * most);
 }

@@ -354,7 +354,7 @@ TEST(what_flies_far_is_drawn_or_told)
         for (int i = 0; i < (part ? size : 1); i++)
             x[i] = i % 2 ? INFINITY : NAN;
         draw();
-        CHECK(on_stage(COLOUR_WARNING) > 20 && on_stage(COLOUR_NOTE) == 0);
+        CHECK(on_stage(COLOUR_WARNING) > 20);
     }
 }
 
@@ -520,7 +520,7 @@ TEST(a_stage_tells_in_words)
         {"square", "v = (0, 0) m/s", {PICK_NODE, 0, 7, {0, 0}}, true},
         {"square", "spring 0\u20135", {PICK_SPRING, 0, 0, {0, 0}}, true},
         {"square --stretch 1",
-         "H = (4\u00b710^{5}, 0; 0, 0) J/m\u00b2",
+         "eigenvalues 0, 0, 0, 8\u00b710^{5}",
          {PICK_SPRING, 0, 0, {0, 0}},
          true},
         {"square --stretch 0.9 --turn 9",
@@ -554,6 +554,7 @@ TEST(texts_say_what_is_known)
     } rows[] = {{"a {nothing}\nb", "b"},
                 {"#warning* {a:4'}\u00b2", "0.69\u00b2"},
                 {"{b:4'}\u00b2", "(\u22120.5511)\u00b2"},
+                {"{-b} {-d:1}", "0.551 \u22120.2"},
                 {"{c:4'}", "(1.468\u00b710^{\u22126})"},
                 {"{d:/} of x^{{a}} {x}", "1/4 of x^{0.69} {x}"},
                 {"{e:2} {e} {e:7}", "1200 1230 1234.567"},
