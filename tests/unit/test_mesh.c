@@ -169,6 +169,4 @@ TEST(order_keeps_the_factor_small)
     CHECK_AT_MOST(ours, 6 * factor_entries(12, true));
 }
 
-/* ---- what is refused --------------------------------------------------- */
-
 TESTS(NULL, NULL)
