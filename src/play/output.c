@@ -21,6 +21,15 @@ const char *output_reason(int reason)
 
 /* ---- opening ------------------------------------------------------------ */
 
+/* Whether the open file still has this name: another run may have taken it
+ * away before the lock was ours. */
+static bool is_named(int file, const char *name)
+{
+    struct stat ours, there;
+    return fstat(file, &ours) == 0 && lstat(name, &there) == 0 &&
+           ours.st_ino == there.st_ino;
+}
+
 /* NAME.part as a stream that nobody else writes, with the permissions of the
  * file whose place it will take (info, or NULL: there is none). */
 static Status open_temporary(Output *output, const struct stat *info)
@@ -34,7 +43,9 @@ static Status open_temporary(Output *output, const struct stat *info)
                     O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0)
         return STATUS_FILE_FAILED;
-    bool alone = flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    bool alone =
+        (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
+        is_named(file, output->temporary);
     errno = alone ? errno : EBUSY;
     if (alone && ftruncate(file, 0) == 0 &&
         (!info || fchmod(file, info->st_mode & 0777) == 0))
