@@ -117,7 +117,6 @@ typedef struct Player {
     long sampled; /* step of the last frame that was drawn; -1: none */
 
     /* What only the screen shows. */
-    Lens lens;
     Column column;
     struct Sheet *sheet;     /* of all scenes, sheet.c; NULL: it is closed */
     const LecturePage *left; /* the page that was last open, or NULL */

@@ -70,7 +70,8 @@ Status obey_restart(Player *player, const Command *command)
     else if (player->mode >= MODE_END && !options->page &&
              !options->scene->explains)
         player->mode = MODE_RUN;
-    player->lens = moves ? player->lens : LENS_FITS;
+    if (!moves)
+        player->show.lens = LENS_FITS;
     return player_begin(player, options, panes, command);
 }
 

@@ -370,6 +370,7 @@ void player_fill(Player *player)
     Pick hover = show->hover;
     Hit over = show->over;
     Held held = show->held;
+    Lens lens = show->lens;
     int chosen = show->chosen;
     show_create(player_simulation(player), show);
     show->panes = past_panes(&player->past);
@@ -396,7 +397,7 @@ void player_fill(Player *player)
     show->warning = player->warning;
     show->closed ^= player->closed;
     show->large = player->large;
-    show->lens = player->lens;
+    show->lens = lens;
     show->strain =
         player->strain != (show->pane[0].simulation->scene->strain > 0);
     show->bare = player->bare;

@@ -394,7 +394,6 @@ static Status follow(Player *player)
         return STATUS_OK;
     case COMMAND_PAN:
         show_move(&player->show, &under.layout, under.pane, dx, dy);
-        player->lens = player->show.lens;
         player->changed = true;
         mouse->last[0] = mouse->x;
         mouse->last[1] = mouse->y;
@@ -578,7 +577,6 @@ static Status wheeled(Player *player, double amount)
         return STATUS_OK;
     show_zoom(&player->show, &under.layout, player->mouse.x, player->mouse.y,
               pow(WHEEL_ZOOM, amount));
-    player->lens = player->show.lens;
     player->changed = true;
     return STATUS_OK;
 }

@@ -108,7 +108,7 @@ Status obey_camera(Player *player, const Command *command)
     const Paper *paper = player_paper(player);
     Show *show = &player->show;
     if (command->kind == COMMAND_FIT)
-        player->lens = LENS_FITS;
+        show->lens = LENS_FITS;
     if (command->kind == COMMAND_FIT || !paper)
         return STATUS_OK;
     player_fill(player);
@@ -123,7 +123,6 @@ Status obey_camera(Player *player, const Command *command)
     else
         show_move(show, &layout, player->active, camera.scale[0] * command->x,
                   -camera.scale[1] * command->y);
-    player->lens = show->lens;
     return STATUS_OK;
 }
 

@@ -100,7 +100,7 @@ static void enter_scene(Player *player)
         return;
     player->scene = options->scene;
     player->speed = player_first_speed(options);
-    player->lens = LENS_FITS;
+    player->show.lens = LENS_FITS;
     player->closed = 0;
     player->large = -1;
     player_deselect(player);
