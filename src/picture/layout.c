@@ -337,8 +337,9 @@ static void place_star(const Show *show, Layout *layout)
 
 /* The first card of a page that folds for want of room, or in whose place code
  * stands, is below the picture, as high as it needs, half of the stage at most;
- * not where a star or switches (beside code: more than one) are on the stage,
- * nor, without code, in the scenes of a law, whose bodies need all of it. */
+ * not where a star or, in letters that are not large, switches (beside code:
+ * more than one) are on the stage, nor, without code, in the scenes of a law,
+ * whose bodies need all of it. */
 static void place_folded(const Show *show, Layout *layout)
 {
     const Simulation *simulation = show_pane(show)->simulation;
@@ -350,8 +351,8 @@ static void place_folded(const Show *show, Layout *layout)
             (layout->card[folded].height != bar && !layout->page)))
         folded++;
     if (!page || page->star || (page->law && !layout->page) ||
-        simulation->scene->parts[layout->page] || show->large >= 0 ||
-        layout->panes != 1 || folded >= layout->cards)
+        (simulation->scene->parts[layout->page] && !simulation->options.big) ||
+        show->large >= 0 || layout->panes != 1 || folded >= layout->cards)
         return;
     const Card *card = picture_of(simulation->scene)->cards[folded];
     Box *stage = &layout->pane[0];

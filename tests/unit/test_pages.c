@@ -1080,7 +1080,7 @@ TEST(claim_race)
 
 TEST(claim_trust)
 {
-    says("trust", "21 280 550 97 100");
+    says("trust", "21 10 280 550 97 100 10");
     int undone = 0, good = 0, all = ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     Simulation *simulation = open_page("trust", "");
     for (int row = 0; row < ENVELOPE_ROWS; row++)
@@ -1095,6 +1095,8 @@ TEST(claim_trust)
             CHECK(cell->undone == (!cell->worst && cell->updates == 0));
             CHECK(!cell->undone || fabs(width - 1.4) <= 1e-15);
             CHECK(!cell->worst || status_is_unconverged(cell->worst));
+            double h = envelope_timestep(column), m = 1000 / 25.0;
+            CHECK(!cell->worst || h * h * envelope_stiffness(row) > 1e16 * m);
             for (int i = 0; i < 2 * simulation->system.nodes; i++)
                 CHECK(isfinite(simulation->run[0].x[i]) &&
                       isfinite(simulation->run[0].v[i]));
