@@ -275,15 +275,6 @@ TEST(fine_squares_are_faces)
     CHECK((stretched >> 16 & 255) > (stretched & 255));
 }
 
-/* Cells that have turned over are counted. */
-TEST(folds_are_counted)
-{
-    stand_up("square", 0);
-    CHECK(pane_folded(&show.pane[0]) == 0);
-    simulation.run[0].x[2 * 12] += 0.6; /* beyond its right neighbour */
-    CHECK(pane_folded(&show.pane[0]) == 2);
-}
-
 /* Code stands in the place of the cards, its lines at work lit. */
 TEST(pages_light_their_lines)
 {
