@@ -111,7 +111,8 @@ void show_draw(Paper *paper, const Show *show)
     if (layout.panes > 1) /* lines between them */
         canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
     for (int pane = 0; pane < layout.panes; pane++) {
-        canvas_fill(&paper->canvas, layout.pane[pane], COLOUR_WHITE);
+        if (layout.panes > 1)
+            canvas_fill(&paper->canvas, layout.pane[pane], COLOUR_WHITE);
         draw_pane(paper, &layout, show, pane);
     }
     if (show->bare)

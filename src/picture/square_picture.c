@@ -62,17 +62,18 @@ void square_bounds(const Plot *stage, double bounds[4])
     for (int k = 0; k < 2; k++) {
         double centre = 0, room = 0.5 * size[k];
         for (int i = 0; i < nodes && is_free(simulation); i++)
-            centre += x[2 * i + k] / nodes;
+            centre += x[2 * i + k];
+        centre /= nodes;
         if (isfinite(centre) && fabs(centre) > room)
             middle[k] = centre - copysign(room, centre);
     }
     for (int i = 0; i < nodes; i++) {
         double right = fabs(x[2 * i] - middle[0]) / size[0];
         double up = fabs(x[2 * i + 1] - middle[1]) / size[1];
-        double reach = fmax(right, up); /* the other one, if one is NaN */
-        if (isfinite(reach))
-            need = fmax(need, reach);
-        tall = fmax(tall, up);
+        double reach = right > up ? right : up;
+        if (isfinite(right) && isfinite(up) && reach > need)
+            need = reach;
+        tall = up > tall ? up : tall;
     }
     while (grown < need && grown < MOST_SEEN)
         grown *= 1.5;
