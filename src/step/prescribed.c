@@ -76,18 +76,18 @@ static void carry(const System *system, const Contact *contact, double way,
     }
 }
 
-/* u = newton's displacement with a part of the way made; obstacles too.
- * Returns whether all terms allow that, and no body passes another on the way;
- * if not, obstacles are put back. */
-static bool make_part(TimeIntegrator *run, const double *x_n, double part,
-                      bool first, double *u, double *x)
+/* u, in new_x, is newton's displacement with a part of the way made; obstacles
+ * too.  Returns whether all terms allow that, and no body passes another on the
+ * way; if not, obstacles are put back. */
+static bool make_part(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
     Contact *contact = contact_of(run->system);
+    const double *x_n = run->x_n;
+    double *u = run->new_x, *x = run->new_v, way = part * run->h;
     double *before = run->newton->x_trial, *p = run->newton->u_trial;
-    double way = part * run->h;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        u[i] = p[i] = first ? 0 : run->newton->at.u[i];
+        u[i] = p[i] = run->part == 0 ? 0 : run->newton->at.u[i];
         before[i] = x_n[i] + u[i];
         if (system->pin_v && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
@@ -109,24 +109,22 @@ static bool make_part(TimeIntegrator *run, const double *x_n, double part,
 
 Status prescribed_start(TimeIntegrator *run)
 {
-    double *u = run->new_x, *x = run->new_v;
     double part = run->left;
     int halvings = 0;
-    bool first = run->part == 0;
     while (halvings < MAX_HALVINGS && run->part < MAX_PARTS &&
-           !make_part(run, run->x_n, part, first, u, x)) {
+           !make_part(run, part)) {
         part /= 2;
         halvings++;
     }
     run->blocked = halvings == MAX_HALVINGS || run->part == MAX_PARTS;
     if (run->blocked) /* nothing moves any more in this step */
-        make_part(run, run->x_n, 0, first, u, x);
+        make_part(run, 0);
     else
         run->moved += part;
     run->left = run->blocked ? 0 : run->left - part;
     run->part++;
     run->newton->rough = run->left > 0;
-    return newton_start(run->newton, run->x_n, u, run->weight);
+    return newton_start(run->newton, run->x_n, run->new_x, run->weight);
 }
 
 bool prescribed_goes_on(TimeIntegrator *run, Status *status)
