@@ -23,7 +23,7 @@ typedef struct SpringLaw {
     double ep;    /* plastic strain, e = E - ep */
     double yield; /* Y_n > 0 */
     double flow;  /* 1/(1 + H), 0 < flow <= 1 */
-    double hard;  /* 1 - flow, H/(1 + H) */
+    double hard;  /* 1 - flow */
     double theta; /* eta/h; 0: no damping */
     double e_n;   /* e at the step's start */
 } SpringLaw;

@@ -90,11 +90,11 @@ Plasticity *plasticity_of(const System *system)
 /* Of spring s, without damping. */
 static inline SpringLaw law_of(const Plasticity *data, int s)
 {
-    double H = data->hardening;
+    double H = data->hardening, flow = 1 / (1 + H);
     return (SpringLaw){.ep = data->ep[s],
                        .yield = data->yield + H * data->kappa[s],
-                       .flow = 1 / (1 + H),
-                       .hard = H / (1 + H)};
+                       .flow = flow,
+                       .hard = 1 - flow};
 }
 
 SpringLaw plasticity_law(const System *system, int s)

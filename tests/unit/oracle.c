@@ -107,8 +107,7 @@ static void spring(Spot *spot, Jet *sum, const void *data, int s)
     bool flows = false;
     if (flow) {
         kappa = flow->kappa[s];
-        hard = flow->hardening / (1 + (Real)flow->hardening);
-        hard = jittered(spot, hard); /* a double */
+        hard = 1 - jittered(spot, 1 / (1 + (Real)flow->hardening));
         Real yield = flow->yield + flow->hardening * (Real)kappa;
         held = fminl(held, yield);
         over = fabsl(e) - held;
