@@ -121,6 +121,7 @@ typedef struct Player {
     struct Sheet *sheet;     /* of all scenes, sheet.c; NULL: it is closed */
     const LecturePage *left; /* the page that was last open, or NULL */
     const LecturePage *told; /* the page whose answer is shown, or NULL */
+    bool opens;              /* a page: its own lines are obeyed */
     bool asks;               /* pages wait for a guess before they tell */
     bool strain, bare, blank;
     unsigned closed;      /* cards that are not as the picture has them */

@@ -160,9 +160,10 @@ void simulation_predict(Simulation *simulation, double x, double y);
  * the rigid motion with the body's momentum and angular momentum. */
 double simulation_deforming(const Simulation *simulation);
 
-/* omega of the fastest small oscillation around the state of run 0, 1/s: M
- * mode'' = -H mode with the Hessian of P as it is; NaN where there is none, or
- * more nodes.  mode [2n] out, its length is 1. */
-double simulation_fastest(const Simulation *simulation, double *mode);
+/* omega of the fastest small oscillation around x [2n], 1/s: M mode'' = -H mode
+ * with the Hessian of P as it is; NaN where there is none, or more nodes.
+ *   mode  [2n] out, its length is 1 */
+double simulation_fastest(const Simulation *simulation, const double *x,
+                          double *mode);
 
 #endif

@@ -49,9 +49,10 @@ static void fill_curves(const Trace *trace, Curves *curves)
     if (!(low < 0)) /* nothing is below: the first tenth tells the scale */
         depth = fmax(fabs(curves->exact[LINE_POINTS / 10]), 1e-300);
     curves->low = -1.12 * depth;
-    curves->high = trace->slope > 0
-                       ? fmin(1.05 * high, CLIMB * depth)
-                       : fmin(fmax(high, 0.25 * depth), ABOVE * depth);
+    curves->high =
+        trace->slope > 0
+            ? fmin(1.05 * fmax(high, 0.5 * trace->slope), CLIMB * depth)
+            : fmin(fmax(high, 0.25 * depth), ABOVE * depth);
 }
 
 /* A trial above the axis is a small arrow at its upper edge. */

@@ -171,6 +171,43 @@ static void draw_direction(const Plot *plot, bool named, const double p[2],
     plot_words(plot, 2, place, 0.8, 1, FACE_BOLD, colour, words);
 }
 
+/* Where E is stationary and its direction 0, by Newton's method from there:
+ * whether it was found. */
+static bool find_still(const Simulation *simulation, double x[2])
+{
+    double far = INFINITY;
+    for (int update = 0; update < 40 && far > 1e-9; update++) {
+        Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
+        const double *g = E.g, *H = E.H;
+        double determinant = H[0] * H[2] - H[1] * H[1];
+        const double p[2] = {(H[1] * g[1] - H[2] * g[0]) / determinant,
+                             (H[1] * g[0] - H[0] * g[1]) / determinant};
+        x[0] += p[0];
+        x[1] += p[1];
+        far = math_hypot(p[0], p[1]);
+    }
+    return far <= 1e-9;
+}
+
+/* Minima and the saddle of the parts that are on; inertia's is named x_tilde.
+ */
+static void name_still(Plot *plot)
+{
+    const Simulation *simulation = plot->simulation;
+    double at[3][2] = {{0, 1}, {0, -1}, {0, 0}};
+    for (int i = 0; i < 3; i++) {
+        if (!find_still(simulation, at[i]))
+            continue;
+        Local E = descent_at(simulation, FILTER_NONE, at[i][0], at[i][1]);
+        bool saddle = E.H[0] * E.H[2] < E.H[1] * E.H[1];
+        if (saddle != (i == 2))
+            continue;
+        plot_hollow(plot, at[i], 4, 2, COLOUR_TEXT);
+        plot_words(plot, 1, (const double(*)[2])at[i], 0.8, 0.95, FACE_REGULAR,
+                   COLOUR_TEXT, saddle ? "saddle" : "minimum");
+    }
+}
+
 /* That of the run; and, with both parts on the map, the one that it does not
  * take: projected where its own is not, as it is where its own is projected. */
 static void draw_directions(const Plot *plot, bool both)
@@ -211,6 +248,7 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     double springs =
         landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]);
     fact_point(facts, "g", E.g);
+    fact_point(facts, "solution", descent->direction);
     fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
     fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
     fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);
@@ -268,6 +306,9 @@ void landscape_draw(Plot *stage)
     bool both = !show->lecture || (raw && !show->lecture->predict);
     if (!show->veiled)
         draw_directions(&plot, plot.text && both);
+    if (show->lecture && !show->veiled && plot.text &&
+        simulation->exhibit.parts != PART_INERTIA)
+        name_still(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
     name_target(&plot);
 }

@@ -6,7 +6,7 @@
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
-enum { TRAIL = 256, MASS_GUESSES = 6 };
+enum { TRAIL = 256, MASS_GUESSES = 6, MASS_AHEAD = 50 };
 
 static const double MASS_REACH = 1.9; /* m, seen at least */
 static const double CIRCLE_REACH = 1.75;
@@ -237,8 +237,8 @@ static void exact_step(const MassStep *step, double h, double end[2])
 }
 
 /* The exact end of the step; of backward Euler x' as it is found: x + h v, then
- * with the force there, and so on; all points of symplectic Euler lie on an
- * ellipse. */
+ * with the force there, and so on; the next points of symplectic Euler, and the
+ * ellipse on which they lie. */
 static void draw_mass_lesson(Plot *stage)
 {
     MassStep step;
@@ -262,7 +262,7 @@ static void draw_mass_lesson(Plot *stage)
         plot_words(stage, 1, (const double(*)[2])end, 0.8, 1, FACE_REGULAR,
                    COLOUR_FAINT, "exact");
     memcpy(guess, step.x, sizeof guess);
-    for (int k = 0; k < MASS_GUESSES && implicit && h < 1; k++) {
+    for (int k = 0; k < MASS_GUESSES && implicit; k++) {
         for (int i = 0; i < 2; i++) {
             double force = k > 0 ? -h * guess[i] : 0;
             from[i] = guess[i];
@@ -271,11 +271,29 @@ static void draw_mass_lesson(Plot *stage)
         if (k > 0)
             plot_line(stage, from, guess, 1.4, COLOUR_GREY);
         plot_hollow(stage, guess, 5, 3, COLOUR_GREY);
+        const char number[2] = {(char)('1' + k), 0};
+        if (stage->text && (k < 3 || h >= 1))
+            plot_words(stage, 1, (const double(*)[2])guess, 0.8, 1, FACE_BOLD,
+                       COLOUR_FAINT, number);
+    }
+    bool symplectic = !step.by_old_v && !implicit;
+    double x[2], v[2];
+    memcpy(x, step.x, sizeof x);
+    memcpy(v, step.v, sizeof v);
+    for (int k = 0; k < MASS_AHEAD && symplectic; k++) {
+        memcpy(from, x, sizeof from);
+        for (int i = 0; i < 2; i++) {
+            v[i] -= h * x[i];
+            x[i] += h * v[i];
+        }
+        if (h >= 2)
+            plot_line(stage, from, x, 1, COLOUR_GREY);
+        plot_hollow(stage, x, 4, 2.4, COLOUR_GREY);
     }
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const double across[2] = {(step.new_x[0] - turn * step.x[0]) / reach,
                               (step.new_x[1] - turn * step.x[1]) / reach};
-    if (!step.by_old_v && !implicit && h < 2)
+    if (symplectic && h < 2)
         plot_ellipse(stage, origin, step.x, across, 1.6, NULL, COLOUR_GREY);
 }
 

@@ -156,6 +156,7 @@ void scalar_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "refused lengths", update.refused > 0);
     fact(facts, "iterate", x);
     fact(facts, "next", next);
+    fact(facts, "double sinh", sinh(2 * x));
     fact_when(facts, "no length", !(update.alpha > 0));
     fact_when(facts, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)

@@ -17,9 +17,15 @@ void show_create(const Simulation *simulation, Show *show)
     }
 }
 
-/* The part of the world that fits a stage. */
-static void find_bounds(const Plot *stage, double bounds[4])
+/* The part of the world that fits a stage; all panes of a page have the scale
+ * of the last one. */
+static void find_bounds(const Plot *own, double bounds[4])
 {
+    const Show *show = own->show;
+    int last = show->panes - 1;
+    const Plot of_last = {
+        .show = show, .simulation = show->pane[last].simulation, .pane = last};
+    const Plot *stage = show->lecture ? &of_last : own;
     const Picture *picture = picture_of(stage->simulation->scene);
     const Held *held = &stage->show->held;
     if (held->on && !held->away && held->pane == stage->pane)

@@ -15,6 +15,7 @@
 enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
 enum { LEAST_CELL = 5 };     /* pixels; smaller cells are drawn as faces */
 enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
+enum { MAGNIFIED = 20 };     /* times, what a page shows of displacements */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
 static const double ROOM = 1.14;       /* of the stage around the square */
@@ -169,6 +170,22 @@ static void draw_hover(const SpringPen *pen)
 
 /* ---- all of it ---------------------------------------------------------- */
 
+/* The rest shape where it is a dot, from its right. */
+static void name_dot(const SpringPen *pen)
+{
+    char words[80];
+    double side = pen->simulation->mesh.side, p[2], em = pen->stage->em;
+    const double origin[2] = {0, 0};
+    snprintf(words, sizeof words, "the square at rest: %s m",
+             number_of(side).text);
+    plot_place(pen->stage, origin, p);
+    double y = pen->stage->box.y + 0.8 * pen->stage->box.height;
+    canvas_arrow(&pen->stage->paper->canvas, p[0], y - 0.3 * em, p[0], p[1],
+                 1.6 * pen->stage->paper->unit, 0.5 * em, COLOUR_TEXT);
+    paper_write(pen->stage->paper, FACE_BOLD, 1, COLOUR_TEXT, p[0], y,
+                ALIGN_CENTRE, "%s", words);
+}
+
 /* Below the springs: rest shape, ghosts, cells.  Returns how many cells have
  * folded over. */
 static int draw_ground(const SpringPen *pen)
@@ -178,7 +195,9 @@ static int draw_ground(const SpringPen *pen)
     if (!has_frame(pen->simulation) && !pen->contact &&
         pen->simulation->options.bodies == 0) {
         square_outline(pen, pen->simulation->mesh.x, false, COLOUR_RULE);
-        if (pen->stage->pane == 0)
+        if (pen->simulation->mesh.side * pen->stage->camera.scale[0] < 4)
+            name_dot(pen);
+        else if (pen->stage->pane == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
     int folded = square_cells(pen, pen->contact || fracture_of(pen->system));
@@ -274,7 +293,16 @@ static void draw_arrows(const SpringPen *pen, const double *d, Colour colour,
     plot_legend(pen->stage, colour, "%s", word);
 }
 
-/* The force on each node, or the fastest oscillation, where a page wants it. */
+/* Where nodes that nobody has moved begin: the rest shape, stretched. */
+static void start_places(const Simulation *simulation, double *x)
+{
+    for (int k = 0; k < 2 * simulation->system.nodes; k++)
+        x[k] =
+            simulation->mesh.x[k] * (k % 2 ? 1 : simulation->options.stretch);
+}
+
+/* The force on each node, or how far it is from there, where a page wants it.
+ */
 static void draw_page_arrows(const SpringPen *pen)
 {
     const LecturePage *page = pen->show->lecture;
@@ -283,9 +311,16 @@ static void draw_page_arrows(const SpringPen *pen)
     char word[24];
     if (!page || system->nodes > NUMBERED)
         return;
-    if (page->modes && system->nodes <= SIMULATION_MODE_NODES) {
-        simulation_fastest(pen->simulation, arrow);
-        draw_arrows(pen, arrow, COLOUR_VELOCITY, "the fastest oscillation");
+    if (page->modes) {
+        start_places(pen->simulation, arrow);
+        for (int i = 0; i < system->nodes; i++) {
+            double d[2] = {pen->x[2 * i] - arrow[2 * i],
+                           pen->x[2 * i + 1] - arrow[2 * i + 1]};
+            plot_arrow(pen->stage, pen->x + 2 * i, d, MAGNIFIED, 2.6,
+                       COLOUR_VELOCITY);
+        }
+        plot_legend(pen->stage, COLOUR_VELOCITY, "displacement \u00d7 %d",
+                    MAGNIFIED);
     }
     if (!page->forces)
         return;
@@ -414,7 +449,7 @@ void square_facts(const Simulation *simulation, Facts *facts)
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
     const LecturePage *page = options->page;
-    double mode[2 * SIMULATION_MODE_NODES], mass = 0;
+    double start[2 * NUMBERED], mode[2 * SIMULATION_MODE_NODES], mass = 0;
     int n = (int)options->segments, nodes = system->nodes, shorter = 0;
     const double *x = simulation->run[0].x;
     if (!page)
@@ -447,8 +482,9 @@ void square_facts(const Simulation *simulation, Facts *facts)
     if (page->writes)
         add_block(simulation, facts);
     law_facts(simulation, facts);
-    if (page->modes) {
-        double omega = simulation_fastest(simulation, mode);
+    if (page->modes && nodes <= SIMULATION_MODE_NODES) {
+        start_places(simulation, start);
+        double omega = simulation_fastest(simulation, start, mode);
         fact(facts, "fastest", omega);
         fact(facts, "h limit", 2 / omega);
     }

@@ -98,8 +98,10 @@ Status player_open_page(Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
     player->told = page; /* nobody has asked for these steps */
+    player->opens = true;
     Status status = player_obey_lines(player, page ? page->open : NULL);
     player->told = NULL;
+    player->opens = false;
     return status;
 }
 

@@ -212,7 +212,8 @@ static bool has_room(Player *player, int pane, const Options *options)
 }
 
 /* An option while the run goes on, or from the start where it cannot change any
- * more: in the active pane where they are compared by it, else in all. */
+ * more: in the active pane where they are compared by it, or where a page opens,
+ * else in all. */
 Status obey_set(Player *player, const Command *command)
 {
     const OptionRow *row = row_of(command);
@@ -226,7 +227,7 @@ Status obey_set(Player *player, const Command *command)
     }
     if (player_idle(player, row))
         return player_refuse(player, player_idle(player, row));
-    bool one = player_compares(player, row);
+    bool one = player->opens || player_compares(player, row);
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);
     player_options(player, options);

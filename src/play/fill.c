@@ -317,7 +317,7 @@ void player_label_panes(Player *player)
                                  "%sended at step %ld", used ? ", " : "", last);
         long seen = last < 0 ? last : past_last_seen(past, p, last);
         if (seen < last && used < size)
-            snprintf(label + used, size - used, " (here %ld)", seen);
+            snprintf(label + used, size - used, " (drawn: %ld)", seen);
     }
 }
 

@@ -1,16 +1,18 @@
-/* modes.c - the fastest small oscillation around a state: M q'' = -H q. */
+/* modes.c - the fastest small oscillation around a place: M q'' = -H q. */
 #include <math.h>
+#include <string.h>
 
 #include "scenes/simulation.h"
 
 /* Paces of the power iteration, and numbers that it has room for. */
 enum { PACES = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
 
-/* M^-1 H q, out; H of the first run's system where it is, 1/s^2 */
-static void pull(const Simulation *simulation, const double *q, double *out)
+/* M^-1 H q, out; H of the system at x, 1/s^2 */
+static void pull(const Simulation *simulation, double *x, const double *q,
+                 double *out)
 {
     const System *system = &simulation->system;
-    double *x = simulation->run[0].x, nothing[ROOM] = {0};
+    double nothing[ROOM] = {0};
     const IncrementalPotential E = {
         .system = system, .weight = 1, .x_n = x, .u_tilde = nothing};
     const Iterate at = {E, nothing, x, nothing, nothing};
@@ -19,12 +21,14 @@ static void pull(const Simulation *simulation, const double *q, double *out)
         out[i] = out[i] / system->m[i / 2] - q[i];
 }
 
-double simulation_fastest(const Simulation *simulation, double *mode)
+double simulation_fastest(const Simulation *simulation, const double *x,
+                          double *mode)
 {
-    double pulled[ROOM], omega2 = NAN;
+    double at[ROOM], pulled[ROOM], omega2 = NAN;
     int n = 2 * simulation->system.nodes;
     if (n > ROOM)
         return NAN;
+    memcpy(at, x, (size_t)n * sizeof *at);
     for (int i = 0; i < n; i++) /* no symmetry: in it all modes have a part */
         mode[i] = sin(1 + i + 0.1 * i * i);
     for (int pace = 0; pace < PACES; pace++) {
@@ -33,7 +37,7 @@ double simulation_fastest(const Simulation *simulation, double *mode)
             size += mode[i] * mode[i];
         for (int i = 0; i < n; i++)
             mode[i] /= sqrt(size);
-        pull(simulation, mode, pulled);
+        pull(simulation, at, mode, pulled);
         omega2 = 0;
         for (int i = 0; i < n; i++)
             omega2 += mode[i] * pulled[i];

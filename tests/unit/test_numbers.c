@@ -476,6 +476,10 @@ static void tell_page(const Simulation *simulation)
     }
     if (!o->page->modes)
         return;
+    double start[UNKNOWNS];
+    for (int i = 0; i < size; i++)
+        start[i] = simulation->mesh.x[i] * (i % 2 ? 1 : o->stretch);
+    exact_derivatives(&E, NULL, start, g, H);
     for (int i = 0; i < size * size; i++) /* masses are equal */
         H[i] /= system->m[0];
     exact_eigen(size, H, v);
@@ -712,8 +716,13 @@ static void tell_landscape(const Simulation *simulation)
     near("E", E.value, 1e-13L * (1 + E.value));
     near("elastic part", E.elastic, 1e-13L * (1 + E.elastic));
     near("bowl", (powl(at[0] - o[0], 2) + powl(at[1] - o[1], 2)) / 2, 1e-15L);
-    for (int i = 0; i < 2; i++)
+    MapE own = map_E(simulation, simulation->exhibit.parts, at,
+                     (Filter)simulation->options.filter);
+    for (int i = 0; i < 2; i++) {
         near("g", E.g[i], 1e-12L);
+        near("solution", own.p[i], 1e-12L);
+        is("solution", 0); /* where it has ended */
+    }
     near("Hxx", E.H[0], 1e-12L);
     near("Hxy", E.H[1], 1e-12L);
     near("Hyy", E.H[2], 1e-12L);
@@ -760,6 +769,7 @@ static void tell_search(const Simulation *simulation)
     near("next", to[0], 1e-9L * (1 + fabsl(to[0])));
     near("direction", p[0], 1e-9L * fabsl(p[0]) + 1e-15L);
     near("minimum of the model", at[0] + p[0], 1e-9L * fabsl(p[0]));
+    near("double sinh", sinhl(2 * at[0]), 1e-12L * fabsl(sinhl(2 * at[0])));
     near("slope", E[1], 1e-13L);
     is("digits", fmaxl(0, floorl(-log10l(fabsl(p[0] / to[0])))));
     is("curvature", E[2]);
