@@ -153,10 +153,10 @@ void descent_restart(Simulation *simulation);
 Local descent_at(const Simulation *simulation, Filter filter, double x,
                  double y);
 
-/* p = -H^-1 g from the iterate with this filter, m, whatever the run's own
+/* p = -H^-1 g from x [2] with this filter, m, whatever the run's own
  * filter is.  Returns grad E . p, J s^2, NaN where H has no inverse. */
 double descent_direction(const Simulation *simulation, Filter filter,
-                         double p[2]);
+                         const double *x, double p[2]);
 
 /* In how many directions it bends down there, or does not bend: 0 where the
  * Hessian, not projected, is positive definite (Newton's direction is downhill

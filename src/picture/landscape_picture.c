@@ -171,36 +171,22 @@ static void draw_direction(const Plot *plot, bool named, const double p[2],
     plot_words(plot, 2, place, 0.8, 1, FACE_BOLD, colour, words);
 }
 
-/* Where E is stationary and its direction 0, by Newton's method from there:
- * whether it was found. */
-static bool find_still(const Simulation *simulation, double x[2])
-{
-    double far = INFINITY;
-    for (int update = 0; update < 40 && far > 1e-9; update++) {
-        Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
-        const double *g = E.g, *H = E.H;
-        double determinant = H[0] * H[2] - H[1] * H[1];
-        const double p[2] = {(H[1] * g[1] - H[2] * g[0]) / determinant,
-                             (H[1] * g[0] - H[0] * g[1]) / determinant};
-        x[0] += p[0];
-        x[1] += p[1];
-        far = math_hypot(p[0], p[1]);
-    }
-    return far <= 1e-9;
-}
-
-/* Minima and the saddle of the parts that are on; inertia's is named x_tilde.
+/* Minima and the saddle of the parts that are on: where Newton's method ends.
  */
-static void name_still(Plot *plot)
+static void name_still(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     double at[3][2] = {{0, 1}, {0, -1}, {0, 0}};
     for (int i = 0; i < 3; i++) {
-        if (!find_still(simulation, at[i]))
-            continue;
-        Local E = descent_at(simulation, FILTER_NONE, at[i][0], at[i][1]);
-        bool saddle = E.H[0] * E.H[2] < E.H[1] * E.H[1];
-        if (saddle != (i == 2))
+        double p[2] = {1, 1};
+        for (int k = 0; k < 40 && math_hypot(p[0], p[1]) > 1e-9; k++) {
+            descent_direction(simulation, FILTER_NONE, at[i], p);
+            at[i][0] += p[0];
+            at[i][1] += p[1];
+        }
+        bool saddle = i == 2;
+        if (!(math_hypot(p[0], p[1]) <= 1e-9) ||
+            descent_bends_down(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow(plot, at[i], 4, 2, COLOUR_TEXT);
         plot_words(plot, 1, (const double(*)[2])at[i], 0.8, 0.95, FACE_REGULAR,
@@ -223,7 +209,8 @@ static void draw_directions(const Plot *plot, bool both)
     double p[2], slope;
     if (own[0] == 0 && own[1] == 0)
         return;
-    slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
+    slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE,
+                              descent->point, p);
     for (int named = 0; named < 2; named++) {
         if (both && !alone && math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
             draw_direction(plot, named, p, COLOUR_GHOST,

@@ -181,54 +181,6 @@ void mass_bounds(const Plot *stage, double bounds[4])
     bounds_around(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
-/* The arrows of one method in the order in which it makes them; then their
- * words, unless an arrow is short, the most important ones first. */
-static void draw_mass_step(Plot *stage)
-{
-    const Simulation *simulation = stage->simulation;
-    static const int order[] = {0, 1, 3, 2, 4};
-    static const double part[] = {0.55, 0.8, 0.35, 0.7};
-    MassStep step;
-    double h = simulation->run[0].h, tip[2], way[2], push[2];
-    if (!mass_next_step(simulation, 0, &step))
-        return;
-    bool backward = simulation->run[0].method->implicit;
-    for (int i = 0; i < 2; i++) {
-        tip[i] = step.x[i] + step.v[i];
-        way[i] = step.new_x[i] - step.x[i];
-        push[i] = h * (backward ? step.new_a[i] : step.a[i]);
-    }
-    const struct MassArrow {
-        const double *a, *d; /* m, from a along d */
-        double width;
-        Colour colour;
-        const char *word;
-    } arrow[] = {
-        {step.x, step.v, 2.6, COLOUR_VELOCITY, "v"},
-        {tip, push, 2.6, COLOUR_FORCE, backward ? "h a(x\u2032)" : "h a(x)"},
-        {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v\u2032"},
-        {step.x, way, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
-        {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a(x\u2032)"}};
-    for (int i = 0; i < 4 + backward; i++)
-        plot_arrow(stage, arrow[i].a, arrow[i].d, 1, arrow[i].width,
-                   arrow[i].colour);
-    plot_ring(stage, step.new_x, 9, 2.4, COLOUR_X);
-    plot_disc(stage, step.x, 8, COLOUR_X);
-    if (!stage->text)
-        return;
-    plot_words(stage, 1, (const double(*)[2])step.new_x, 0.9, 1.15, FACE_BOLD,
-               COLOUR_X, "x\u2032");
-    for (int i = 0; i < 4 + backward; i++) {
-        const struct MassArrow *now = &arrow[order[i]];
-        double at[4][2], scale = stage->camera.scale[0];
-        for (int k = 0; k < 8; k++)
-            at[k / 2][k % 2] = now->a[k % 2] + part[k / 2] * now->d[k % 2];
-        if (math_hypot(now->d[0], now->d[1]) * scale > 2 * stage->em)
-            plot_words(stage, 4, (const double(*)[2])at, 0.35, 1.15, FACE_BOLD,
-                       now->colour, now->word);
-    }
-}
-
 /* Where the exact motion from here is after h: x cos h + v sin h. */
 static void exact_step(const MassStep *step, double h, double end[2])
 {
@@ -297,6 +249,57 @@ static void draw_mass_lesson(Plot *stage)
         plot_ellipse(stage, origin, step.x, across, 1.6, NULL, COLOUR_GREY);
 }
 
+/* The arrows of one method in the order in which it makes them; what a page
+ * tells beside them; then their words, unless an arrow is short, the most
+ * important ones first. */
+static void draw_mass_step(Plot *stage)
+{
+    const Simulation *simulation = stage->simulation;
+    static const int order[] = {0, 1, 3, 2, 4};
+    static const double part[] = {0.55, 0.8, 0.35, 0.7};
+    MassStep step;
+    double h = simulation->run[0].h, tip[2], way[2], push[2];
+    if (!mass_next_step(simulation, 0, &step))
+        return;
+    bool backward = simulation->run[0].method->implicit;
+    for (int i = 0; i < 2; i++) {
+        tip[i] = step.x[i] + step.v[i];
+        way[i] = step.new_x[i] - step.x[i];
+        push[i] = h * (backward ? step.new_a[i] : step.a[i]);
+    }
+    const struct MassArrow {
+        const double *a, *d; /* m, from a along d */
+        double width;
+        Colour colour;
+        const char *word;
+    } arrow[] = {
+        {step.x, step.v, 2.6, COLOUR_VELOCITY, "v"},
+        {tip, push, 2.6, COLOUR_FORCE, backward ? "h a(x\u2032)" : "h a(x)"},
+        {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v\u2032"},
+        {step.x, way, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
+        {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a(x\u2032)"}};
+    for (int i = 0; i < 4 + backward; i++)
+        plot_arrow(stage, arrow[i].a, arrow[i].d, 1, arrow[i].width,
+                   arrow[i].colour);
+    plot_ring(stage, step.new_x, 9, 2.4, COLOUR_X);
+    plot_disc(stage, step.x, 8, COLOUR_X);
+    if (stage->show->lecture)
+        draw_mass_lesson(stage);
+    if (!stage->text)
+        return;
+    plot_words(stage, 1, (const double(*)[2])step.new_x, 0.9, 1.15, FACE_BOLD,
+               COLOUR_X, "x\u2032");
+    for (int i = 0; i < 4 + backward; i++) {
+        const struct MassArrow *now = &arrow[order[i]];
+        double at[4][2], scale = stage->camera.scale[0];
+        for (int k = 0; k < 8; k++)
+            at[k / 2][k % 2] = now->a[k % 2] + part[k / 2] * now->d[k % 2];
+        if (math_hypot(now->d[0], now->d[1]) * scale > 2 * stage->em)
+            plot_words(stage, 4, (const double(*)[2])at, 0.35, 1.15, FACE_BOLD,
+                       now->colour, now->word);
+    }
+}
+
 /* All three: the way that each goes next. */
 static void draw_mass_ways(Plot *stage)
 {
@@ -331,11 +334,8 @@ void mass_draw(Plot *stage)
     else if (show->veiled)
         plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
     else if (!show->lecture || !show->lecture->predict || !guess->made ||
-             guess->shown) {
+             guess->shown)
         draw_mass_step(stage);
-        if (show->lecture)
-            draw_mass_lesson(stage);
-    }
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, run[r].x, 8, run_colour(simulation, r));
 }

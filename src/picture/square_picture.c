@@ -15,7 +15,6 @@
 enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
 enum { LEAST_CELL = 5 };     /* pixels; smaller cells are drawn as faces */
 enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
-enum { MAGNIFIED = 20 };     /* times, what a page shows of displacements */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
 static const double ROOM = 1.14;       /* of the stage around the square */
@@ -170,22 +169,6 @@ static void draw_hover(const SpringPen *pen)
 
 /* ---- all of it ---------------------------------------------------------- */
 
-/* The rest shape where it is a dot, from its right. */
-static void name_dot(const SpringPen *pen)
-{
-    char words[80];
-    double side = pen->simulation->mesh.side, p[2], em = pen->stage->em;
-    const double origin[2] = {0, 0};
-    snprintf(words, sizeof words, "the square at rest: %s m",
-             number_of(side).text);
-    plot_place(pen->stage, origin, p);
-    double y = pen->stage->box.y + 0.8 * pen->stage->box.height;
-    canvas_arrow(&pen->stage->paper->canvas, p[0], y - 0.3 * em, p[0], p[1],
-                 1.6 * pen->stage->paper->unit, 0.5 * em, COLOUR_TEXT);
-    paper_write(pen->stage->paper, FACE_BOLD, 1, COLOUR_TEXT, p[0], y,
-                ALIGN_CENTRE, "%s", words);
-}
-
 /* Below the springs: rest shape, ghosts, cells.  Returns how many cells have
  * folded over. */
 static int draw_ground(const SpringPen *pen)
@@ -195,9 +178,7 @@ static int draw_ground(const SpringPen *pen)
     if (!has_frame(pen->simulation) && !pen->contact &&
         pen->simulation->options.bodies == 0) {
         square_outline(pen, pen->simulation->mesh.x, false, COLOUR_RULE);
-        if (pen->simulation->mesh.side * pen->stage->camera.scale[0] < 4)
-            name_dot(pen);
-        else if (pen->stage->pane == 0)
+        if (pen->stage->pane == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
     int folded = square_cells(pen, pen->contact || fracture_of(pen->system));
@@ -236,9 +217,14 @@ static void draw_warnings(const SpringPen *pen, int folded)
                     number_of(needed).text);
 }
 
-/* Above them. */
+/* Above them; and the rest shape by name where it is a dot. */
 static void draw_signs(const SpringPen *pen)
 {
+    static const double origin[1][2] = {{0, 0}};
+    double side = pen->simulation->mesh.side;
+    if (side * pen->stage->camera.scale[0] < 4 && !has_frame(pen->simulation))
+        plot_words(pen->stage, 1, origin, 2, 1, FACE_BOLD, COLOUR_TEXT,
+                   "\u2190 the square was here");
     const Trace *trace = pen->pane->trace;
     if (pen->projected)
         plot_legend(pen->stage, COLOUR_PROJECT, "projected spring");
@@ -279,16 +265,18 @@ static void draw_numbers(const SpringPen *pen)
     }
 }
 
-/* An arrow for each node, the longest one of half a cell. */
-static void draw_arrows(const SpringPen *pen, const double *d, Colour colour,
-                        const char *word)
+/* An arrow for each node, so many times as long as d; 0: the longest of half a
+ * cell. */
+static void draw_arrows(const SpringPen *pen, const double *d, double factor,
+                        Colour colour, const char *word)
 {
     int nodes = pen->system->nodes;
-    double longest = 0;
+    double longest = 1e-300;
     for (int i = 0; i < nodes; i++)
         longest = fmax(longest, math_hypot(d[2 * i], d[2 * i + 1]));
-    double factor = 0.5 * pen->simulation->mesh.spacing / longest;
-    for (int i = 0; i < nodes && longest > 0; i++)
+    if (factor == 0)
+        factor = 0.5 * pen->simulation->mesh.spacing / longest;
+    for (int i = 0; i < nodes; i++)
         plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i, factor, 2.6, colour);
     plot_legend(pen->stage, colour, "%s", word);
 }
@@ -313,21 +301,16 @@ static void draw_page_arrows(const SpringPen *pen)
         return;
     if (page->modes) {
         start_places(pen->simulation, arrow);
-        for (int i = 0; i < system->nodes; i++) {
-            double d[2] = {pen->x[2 * i] - arrow[2 * i],
-                           pen->x[2 * i + 1] - arrow[2 * i + 1]};
-            plot_arrow(pen->stage, pen->x + 2 * i, d, MAGNIFIED, 2.6,
-                       COLOUR_VELOCITY);
-        }
-        plot_legend(pen->stage, COLOUR_VELOCITY, "displacement \u00d7 %d",
-                    MAGNIFIED);
+        for (int k = 0; k < 2 * system->nodes; k++)
+            arrow[k] = pen->x[k] - arrow[k];
+        draw_arrows(pen, arrow, 20, COLOUR_VELOCITY, "displacement \u00d7 20");
     }
     if (!page->forces)
         return;
     system_acceleration(system, pen->x, arrow);
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
-    draw_arrows(pen, arrow, COLOUR_FORCE, "force on each node");
+    draw_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
     const double(*last)[2] =
         (const double(*)[2])(pen->x + 2 * system->nodes - 2);
     snprintf(word, sizeof word, "node %d", system->nodes - 1);

@@ -212,8 +212,8 @@ static bool has_room(Player *player, int pane, const Options *options)
 }
 
 /* An option while the run goes on, or from the start where it cannot change any
- * more: in the active pane where they are compared by it, or where a page opens,
- * else in all. */
+ * more: in the active pane where they are compared by it or a page opens, else
+ * in all. */
 Status obey_set(Player *player, const Command *command)
 {
     const OptionRow *row = row_of(command);

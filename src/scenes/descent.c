@@ -122,12 +122,10 @@ static double newton_direction(const Local *E, bool scalar, double p[2])
 }
 
 double descent_direction(const Simulation *simulation, Filter filter,
-                         double p[2])
+                         const double *x, double p[2])
 {
-    const Descent *descent = &simulation->descent;
-    Local E =
-        descent_at(simulation, filter, descent->point[0], descent->point[1]);
-    return newton_direction(&E, descent->scalar, p);
+    Local E = descent_at(simulation, filter, x[0], x[1]);
+    return newton_direction(&E, simulation->descent.scalar, p);
 }
 
 /* E along p, from a point where it is `value`. */

@@ -350,7 +350,7 @@ static void obey_places(Simulation *simulation)
 
 TEST(claim_explicit)
 {
-    says("explicit", "20 3 10 9 1.84 2.05 1.5 20 10 1.5 9 1000 2 10 1");
+    says("explicit", "20 3 10 9 6 1.84 2.05 1.5 20 10 1.5 9 1000 2 10 1");
     double limit = known("explicit", "h limit");
     for (int i = 0; i < 2; i++) { /* a push along it, below and above */
         char line[80];
