@@ -14,9 +14,9 @@
 #include "scenes/scene.h"
 
 enum {
-    PICTURE_WIDTH = 1700, /* pixels, of 190 mm */
-    PICTURE_HEIGHT = 900,
-    PICTURE_EM = 19,
+    PICTURE_WIDTH = 1360, /* pixels, of 190 mm */
+    PICTURE_HEIGHT = 720,
+    PICTURE_EM = 16,
     INKS = 5 /* steps between white and a colour's darkest */
 };
 
