@@ -96,8 +96,6 @@ typedef struct SpringFacts {
     double force[2];     /* -grad P on the free end, N */
     double along;        /* eigenvalue of its 2x2 Hessian along d, J/m^2 */
     double across;       /* and across */
-    double block[4];     /* eigenvalues of the 4x4 block, ascending */
-    double projected[4]; /* the same after projection, ascending */
     double root_energy;  /* P_root, J */
     double root_along, root_across; /* -infinity across at |d| = 0 */
 } SpringFacts;

@@ -102,19 +102,16 @@ void spring_draw(Plot *stage)
 /* ---- cards -------------------------------------------------------------- */
 
 /* Of the Hessian, and of the projected one. */
-static void add_hessian(const Simulation *simulation, Facts *facts)
+static void add_hessian(const Simulation *simulation, Filter filter,
+                        Facts *facts)
 {
     static const char *const names[2][3] = {{"Hxx", "Hxy", "Hyy"},
                                             {"Pxx", "Pxy", "Pyy"}};
     const System *system = &simulation->system;
     double k = system->k[0], H[3];
-    Filter filter = simulation->options.filter;
     for (int i = 0; i < 2; i++) {
         spring_hessian(simulation->run[0].x, system->l2[0], k,
-                       i == 0                 ? FILTER_NONE
-                       : filter == FILTER_ABS ? FILTER_ABS
-                                              : FILTER_CLAMP,
-                       H);
+                       i == 0 ? FILTER_NONE : filter, H);
         fact_matrix(facts, names[i], H, 1e-12 * k);
     }
 }
@@ -146,9 +143,10 @@ static void add_differences(const Simulation *simulation, Facts *facts)
 
 void length_facts(const Simulation *simulation, Facts *facts)
 {
-    static const char *const before[] = {"e1", "e2", "e3", "e4"};
-    static const char *const after[] = {"p1", "p2", "p3", "p4"};
     SpringFacts now = facts_of_spring(simulation);
+    double along = 2 * now.along, across = 2 * now.across; /* of its block */
+    Filter filter =
+        simulation->options.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
     bool both = simulation->exhibit.parts;
     fact_point(facts, "d", simulation->run[0].x);
     fact(facts, "distance", now.length);
@@ -160,13 +158,12 @@ void length_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "force", now.force);
     fact(facts, "along", now.along);
     fact(facts, "across", now.across);
-    for (int i = 0; i < 4; i++) {
-        bool turned = simulation->options.filter == FILTER_ABS;
-        fact(facts, before[i], now.block[i]);
-        fact(facts, after[i], turned ? fabs(now.block[i]) : now.projected[i]);
-    }
-    fact(facts, "negative", fmin(2 * fmin(now.along, now.across), 0));
-    add_hessian(simulation, facts);
+    fact(facts, "block along", along);
+    fact(facts, "block across", across);
+    fact(facts, "projected along", projected_eigenvalue(filter, along));
+    fact(facts, "projected across", projected_eigenvalue(filter, across));
+    fact(facts, "negative", fmin(fmin(along, across), 0));
+    add_hessian(simulation, filter, facts);
     if (simulation->options.page)
         add_differences(simulation, facts);
     fact_when(facts, "root", both);

@@ -109,14 +109,6 @@ void spring_facts(const double d[2], double l2, double k, SpringFacts *facts)
         .root_along = 4 * k,
         .root_across = 4 * k * (1 - l / r),
     };
-    double low = 2 * fmin(facts->along, facts->across);
-    double high = 2 * fmax(facts->along, facts->across);
-    const double block[4] = {fmin(low, 0), fmin(high, 0), fmax(low, 0),
-                             fmax(high, 0)};
-    for (int i = 0; i < 4; i++) {
-        facts->block[i] = block[i];
-        facts->projected[i] = fmax(block[i], 0);
-    }
 }
 
 Status create_spring(Simulation *simulation)
