@@ -199,14 +199,16 @@ Plot plot_on(const Plot *stage, Axis x, Axis y)
     const Box *box = &plot.box;
     plot.x = x;
     plot.y = y;
-    if (stage->text)
-        plot.box = inner_box(stage, &y, 2.2, 1.7);
-    camera_world(&stage->camera, box->x, box->y + box->height, low);
-    camera_world(&stage->camera, box->x + box->width, box->y, high);
+    for (int pass = 0; pass < 2; pass++) { /* the first one for the numbers */
+        if (stage->text && pass > 0)
+            plot.box = inner_box(stage, &plot.y, 2.2, 1.7);
+        camera_world(&stage->camera, box->x, box->y + box->height, low);
+        camera_world(&stage->camera, box->x + box->width, box->y, high);
+        if (y.high == 0)
+            set_range(&plot.y, low[1], high[1]);
+    }
     set_range(&plot.x, low[0], high[0]);
-    if (y.high == 0)
-        set_range(&plot.y, low[1], high[1]);
-    else
+    if (y.high != 0)
         set_camera(&plot, 1, &y);
     if (stage->text)
         draw_axes(&plot);

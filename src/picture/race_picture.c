@@ -57,7 +57,7 @@ void race_draw(Plot *stage)
     Plot plot = plot_on(
         stage,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
-        (Axis){.log = true, .label = "error in m"});
+        (Axis){.log = true});
     const double at[2][2] = {{plot.x.low, NEAR}, {plot.x.high, NEAR}};
     if (!over_h)
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
