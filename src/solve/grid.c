@@ -12,7 +12,7 @@ enum { LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
 Rows rows_of(int nodes)
 {
     int even = (nodes + 1) / 2;
-    int half = (even + WIDE_LANES) / WIDE_LANES * WIDE_LANES; /* and a ghost */
+    int half = (even + PADDED) / PADDED * PADDED; /* and a ghost */
     return (Rows){.nodes = nodes,
                   .count = {even, nodes / 2},
                   .half = half,

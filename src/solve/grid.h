@@ -31,6 +31,13 @@ enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
 /* Nodes at once in double and in single precision. */
 enum { LANES = 8, WIDE_LANES = 16 };
 
+/* Half a row is a multiple of so many; a page leaves out lanes behind it. */
+#ifdef __wasm_simd128__
+enum { PADDED = LANES };
+#else
+enum { PADDED = WIDE_LANES };
+#endif
+
 /* Rows of a band; sums that one loop makes. */
 enum { BAND = 8, MAX_SUMS = 4 };
 

@@ -58,13 +58,12 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 /* So many of a run's next nodes: where registers are narrow, lanes behind its
  * end are left out; they are outside and stay 0. */
 #ifdef __wasm_simd128__
-#define NEXT(at, lanes)                                                        \
-    ((at).end - (at).first < (lanes)                                           \
-         ? ((at).end - (at).first + (lanes) / 4 - 1) & -((lanes) / 4)          \
-         : (lanes))
+#define AT_MOST(lanes, left)                                                   \
+    ((left) < (lanes) ? ((left) + (lanes) / 4 - 1) & -((lanes) / 4) : (lanes))
 #else
-#define NEXT(at, lanes) (lanes)
+#define AT_MOST(lanes, left) (lanes)
 #endif
+#define NEXT(at, lanes) AT_MOST(lanes, (at).end - (at).first)
 
 /* A loop whose numbers are Few (or Pairs): in a page so many of single (or
  * double) precision at once, for there what comes from several springs has to

@@ -133,7 +133,7 @@ INLINE void split(const Rows *rows, int I, int first, const float *line,
                   float *to)
 {
     float *even = to + place_of(rows, I, first), *odd = even + rows->half;
-    EACH_OF (WIDE_LANES / 2) {
+    EACH_OF (AT_MOST(WIDE_LANES / 2, (rows->nodes - first + 1) / 2)) {
         even[e] = line[2 * e];
         odd[e] = line[2 * e + 1];
     }
@@ -357,7 +357,7 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
     float *const even = to + at, *const odd = even + fine.half;
     const float *const D = level->D[0] + at, *const odd_D = D + fine.half;
     for (int first = 0; 2 * first < fine.count[0]; first += WIDE_LANES / 2)
-        EACH_OF (WIDE_LANES / 2) {
+        EACH_OF (AT_MOST(WIDE_LANES / 2, fine.half / 2 - first)) {
             const int J = first + e;
             float here = 0.5f * (a[J] + z[J]);
             float after = 0.5f * (a[half + J] + z[half + J]);
