@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/clock.h"
 #include "scenes/one_line.h"
@@ -296,6 +297,43 @@ static void join_line(int argc, char **argv, char *line, size_t size)
     }
 }
 
+/* Whether two names of the command line are one file or folder.  Only devices
+ * may be meant twice; what does not exist yet is kept apart by its lock. */
+static bool is_same_file(const char *one, const char *other)
+{
+    struct stat first, second;
+    if (stat(one, &first) || stat(other, &second))
+        return strcmp(one, other) == 0;
+    return !S_ISCHR(first.st_mode) && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+/* Whether each file of a run has a name of its own, so that none replaces what
+ * another one reads or writes; message: one line if not. */
+static bool files_differ(const Options *options, char *message, size_t size)
+{
+    const char *name[16], *with[16];
+    char shown[64];
+    int count = 0;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        if (row->kind != OPTION_TEXT || row->offset == offsetof(Options, pin))
+            continue;
+        with[count] = *(char *const *)((const char *)options + row->offset);
+        name[count] = row->name;
+        for (int i = 0; with[count] && i < count; i++)
+            if (is_same_file(with[i], with[count])) {
+                one_line(with[i], shown, sizeof shown);
+                snprintf(message, size,
+                         "--%s and --%s are one file, '%s': "
+                         "each needs a name of its own",
+                         name[i], name[count], shown);
+                return false;
+            }
+        count += with[count] != NULL;
+    }
+    return true;
+}
+
 int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
                   Player *player)
 {
@@ -316,6 +354,8 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
+    if (!files_differ(options, message, sizeof message))
+        return misuse(message);
     if (options->handout) {
         code = make_handout(options, stop, player);
         *player = (Player){0};

@@ -39,8 +39,10 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 1|missing/x.html|--handout missing/x.html
 2|line 1.*'jump'.*--help commands$|--headless --script jump
 2|nowhere: No such file|--headless --script nowhere
-1|written already|--headless --states k.csv --log k.csv
-1|written already|--headless --states chain --log k.csv
+2|--states and --log are one file, 'k.csv'|--states k.csv --log k.csv
+2|--states and --log are one file|--states chain --log k.csv
+2|--log and --script are one file|--log k.csv --script chain
+2|--frames and --vtk are one file|--frames d --vtk d/
 1|written already|--headless --states new --log d/../new
 1|n.npz: it is being written already|--headless --states n.npz --springs ./n.npz
 2|--springs.*'circle' has no square|circle --springs n.csv
