@@ -400,7 +400,7 @@ TEST(claim_explicit)
 /* g''/(2 g') of E = (x - 2)^2/2 + 0.45 (x^2 - 1)^2 at the root of g. */
 TEST(claim_tangent)
 {
-    says("tangent", "0 1 1 10 2.5 2.5 1.17799 2 0.95");
+    says("tangent", "1 1 1 10 0 2.5 2.5 1.17799 2 0.95");
     double x[16];
     int count = 0;
     Simulation *simulation = open_page("tangent", "");
