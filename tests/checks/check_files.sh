@@ -262,8 +262,6 @@ verdict signals_lose_no_row "$(signals)"
 # A run that hangs where it cannot look: the first signal changes nothing, the
 # second ends it at once.
 second_signal() {
-    "${CC:-cc}" -std=c11 -D_GNU_SOURCE -O1 -shared -fPIC "$here/faults.c" \
-        -o faults.so -ldl || return
     for name in INT TERM; do
         echo precious >k.csv
         FAULT=hang FAULT_AT=1 FAULT_FILE=/dev/null LD_PRELOAD=./faults.so \
@@ -286,8 +284,34 @@ ends_by() { # SIGNAL: another one; two in a row may become one
     sleep 0.2
     has_ended $child
 }
+
+# A run opens NAME.part, and the one that was writing it ends before the lock is
+# asked for: what that one wrote stays.
+late() {
+    "$elasto" --headless --quiet --segments 2 --steps 100000000 \
+        --states s.csv &
+    first=$!
+    until_there s.csv.part
+    FAULT=late FAULT_FILE=/dev/null LD_PRELOAD=./faults.so "$elasto" \
+        --headless --quiet --segments 2 --steps 2 --states s.csv 2>error &
+    child=$!
+    until_true has_opened || echo 'the second opens nothing'
+    kill -s TERM $first
+    wait $first || echo "the first: exit $?"
+    cp s.csv before
+    : >go
+    wait $child && echo 'the second writes, too'
+    cmp s.csv before 2>&1
+    rm -f go before s.csv
+}
+has_opened() {
+    ls -l "/proc/$child/fd" | grep -q s.csv.part
+}
 if [ -z "${SANITIZE:-}" ]; then
+    "${CC:-cc}" -std=c11 -D_GNU_SOURCE -O1 -shared -fPIC "$here/faults.c" \
+        -o faults.so -ldl
     verdict a_second_signal_ends_at_once "$(second_signal)"
+    verdict a_late_run_leaves_what_is_whole "$(late)"
 fi
 
 exit $failed

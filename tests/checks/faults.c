@@ -3,7 +3,8 @@
  * -Wl,--wrap=..., where sanitizers can look on.
  *
  *   FAULT       which call: memory, open, write, close, rename, folder; hang:
- *               renaming never ends
+ *               renaming never ends; late: what is opened for writing comes
+ *               when there is a file "go"
  *   FAULT_AT    the number of the one that fails, from 1; 0: only count
  *   FAULT_ALL   set: and all after it
  *   FAULT_FILE  the number of calls goes to this file at the end
@@ -120,7 +121,10 @@ int FAULTY(open)(const char *name, int flags, ...)
     va_end(arguments);
     if ((flags & O_CREAT) && fails("open", EMFILE))
         return -1;
-    return REAL(open)(name, flags, mode);
+    int file = REAL(open)(name, flags, mode);
+    while ((flags & O_CREAT) && is_kind("late") && access("go", F_OK) != 0)
+        usleep(1000);
+    return file;
 }
 
 int FAULTY(rename)(const char *from, const char *to)
