@@ -14,10 +14,10 @@
 #include "scenes/simulation.h"
 
 enum {
-    SHOW_TEXT = 160, /* bytes of a sentence */
-    SHOW_VALUE = 32, /* bytes of a setting's value */
-    SHOW_CODE_LINES = 64,
-    SHOW_PAGES = 64 /* of the lecture, at most */
+    SHOW_TEXT = 160,      /* bytes of a sentence */
+    SHOW_VALUE = 32,      /* bytes of a setting's value */
+    SHOW_CODE_LINES = 22, /* as many as are seen from the back row */
+    SHOW_PAGES = 64       /* of the lecture, at most */
 };
 
 /* Where in Algorithm 3 the run stands.  Everything up to this line is done:

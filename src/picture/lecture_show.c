@@ -1,12 +1,9 @@
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
 #include "scenes/listing.h"
 #include "scenes/scene.h"
-
-enum { CODE_SHOWN = 22 }; /* lines */
 
 /* Where Algorithm 3's lines are in step_forward of lecture.c. */
 static const char *const line_texts[LINE_COUNT] = {
@@ -66,19 +63,20 @@ static int count_asides(const char *const *line)
     return 0;
 }
 
-/* A function's lines, behind those of the one before. */
+/* A function's lines, behind those of the one before, as many as there is room
+ * for. */
 static void add_function(const Listing *listing, const char *name,
                          const char *text, Page *code)
 {
     int from, at, to;
     if (!listing_function(listing, name, &from, &at, &to))
         return;
-    if (code->lines > 0)
+    if (code->lines > 0 && code->lines < SHOW_CODE_LINES)
         code->line[code->lines++] = "";
-    while (at < to && code->lines + 1 < SHOW_CODE_LINES) {
+    while (at < to && code->lines < SHOW_CODE_LINES) {
         int asides = count_asides(listing->line + at);
-        at += asides;
         bool begins = code->lines > 0 && code->line[code->lines - 1][0] == '{';
+        at += asides;
         at += begins && !listing->line[at][0];
         if (asides > 0)
             continue;
@@ -87,30 +85,18 @@ static void add_function(const Listing *listing, const char *name,
     }
 }
 
-/* Of the functions as many lines as are seen from the back row, from their
- * beginning, but up to the last one that is lit. */
 static void fill_code(const LecturePage *page, Show *show)
 {
     const Listing *listing = listing_find(page->file);
     const char *text = lit_text(show, page);
-    Page *code = &show->page;
-    int last = 0;
-    *code = (Page){.kind = PAGE_CODE, .title = page->file};
+    show->page = (Page){.kind = PAGE_CODE, .title = page->file};
     for (const char *at = page->function; listing && *at;) {
         char name[40];
         int length = (int)strcspn(at, ",");
         snprintf(name, sizeof name, "%.*s", length, at);
-        add_function(listing, name, text, code);
+        add_function(listing, name, text, &show->page);
         at += length + (at[length] == ',');
     }
-    for (int i = 0; i < code->lines; i++)
-        last = code->lit[i] ? i : last;
-    code->lines -= code->lines > CODE_SHOWN; /* the brace at its end */
-    int top = last < CODE_SHOWN ? 0 : last + 1 - CODE_SHOWN;
-    code->lines = (int)fmin(code->lines - top, CODE_SHOWN);
-    memmove(code->line, code->line + top,
-            (size_t)code->lines * sizeof *code->line);
-    memmove(code->lit, code->lit + top, (size_t)code->lines);
 }
 
 /* Numbers and topics; a page is marked. */

@@ -123,7 +123,7 @@ void table_draw(const Plot *card)
                                                "stable at", "energy",   "time"};
     static const double columns[2][COLUMNS] = {
         {0, 0.56, 0, 0, 0, 0, 0.78, 0, 1},
-        {0, 0.31, 0.4, 0.475, 0.55, 0.625, 0.755, 0.88, 1}};
+        {0, 0.31, 0.395, 0.465, 0.535, 0.605, 0.735, 0.87, 1}};
     bool wide = card->box.width > 46 * card->paper->em;
     const Race *race = &card->simulation->exhibit.race;
     Paper *paper = card->paper;
