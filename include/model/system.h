@@ -25,16 +25,15 @@ typedef struct Loss {
 } Loss;
 
 struct System {
-    int nodes;             /* n */
-    int springs;           /* 0: no springs */
-    int *e;                /* [2 springs] nodes of each spring */
-    double *m;             /* [n] kg, > 0; l2 and k are in the same piece */
-    double *l2;            /* [springs] m^2, rest length squared, > 0 */
-    double *k;             /* [springs] J/m^2, stiffness, > 0; see breaks */
-    double gravity[2];     /* m/s^2, acceleration of every node */
+    int nodes;         /* n */
+    int springs;       /* 0: no springs */
+    int *e;            /* [2 springs] nodes of each spring */
+    double *m;         /* [n] kg, > 0; l2 and k are in the same piece */
+    double *l2;        /* [springs] m^2, rest length squared, > 0 */
+    double *k;         /* [springs] J/m^2, stiffness; 0: broken, or not there */
+    double gravity[2]; /* m/s^2, acceleration of every node */
     unsigned char *pinned; /* [n] 1: the node never moves; behind e */
     double *pin_v;         /* [2n] m/s, how pins are moved; NULL: not at all */
-    bool breaks;           /* springs may be broken, or not there: k = 0 */
     int *order;            /* [n] elimination order, or NULL */
     int segments; /* n, where nodes and springs are those of square_mesh.h */
     unsigned version; /* goes up with every change of numbers or terms */

@@ -136,8 +136,6 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
 /* Whether a hand can take hold of its nodes. */
 bool simulation_is_handled(const Simulation *simulation);
 
-bool simulation_is_pinned(const Simulation *simulation, int node);
-
 /* Whether there is a Hessian to project and a line to search (not in explicit
  * integrators). */
 bool simulation_has_filter(const Simulation *simulation);

@@ -98,7 +98,6 @@ static Status set(System *system, const struct SquareMesh *mesh,
     data->strength = number[0];
     data->candidate = (Candidate *)(data + 1);
     data->taken = (unsigned char *)(data->candidate + springs);
-    system->breaks = true;
     return STATUS_OK;
 }
 

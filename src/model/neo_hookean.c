@@ -184,7 +184,6 @@ static Status set(System *system, const SquareMesh *mesh, const double *number)
     data->weight = (double(*)[2][3])(data + 1);
     data->node = (int(*)[3])(data->weight + triangles);
     cut_cells(mesh, system, data);
-    system->breaks = true; /* some k are 0 */
     system_remove_term(system, &mass_spring_energy);
     return STATUS_OK;
 }

@@ -117,9 +117,8 @@ static bool spring_is_valid(const System *system, int s)
     int i = system->e[2 * s], j = system->e[2 * s + 1];
     return i >= 0 && i < system->nodes && j >= 0 && j < system->nodes &&
            i != j && is_positive(system->l2[s]) &&
-           ((system->breaks && system->k[s] == 0) ||
-            (is_positive(system->k[s]) &&
-             is_positive(system->k[s] / system->l2[s])));
+           (system->k[s] == 0 || (is_positive(system->k[s]) &&
+                                  is_positive(system->k[s] / system->l2[s])));
 }
 
 Place place_at(const System *system, const double *x_n, const double *u,

@@ -146,17 +146,16 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     for (int k = 0; k < 2; k++)
         tilde[k] = ghost ? ghost[2 * node + k] : x[k] + h * v[k];
     fact(&facts, "node", node);
-    fact_words(&facts, "pinned",
-               system->pinned && system->pinned[node] ? ", pinned" : "");
+    fact_words(&facts, "pinned", system->pinned[node] ? ", pinned" : "");
     fact(&facts, "mass", system->m[node]);
     fact_point(&facts, "place", x);
     fact_point(&facts, "velocity", v);
     fact_point(&facts, "force", force);
     fact_point(&facts, "inertia", tilde);
     fact_words(&facts, "pin", /* where time passes */
-               !simulation_is_handled(simulation)       ? NULL
-               : system->pinned && system->pinned[node] ? "frees"
-                                                        : "pins");
+               !simulation_is_handled(simulation) ? NULL
+               : system->pinned[node]             ? "frees"
+                                                  : "pins");
     draw_note(stage, &facts, text_node);
 }
 

@@ -171,7 +171,7 @@ static CellLook cell_look(const Simulation *simulation, const double *x,
     const System *system = &simulation->system;
     int spring[6];
     square_mesh_cell(&simulation->mesh, cell, node, spring);
-    for (int k = 0; system->breaks && k < 6; k++)
+    for (int k = 0; k < 6; k++)
         if (spring_is_broken(system, spring[k]))
             return CELL_TORN;
     return is_folded(x, node) ? CELL_FOLDED : CELL_FLAT;
@@ -283,7 +283,7 @@ void square_nodes(const SpringPen *pen)
         radius *= 0.75;
     for (int i = 0; radius >= 0.5 * pen->width && i < system->nodes; i++)
         plot_disc(pen->stage, node_at(pen, i), radius, colour);
-    for (int i = 0; system->pinned && i < system->nodes; i++)
+    for (int i = 0; i < system->nodes; i++)
         if (system->pinned[i])
             plot_pin(pen->stage, node_at(pen, i), radius);
 }

@@ -394,7 +394,7 @@ Status obey_pin(Player *player, const Command *command)
     const Simulation *simulation = player_simulation(player);
     if (!(simulation->scene->needs & NEEDS_MESH) || simulation->scene->step)
         return player_refuse(player, "only nodes of a square can be pinned");
-    bool pinned = simulation_is_pinned(simulation, (int)node);
+    bool pinned = simulation->system.pinned[node];
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
     Status status = change_all(player, &change);
     if (!status)

@@ -332,7 +332,7 @@ static Status pin(Player *player, const Under *under)
 static Status grab(Player *player)
 {
     Mouse *mouse = &player->mouse;
-    mouse->pins = simulation_is_pinned(player_simulation(player), mouse->index);
+    mouse->pins = player_simulation(player)->system.pinned[mouse->index];
     Status status =
         mouse->pins ? ask(player, COMMAND_PIN, mouse->index) : STATUS_OK;
     return status ? status : ask(player, COMMAND_GRAB, mouse->index);
@@ -540,7 +540,7 @@ static void node_clicked(Player *player)
     int node = player->mouse.index;
     if (node >= 0 && node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,
-                    simulation_is_pinned(simulation, node) ? "frees" : "pins");
+                    simulation->system.pinned[node] ? "frees" : "pins");
 }
 
 /* A click on a name takes the next one. */

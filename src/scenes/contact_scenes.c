@@ -54,7 +54,7 @@ Status create_squeeze(Simulation *simulation)
 static void cut(Simulation *simulation, double x, double low, double high)
 {
     const SquareMesh *mesh = &simulation->mesh;
-    for (int s = 0; s < mesh->springs && simulation->system.breaks; s++) {
+    for (int s = 0; s < mesh->springs && simulation->options.tear > 0; s++) {
         const double *a = mesh->x + 2 * mesh->e[2 * s];
         const double *b = mesh->x + 2 * mesh->e[2 * s + 1];
         double middle = 0.5 * (a[1] + b[1]);

@@ -98,7 +98,6 @@ static void flip_kind(Simulation *simulation, int kind)
             system->k[s] = simulation->exhibit.parts >> kind & 1
                                ? 0
                                : simulation->options.stiffness;
-    system->breaks = true;
     system_changed(system, false);
     simulation->work[0] += simulation_energies(simulation, 0).total - before;
 }

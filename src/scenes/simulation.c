@@ -164,11 +164,6 @@ bool simulation_is_handled(const Simulation *simulation)
     return (scene->needs & NEEDS_TIME) && !scene->step && !scene->grips;
 }
 
-bool simulation_is_pinned(const Simulation *simulation, int node)
-{
-    return simulation->system.pinned[node];
-}
-
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row)
 {
     unsigned needs = simulation->scene->needs;

@@ -157,7 +157,7 @@ static void shake(uint64_t seed, TimeIntegrator *run)
     double speed = size / run->h * random_logarithmic(&random, 1e-6, 1);
     int shape = random_below(&random, 8), missing = random_below(&random, 4);
     for (int i = 0; i < 2 * system->nodes; i++) {
-        bool pinned = system->pinned && system->pinned[i / 2];
+        bool pinned = system->pinned[i / 2];
         if (shape == 1)
             run->x[i] = size * random_uniform(&random, -1, 1);
         if (shape == 2 && i % 2)

@@ -149,7 +149,7 @@ static Real claimed_residual(const Newton *newton)
     const double *p = newton->at.p;
     Real most = 0, sum = 0, lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++) {
-        if (system->pinned && system->pinned[i])
+        if (system->pinned[i])
             continue;
         Real x = lacking(newton, 2 * i), y = lacking(newton, 2 * i + 1);
         if (newton->kind != RESIDUAL_BOUND)

@@ -230,7 +230,7 @@ static Command random_edit(Random *random, int kind)
     double at[SCENE_MAX_HANDLES][2];
     int nodes = simulation->system.nodes;
     int node = random_below(random, nodes < 2 ? nodes : 2);
-    bool pinned = simulation_is_pinned(simulation, node);
+    bool pinned = simulation->system.pinned[node];
     Command edit = {0};
     char message[256], line[40];
     bool mesh = simulation->scene->needs & NEEDS_MESH;

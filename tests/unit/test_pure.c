@@ -24,7 +24,7 @@ static void step(Simulation *simulation, void *bytes)
 static void disturb(const Options *options, Simulation *used)
 {
     int last = used->system.nodes - 1;
-    bool pinned = simulation_is_pinned(used, last);
+    bool pinned = used->system.pinned[last];
     bool damps = used->run[0].method->at_end && used->system.springs > 0;
     simulation_set(used, OPTION_SLOT(timestep), 2 * options->timestep);
     CHECK_STATUS(simulation_pin(used, last, !pinned), STATUS_OK);

@@ -421,7 +421,6 @@ TEST(the_mouse_finds_nodes_and_springs)
     CHECK(picks(pick_at(column, height, -6, 0), PICK_SPRING, left));
     CHECK(pick_at(column, height, -12, 0).kind == PICK_NONE);
     system->k[left] = 0;
-    system->breaks = true;
     CHECK(pick_at(column, height, -6, 0).kind == PICK_NONE);
     stand_up("square", 0); /* before the first step its sides are edges */
     show.paused = true;

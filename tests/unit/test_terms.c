@@ -127,17 +127,14 @@ static void make_grid(const Row *row, Random *random, Case *c)
     if (row->option)
         set_option(row->option, random, &mesh, &c->system);
     square_mesh_free(&mesh);
-    if (row->shape == GRID && !row->solid && random_below(random, 2)) {
+    if (row->shape == GRID && !row->solid && random_below(random, 2))
         c->system.k[random_below(random, c->system.springs)] = 0;
-        c->system.breaks = true;
-    }
     if (row->shape == CORNER) { /* one triangle is left, without springs */
         const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
         for (int s = 0; s < c->system.springs; s++)
             if (s != cells->spring[0] && s != cells->spring[1] &&
                 s != cells->spring[2])
                 c->system.k[s] = 0;
-        c->system.breaks = true;
     }
 }
 
