@@ -943,6 +943,7 @@ TEST(claim_inelastic)
     }
     const Plasticity *plasticity = plasticity_of(&simulation->system);
     assert_non_null(plasticity);
+    CHECK(plasticity->yield == 0.04 && plasticity->hardening == 0.1);
     for (int s = 0; s < simulation->system.springs; s++)
         most = fmax(most, fabs(plasticity->ep[s]));
     CHECK(most > 0.05);
@@ -1050,6 +1051,7 @@ TEST(claim_bodies)
 TEST(claim_rub)
 {
     says("rub", "20 1 0.2 2 0.255 0.085 0.6 100 1 0.6");
+    CHECK(open_page("rub", "")->options.barrier[0] == 0.02);
     for (int i = 0; i < 2; i++) {
         double x[2], rigid = 1 / (2 * (i ? 0.6 : 0.2) * 9.81);
         CHECK_NEAR(rigid, i ? 0.085 : 0.255, 5e-4);
