@@ -76,15 +76,15 @@ void race_draw(Plot *stage)
                        race_method(i)->label);
 }
 
-/* The quickest run that is so near, of an implicit method or an explicit one,
- * NULL: there is none. */
+/* The quickest stable run that is so near, of an implicit method or an explicit
+ * one; NULL: there is none. */
 static const RacePoint *find_quickest(const Race *race, bool implicit)
 {
     const RacePoint *best = NULL;
     for (const RacePoint *at = race->point; at < race->point + race->count;
          at++)
-        if (at->method->implicit == implicit && at->error <= NEAR &&
-            (!best || at->seconds < best->seconds))
+        if (at->method->implicit == implicit && at->stable &&
+            at->error <= NEAR && (!best || at->seconds < best->seconds))
             best = at;
     return best;
 }

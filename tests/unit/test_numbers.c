@@ -801,7 +801,7 @@ static void tell_race(const Simulation *simulation)
     for (int k = 0; k < race->count; k++) {
         const RacePoint *point = &race->point[k];
         Real *best = &least[point->method->implicit];
-        if (point->error <= 0.01)
+        if (point->error <= 0.01 && point->stable)
             *best = fminl(*best, 1e3L * point->seconds);
         for (int i = 0; i < race->count; i++) /* halved once */
             if (race->point[i].method == point->method &&

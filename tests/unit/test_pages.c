@@ -837,7 +837,7 @@ TEST(claim_step)
 
 TEST(claim_simulator)
 {
-    says("simulator", "50 100 1");
+    says("simulator", "0.3 50 100 1");
     Simulation *simulation = open_page("simulator", "");
     for (int i = 0; i < 50; i++) {
         double before = simulation_energies(simulation, 0).total;
@@ -853,6 +853,9 @@ TEST(claim_simulator)
     }
     CHECK_AT_MOST(left[0], 0.5);
     CHECK_NEAR(left[1], 1, 0.01);
+    simulation = open_page("simulator", "");
+    make_steps(simulation, 200);
+    CHECK_NEAR(simulation_energies(simulation, 0).total, 0.3, 0.05);
 }
 
 /* total at the start + work = what there is + what was lost, within a
