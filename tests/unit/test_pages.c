@@ -350,7 +350,7 @@ static void obey_places(Simulation *simulation)
 
 TEST(claim_explicit)
 {
-    says("explicit", "20 3 10 9 6 1.84 2.05 1.5 20 10 1.5 9 1000 2 10 1");
+    says("explicit", "20 4.7 10 9 6 1.84 2.05 1.5 20 10 1.5 9 1000 2 10 1");
     double limit = known("explicit", "h limit");
     for (int i = 0; i < 2; i++) { /* a push along it, below and above */
         char line[80];
@@ -367,6 +367,7 @@ TEST(claim_explicit)
         CHECK((now < 1e3 * start) == (i == 0));
     }
     CHECK_NEAR(0.009 * 2 / limit, 1.84, 0.005);
+    CHECK_NEAR(1e3 * hypot(0.17 - 0.5 / 3, 0.17 - 0.5 / 3), 4.7, 0.05);
     CHECK_NEAR(0.01 * 2 / limit, 2.05, 0.005);
     double t2 = powl(0.02 / limit, 2); /* of lambda^2 - (2 - t2) lambda + 1 */
     CHECK_NEAR(0.5 * (t2 - 2) + sqrt(0.25 * (t2 - 2) * (t2 - 2) - 1), 1.5,
