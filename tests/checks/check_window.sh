@@ -178,7 +178,9 @@ hand_arrives() {
         point $((279 + 12 * i)) $((389 - 20 * i))
     done
     frame 40
+    rm -f frames/frame_0000[01]0.png # what the mouse hits is what was drawn
     at_once mouseup 1 key space Home
+    frame 0
     point 524 634
     xdotool click 3 # at an old step a hand is asked first
     xdotool click 3
@@ -200,6 +202,7 @@ hand_arrives() {
     cmp -s plain.png moved.png && echo 'the middle button does nothing'
     cmp -s plain.png fitted.png || echo 'a double click does not fit'
     key n n n n n n n n n n
+    frame 10
     drag 1 "$((11 + 878 * 9 / 60)) 850" "-$((878 * 11 / 120)) 0"
     a=$(shot dragged)
     [ "$a" = 4 ] || echo "the time line was dragged to $a, not 4"
