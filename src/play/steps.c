@@ -233,7 +233,10 @@ static void judge(Player *player)
     const Past *past = &player->past;
     bool ended = true, idle = true, balance = true, rigid = true, bad = false;
     int going = 0;
-    if (player->given[0].steps >= 0 || !player->attended)
+    const LecturePage *page = player_settings(player)->page;
+    if (player->given[0].steps >= 0 || !player->attended ||
+        (page && page->writes && /* its steps write, they move nothing */
+         past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
@@ -264,7 +267,6 @@ static void judge(Player *player)
                             "begins again");
     if (!player_stands(player))
         player->mode = mode;
-    const LecturePage *page = player_settings(player)->page;
     if (page && page->law && page == player->told &&
         past->step == page->picture) /* what the page is about */
         player->mode = MODE_PAUSE;
