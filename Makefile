@@ -159,21 +159,22 @@ $(B)/bench/%.o: private CPPFLAGS += -DBENCH_FLAGS='"$(strip $(CFLAGS))"'
 # program as a table of lines; so are pages and cards.
 PAGES = src/scenes/pages.txt
 CARDS = src/picture/cards.txt
+READ = awk -f src/scenes/text.awk
 LISTED = $(sort src/play/handout.html $(shell sed -n 's/^code \([^ ]*\).*/\1/p' $(PAGES)))
 
 LISTED_TEXT = static const char *const text_$$n[] = {
 LISTED_ROW = {\"$$file\", sizeof text_$$n / sizeof *text_$$n, text_$$n},
 
-$(B)/listing_text.c: $(LISTED) $(PAGES) $(CARDS) src/scenes/pages.awk \
-                     src/picture/cards.awk Makefile
+$(B)/listing_text.c: $(LISTED) $(PAGES) $(CARDS) src/scenes/text.awk \
+                     src/scenes/pages.awk src/picture/cards.awk Makefile
 	$(call shown,WRITE)
 	$(Q){ echo '#include "scenes/listing.h"'; echo '#include "scenes/pages.h"'; \
 	  n=0; for file in $(LISTED); do n=$$((n + 1)); echo "$(LISTED_TEXT)"; \
 	  sed 's/[\\"]/\\&/g; s/.*/"&",/' $$file; echo '};'; done; \
 	  echo 'const Listing listings[] = {'; n=0; \
 	  for file in $(LISTED); do n=$$((n + 1)); echo "$(LISTED_ROW)"; done; \
-	  echo '{NULL, 0, NULL}};'; awk -f src/scenes/pages.awk $(PAGES) && \
-	  awk -f src/picture/cards.awk $(CARDS); \
+	  echo '{NULL, 0, NULL}};'; $(READ) -f src/scenes/pages.awk $(PAGES) && \
+	  $(READ) -f src/picture/cards.awk $(CARDS); \
 	  } >$@.new && mv $@.new $@
 
 $(B)/listing_text.o: $(B)/listing_text.c $(B)/flags

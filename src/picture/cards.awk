@@ -1,18 +1,5 @@
 # cards.awk - cards.txt, which says how it is written, as the tables of cards.h.
 
-function fail(line, why)
-{
-    print FILENAME ":" line ": " why > "/dev/stderr"
-    failed = 1
-    exit 1
-}
-
-function quoted(text)
-{
-    gsub(/[\\"]/, "\\\\&", text)
-    return "\"" text "\""
-}
-
 # What stands under one word, as a field of the row.
 function put_word(    i, part)
 {
@@ -88,15 +75,6 @@ BEGIN {
     print "#include \"picture/cards.h\""
 }
 
-/^#/ || /^$/ { next }
-
-/^  / {
-    if (word == "")
-        fail(NR, "nothing goes on here")
-    text = text " " substr($0, 3)
-    next
-}
-
 /^== (card|picture|rows|text) [a-z_]+$/ {
     end_row()
     kind = $2
@@ -104,14 +82,7 @@ BEGIN {
     next
 }
 
-{
-    if (!kind)
-        fail(NR, "no row has begun")
-    put_word()
-    begins = NR
-    word = $1
-    text = substr($0, length(word) + 2)
-}
+{ begin_word(kind, "no row has begun") }
 
 END {
     if (failed)

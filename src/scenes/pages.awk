@@ -1,20 +1,6 @@
 # pages.awk - pages.txt, which says how it is written, as rows of the table of
 # pages.h.
 
-function fail(line, why)
-{
-    print FILENAME ":" line ": " why > "/dev/stderr"
-    failed = 1
-    exit 1
-}
-
-function quoted(text)
-{
-    gsub(/[\\"]/, "\\\\&", text)
-    gsub(/~/, "\302\240", text)
-    return "\"" text "\""
-}
-
 # The lines of one word, put together in text, as fields of the row.
 function put_word(    part)
 {
@@ -73,15 +59,6 @@ BEGIN {
     print "const LecturePage lecture_pages[] = {"
 }
 
-/^#/ || /^$/ { next }
-
-/^  / {
-    if (word == "")
-        fail(NR, "nothing goes on here")
-    text = text " " substr($0, 3)
-    next
-}
-
 /^== [a-z0-9]+: ./ {
     end_page()
     page = NR
@@ -91,14 +68,7 @@ BEGIN {
     next
 }
 
-{
-    if (!page)
-        fail(NR, "no page has begun")
-    put_word()
-    begins = NR
-    word = $1
-    text = substr($0, length(word) + 2)
-}
+{ begin_word(page, "no page has begun") }
 
 END {
     if (!failed)
