@@ -10,7 +10,6 @@
 #define ELASTO_FILM_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "picture/canvas.h"
 #include "play/output.h"
@@ -24,32 +23,31 @@ typedef struct Film {
     int width, height; /* pixels; those of the first frame */
     long frames;       /* so far */
     Output output;
-    uint32_t *frame;    /* [width height] */
     FILE *pipe;         /* to ffmpeg; NULL: it does not run */
     const char *reason; /* why it failed, if errno does not say it; or NULL */
 } Film;
 
 /* Begins a film; nothing is written before the first frame.
- *   name     in, its end says the kind
- *   film     out; end it with film_close in any case
- *   message  [size] out, what to do, after INVALID_INPUT
- * Returns OK, INVALID_INPUT (no such kind, or no ffmpeg), OUT_OF_MEMORY,
- * FILE_FAILED (errno tells why). */
-Status film_open(const char *name, Film *film, char *message, size_t size);
+ *   name  in, its end says the kind
+ *   film  out; end it with film_close in any case
+ * Returns OK, INVALID_INPUT (no such kind, or no ffmpeg: film->reason),
+ * OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
+Status film_open(const char *name, Film *film);
 
 /* The next frame; what is beyond the size of the first one is cut off, what is
  * missing is white.  shown: so many times, at least 1.
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (film->reason or errno). */
 Status film_add(Film *film, const Canvas *canvas, int shown);
 
-/* Ends it; OK too if it was not begun.  A film without a frame is a failure.
- * film->reason is then still there.  Returns OK, FILE_FAILED. */
+/* Ends it; OK too if it was not begun.  A film without a frame is a failure,
+ * and leaves nothing.  film->reason is then still there.  Returns OK,
+ * FILE_FAILED. */
 Status film_close(Film *film);
 
-/* Throws it away. */
-void film_discard(Film *film);
-
 /* Whether it was begun. */
-bool film_runs(const Film *film);
+static inline bool film_runs(const Film *film)
+{
+    return film->output.name != NULL;
+}
 
 #endif

@@ -30,13 +30,13 @@ Status output_open(const char *name, Output *output);
 /* Why a file failed, after FILE_FAILED: what errno means here. */
 const char *output_reason(int reason);
 
-/* Flushes, closes, renames; OK too if it is not open.  After FILE_FAILED what
- * stood under the name before still does, and NAME.part as far as it got. */
-Status output_close(Output *output);
+/* Flushes, closes, renames; OK too if it is not open.  After FILE_FAILED, or
+ * where this status is no OK, which it returns then, what stood under the name
+ * before still does, and NAME.part as far as it got. */
+Status output_close(Output *output, Status status);
 
-/* Closes it, if it is open; what stood under the name stays.  errno stays, too.
- *   keep  NAME.part stays; else it is removed */
-void output_discard(Output *output, bool keep);
+/* Closes it, if it is open, and removes what was written. */
+void output_discard(Output *output);
 
 /* Whether this name means standard output. */
 bool output_is_standard(const char *name);

@@ -1,7 +1,7 @@
 /* recording.h - what a run leaves in files: frames, films, tables.
  *
  *   frames  FOLDER/frame_000000.png, ...: the number is that of the step
- *   vtk     FOLDER/step_000000.vtp, ... (below) and their list, steps.pvd
+ *   vtk     FOLDER/step_000000.vtu, ... and their list, steps.pvd
  * and tables (table.h), which begin at step 0:
  *   states    step,time,node,x,y,vx,vy of every node at every step; nodes of
  *             run 0 first, those of run 1 numbered on
@@ -37,12 +37,12 @@ typedef enum RecordingTable {
 typedef struct Recording {
     const char *folder;             /* of the frames, or NULL: none */
     long frames;                    /* written */
-    long last_frame;                /* its step; -1: none */
     Film film;                      /* of the frames */
     char film_told[RECORDING_TOLD]; /* the last that ended: frames, name; "" */
     const char *vtk;                /* folder of steps, or NULL */
     int panes;                      /* when it was opened */
     Table table[RECORDING_TABLES];  /* not open: not written */
+    bool tables;                    /* any is open */
     bool standard;                  /* one of them is standard output */
     bool aside;                     /* set: at the end tables stay NAME.part */
     char message[512];              /* the first failure in one line; "" */
@@ -76,9 +76,6 @@ Status recording_states(Recording *recording,
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane);
 
-/* Whether a table is open. */
-bool recording_has_tables(const Recording *recording);
-
 /* Closes everything, whatever happened before: a run that fails keeps what it
  * wrote. */
 Status recording_close(Recording *recording);
@@ -92,21 +89,17 @@ void recording_discard(Recording *recording);
 Status png_file_write(const char *name, const Canvas *canvas);
 Status png_write(FILE *file, const Canvas *canvas, bool small);
 
-/* ---- one step for ParaView ----------------------------------------------- */
-
-/* XML, PolyData.  Points are the nodes of all runs, in the order of the states;
- * lines are the springs that are whole; triangles those of the cells whose
- * sides are whole (square_mesh_is_half).  Points have velocity (m/s) and run,
- * lines and triangles strain: Green's |d|^2/l2 - 1, of a triangle what its area
- * has grown by, as a part.  17 digits: reading them gives the same double. */
-
-/* The file's name in a folder: "step_000012.vtp". */
-enum { VTK_NAME_SIZE = 32 };
-void vtk_name(long step, char name[VTK_NAME_SIZE]);
-
-/* Writes `count` simulations as they are, whole or not at all (output.h).
+/* One step for ParaView, whole or not at all (output.h): points are the nodes
+ * of all runs, in the order of the states, with velocity (m/s) and run; cells
+ * are the springs that are whole and the triangles whose sides are
+ * (square_mesh_is_half), with a strain: Green's |d|^2/l2 - 1, of a triangle
+ * what its area has grown by, as a part.  `count` simulations as they are.
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
 Status vtk_write(const char *name, const Simulation *const *simulation,
                  int count);
+
+/* The file's name in a folder: "step_000012.vtu". */
+enum { VTK_NAME_SIZE = 32 };
+void vtk_name(long step, char name[VTK_NAME_SIZE]);
 
 #endif

@@ -35,19 +35,16 @@ struct Table {
     const char *(*text)(const char *column, int place); /* the texts */
 };
 
-/* Adds columns: names with commas between them.  Behind one there may be :whole
- * (a whole number, below 0: CSV has nothing there), :place (the same, of a node
- * or a spring: alike in all steps), :text (the place of a text).  The first
- * column is the step, which does not fall, the next one its time where there
- * are places. */
+/* Adds columns: names with commas between them, or NULL; one that is there
+ * stays as it is.  Behind one there may be :whole (a whole number, below 0: CSV
+ * has nothing there), :place (the same, of a node or a spring: alike in all
+ * steps), :text (the place of a text).  The first column is the step, which
+ * does not fall, the next one its time where there are places. */
 void table_columns(Table *table, const char *names);
 
 /* Opens it; CSV has its line of names then.
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
 Status table_open(const char *name, Table *table);
-
-/* Whether it is open. */
-bool table_is_open(const Table *table);
 
 /* One row, value [columns]; whether it could be written table_check says. */
 void table_add(Table *table, const double *value);

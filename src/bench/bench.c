@@ -97,12 +97,8 @@ static Status run_table(Bench *bench, const Table *table)
         describe_machine(bench, bench->csv.file);
         fprintf(bench->csv.file, "%s\n", table->columns);
         printf("\n%s: %s\n", table->name, table->sentence);
-        status = table->run(bench);
+        status = output_close(&bench->csv, table->run(bench));
     }
-    if (status)
-        output_discard(&bench->csv, false);
-    else
-        status = output_close(&bench->csv);
     if (status == STATUS_FILE_FAILED)
         fprintf(stderr, "elasto-bench: %s: %s\n", path, output_reason(errno));
     else if (status)

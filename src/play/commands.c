@@ -284,7 +284,7 @@ Status script_write(const char *name, const Script *script)
         command_format(&command, line, sizeof line);
         fprintf(output.file, "%ld %s\n", at->step, line);
     }
-    return output_close(&output);
+    return output_close(&output, STATUS_OK);
 }
 
 const Command *script_due(Script *script, long step, bool waits)

@@ -1,13 +1,10 @@
 #include "play/film.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "scenes/one_line.h"
 
 struct FilmKind {
     const char *end;   /* of the name; without its dot the name of the format */
@@ -24,47 +21,35 @@ static const FilmKind film_kinds[] = {
      "-vf 'split[a][b];[a]palettegen=stats_mode=single[p];"
      "[b][p]paletteuse=new=1'"},
     {".apng", FILM_RATE, "-pix_fmt rgb24 -plays 0"},
+    {NULL, 0, NULL},
 };
 
-/* The kind that the end of the name says, or NULL. */
 static const FilmKind *kind_of(const char *name)
 {
-    size_t length = strlen(name);
-    for (size_t i = 0; i < sizeof film_kinds / sizeof *film_kinds; i++) {
-        size_t end = strlen(film_kinds[i].end);
-        if (length > end && !strcmp(name + length - end, film_kinds[i].end))
-            return &film_kinds[i];
-    }
-    return NULL;
+    const char *end = strrchr(name, '.');
+    const FilmKind *kind = film_kinds;
+    while (kind->end && (!end || end == name || strcmp(end, kind->end)))
+        kind++;
+    return kind;
 }
 
-Status film_open(const char *name, Film *film, char *message, size_t size)
+Status film_open(const char *name, Film *film)
 {
-    char shown[128];
-    one_line(name, shown, sizeof shown);
     *film = (Film){.kind = kind_of(name)};
-    if (!film->kind)
-        snprintf(message, size,
-                 "--film: '%s' does not end in .mp4, .webm, .gif or .apng",
-                 shown);
+    if (!film->kind->end)
+        film->reason = "its name does not end in .mp4, .webm, .gif or .apng";
     else if (system("command -v ffmpeg >/dev/null 2>&1") != 0)
-        snprintf(message, size,
-                 "--film: '%s' needs the program ffmpeg: apt-get install "
-                 "ffmpeg; --frames DIR needs nothing",
-                 shown);
-    else {
-        Status status = output_open(name, &film->output);
-        if (status || film->output.temporary)
-            return status;
-        output_discard(&film->output, false);
-        snprintf(message, size, "--film: '%s' is no regular file", shown);
-    }
+        film->reason =
+            "a film needs the program ffmpeg: apt-get install ffmpeg; "
+            "--frames DIR needs nothing";
+    if (film->reason)
+        return STATUS_INVALID_INPUT;
+    Status status = output_open(name, &film->output);
+    if (status || film->output.temporary)
+        return status;
+    output_discard(&film->output);
+    film->reason = "a film is a regular file";
     return STATUS_INVALID_INPUT;
-}
-
-bool film_runs(const Film *film)
-{
-    return film->output.file != NULL;
 }
 
 /* With the first frame, whose size the film has.  ffmpeg's words go nowhere; a
@@ -72,71 +57,59 @@ bool film_runs(const Film *film)
 static Status start_ffmpeg(Film *film, const Canvas *canvas)
 {
     char line[512];
-    size_t count = (size_t)canvas->width * (size_t)canvas->height;
     film->width = canvas->width;
     film->height = canvas->height;
-    film->frame = malloc(count * sizeof *film->frame);
-    if (!film->frame || setenv("ELASTO_FILM", film->output.temporary, 1))
-        return STATUS_OUT_OF_MEMORY;
     snprintf(line, sizeof line,
              "exec $(command -v setsid) ffmpeg -loglevel quiet -y -f rawvideo "
              "-pixel_format bgr0 -video_size %dx%d -framerate %d -i pipe:0 %s "
              "-f %s \"file:$ELASTO_FILM\" >/dev/null 2>&1",
              film->width, film->height, film->kind->rate, film->kind->words,
              film->kind->end + 1);
+    if (setenv("ELASTO_FILM", film->output.temporary, 1))
+        return STATUS_OUT_OF_MEMORY;
     film->pipe = popen(line, "we");
-    return film->pipe ? STATUS_OK : STATUS_FILE_FAILED;
+    if (!film->pipe)
+        return STATUS_FILE_FAILED;
+    setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* as much as a pipe takes */
+    return STATUS_OK;
 }
 
 Status film_add(Film *film, const Canvas *canvas, int shown)
 {
-    Status status = film->frame ? STATUS_OK : start_ffmpeg(film, canvas);
+    const Colour white = 0xffffffffu;
+    Status status = film->pipe ? STATUS_OK : start_ffmpeg(film, canvas);
     if (status)
         return status;
-    size_t row = (size_t)film->width;
-    size_t there =
-        (size_t)(canvas->width < film->width ? canvas->width : film->width);
-    memset(film->frame, 0xff, row * (size_t)film->height * sizeof *film->frame);
-    for (int y = 0; y < film->height && y < canvas->height; y++)
-        memcpy(film->frame + row * (size_t)y,
-               canvas->pixels + (size_t)canvas->width * (size_t)y,
-               there * sizeof *film->frame);
-    for (int i = 0; i < shown; i++, film->frames++)
-        if (fwrite(film->frame, sizeof *film->frame * row, (size_t)film->height,
-                   film->pipe) < (size_t)film->height) {
-            film->reason = "ffmpeg ended before the film did";
-            return STATUS_FILE_FAILED;
-        }
-    return STATUS_OK;
+    int both = canvas->width < film->width ? canvas->width : film->width;
+    for (int i = 0; i < shown * film->height; i++) {
+        int y = i % film->height, there = y < canvas->height ? both : 0;
+        fwrite(canvas->pixels + (size_t)canvas->width * (size_t)y, sizeof white,
+               (size_t)there, film->pipe);
+        for (int x = there; x < film->width; x++)
+            fwrite(&white, sizeof white, 1, film->pipe);
+    }
+    film->frames += shown;
+    if (!ferror(film->pipe))
+        return STATUS_OK;
+    film->reason = "ffmpeg ended before the film did";
+    return STATUS_FILE_FAILED;
 }
 
 Status film_close(Film *film)
 {
     struct stat info = {0};
+    bool well = film->pipe && pclose(film->pipe) == 0;
     if (!film_runs(film))
         return STATUS_OK;
-    bool well = film->pipe && pclose(film->pipe) == 0;
     bool full = stat(film->output.temporary, &info) == 0 && info.st_size > 0;
-    const char *reason = film->reason;
-    film->pipe = NULL;
-    if (!reason && film->frames == 0)
-        reason = "no frame was drawn for it";
-    else if (!reason && (!well || !full))
-        reason = "ffmpeg could not write it";
-    Status status = reason ? STATUS_FILE_FAILED : output_close(&film->output);
-    output_discard(&film->output, full);
-    film_discard(film);
-    film->reason = reason;
+    if (!film->reason && film->frames == 0)
+        film->reason = "no frame was drawn for it";
+    else if (!film->reason && (!well || !full))
+        film->reason = "ffmpeg could not write it";
+    Status status = film->reason ? STATUS_FILE_FAILED : STATUS_OK;
+    if (!full)
+        output_discard(&film->output);
+    status = output_close(&film->output, status);
+    *film = (Film){.reason = film->reason};
     return status;
-}
-
-void film_discard(Film *film)
-{
-    int reason = errno;
-    if (film->pipe)
-        pclose(film->pipe);
-    output_discard(&film->output, false);
-    free(film->frame);
-    *film = (Film){0};
-    errno = reason;
 }

@@ -4,8 +4,6 @@
 #include "play/film.h"
 
 #include <emscripten.h>
-#include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,11 +13,11 @@ EM_JS(void, page_film, (const char *name), { Page.film(UTF8ToString(name)); });
 EM_JS(void, page_film_end, (int keep), { Page.filmEnd(keep); });
 /* clang-format on */
 
-Status film_open(const char *name, Film *film, char *message, size_t size)
+Status film_open(const char *name, Film *film)
 {
     *film = (Film){0};
     if (!page_films()) {
-        snprintf(message, size, "this browser makes no films of a page");
+        film->reason = "this browser makes no films of a page";
         return STATUS_INVALID_INPUT;
     }
     film->output.name = strdup(name);
@@ -36,28 +34,13 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
     return STATUS_OK;
 }
 
-static void film_end(Film *film, bool keep)
-{
-    if (film_runs(film))
-        page_film_end(keep);
-    free(film->output.name);
-    film->output.name = NULL;
-}
-
 Status film_close(Film *film)
 {
-    bool empty = film_runs(film) && film->frames == 0;
-    film_end(film, !empty);
-    film->reason = empty ? "no frame was drawn" : NULL;
+    bool empty = film->frames == 0;
+    if (!film_runs(film))
+        return STATUS_OK;
+    page_film_end(!empty);
+    free(film->output.name);
+    *film = (Film){.reason = empty ? "no frame was drawn" : NULL};
     return empty ? STATUS_FILE_FAILED : STATUS_OK;
-}
-
-void film_discard(Film *film)
-{
-    film_end(film, false);
-}
-
-bool film_runs(const Film *film)
-{
-    return film->output.name != NULL;
 }

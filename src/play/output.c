@@ -86,45 +86,43 @@ Status output_open(const char *name, Output *output)
     if (standard)
         output->file = stdout;
     Status status = standard ? STATUS_OK : open_named(name, output);
-    if (status)
-        output_discard(output, true);
-    return status;
+    return status ? output_close(output, status) : STATUS_OK;
 }
 
 /* ---- its end ------------------------------------------------------------ */
 
 /* Every call that can tell of a failed write is asked; errno tells why.  A
  * second descriptor holds the lock until the file has its name. */
-Status output_close(Output *output)
+Status output_close(Output *output, Status status)
 {
-    if (!output->file)
-        return STATUS_OK;
-    int lock = output->temporary ? dup(fileno(output->file)) : -1;
-    bool whole = !ferror(output->file);
-    whole = fflush(output->file) == 0 && whole;
-    if (output->file != stdout)
-        whole = fclose(output->file) == 0 && whole;
-    if (output->temporary && whole)
-        whole = rename(output->temporary, output->target) == 0;
-    int reason = errno;
+    FILE *file = output->file;
+    int before = errno;
+    int lock = file && output->temporary ? dup(fileno(file)) : -1;
+    bool whole = !status;
+    if (file) {
+        whole = !ferror(file) && whole;
+        whole = fflush(file) == 0 && whole;
+        if (file != stdout)
+            whole = fclose(file) == 0 && whole;
+        if (output->temporary && whole)
+            whole = rename(output->temporary, output->target) == 0;
+    }
+    int reason = status ? before : errno;
     if (lock >= 0)
         close(lock);
-    errno = reason;
-    output->file = NULL;
-    output_discard(output, true);
-    return whole ? STATUS_OK : STATUS_FILE_FAILED;
-}
-
-void output_discard(Output *output, bool keep)
-{
-    int reason = errno;
-    if (output->temporary && !keep)
-        remove(output->temporary);
-    if (output->file && output->file != stdout)
-        fclose(output->file);
     free(output->name);
     free(output->target);
     free(output->temporary);
     *output = (Output){0};
+    errno = reason;
+    return status || whole ? status : STATUS_FILE_FAILED;
+}
+
+void output_discard(Output *output)
+{
+    int reason = errno;
+    if (output->temporary)
+        remove(output->temporary);
+    output_close(output, STATUS_INTERRUPTED);
     errno = reason;
 }

@@ -34,11 +34,7 @@ Status png_file_write(const char *name, const Canvas *canvas)
 {
     Output output;
     Status status = output_open(name, &output);
-    if (status)
-        return status;
-    status = png_write(output.file, canvas, false);
-    if (!status)
-        return output_close(&output);
-    output_discard(&output, false);
-    return status;
+    return status
+               ? status
+               : output_close(&output, png_write(output.file, canvas, false));
 }

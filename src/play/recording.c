@@ -25,15 +25,12 @@ static Status note(Recording *recording, Status status, const char *name)
     return status;
 }
 
-/* Makes the folder, or finds that it is there. */
+/* Makes the folder; whether what stands there is one shows the first file. */
 static Status make_folder(const char *name)
 {
-    struct stat info;
-    if (mkdir(name, 0777) == 0 ||
-        (errno == EEXIST && stat(name, &info) == 0 && S_ISDIR(info.st_mode)))
-        return STATUS_OK;
-    errno = errno == EEXIST ? ENOTDIR : errno;
-    return STATUS_FILE_FAILED;
+    return !name || mkdir(name, 0777) == 0 || errno == EEXIST
+               ? STATUS_OK
+               : STATUS_FILE_FAILED;
 }
 
 /* ---- kinds of tables ----------------------------------------------------- */
@@ -75,27 +72,6 @@ static void add_springs(Table *table, const Moment *at)
                               plastic,  flowed,   at->pane};
         table_add(table, row);
     }
-}
-
-/* A column for what no other one has the name of. */
-static void add_name(const char *name, Table *table)
-{
-    bool found = !name;
-    for (int c = 0; c < table->columns && !found; c++)
-        found = strcmp(table->column[c].name, name) == 0;
-    if (!found)
-        table_columns(table, name);
-}
-
-/* The ledger, whatever the scene has. */
-static void list_energies(Table *table)
-{
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->term) {
-            add_name(row->term->energy, table);
-            add_name(row->term->loss, table);
-        }
-    table_columns(table, "work,dissipated,run:place");
 }
 
 /* 0 where the run has no such row. */
@@ -141,40 +117,37 @@ static const struct {
      "projected:whole,factorised:whole,shift,status:text,seconds,"
      "solver:text,kind:text",
      "pane:whole", NULL},
-    {offsetof(Options, energies), "step:whole,time,total,kinetic,gravity", "",
+    {offsetof(Options, energies), "step:whole,time,total,kinetic,gravity", NULL,
      add_energies},
     {offsetof(Options, springs),
      "step:whole,time,spring:place,i:place,j:place,whole:whole,rest,strain,"
      "plastic,flowed",
      "pane:place", add_springs},
-    {offsetof(Options, vtk), "step:whole,time", "", add_step},
+    {offsetof(Options, vtk), "step:whole,time", NULL, add_step},
 };
 
-/* What somebody called it, or NULL. */
-static const char *given_name(const Options *options, size_t field)
-{
-    return *(const char *const *)((const char *)options + field);
-}
-
-/* Those of a table; one that says which pane where there are several. */
+/* Those of a table: the ledger has all that a scene may have, and of several
+ * panes a row says which. */
 static void set_columns(Table *table, int t, int panes)
 {
     table->text = log_text;
     table_columns(table, kinds[t].columns);
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (t == RECORDING_ENERGIES && row->term) {
+            table_columns(table, row->term->energy);
+            table_columns(table, row->term->loss);
+        }
     if (t == RECORDING_ENERGIES)
-        list_energies(table);
-    table_columns(table, panes > 1 ? kinds[t].pane : "");
+        table_columns(table, "work,dissipated,run:place");
+    else if (panes > 1)
+        table_columns(table, kinds[t].pane);
 }
 
 /* ---- films, and all together --------------------------------------------- */
 
 Status recording_film(Recording *recording, const char *name)
 {
-    recording->message[0] = '\0';
-    return note(recording,
-                film_open(name, &recording->film, recording->message,
-                          sizeof recording->message),
-                name);
+    return note(recording, film_open(name, &recording->film), name);
 }
 
 Status recording_end_film(Recording *recording)
@@ -191,37 +164,34 @@ Status recording_end_film(Recording *recording)
     return note(recording, status, name);
 }
 
-/* Opens a table, if there is one; `list` is that of a folder's steps. */
+/* Opens a table, if there is one; of a folder's steps it is their list. */
 static Status open_table(const Options *options, Recording *recording, int t)
 {
-    const char *name = given_name(options, kinds[t].file);
+    const char *name = *(char *const *)((const char *)options + kinds[t].file);
     char list[RECORDING_NAME_SIZE];
     if (!name)
         return STATUS_OK;
-    if (t == RECORDING_VTK) {
-        snprintf(list, sizeof list, "%s/steps.pvd", name);
+    snprintf(list, sizeof list, "%s/steps.pvd", name);
+    if (t == RECORDING_VTK)
         name = list;
-    }
     if (output_is_standard(name) && recording->standard) {
         errno = EBUSY;
         return note(recording, STATUS_FILE_FAILED, name);
     }
     recording->standard = recording->standard || output_is_standard(name);
+    recording->tables = true;
     set_columns(&recording->table[t], t, recording->panes);
     return note(recording, table_open(name, &recording->table[t]), name);
 }
 
 Status recording_open(const Options *options, int panes, Recording *recording)
 {
-    *recording = (Recording){.folder = options->frames,
-                             .vtk = options->vtk,
-                             .last_frame = -1,
-                             .panes = panes};
-    const char *folder[] = {recording->folder, recording->vtk};
-    Status status = STATUS_OK;
-    for (int i = 0; i < 2 && !status; i++)
-        if (folder[i])
-            status = note(recording, make_folder(folder[i]), folder[i]);
+    *recording = (Recording){
+        .folder = options->frames, .vtk = options->vtk, .panes = panes};
+    const char *folder = recording->folder, *vtk = recording->vtk;
+    Status status = note(recording, make_folder(folder), folder);
+    if (!status)
+        status = note(recording, make_folder(vtk), vtk);
     if (!status && options->film)
         status = recording_film(recording, options->film);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
@@ -231,40 +201,21 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     return status;
 }
 
-/* FOLDER/frame_000012.png */
-static Status write_frame(Recording *recording, const Canvas *canvas, long step)
-{
-    char name[RECORDING_NAME_SIZE];
-    snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
-    Status status = png_file_write(name, canvas);
-    if (!status && recording->last_frame != step)
-        recording->frames++;
-    recording->last_frame = step;
-    return note(recording, status, name);
-}
-
 Status recording_frame(Recording *recording, const Canvas *canvas, long step,
                        int shown)
 {
     Film *film = &recording->film;
-    Status status = STATUS_OK;
-    if (film_runs(film))
-        status =
-            note(recording, film_add(film, canvas, shown), film->output.name);
-    if (!status && recording->folder)
-        status = write_frame(recording, canvas, step);
-    return status;
-}
-
-/* FOLDER/step_000012.vtp */
-static Status write_vtk(Recording *recording,
-                        const Simulation *const *simulation, int count,
-                        long step)
-{
-    char name[RECORDING_NAME_SIZE], file[VTK_NAME_SIZE];
-    vtk_name(step, file);
-    snprintf(name, sizeof name, "%s/%s", recording->vtk, file);
-    return note(recording, vtk_write(name, simulation, count), name);
+    char name[RECORDING_NAME_SIZE];
+    if (film_runs(film)) {
+        Status status = film_add(film, canvas, shown);
+        if (status)
+            return note(recording, status, film->output.name);
+    }
+    if (!recording->folder)
+        return STATUS_OK;
+    snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
+    recording->frames++;
+    return note(recording, png_file_write(name, canvas), name);
 }
 
 /* Whether all tables so far were written. */
@@ -282,9 +233,12 @@ Status recording_states(Recording *recording,
                         long step)
 {
     Moment at = {.step = (double)step};
+    char name[RECORDING_NAME_SIZE], file[VTK_NAME_SIZE];
     Status status = STATUS_OK;
+    vtk_name(step, file);
+    snprintf(name, sizeof name, "%s/%s", recording->vtk, file);
     if (recording->vtk)
-        status = write_vtk(recording, simulation, count, step);
+        status = note(recording, vtk_write(name, simulation, count), name);
     errno = status ? errno : 0;
     for (int i = 0; i < count && !status; i++)
         for (int r = 0; r < simulation[i]->runs; r++) {
@@ -294,7 +248,7 @@ Status recording_states(Recording *recording,
             at.number = r;
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLES; t++)
-                if (kinds[t].add && table_is_open(&recording->table[t]))
+                if (kinds[t].add && recording->table[t].output.file)
                     kinds[t].add(&recording->table[t], &at);
             at.runs++;
             at.nodes += at.run->system->nodes;
@@ -312,7 +266,7 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
                     record->change,       record->projected, record->factorised,
                     record->shift,        record->status,    record->seconds,
                     record->solver,       record->kind,      pane};
-    if (!table_is_open(log))
+    if (!log->output.file)
         return STATUS_OK;
     errno = 0;
     table_add(log, row);
@@ -322,20 +276,11 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
 Status recording_cut(Recording *recording, long step)
 {
     Status status = STATUS_OK;
-    recording->last_frame = step < 0 ? -1 : recording->last_frame;
     for (int t = 0; t < RECORDING_TABLES && !status; t++) {
         Table *table = &recording->table[t];
         status = note(recording, table_cut(table, step), table->output.name);
     }
     return status;
-}
-
-bool recording_has_tables(const Recording *recording)
-{
-    for (int t = 0; t < RECORDING_TABLES; t++)
-        if (table_is_open(&recording->table[t]))
-            return true;
-    return false;
 }
 
 /* Film and all tables, also if one of them fails; the first failure counts. */
@@ -356,7 +301,7 @@ Status recording_close(Recording *recording)
 
 void recording_discard(Recording *recording)
 {
-    film_discard(&recording->film);
+    film_close(&recording->film);
     for (int t = 0; t < RECORDING_TABLES; t++)
         table_discard(&recording->table[t]);
 }

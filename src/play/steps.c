@@ -74,7 +74,7 @@ Status player_write_rest(Player *player)
         failed = failed || past->machine[p].failed;
     if (failed && shown == player->written) /* its iterations are told */
         status = record_updates(player, shown + 1);
-    if (!past->keeps || !recording_has_tables(&player->recording))
+    if (!past->keeps || !player->recording.tables)
         return status;
     while (player->written < past_newest(past) && !status && !*player->stop) {
         long next = player->written + 1;

@@ -6,13 +6,18 @@
 
 void table_columns(Table *table, const char *names)
 {
-    for (const char *at = names; *at && table->columns < TABLE_COLUMNS;) {
-        int length = (int)strcspn(at, ",:"), c = table->columns++;
-        snprintf(table->column[c].name, TABLE_LETTERS, "%.*s", length, at);
-        at += length;
-        table->column[c].kind = *at == ':' ? at[1] : '\0';
+    for (const char *at = names; at && *at; at += *at == ',') {
+        char name[TABLE_LETTERS];
+        int length = (int)strcspn(at, ",:"), c = 0;
+        snprintf(name, sizeof name, "%.*s", length, at);
+        while (c < table->columns && strcmp(table->column[c].name, name) != 0)
+            c++;
+        if (c == table->columns && c < TABLE_COLUMNS) {
+            memcpy(table->column[c].name, name, sizeof name);
+            table->column[c].kind = at[length] == ':' ? at[length + 1] : '\0';
+            table->columns++;
+        }
         at += strcspn(at, ",");
-        at += *at == ',';
     }
 }
 
@@ -28,7 +33,7 @@ Status table_open(const char *name, Table *table)
         return status;
     table->rows = table->format ? tmpfile() : NULL;
     if (table->format && !table->rows) {
-        output_discard(&table->output, false);
+        output_discard(&table->output);
         return STATUS_FILE_FAILED;
     }
     for (int c = 0; c < table->columns && !table->rows; c++)
@@ -36,11 +41,6 @@ Status table_open(const char *name, Table *table)
                 c + 1 < table->columns ? ',' : '\n');
     table->head = table->output.temporary ? ftell(table->output.file) : 0;
     return table_check(table);
-}
-
-bool table_is_open(const Table *table)
-{
-    return table->output.file != NULL;
 }
 
 void table_add(Table *table, const double *value)
@@ -107,17 +107,16 @@ Status table_cut(Table *table, long last)
 Status table_close(Table *table, bool aside)
 {
     Status status = table_check(table);
-    if (table->rows) {
-        if (status == STATUS_OK && fflush(table->rows) == 0)
-            table->format(table, table->output.file);
-        status = table_check(table);
+    if (table->rows && !status && fflush(table->rows) == 0)
+        table->format(table, table->output.file);
+    status = table_check(table);
+    if (table->rows)
         fclose(table->rows);
-        table->rows = NULL;
-    }
-    if (aside || (status && table->format))
-        output_discard(&table->output, true);
-    Status closed = output_close(&table->output);
-    return status ? status : closed;
+    table->rows = NULL;
+    if (aside && !status)
+        status = STATUS_INTERRUPTED;
+    status = output_close(&table->output, status);
+    return status == STATUS_INTERRUPTED ? STATUS_OK : status;
 }
 
 void table_discard(Table *table)
@@ -125,5 +124,5 @@ void table_discard(Table *table)
     if (table->rows)
         fclose(table->rows);
     table->rows = NULL;
-    output_discard(&table->output, false);
+    output_discard(&table->output);
 }

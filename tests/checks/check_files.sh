@@ -91,9 +91,9 @@ arrays() {
     run 1 --vtk d/e
     run 0 --vtk d --states d/k.npz
     [ "$(ls d)" = "k.npz
-step_000000.vtp
-step_000001.vtp
-step_000002.vtp
+step_000000.vtu
+step_000001.vtu
+step_000002.vtu
 steps.pvd" ] || ls d
     no_parts arrays
     rm -rf ./*.npz copy t.csv d

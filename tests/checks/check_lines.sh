@@ -59,7 +59,7 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 1|/dev/full: No space|--headless --quiet --steps 5 --states /dev/full
 1|/dev/full: No space|--headless --quiet --steps 5 --log /dev/full
 1|nowhere/pictures: No such|--headless --quiet --frames nowhere/pictures
-1|k.csv: Not a directory|--headless --quiet --frames k.csv
+1|k.csv/.*: Not a directory|--headless --quiet --frames k.csv
 1|step .*NaN or infinite.*--timestep|--headless --quiet --integrator forward-euler --timestep 1
 1|pane 2, step .*NaN|--headless --quiet --timestep 0.05 --integrator bdf2,forward-euler
 END

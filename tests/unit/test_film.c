@@ -44,8 +44,7 @@ static uint32_t pixel(int frame, int x, int y)
 static Film open_film(const char *name)
 {
     Film film;
-    char message[256] = "";
-    CHECK_STATUS(film_open(name, &film, message, sizeof message), STATUS_OK);
+    CHECK_STATUS(film_open(name, &film), STATUS_OK);
     return film;
 }
 

@@ -489,8 +489,8 @@ TEST(outputs_replace_at_the_end)
         fprintf(output.file, "%d\n", round);
         CHECK(exists(part) && exists(name) == (round > 0));
         if (round == 2)
-            output_discard(&output, false);
-        CHECK_STATUS(output_close(&output), STATUS_OK);
+            output_discard(&output);
+        CHECK_STATUS(output_close(&output, STATUS_OK), STATUS_OK);
         FILE *file = fopen(name, "r");
         CHECK(file && fgets(text, sizeof text, file));
         fclose(file);
@@ -502,23 +502,8 @@ TEST(outputs_replace_at_the_end)
     umask(before);
     CHECK_STATUS(output_open("/dev/full", &output), STATUS_OK);
     fputs("text", output.file);
-    CHECK_STATUS(output_close(&output), STATUS_FILE_FAILED);
+    CHECK_STATUS(output_close(&output, STATUS_OK), STATUS_FILE_FAILED);
     assert_int_equal(errno, ENOSPC);
-}
-
-TEST(a_frame_that_is_drawn_again_counts_once)
-{
-    static Recording recording;
-    Options options = simulate("square")->options;
-    options.frames = in_folder("frames");
-    CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_OK);
-    for (long step = 0; step < 3; step++)
-        CHECK_STATUS(
-            recording_frame(&recording, white_canvas(3, 3), step / 2, 1),
-            STATUS_OK);
-    assert_int_equal(recording.frames, 2);
-    CHECK_STATUS(recording_close(&recording), STATUS_OK);
-    CHECK(exists(in_folder("frames/frame_000001.png")));
 }
 
 /* ------------------------------------------------------------------------- */

@@ -87,7 +87,7 @@ const sameTables = async (browser) => {
   const tab = await browser.open(at('square --headless --steps 0'), { before: CATCH });
   const wrong = [];
   const line = 'tear --headless --steps 3 --states s.csv --energies e.npz --springs p.npz --vtk v';
-  const names = ['s.csv', 'e.npz', 'p.npz', 'v/step_000003.vtp', 'v/steps.pvd'];
+  const names = ['s.csv', 'e.npz', 'p.npz', 'v/step_000003.vtu', 'v/steps.pvd'];
   native(line);
   await headless(tab, line);
   for (const name of names) {
