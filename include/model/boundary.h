@@ -28,7 +28,7 @@ typedef struct Box2 {
 } Box2;
 
 typedef struct Boundary {
-    SquareMesh shape;     /* without arrays */
+    SquareMesh shape;
     unsigned version;     /* of the system, that it is of */
     int points, edges;    /* how many */
     int *point;           /* [nodes] nodes */

@@ -13,8 +13,6 @@
 
 #include <stdbool.h>
 
-#include "base/status.h"
-
 enum {
     SQUARE_MESH_MAX_SEGMENTS = 4096,
     SQUARE_MESH_MAX_BODIES = 16,
@@ -31,32 +29,23 @@ typedef struct SquareMesh {
     int springs;    /* in a square 2 segments (segments+1) + 2 segments^2 */
     int cells;      /* segments rows; each has four triangles */
     int outline;    /* edges on it, 2 (segments + rows) */
-    double *x;      /* [2n] m, rest positions: node i is x[2i], x[2i+1] */
-    int *e;         /* [2 springs] nodes of each spring */
-    int *order;     /* [n] place of node i in the elimination order, by nested
-                       dissection: a Cholesky factor has O(n log n) entries */
 } SquareMesh;
 
 /* The sides that a node is on, added up. */
 enum { MESH_LEFT = 1, MESH_RIGHT = 2, MESH_BOTTOM = 4, MESH_TOP = 8 };
 
-/* The numbers of a mesh alone, its arrays NULL: enough for all functions with
- * `shape`.  columns, rows, bodies >= 1 */
-SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies);
-
-/* Builds the mesh.
+/* Its numbers.
  *   columns, rows  of cells, 1 ... SQUARE_MESH_MAX_SEGMENTS; equal: the square,
  *                  else a beam of square cells
- *   side           m, of all columns, finite and > 0
- *   bodies         1 ... SQUARE_MESH_MAX_BODIES
- *   mesh           out; free it with square_mesh_free, also after a failure
- * Returns OK, INVALID_INPUT, TOO_LARGE (more than SQUARE_MESH_MAX_CELLS),
- * OUT_OF_MEMORY. */
-Status square_mesh_create(int columns, int rows, double side, int bodies,
-                          SquareMesh *mesh);
+ *   side           m, of all columns
+ *   bodies         1 ... SQUARE_MESH_MAX_BODIES */
+SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies);
 
-/* Accepts NULL and a zeroed struct. */
-void square_mesh_free(SquareMesh *mesh);
+/* The nodes of each spring, e [2 springs] out; and the place of each node in
+ * the elimination order, by nested dissection: a Cholesky factor has O(n log n)
+ * entries.  order [n] out */
+void square_mesh_springs(const SquareMesh *shape, int *e);
+void square_mesh_order(const SquareMesh *shape, int *order);
 
 /* The body of node i, which becomes its number there. */
 int square_mesh_body(const SquareMesh *shape, int *i);

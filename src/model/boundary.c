@@ -18,8 +18,6 @@ void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
     *boundary = (Boundary){.shape = *mesh, .version = ~0u, .x = bytes};
-    boundary->shape.x = NULL;
-    boundary->shape.e = boundary->shape.order = NULL;
     boundary->p = boundary->x + 2 * nodes;
     boundary->box = (Box2 *)(boundary->p + 2 * nodes);
     boundary->way = boundary->box + springs;

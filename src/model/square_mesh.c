@@ -1,7 +1,5 @@
 #include "model/square_mesh.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies)
@@ -135,29 +133,30 @@ void square_mesh_outline(const SquareMesh *shape, int k, int node[2])
 
 /* Springs between each node (i, j) and (i + right, j + up); returns the place
  * of the next one. */
-static int *list_springs(const SquareMesh *mesh, int first, int *e, int right,
+static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
                          int up)
 {
-    for (int i = 0; i + right <= mesh->segments; i++)
-        for (int j = 0; j + up <= mesh->rows; j++) {
-            *e++ = first + node_at(mesh, i, j);
-            *e++ = first + node_at(mesh, i + right, j + up);
+    for (int i = 0; i + right <= shape->segments; i++)
+        for (int j = 0; j + up <= shape->rows; j++) {
+            *e++ = first + node_at(shape, i, j);
+            *e++ = first + node_at(shape, i + right, j + up);
         }
     return e;
 }
 
 /* In the order of the slide: horizontal, vertical, both diagonals of a cell. */
-static void square_mesh_springs(SquareMesh *mesh, int body)
+void square_mesh_springs(const SquareMesh *shape, int *e)
 {
-    int cells = mesh->cells / mesh->bodies, first = body * cells;
-    int spring[6], nodes = mesh->nodes / mesh->bodies * body;
-    int *e = mesh->e + 2 * (mesh->springs / mesh->bodies * body);
-    e = list_springs(mesh, nodes, e, 1, 0);
-    e = list_springs(mesh, nodes, e, 0, 1);
-    for (int c = first; c < first + cells; c++, e += 4) {
-        square_mesh_cell(mesh, c, e, spring); /* a b c d */
-        const int diagonals[4] = {e[0], e[2], e[1], e[3]};
-        memcpy(e, diagonals, sizeof diagonals);
+    int each = shape->nodes / shape->bodies, spring[6], c = 0;
+    for (int first = 0; first < shape->nodes; first += each) {
+        e = list_springs(shape, first, e, 1, 0);
+        e = list_springs(shape, first, e, 0, 1);
+        for (int end = c + shape->segments * shape->rows; c < end;
+             c++, e += 4) {
+            square_mesh_cell(shape, c, e, spring); /* a b c d */
+            const int diagonals[4] = {e[0], e[2], e[1], e[3]};
+            memcpy(e, diagonals, sizeof diagonals);
+        }
     }
 }
 
@@ -172,9 +171,10 @@ enum { GRID_LEAF = 9 };
 
 /* Nested dissection (George 1973): numbers the nodes of a part from `next` on,
  * the two halves first, the line between them last; returns the next free
- * number.  The longer side is cut, so the line is the shorter one. */
-static int dissect_grid(const SquareMesh *mesh, int first, GridPart part,
-                        int next)
+ * number.  The longer side is cut, so the line is the shorter one.
+ *   order  out, of the part's body */
+static int dissect_grid(const SquareMesh *shape, GridPart part, int next,
+                        int *order)
 {
     int wide = part.end[0] - part.begin[0], high = part.end[1] - part.begin[1];
     if (wide * high > GRID_LEAF) {
@@ -183,49 +183,18 @@ static int dissect_grid(const SquareMesh *mesh, int first, GridPart part,
         GridPart low = part, upper = part;
         low.end[side] = part.begin[side] = cut;
         upper.begin[side] = part.end[side] = cut + 1;
-        next = dissect_grid(mesh, first, low, next);
-        next = dissect_grid(mesh, first, upper, next);
+        next = dissect_grid(shape, low, next, order);
+        next = dissect_grid(shape, upper, next, order);
     }
     for (int i = part.begin[0]; i < part.end[0]; i++)
         for (int j = part.begin[1]; j < part.end[1]; j++)
-            mesh->order[first + node_at(mesh, i, j)] = next++;
+            order[node_at(shape, i, j)] = next++;
     return next;
 }
 
-Status square_mesh_create(int columns, int rows, double side, int bodies,
-                          SquareMesh *mesh)
+void square_mesh_order(const SquareMesh *shape, int *order)
 {
-    *mesh = (SquareMesh){0};
-    if (columns < 1 || columns > SQUARE_MESH_MAX_SEGMENTS || rows < 1 ||
-        rows > SQUARE_MESH_MAX_SEGMENTS || !isfinite(side) || !(side > 0) ||
-        bodies < 1 || bodies > SQUARE_MESH_MAX_BODIES)
-        return STATUS_INVALID_INPUT;
-    if ((double)columns * rows * bodies > SQUARE_MESH_MAX_CELLS)
-        return STATUS_TOO_LARGE;
-    *mesh = square_mesh_shape(columns, rows, side, bodies);
-    size_t n = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
-    mesh->x = malloc(2 * n * sizeof *mesh->x);
-    mesh->e = malloc(2 * springs * sizeof *mesh->e);
-    mesh->order = malloc(n * sizeof *mesh->order);
-    if (!mesh->x || !mesh->e || !mesh->order)
-        return STATUS_OUT_OF_MEMORY;
-    for (int i = 0; i < mesh->nodes; i++)
-        square_mesh_place(mesh, i, mesh->x + 2 * i);
-    int each = mesh->nodes / bodies;
-    for (int body = 0; body < bodies; body++) {
-        square_mesh_springs(mesh, body);
-        dissect_grid(mesh, body * each,
-                     (GridPart){{0, 0}, {columns + 1, rows + 1}}, body * each);
-    }
-    return STATUS_OK;
-}
-
-void square_mesh_free(SquareMesh *mesh)
-{
-    if (!mesh)
-        return;
-    free(mesh->x);
-    free(mesh->e);
-    free(mesh->order);
-    *mesh = (SquareMesh){0};
+    const GridPart all = {{0, 0}, {shape->segments + 1, shape->rows + 1}};
+    for (int next = 0; next < shape->nodes;)
+        next = dissect_grid(shape, all, next, order + next);
 }

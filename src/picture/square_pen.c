@@ -1,6 +1,7 @@
 #include "picture/square_pen.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "model/fracture.h"
 #include "model/neo_hookean.h"
@@ -292,16 +293,19 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
                     Colour colour)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    double phase = 0;
+    double phase = 0, end[2][2];
     for (int k = 0; k < mesh->outline; k++) {
         int node[2];
         square_mesh_outline(mesh, k, node);
-        const double *a = x + 2 * (size_t)node[0];
-        const double *b = x + 2 * (size_t)node[1];
+        for (int i = 0; i < 2; i++)
+            if (x)
+                memcpy(end[i], x + 2 * (size_t)node[i], sizeof end[i]);
+            else
+                square_mesh_place(mesh, node[i], end[i]);
         if (dashed)
-            plot_dashes(pen->stage, a, b, 1.4, &phase, colour);
+            plot_dashes(pen->stage, end[0], end[1], 1.4, &phase, colour);
         else
-            plot_line(pen->stage, a, b, 1.4, colour);
+            plot_line(pen->stage, end[0], end[1], 1.4, colour);
     }
 }
 

@@ -46,8 +46,8 @@ void square_faces(const SpringPen *pen);
  * that have turned over in another colour.  Returns how many have. */
 int square_cells(const SpringPen *pen, bool all);
 
-/* The outline of the square at x; of a small one all springs faintly, and it in
- * dashes. */
+/* The outline of the square at x, NULL: at rest; of a small one all springs
+ * faintly, and it in dashes. */
 void square_outline(const SpringPen *pen, const double *x, bool dashed,
                     Colour colour);
 void square_ghost(const SpringPen *pen, const double *x, Colour colour);

@@ -177,7 +177,7 @@ static int draw_ground(const SpringPen *pen)
     const Trace *trace = pane->trace;
     if (!has_frame(pen->simulation) && !pen->contact &&
         pen->simulation->options.bodies == 0) {
-        square_outline(pen, pen->simulation->mesh.x, false, COLOUR_RULE);
+        square_outline(pen, NULL, false, COLOUR_RULE);
         if (pen->stage->pane == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
@@ -284,9 +284,10 @@ static void draw_arrows(const SpringPen *pen, const double *d, double factor,
 /* Where nodes that nobody has moved begin: the rest shape, stretched. */
 static void start_places(const Simulation *simulation, double *x)
 {
-    for (int k = 0; k < 2 * simulation->system.nodes; k++)
-        x[k] =
-            simulation->mesh.x[k] * (k % 2 ? 1 : simulation->options.stretch);
+    for (int i = 0; i < simulation->mesh.nodes; i++) {
+        square_mesh_place(&simulation->mesh, i, x + 2 * i);
+        x[2 * i] *= simulation->options.stretch;
+    }
 }
 
 /* The force on each node, or how far it is from there, where a page wants it.

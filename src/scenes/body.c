@@ -89,44 +89,55 @@ SquareMesh body_shape(const Options *options)
                              options->side, (int)fmax(options->bodies, 1));
 }
 
-/* Mesh, masses, springs and rest lengths (slide simulator.py): the mass of all
- * cells shared out evenly over the nodes; l2 = |d|^2 in the rest positions.
- * Gravity and pins.
- *   more  nodes that are not in the mesh, the last ones, with the mass of the
- *         others and without springs */
-static Status create_system(const Options *options, int more, SquareMesh *mesh,
-                            System *system)
+/* The node that is the centre of a ball which comes with the scene, the last
+ * one; -1: none does. */
+static int ball_of(const Options *options)
+{
+    return options->scene->own ? options->scene->own(options).node : -1;
+}
+
+/* Masses, springs and rest lengths (slide simulator.py): the mass of all cells
+ * shared out evenly over the nodes, a ball has that of one; l2 = |d|^2 in the
+ * rest positions.  Gravity and pins. */
+static Status create_system(const Options *options, System *system)
 {
     const SquareMesh shape = body_shape(options);
-    Status status = square_mesh_create(shape.segments, shape.rows, shape.side,
-                                       shape.bodies, mesh);
-    if (!status)
-        status = system_create(mesh->nodes + more, mesh->springs, system);
+    int nodes = shape.nodes / shape.bodies, ball = ball_of(options);
+    bool square = shape.rows == shape.segments;
+    if ((double)shape.segments * shape.rows * shape.bodies >
+        SQUARE_MESH_MAX_CELLS)
+        return STATUS_TOO_LARGE;
+    Status status =
+        system_create(shape.nodes + (ball >= 0), shape.springs, system);
     if (status)
         return status;
-    int nodes = mesh->nodes / mesh->bodies;
-    double m = options->density * mesh->side * mesh->side / nodes;
-    if (mesh->rows != mesh->segments)
-        m *= (double)mesh->rows / mesh->segments;
+    system->order = malloc((size_t)system->nodes * sizeof *system->order);
+    if (options->scene->moving_pins)
+        system->pin_v =
+            calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
+    if (!system->order || (options->scene->moving_pins && !system->pin_v))
+        return STATUS_OUT_OF_MEMORY;
+    double m = options->density * shape.side * shape.side / nodes;
+    if (!square)
+        m *= (double)shape.rows / shape.segments;
     for (int i = 0; i < system->nodes; i++)
         system->m[i] = m;
-    memcpy(system->e, mesh->e, 2 * (size_t)mesh->springs * sizeof(int));
-    for (int s = 0; s < mesh->springs; s++) {
-        const double *xi = mesh->x + 2 * mesh->e[2 * s];
-        const double *xj = mesh->x + 2 * mesh->e[2 * s + 1];
+    square_mesh_springs(&shape, system->e);
+    for (int s = 0; s < shape.springs; s++) {
+        double xi[2], xj[2];
+        square_mesh_place(&shape, system->e[2 * s], xi);
+        square_mesh_place(&shape, system->e[2 * s + 1], xj);
         double dx = xi[0] - xj[0], dy = xi[1] - xj[1];
         system->l2[s] = dx * dx + dy * dy;
         system->k[s] = options->stiffness;
     }
-    if (mesh->rows == mesh->segments && more == 0 && mesh->bodies == 1)
-        system->segments = mesh->segments;
+    if (square && ball < 0 && shape.bodies == 1)
+        system->segments = shape.segments;
     system->gravity[1] = -options->gravity;
-    system->order = malloc((size_t)system->nodes * sizeof *system->order);
-    if (!system->order)
-        return STATUS_OUT_OF_MEMORY;
-    for (int i = 0; i < system->nodes; i++)
-        system->order[i] = i < mesh->nodes ? mesh->order[i] : i;
-    return options->pin ? pins_read(options->pin, mesh, system->pinned)
+    square_mesh_order(&shape, system->order);
+    if (ball >= 0)
+        system->order[ball] = ball;
+    return options->pin ? pins_read(options->pin, &shape, system->pinned)
                         : STATUS_OK;
 }
 
@@ -144,38 +155,38 @@ static Obstacle ceiling_of(const Options *options)
         .kind = OBSTACLE_WALL,
         .n = {0, -1},
         .o = {0, ceiling[0]},
+        .node = -1,
         .motion = {1, {steps * options->timestep}, {{0, ceiling[1]}}}};
 }
 
 /* The obstacles of the options, normals made units, and after them the scene's
- * own, which is this free node, or none, -1; returns how many. */
-static int list_obstacles(const Options *options, int node,
+ * own; returns how many. */
+static int list_obstacles(const Options *options,
                           Obstacle list[CONTACT_MAX_OBSTACLES])
 {
-    int count = 0, ceiling = -1;
+    int count = 0;
     for (int i = 0; i < options->grounds; i++) {
         const double *ground = options->ground[i];
         double length = math_hypot(ground[0], ground[1]);
         list[count++] =
             (Obstacle){.kind = OBSTACLE_WALL,
                        .n = {ground[0] / length, ground[1] / length},
-                       .o = {ground[2], ground[3]}};
+                       .o = {ground[2], ground[3]},
+                       .friction = options->friction,
+                       .node = -1};
     }
     for (int i = 0; i < options->balls; i++) {
         const double *ball = options->ball[i];
-        list[count++] = (Obstacle){
-            .kind = OBSTACLE_BALL, .o = {ball[0], ball[1]}, .radius = ball[2]};
+        list[count++] = (Obstacle){.kind = OBSTACLE_BALL,
+                                   .o = {ball[0], ball[1]},
+                                   .radius = ball[2],
+                                   .friction = options->friction,
+                                   .node = -1};
     }
     if (options->ceiling[1] != 0)
-        list[ceiling = count++] = ceiling_of(options);
+        list[count++] = ceiling_of(options);
     if (options->scene->own)
         list[count++] = options->scene->own(options);
-    for (int i = 0; i < count; i++) {
-        list[i].node = -1;
-        list[i].friction = i == ceiling ? 0 : options->friction;
-    }
-    if (node >= 0)
-        list[count - 1].node = node;
     return count;
 }
 
@@ -194,15 +205,13 @@ static Barrier barrier_of(const Options *options)
 
 /* Contact and friction.  A ceiling and the scene's own obstacle, the last ones,
  * are where they have come to, all others are where the options have them. */
-static Status set_obstacles(const Options *options, const SquareMesh *mesh,
-                            System *system)
+static Status set_obstacles(const Options *options, System *system)
 {
     const Barrier barrier = barrier_of(options);
     const Contact *contact = contact_of(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
     int fixed = (int)(options->grounds + options->balls);
-    int ball = system->nodes > mesh->nodes ? mesh->nodes : -1;
-    int count = list_obstacles(options, ball, list);
+    int count = list_obstacles(options, list);
     int had = contact ? contact->obstacles : 0;
     for (int k = 1; k <= count - fixed && k <= had; k++)
         memcpy(list[count - k].o, contact->obstacle[had - k].o, sizeof list->o);
@@ -220,13 +229,11 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
                                System *system)
 {
     Barrier barrier = barrier_of(options);
-    double mu = options->self_friction;
+    double mu =
+        options->self_friction < 0 ? options->friction : options->self_friction;
     double width = fmin(barrier.d_hat, 0.25 * mesh->spacing);
     barrier.c *= width / barrier.d_hat;
     barrier.d_hat = width;
-    mu = mu < 0 ? options->friction : mu;
-    if (!options->self_contact)
-        return STATUS_OK;
     Status status = self_contact_set(system, mesh, &barrier, mu);
     return status ? status
                   : friction_set(system, &self_friction_energy, mu > 0,
@@ -235,59 +242,54 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
 
 /* Adds the terms that the options ask for, and gives those that are there
  * already their numbers: those of several options here, of one its row does. */
-static Status set_terms(const Options *options, const SquareMesh *mesh,
-                        System *system)
+static Status set_terms(const Options *options, System *system)
 {
+    const SquareMesh shape = body_shape(options);
     double part = options->scene->cell_stiffness;
     double k_c = (part > 0 ? part : 0.5) * options->stiffness;
-    Status status = set_obstacles(options, mesh, system);
-    if (!status)
-        status = set_self_contact(options, mesh, system);
+    Status status = set_obstacles(options, system);
+    if (!status && options->self_contact)
+        status = set_self_contact(options, &shape, system);
     if (!status && options->cells)
-        status = cells_set(system, mesh, k_c);
+        status = cells_set(system, &shape, k_c);
     for (const OptionRow *row = option_rows; row->name && !status; row++)
         if (row->term && row->term->set)
-            status = row->term->set(system, mesh, options->number + row->slot);
+            status =
+                row->term->set(system, &shape, options->number + row->slot);
     return status;
-}
-
-/* Whether a ball comes with the scene: it is the last node. */
-static bool has_ball(const Scene *scene, const Options *options)
-{
-    return scene->own && scene->own(options).kind == OBSTACLE_BALL;
 }
 
 /* Where the body of a run begins, x and v [2 nodes] out: in the last step of a
  * table, or stretched, turned and moved as the options say, 0 degrees leave
  * every bit; and the scene's ball where it is. */
-static Status place_body(const Options *options, const SquareMesh *shape,
-                         int run, double *x, double *v, Refusal told)
+static Status place_body(const Options *options, int run, double *x, double *v,
+                         Refusal told)
 {
+    const SquareMesh shape = body_shape(options);
     const double *at = options->at, *speed = options->velocity;
     const double only[BODY_NUMBERS] = {
         at[0], at[1], options->turn, speed[0], speed[1], options->stretch, 1};
-    int more = has_ball(options->scene, options);
+    int ball = ball_of(options);
     if (options->state)
         return start_table_read(
-            options->state, options->state_step, shape->nodes + more, run,
+            options->state, options->state_step, shape.nodes + (ball >= 0), run,
             options->scene->create == create_slope ? SIMULATION_MAX_RUNS : 1, x,
             v, told);
-    for (int i = 0; i < shape->nodes; i++) {
+    for (int i = 0; i < shape.nodes; i++) {
         double rest[2];
-        int node = i, body = square_mesh_body(shape, &node);
+        int node = i, body = square_mesh_body(&shape, &node);
         const double *start = options->bodies > 0 ? options->body[body] : only;
         double angle = start[2] * DEGREE, c = cos(angle), s = sin(angle);
-        square_mesh_place(shape, i, rest);
+        square_mesh_place(&shape, i, rest);
         rest[0] *= start[5];
         rest[1] *= start[6];
         x[2 * i] = c * rest[0] - s * rest[1] + start[0];
         x[2 * i + 1] = s * rest[0] + c * rest[1] + start[1];
         memcpy(v + 2 * i, start + 3, sizeof rest);
     }
-    if (more) {
-        memcpy(x + 2 * shape->nodes, options->scene->own(options).o,
-               2 * sizeof *x);
-        v[2 * shape->nodes] = v[2 * shape->nodes + 1] = 0;
+    if (ball >= 0) {
+        memcpy(x + 2 * ball, options->scene->own(options).o, 2 * sizeof *x);
+        v[2 * ball] = v[2 * ball + 1] = 0;
     }
     return STATUS_OK;
 }
@@ -305,17 +307,19 @@ static Options options_of_run(const Simulation *simulation, int run,
     return own;
 }
 
-/* Mesh and system of these options, with all terms; free both in any case. */
-static Status build(const Options *options, SquareMesh *mesh, System *system)
+/* The system of these options, with all terms, free it in any case; and where
+ * it begins, x and v behind each other, NULL after a failure. */
+static Status build(const Options *options, int run, System *system, double **x,
+                    Refusal told)
 {
-    Status status =
-        create_system(options, has_ball(options->scene, options), mesh, system);
-    if (!status && options->scene->moving_pins) {
-        system->pin_v =
-            calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
-        status = system->pin_v ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    }
-    return status ? status : set_terms(options, mesh, system);
+    Status status = create_system(options, system);
+    size_t size = 2 * (size_t)system->nodes;
+    if (!status)
+        status = set_terms(options, system);
+    *x = status ? NULL : malloc(2 * size * sizeof **x);
+    if (status || !*x)
+        return status ? status : STATUS_OUT_OF_MEMORY;
+    return place_body(options, run, *x, *x + size, told);
 }
 
 /* What is pinned does not move. */
@@ -323,22 +327,18 @@ Status body_create(Simulation *simulation, int run)
 {
     const Options options =
         options_of_run(simulation, run, &simulation->options);
-    SquareMesh same = {0}, *mesh = run ? &same : &simulation->mesh;
     System *system = run ? &simulation->more[run] : &simulation->system;
-    Status status = build(&options, mesh, system);
-    size_t size = 2 * (size_t)system->nodes;
-    double *x = malloc(2 * size * sizeof *x), *v = x ? x + size : NULL;
-    if (!status)
-        status = x ? place_body(&options, mesh, run, x, v, (Refusal){0})
-                   : STATUS_OUT_OF_MEMORY;
-    for (int i = 0; !status && i < system->nodes; i++)
-        if (system->pinned[i])
-            v[2 * i] = v[2 * i + 1] = 0;
-    if (!status)
+    double *x;
+    Status status = build(&options, run, system, &x, (Refusal){0});
+    simulation->mesh = body_shape(&options);
+    if (!status) {
+        double *v = x + 2 * (size_t)system->nodes;
+        for (int i = 0; i < 2 * system->nodes; i++)
+            v[i] = system->pinned[i / 2] ? 0 : v[i];
         status = simulation_start(simulation, run, options_method(&options),
                                   system, x, v);
+    }
     free(x);
-    square_mesh_free(&same);
     return status;
 }
 
@@ -351,7 +351,7 @@ Status body_follow(Simulation *simulation, int run)
         if (!spring_is_broken(system, s))
             system->k[s] = options.stiffness;
     system_changed(system, false);
-    return set_terms(&options, &simulation->mesh, system);
+    return set_terms(&options, system);
 }
 
 Status create_square(Simulation *simulation)
@@ -372,29 +372,24 @@ const char *body_needs_end_of_step(const Options *options)
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
-/* Whether no node is on or in one of the first obstacles, so many.
- *   x  [2n] m */
-static Status check_gaps(const Contact *contact, int obstacles,
-                         const System *system, const double *x, Refusal told)
+/* Why what is at this element of a term cannot begin there. */
+static Status refuse_place(const TermKind *kind, const Element *element,
+                           Refusal told)
 {
-    for (int k = 0; k < obstacles; k++) {
-        const Obstacle *obstacle = &contact->obstacle[k];
-        if (obstacle->kind == OBSTACLE_BALL && !(obstacle->radius > 0))
-            return refuse(told, "obstacle %d: its radius must be above 0", k);
-        for (int i = 0; i < system->nodes; i++) {
-            double d = contact_pair_gap(contact, x, i, k).d;
-            if (contact_has_pair(contact, system, i, k) && !(d > 0))
-                return refuse(told,
-                              "obstacle %d: node %d would begin at a distance "
-                              "of %g m; it must be above 0",
-                              k, i, d);
-        }
-    }
-    return STATUS_OK;
+    if (kind == &contact_energy)
+        return refuse(told,
+                      "obstacle %d: node %d would begin at a distance of %g m; "
+                      "it must be above 0",
+                      element->from, element->node[0], element->s);
+    return refuse(told,
+                  "at node %d a cell begins turned over (%.3g of its area); it "
+                  "must not",
+                  element->node[0], element->s);
 }
 
-/* Whether no cell or triangle is turned over. */
-static Status check_areas(const System *system, const double *x, Refusal told)
+/* Whether no node is on or in an obstacle, no cell or triangle turned over.
+ *   x  [2n] m */
+static Status check_places(const System *system, const double *x, Refusal told)
 {
     Place at = place_at(system, NULL, NULL, x);
     for (const TermKind *kind; (kind = next_energy(&at));) {
@@ -403,11 +398,25 @@ static Status check_areas(const System *system, const double *x, Refusal told)
         for (ElementWalk walk = elements_from(&at, NULL, 0);
              elements_next(&walk);)
             if (!(walk.element.s > 0))
-                return refuse(told,
-                              "at node %d a cell begins turned over (%.3g of "
-                              "its area); it must not",
-                              walk.element.node[0], walk.element.s);
+                return refuse_place(kind, &walk.element, told);
     }
+    return STATUS_OK;
+}
+
+/* Balls and a ceiling that are some. */
+static Status check_numbers(const Options *options, Refusal told)
+{
+    const double *ceiling = options->ceiling;
+    if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2])))
+        return refuse(told, "--ceiling: V is %g; it must be below 0",
+                      ceiling[1]);
+    if (ceiling[2] > ceiling[0])
+        return refuse(told, "--ceiling: STOP is %g; it must not be above Y",
+                      ceiling[2]);
+    for (int i = 0; i < options->balls; i++)
+        if (!(options->ball[i][2] > 0))
+            return refuse(told, "--ball: R is %g; it must be above 0",
+                          options->ball[i][2]);
     return STATUS_OK;
 }
 
@@ -437,18 +446,18 @@ bool simulation_has_room(const Simulation *simulation, const Options *options,
                          char *message, size_t size)
 {
     Refusal told = {message, size};
-    Status status = STATUS_OK;
+    Status status = check_numbers(options, told);
     for (int run = 0; run < simulation->runs && !status; run++) {
-        const TimeIntegrator *own = &simulation->run[run];
         const Options its = options_of_run(simulation, run, options);
-        Contact contact = {.ball = -1};
-        int node = simulation->mesh.nodes;
-        node = own->system->nodes > node ? node : -1;
-        int count = list_obstacles(&its, node, contact.obstacle);
-        if (node >= 0)
+        System system = *simulation->run[run].system;
+        Contact contact = {.barrier = barrier_of(&its), .ball = -1};
+        int count = list_obstacles(&its, contact.obstacle);
+        contact.obstacles = (int)(its.grounds + its.balls);
+        if (count > 0 && contact.obstacle[count - 1].node >= 0)
             contact.ball = count - 1;
-        status = check_gaps(&contact, (int)(its.grounds + its.balls),
-                            own->system, own->x, told);
+        system.terms = 1;
+        system.term[0] = (Term){&contact_energy, &contact};
+        status = check_places(&system, simulation->run[run].x, told);
     }
     for (int k = 0; k < options->balls && !status; k++)
         if (is_in_a_cell(&simulation->mesh, simulation->run[0].x,
@@ -495,34 +504,20 @@ static Status check_overlap(const Options *options, const double *x,
 
 Status body_check(const Options *options, Refusal told)
 {
-    const double *ceiling = options->ceiling;
-    if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2])))
-        return refuse(told, "--ceiling: V is %g; it must be below 0",
-                      ceiling[1]);
-    if (ceiling[2] > ceiling[0])
-        return refuse(told, "--ceiling: STOP is %g; it must not be above Y",
-                      ceiling[2]);
     Obstacle list[CONTACT_MAX_OBSTACLES];
-    if (list_obstacles(options, -1, list) == 0 && !options->cells &&
-        !options->state && options->material == 0 && !options->self_contact)
-        return STATUS_OK;
-    SquareMesh mesh = {0};
+    Status status = check_numbers(options, told);
+    if (status ||
+        (list_obstacles(options, list) == 0 && !options->cells &&
+         !options->state && options->material == 0 && !options->self_contact))
+        return status;
     System system = {0};
-    Status status = build(options, &mesh, &system);
-    size_t size = 2 * (size_t)system.nodes;
-    double *x = status ? NULL : malloc(2 * size * sizeof *x);
-    if (!status)
-        status = x ? place_body(options, &mesh, 0, x, x + size, told)
-                   : STATUS_OUT_OF_MEMORY;
+    double *x = NULL;
+    status = build(options, 0, &system, &x, told);
     if (!status)
         status = check_overlap(options, x, told);
-    const Contact *contact = contact_of(&system);
-    if (!status && contact)
-        status = check_gaps(contact, contact->obstacles, &system, x, told);
     if (!status)
-        status = check_areas(&system, x, told);
+        status = check_places(&system, x, told);
     free(x);
     system_free(&system);
-    square_mesh_free(&mesh);
     return status;
 }

@@ -10,7 +10,7 @@
 #include "scenes/one_line.h"
 #include "scenes/simulation.h"
 
-/* The square, or of its rows the part that the scene has; without arrays. */
+/* The square, or of its rows the part that the scene has. */
 SquareMesh body_shape(const Options *options);
 
 /* The words that --pin knows besides node numbers. */

@@ -31,6 +31,8 @@ Obstacle squeeze_ceiling(const Options *options)
         .kind = OBSTACLE_WALL,
         .n = {0, -1},
         .o = {0, 0.51 * options->side + options->at[1]},
+        .friction = options->friction,
+        .node = -1,
         .motion = {2, {down, back}, {{0, -speed}, {0, 2 * speed}}}};
 }
 
@@ -53,15 +55,16 @@ Status create_squeeze(Simulation *simulation)
  * positions, where springs can break. */
 static void cut(Simulation *simulation, double x, double low, double high)
 {
-    const SquareMesh *mesh = &simulation->mesh;
-    for (int s = 0; s < mesh->springs && simulation->options.tear > 0; s++) {
-        const double *a = mesh->x + 2 * mesh->e[2 * s];
-        const double *b = mesh->x + 2 * mesh->e[2 * s + 1];
+    System *system = &simulation->system;
+    for (int s = 0; s < system->springs && simulation->options.tear > 0; s++) {
+        double a[2], b[2];
+        square_mesh_place(&simulation->mesh, system->e[2 * s], a);
+        square_mesh_place(&simulation->mesh, system->e[2 * s + 1], b);
         double middle = 0.5 * (a[1] + b[1]);
         if ((a[0] < x) != (b[0] < x) && middle > low && middle < high)
-            simulation->system.k[s] = 0;
+            system->k[s] = 0;
     }
-    system_changed(&simulation->system, false);
+    system_changed(system, false);
 }
 
 /* The pins of the left half go left, the others right, at 0.2 sides a
@@ -71,9 +74,12 @@ Status create_tear(Simulation *simulation)
     const SquareMesh *mesh = &simulation->mesh;
     System *system = &simulation->system;
     Status status = create_square(simulation);
-    for (int i = 0; i < mesh->nodes && !status; i++) /* a pin set later stays */
-        if (system->pinned[i])
-            system->pin_v[2 * i] = copysign(0.2 * mesh->side, mesh->x[2 * i]);
+    double rest[2];
+    for (int i = 0; i < mesh->nodes && !status; i++) {
+        square_mesh_place(mesh, i, rest);
+        if (system->pinned[i]) /* a pin set later stays */
+            system->pin_v[2 * i] = copysign(0.2 * mesh->side, rest[0]);
+    }
     if (!status)
         cut(simulation, 0.5 * mesh->spacing, -0.12 * mesh->side,
             0.12 * mesh->side);
@@ -87,8 +93,11 @@ Obstacle bend_ball(const Options *options)
 {
     const SquareMesh shape = body_shape(options);
     double half = 0.5 * shape.rows * shape.spacing;
-    return (Obstacle){
-        .kind = OBSTACLE_BALL, .o = {0, half + 0.18 + 0.05}, .radius = 0.18};
+    return (Obstacle){.kind = OBSTACLE_BALL,
+                      .o = {0, half + 0.18 + 0.05},
+                      .radius = 0.18,
+                      .friction = options->friction,
+                      .node = shape.nodes};
 }
 
 Status create_bend(Simulation *simulation)

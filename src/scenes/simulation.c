@@ -64,7 +64,6 @@ void simulation_free(Simulation *simulation)
     system_free(&simulation->system);
     for (int i = 0; i < SIMULATION_MAX_RUNS; i++)
         system_free(&simulation->more[i]);
-    square_mesh_free(&simulation->mesh);
     *simulation = (Simulation){0};
 }
 

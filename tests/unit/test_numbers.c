@@ -296,7 +296,7 @@ static void tell_energies(const Simulation *simulation)
 static Real flattest(const Simulation *simulation, Real *energy)
 {
     const NeoHookean *solid = solid_of(&simulation->system);
-    const double *at[2] = {simulation->mesh.x, simulation->run[0].x};
+    const double *at[2] = {rest_of(simulation), simulation->run[0].x};
     Real least = INFINITY, nu = simulation->options.poisson;
     Real mu = simulation->options.young / (2 * (1 + nu));
     Real lambda = 2 * mu * nu / (1 - 2 * nu);
@@ -478,7 +478,7 @@ static void tell_page(const Simulation *simulation)
         return;
     double start[UNKNOWNS];
     for (int i = 0; i < size; i++)
-        start[i] = simulation->mesh.x[i] * (i % 2 ? 1 : o->stretch);
+        start[i] = rest_of(simulation)[i] * (i % 2 ? 1 : o->stretch);
     exact_derivatives(&E, NULL, start, g, H);
     for (int i = 0; i < size * size; i++) /* masses are equal */
         H[i] /= system->m[0];

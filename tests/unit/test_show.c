@@ -330,7 +330,7 @@ TEST(what_flies_far_is_drawn_or_told)
     int size = 2 * simulation.system.nodes;
     for (double far = 1e10; far < 1e301; far *= 1e10) {
         for (int i = 0; i < size; i++)
-            x[i] = far * simulation.mesh.x[i];
+            x[i] = far * rest_of(&simulation)[i];
         draw();
         CHECK(on_stage(COLOUR_X) > 500 && on_stage(COLOUR_WARNING) == 0);
     }

@@ -106,15 +106,14 @@ static void set_option(const OptionRow *option, Random *random,
 
 static void make_grid(const Row *row, Random *random, Case *c)
 {
-    SquareMesh mesh;
     int n = row->shape == CORNER ? 1 : 2;
-    CHECK_STATUS(square_mesh_create(n, n, 1, 1, &mesh), STATUS_OK);
+    const SquareMesh mesh = square_mesh_shape(n, n, 1, 1);
     CHECK_STATUS(system_create(mesh.nodes, mesh.springs, &c->system),
                  STATUS_OK);
-    memcpy(c->x_n, mesh.x, 2 * (size_t)mesh.nodes * sizeof *mesh.x);
+    for (int i = 0; i < mesh.nodes; i++)
+        square_mesh_place(&mesh, i, c->x_n + 2 * i);
+    square_mesh_springs(&mesh, c->system.e);
     for (int s = 0; s < mesh.springs; s++) {
-        c->system.e[2 * s] = mesh.e[2 * s];
-        c->system.e[2 * s + 1] = mesh.e[2 * s + 1];
         c->system.l2[s] = (s < 2 * n * (n + 1) ? 1.0 : 2.0) / (n * n);
         c->system.k[s] = 2;
     }
@@ -126,7 +125,6 @@ static void make_grid(const Row *row, Random *random, Case *c)
                  STATUS_OK);
     if (row->option)
         set_option(row->option, random, &mesh, &c->system);
-    square_mesh_free(&mesh);
     if (row->shape == GRID && !row->solid && random_below(random, 2))
         c->system.k[random_below(random, c->system.springs)] = 0;
     if (row->shape == CORNER) { /* one triangle is left, without springs */
@@ -144,11 +142,10 @@ static void make_grid(const Row *row, Random *random, Case *c)
 static void make_pair(const Row *row, Random *random, Case *c)
 {
     const Barrier barrier = {.d_hat = 0.2, .c = 24};
-    SquareMesh mesh;
-    CHECK_STATUS(square_mesh_create(1, 1, 1, 2, &mesh), STATUS_OK);
+    const SquareMesh mesh = square_mesh_shape(1, 1, 1, 2);
     CHECK_STATUS(system_create(mesh.nodes, mesh.springs, &c->system),
                  STATUS_OK);
-    memcpy(c->system.e, mesh.e, 2 * (size_t)mesh.springs * sizeof *mesh.e);
+    square_mesh_springs(&mesh, c->system.e);
     for (int s = 0; s < mesh.springs; s++)
         c->system.k[s] = c->system.l2[s] = 1;
     system_remove_term(&c->system, &mass_spring_energy);
@@ -156,11 +153,11 @@ static void make_pair(const Row *row, Random *random, Case *c)
     double up = random_uniform(random, -0.7, 0.7);
     double away = 0.2 * random_logarithmic(random, 1e-2, 1.3);
     for (int i = 0; i < mesh.nodes; i++) {
-        double *x = c->x_n + 2 * i, *rest = mesh.x + 2 * i;
-        memcpy(x, rest, 2 * sizeof *x);
+        double *x = c->x_n + 2 * i;
+        square_mesh_place(&mesh, i, x);
         if (i < 4)
             continue;
-        double right = rest[0] + 0.5, high = rest[1] - 0.5; /* of its corner */
+        double right = x[0] + 0.5, high = x[1] - 0.5; /* of its corner */
         x[0] = 0.5 + away + cos(angle) * right - sin(angle) * high;
         x[1] = up + sin(angle) * right + cos(angle) * high;
     }
@@ -169,7 +166,6 @@ static void make_pair(const Row *row, Random *random, Case *c)
         CHECK_STATUS(friction_set(&c->system, &self_friction_energy, true,
                                   random_logarithmic(random, 0.02, 50)),
                      STATUS_OK);
-    square_mesh_free(&mesh);
 }
 
 /* Nodes, springs and contacts of the row, at x_n. */

@@ -255,6 +255,15 @@ double energy_now(const Simulation *simulation, int run, const char *name)
     return energies_of(&energies, name);
 }
 
+double *rest_of(const Simulation *simulation)
+{
+    static double rest[2 * 2048];
+    CHECK(simulation->mesh.nodes <= 2048);
+    for (int i = 0; i < simulation->mesh.nodes; i++)
+        square_mesh_place(&simulation->mesh, i, rest + 2 * i);
+    return rest;
+}
+
 double strain_of(const Simulation *simulation, int s)
 {
     const System *system = &simulation->system;

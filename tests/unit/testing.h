@@ -113,6 +113,10 @@ Simulation *make_steps(Simulation *simulation, int count);
 double energies_of(const Energies *energies, const char *name);
 double energy_now(const Simulation *simulation, int run, const char *name);
 
+/* [2n] m, where the nodes of its mesh are at rest; until the next
+ * call */
+double *rest_of(const Simulation *simulation);
+
 /* Strain of spring s of run 0: |d|/l - 1. */
 double strain_of(const Simulation *simulation, int s);
 
