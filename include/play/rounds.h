@@ -36,7 +36,9 @@ typedef struct Round {
     double first;  /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
     bool rough;    /* it is not: */
-    double *value; /* [ROUND_VALUES] J s^2, behind p */
+    double alpha, change; /* the one that was taken, and what E did, J s^2 */
+    double *value;        /* [ROUND_VALUES] J s^2, behind p; NULL: not kept */
+    bool *asked;          /* that of the rounds */
 } Round;
 
 /* A place in the listing: which line of which round; in the line search, how
@@ -56,6 +58,8 @@ typedef struct Rounds {
     int room;        /* of it */
     bool ended;      /* round [count] is there: the last one made an update */
     bool passed;     /* its test was passed without a direction */
+    bool asked;      /* for values of E along p, since the last picture */
+    bool unseen;     /* nobody asked for them: they are not kept */
     double *x_tilde; /* [size] m; NULL: not known */
     size_t bytes;
     Station *place; /* [places] in the order of the listing; none where memory
@@ -93,6 +97,11 @@ int rounds_find(const Rounds *rounds, int round, Line line);
 /* The place where E was highest, if the step has raised it by far more than it
  * has changed it in the end: an explosion that is over; -1: there was none. */
 int rounds_peak(const Rounds *rounds);
+
+/* After a picture of them, which may have asked for E along p; where it did not
+ * the values of the next ones are not kept.  Returns whether it asked for what
+ * these do not have: made again, they do. */
+bool rounds_drawn(Rounds *rounds);
 
 /* The largest coordinate in them, m; 0 where none is kept. */
 double rounds_extent(const Rounds *rounds);

@@ -195,8 +195,8 @@ static void facts_of(const Show *show, int pane, Facts *facts)
     fact_when(facts, "no step", !now->update);
     if (now->update)
         add_trace(simulation, now->update, facts);
-    if (picture->facts)
-        picture->facts(simulation, facts);
+    if (picture->facts && (pane == show->active || picture->legend))
+        picture->facts(simulation, facts); /* of others legends are read */
 }
 
 /* ---- texts --------------------------------------------------------------- */

@@ -82,17 +82,22 @@ static void keep_line(Rounds *rounds, const Iterate *at)
     round->along = along.smooth;
     rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
     round->rough = along.rough != 0;
-    for (int i = 0; i < ROUND_VALUES && round->rough && round->x; i++)
+    round->asked = &rounds->asked;
+    for (int i = 0; i < ROUND_VALUES && round->rough && round->value; i++)
         round->value[i] =
             along_difference(&along, i * round->first / ROUND_PARTS);
 }
 
-/* The polynomial, or the kept values, joined by straight lines. */
+/* The polynomial, or the kept values, joined by straight lines; without them
+ * only what the update has told. */
 static double kept_difference(const void *function, double alpha)
 {
     const Round *round = function;
     if (!round->rough)
         return quartic_value(&round->along, alpha);
+    *round->asked = *round->asked || alpha != round->alpha;
+    if (!round->value)
+        return alpha == round->alpha ? round->change : NAN;
     double place = alpha / round->first * ROUND_PARTS;
     if (!(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;
@@ -128,7 +133,8 @@ static void keep_round(Rounds *rounds, const Newton *newton)
     Round *round = &rounds->round[rounds->made.count];
     NewtonRecord *record = &rounds->made.row[rounds->made.count];
     size_t size = (size_t)rounds->size;
-    size_t bytes = (2 * size + ROUND_VALUES) * sizeof *round->x;
+    size_t values = rounds->unseen ? 0 : ROUND_VALUES;
+    size_t bytes = (2 * size + values) * sizeof *round->x;
     free_round(round);
     *record = newton->record;
     record->residual = newton->residual;
@@ -137,7 +143,7 @@ static void keep_round(Rounds *rounds, const Newton *newton)
         round->x = malloc(bytes);
     if (round->x) {
         round->p = round->x + size;
-        round->value = round->p + size;
+        round->value = rounds->unseen ? NULL : round->p + size;
         rounds->bytes += bytes;
         memcpy(round->x, newton->at.x, size * sizeof *round->x);
         memcpy(round->p, newton->at.p, size * sizeof *round->p);
@@ -177,6 +183,8 @@ void rounds_add(Rounds *rounds, const Newton *newton,
         made->slope = slope;
         if (multigrid && made->alpha != 0)  /* it goes no line that p alone */
             made->alpha = made->trials = 1; /* gives; it is shown as one */
+        rounds->round[i].alpha = record->alpha;
+        rounds->round[i].change = record->change;
         rounds->made.count++;
     }
     rounds->ended = first || (record->alpha != 0 &&
@@ -271,6 +279,15 @@ int rounds_peak(const Rounds *rounds)
     }
     bool far = round >= 0 && rise > FAR * fabs(sum);
     return far ? rounds_find(rounds, round, LINE_UPDATE) : -1;
+}
+
+bool rounds_drawn(Rounds *rounds)
+{
+    bool lacks = rounds->asked && rounds->unseen;
+    if (rounds->places > 0)
+        rounds->unseen = !rounds->asked;
+    rounds->asked = false;
+    return lacks;
 }
 
 double rounds_extent(const Rounds *rounds)

@@ -133,6 +133,46 @@ TEST(the_curve_goes_through_the_step)
     }
 }
 
+/* E along p where it is no polynomial, halfway to each trial of the rounds of
+ * what is shown; out [room].  Returns how many they are. */
+static int look_along(double *out, int room)
+{
+    const Rounds *rounds = &machine(0)->rounds;
+    int count = 0;
+    for (int place = 0; place < rounds->places && count < room; place++) {
+        Trace trace;
+        rounds_trace(rounds, place, &trace);
+        if (trace.difference && rounds->round[rounds->place[place].round].rough)
+            out[count++] =
+                trace.difference(trace.function, 0.625 * trace.first);
+    }
+    return count;
+}
+
+/* Of a picture without E along p nothing is kept for the next one; where that
+ * asks for it, it gets what it would have had. */
+TEST(curves_are_made_for_who_looks)
+{
+    enum { ROOM = 100 };
+    double kept[2][ROOM];
+    int count[2];
+    for (int closed = 0; closed < 2; closed++) {
+        begin("tear --segments 6");
+        for (int step = 0; step < 4; step++) {
+            CHECK(!closed || !past_drawn(&player.past));
+            CHECK_STATUS(obey("step"), STATUS_OK);
+        }
+        count[closed] = look_along(kept[closed], ROOM);
+        CHECK(count[closed] > 0 && !isnan(kept[closed][0]) == !closed);
+        CHECK(past_drawn(&player.past) == closed);
+        look_along(kept[closed], ROOM);
+        CHECK(!past_drawn(&player.past));
+        end();
+    }
+    CHECK(count[0] == count[1]);
+    CHECK_SAME_BITS(kept[0], kept[1], count[0]);
+}
+
 static void give_up(int number)
 {
     stop = number;
