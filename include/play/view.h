@@ -53,9 +53,8 @@ double window_letter(void);
 
 void window_set_title(const char *title);
 
-/* Why the last SCREEN_FAILED, in one line; empty where nobody knows.  reason
- * [size] out */
-void window_failure(char *reason, size_t size);
+/* Why the last SCREEN_FAILED; "" where nobody knows. */
+const char *window_failure(void);
 
 /* Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
 Status window_show(const Canvas *canvas);

@@ -15,6 +15,11 @@
  *   line  [size] out, 12 at least; may be the text itself */
 void one_line(const char *text, char *line, size_t size);
 
+/* Writes behind what the text has; what does not fit is cut off.
+ *   text  [size] in/out */
+void append(char *text, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /* Where the line goes that says why something is refused, [size]. */
 typedef struct Refusal {
     char *message;

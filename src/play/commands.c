@@ -171,9 +171,8 @@ void command_format(const Command *command, char *line, size_t size)
     const OptionRow *option = NULL;
     if (row->takes && row->takes[0] == 'O' && command->number >= 0)
         option = &option_rows[command->number];
-    size_t used = (size_t)snprintf(line, size, "%s%s",
-                                   command->joins ? "& " : "", row->word);
-    for (const char *at = row->takes; at && used < size; at = next_taken(at)) {
+    snprintf(line, size, "%s%s", command->joins ? "& " : "", row->word);
+    for (const char *at = row->takes; at; at = next_taken(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'N')
             snprintf(word, sizeof word, "%ld", command->number);
@@ -186,7 +185,7 @@ void command_format(const Command *command, char *line, size_t size)
             option_write(option, command->x, word, sizeof word);
         else
             snprintf(word, sizeof word, "%s", command->text);
-        used += (size_t)snprintf(line + used, size - used, " %s", word);
+        append(line, size, " %s", word);
     }
 }
 

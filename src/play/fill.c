@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
+#include "scenes/one_line.h"
 #include "scenes/scene.h"
 
 static const double LONG_WORK = 0.3;  /* s; then it is shown */
@@ -33,11 +34,10 @@ static void add_keys(const char *keys, char text[KEY_TEXT])
 {
     for (; *keys; keys += *keys == '|') {
         int length = (int)strcspn(keys, "|");
-        size_t used = strlen(text);
         char key[KEY_TEXT];
         snprintf(key, sizeof key, "%.*s", length, keys);
         pretty_key(key);
-        snprintf(text + used, KEY_TEXT - used, "%s%s", used ? ", " : "", key);
+        append(text, KEY_TEXT, "%s%s", text[0] ? ", " : "", key);
         keys += length;
     }
 }
@@ -296,53 +296,47 @@ void player_label_panes(Player *player)
     const Past *past = &player->past;
     for (int p = 0; p < past_panes(past); p++) {
         const Options *options = &past_control(past, p)->options;
-        char *label = player->side[p].label;
-        size_t used = 0, size = sizeof player->side[p].label;
+        char *label = player->side[p].label, value[SHOW_VALUE];
+        const size_t size = sizeof player->side[p].label;
         long last = past_ended(past, p, past->step);
         label[0] = '\0';
         for (const OptionRow *row = option_rows; row->name; row++) {
-            char value[SHOW_VALUE];
-            if (!player_compares(player, row) || used >= size)
+            if (!player_compares(player, row))
                 continue;
             value_text(row, options, &past->machine[p].simulation, value,
                        sizeof value);
-            bool alone = row->slot == OPTION_SLOT(integrator);
-            used += (size_t)snprintf(label + used, size - used, "%s%s%s%s",
-                                     used ? ", " : "", alone ? "" : row->label,
-                                     alone ? "" : " ", value);
+            append(label, size, "%s", label[0] ? ", " : "");
+            if (row->slot != OPTION_SLOT(integrator))
+                append(label, size, "%s ", row->label);
+            append(label, size, "%s", value);
         }
-        if (last >= 0 && used < size)
-            used +=
-                (size_t)snprintf(label + used, size - used,
-                                 "%sended at step %ld", used ? ", " : "", last);
-        long seen = last < 0 ? last : past_last_seen(past, p, last);
-        if (seen < last && used < size)
-            snprintf(label + used, size - used, " (drawn: %ld)", seen);
+        if (last < 0)
+            continue;
+        append(label, size, "%sended at step %ld", label[0] ? ", " : "", last);
+        long seen = past_last_seen(past, p, last);
+        if (seen < last)
+            append(label, size, " (drawn: %ld)", seen);
     }
 }
 
 /* "step 12 of 40   t = 0.24 s   2 steps a frame" */
 static void fill_time(Player *player)
 {
-    Show *show = &player->show;
+    char *text = player->show.time_text;
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
-    long newest = past_newest(past);
     double time = 0; /* that of panes that have ended stands still */
     for (int p = 0; p < past_panes(past); p++)
         time = fmax(time, simulation_time(&past->machine[p].simulation));
-    size_t used = (size_t)snprintf(show->time_text, SHOW_TEXT, "%s %ld",
-                                   turn ? turn : "step", past->step);
-    if (newest > past->step)
-        used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
-                                 " of %ld", newest);
+    snprintf(text, SHOW_TEXT, "%s %ld", turn ? turn : "step", past->step);
+    if (past_newest(past) > past->step)
+        append(text, SHOW_TEXT, " of %ld", past_newest(past));
     if (turn)
         return;
-    used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
-                             "   t = %.4g s", time);
+    append(text, SHOW_TEXT, "   t = %.4g s", time);
     if (player->speed != 0)
-        snprintf(show->time_text + used, SHOW_TEXT - used,
-                 "   %.4g steps a frame", ldexp(1, player->speed));
+        append(text, SHOW_TEXT, "   %.4g steps a frame",
+               ldexp(1, player->speed));
 }
 
 /* A long step says so, and how to stop it. */

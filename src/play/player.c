@@ -277,12 +277,12 @@ Status player_run(Player *player)
 static void open_view(Player *player)
 {
     Options *options = &player->given[0];
-    char reason[256] = "", shown[256];
+    char reason[256], shown[256];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
     if (!options->headless)
         player->window = window_open("elasto", size, options->fullscreen);
     if (!options->headless && !player->window) {
-        window_failure(reason, sizeof reason);
+        one_line(window_failure(), reason, sizeof reason);
         window_close();
         if (!options->frames && !options->film)
             options->frames = "frames";

@@ -30,13 +30,12 @@ static int misuse(const char *message)
     return EXIT_MISUSED;
 }
 
-/* Whether everything printed arrived; errno was 0 before.  what: for the one
- * line if it did not. */
-static int check_output(const char *what)
+/* Whether everything printed arrived; errno was 0 before. */
+static int check_output(void)
 {
     if (!ferror(stdout) && fflush(stdout) == 0)
         return EXIT_FINE;
-    tell("cannot write %s: %s", what, output_reason(errno));
+    tell("standard output: %s", output_reason(errno));
     return EXIT_FAILED;
 }
 
@@ -76,10 +75,7 @@ static int print_information(const Options *options)
     else
         for (const Scene *scene = scenes; scene->name; scene++)
             printf("%-12s %s\n", scene->name, scene->sentence);
-    return check_output(options->help      ? "the help"
-                        : options->version ? "the version"
-                        : options->notes   ? "the notes"
-                                           : "the list");
+    return check_output();
 }
 
 /* What a user can do about a failure. */
@@ -96,34 +92,28 @@ static const char *advice(const Player *player, Status status)
                                          : "; try a --start nearer to 0,0";
 }
 
-/* The first pane whose simulation ended so; -1: none did. */
-static int pane_that_ended(const Player *player, Status status)
-{
-    for (int p = 0; p < past_panes(&player->past); p++)
-        if (player->past.machine[p].simulation.status == status)
-            return p;
-    return -1;
-}
-
 /* The one line about a failure. */
 static void report_failure(const Player *player, Status status)
 {
-    const char *message = player->recording.message;
-    int ended = pane_that_ended(player, status);
-    char reason[256] = "", pane[32] = "";
-    if (ended >= 0 && past_panes(&player->past) > 1)
-        snprintf(pane, sizeof pane, "pane %d, ", ended + 1);
-    if (status == STATUS_SCREEN_FAILED)
-        window_failure(reason, sizeof reason);
-    if (player->message[0] || message[0])
-        tell("%s", player->message[0] ? player->message : message);
-    else if (ended >= 0)
+    const char *message = player->message;
+    int panes = past_panes(&player->past), p = 0;
+    char pane[32] = "";
+    if (!message[0])
+        message = player->recording.message;
+    while (p < panes && player->past.machine[p].simulation.status != status)
+        p++;
+    if (panes > 1)
+        snprintf(pane, sizeof pane, "pane %d, ", p + 1);
+    if (message[0])
+        tell("%s", message);
+    else if (status == STATUS_SCREEN_FAILED)
+        tell("%s: %s", status_text(status), window_failure());
+    else if (p < panes)
         tell("%sstep %ld failed: %s%s", pane,
-             player->past.machine[ended].simulation.steps + 1,
-             status_text(status), advice(player, status));
-    else
-        tell("%s%s%s%s", status_text(status), reason[0] ? ": " : "", reason,
+             player->past.machine[p].simulation.steps + 1, status_text(status),
              advice(player, status));
+    else
+        tell("%s%s", status_text(status), advice(player, status));
 }
 
 /* ---- what a run did ------------------------------------------------------ */
@@ -255,7 +245,7 @@ int program_end(Player *player, Status status)
     errno = 0;
     if (!player->given[0].quiet)
         print_summary(player->recording.standard ? stderr : stdout, player);
-    int code = check_output("the summary");
+    int code = check_output();
     if (code == EXIT_FINE && player->refused)
         return EXIT_MISUSED;
     if (code == EXIT_FINE && is_unconverged(player))
@@ -281,8 +271,8 @@ static int make_handout(const Options *options,
 static void join_line(int argc, char **argv, char *line, size_t size)
 {
     const OptionRow *first = option_find("steps");
-    size_t used = (size_t)snprintf(line, size, "elasto");
-    for (int i = 1; i < argc && used < size; i++) {
+    snprintf(line, size, "elasto");
+    for (int i = 1; i < argc; i++) {
         char name[32], shown[256];
         size_t length = strcspn(argv[i], "=");
         snprintf(name, sizeof name, "%.*s", (int)length, argv[i]);
@@ -291,7 +281,7 @@ static void join_line(int argc, char **argv, char *line, size_t size)
         one_line(argv[i], shown, sizeof shown);
         if (!row || row < first || row == option_find("lecture") ||
             row == option_find("headless"))
-            used += (size_t)snprintf(line + used, size - used, " %s", shown);
+            append(line, size, " %s", shown);
         else if (row->kind != OPTION_SWITCH && argv[i][length] == '\0')
             i++; /* its value is the next word */
     }
@@ -343,7 +333,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     if (argc == 3 && strcmp(argv[1], "--help") == 0 &&
         strcmp(argv[2], "commands") == 0) {
         commands_help(stdout);
-        return check_output("the help");
+        return check_output();
     }
     for (int i = 0; i < options->panes; i++)
         if (options_parse(argc, argv, i, &options[i], message, sizeof message))

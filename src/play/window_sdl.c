@@ -9,22 +9,19 @@
 #include <string.h>
 
 #include "play/view.h"
-#include "scenes/one_line.h"
 
-enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800, WINDOW_LEAST = 200 };
+enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800 };
 
 /* SDL's functions, which are looked for when a window opens: to load SDL takes
  * as long as all else of a start, and without a window nobody needs it. */
 /* clang-format off */
 #define CALLS(F)                                                               \
     F(Init) F(Quit) F(SetHint) F(GetError) F(SetError) F(Delay)                \
-    F(GetCurrentVideoDriver) F(GetDisplayBounds) F(GetDisplayUsableBounds)     \
-    F(CreateWindow) F(DestroyWindow) F(SetWindowTitle) F(SetWindowFullscreen)  \
-    F(GetWindowPosition) F(SetWindowPosition) F(GetWindowSize)                 \
-    F(SetWindowSize) F(GetWindowFlags) F(GetWindowDisplayIndex)                \
-    F(GetWindowSurface) F(UpdateWindowSurface) F(UpperBlit) F(FreeSurface)     \
-    F(CreateRGBSurfaceWithFormatFrom) F(StartTextInput) F(GetKeyName)          \
-    F(PeepEvents) F(PollEvent) F(PumpEvents) F(HasEvents)
+    F(GetCurrentVideoDriver) F(GetDisplayUsableBounds) F(CreateWindow)         \
+    F(DestroyWindow) F(SetWindowTitle) F(SetWindowFullscreen) F(GetWindowSize) \
+    F(GetWindowFlags) F(GetWindowSurface) F(UpdateWindowSurface) F(UpperBlit)  \
+    F(FreeSurface) F(CreateRGBSurfaceWithFormatFrom) F(StartTextInput)         \
+    F(GetKeyName) F(PeepEvents) F(PollEvent) F(PumpEvents) F(HasEvents)
 /* clang-format on */
 #define MEMBER(name) __typeof__(SDL_##name) *name;
 static struct {
@@ -39,13 +36,10 @@ static bool tab; /* Tab is down and has asked for nothing yet */
 static bool tab_held, shift;
 static int mouse[2];
 
-/* One line out of SDL's message. */
-void window_failure(char *reason, size_t size)
+const char *window_failure(void)
 {
     const char *why = sdl.GetError ? sdl.GetError() : dlerror();
-    snprintf(reason, size, "%s", why ? why : "SDL is not whole");
-    reason[strcspn(reason, "\r\n")] = '\0';
-    one_line(reason, reason, size);
+    return why ? why : "SDL is not whole";
 }
 
 static bool find_sdl(void)
@@ -68,65 +62,37 @@ static bool find_sdl(void)
 /* What was asked for, or what fits on the screen.  fitting [2] out */
 static void fit_size(const int size[2], int fitting[2])
 {
-    SDL_Rect area;
-    fitting[0] = size[0] > 0 ? size[0] : WINDOW_WIDTH;
-    fitting[1] = size[1] > 0 ? size[1] : WINDOW_HEIGHT;
-    if (size[0] > 0 || sdl.GetDisplayUsableBounds(0, &area))
-        return;
-    fitting[0] = area.w < fitting[0] ? area.w : fitting[0];
-    fitting[1] = area.h < fitting[1] ? area.h : fitting[1];
-    for (int i = 0; i < 2; i++)
-        fitting[i] = fitting[i] < WINDOW_LEAST ? WINDOW_LEAST : fitting[i];
+    SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
+    if (size[0] == 0)
+        sdl.GetDisplayUsableBounds(0, &area);
+    fitting[0] = size[0] > 0             ? size[0]
+                 : area.w < WINDOW_WIDTH ? area.w
+                                         : WINDOW_WIDTH;
+    fitting[1] = size[1] > 0              ? size[1]
+                 : area.h < WINDOW_HEIGHT ? area.h
+                                          : WINDOW_HEIGHT;
 }
 
-/* Whether SDL's video shows what is drawn; if not, SDL's error tells why.  SDL
- * itself only says which drivers it tried; the environment says more.  Without
- * XDG_RUNTIME_DIR Wayland's library would write a line of its own to standard
- * error, so SDL should not even ask it. */
+/* Whether SDL's video shows what is drawn; if not, SDL's error tells why.
+ * Without XDG_RUNTIME_DIR Wayland's library would write a line of its own to
+ * standard error, so SDL should not even ask it. */
 static bool open_video(void)
 {
 #ifdef __linux__
-    const char *display = getenv("DISPLAY");
     if (!getenv("XDG_RUNTIME_DIR"))
         sdl.SetHint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
 #endif
-    if (sdl.Init(SDL_INIT_VIDEO) == 0) {
-        const char *driver = sdl.GetCurrentVideoDriver();
-        bool shows =
-            driver && strcmp(driver, "offscreen") && strcmp(driver, "dummy");
-        if (!shows)
-            sdl.SetError("SDL finds no display");
-        return shows;
-    }
-#ifdef __linux__
-    if (display)
-        sdl.SetError("the display %s cannot be opened", display);
-    else if (!getenv("WAYLAND_DISPLAY"))
-        sdl.SetError("neither DISPLAY nor WAYLAND_DISPLAY is set");
-#endif
+    bool began = sdl.Init(SDL_INIT_VIDEO) == 0;
+    const char *driver = began ? sdl.GetCurrentVideoDriver() : NULL;
+    if (driver && strcmp(driver, "offscreen") && strcmp(driver, "dummy"))
+        return true;
+    sdl.SetError("SDL finds no display");
     return false;
 }
 
-static void put_window(const SDL_Rect *place)
-{
-    sdl.SetWindowPosition(window, place->x, place->y);
-    sdl.SetWindowSize(window, place->w, place->h);
-}
-
-/* Where no window manager does it, SDL changes neither size nor place. */
 void window_set_full(bool full)
 {
-    static SDL_Rect before;
-    SDL_Rect screen;
-    if (full) {
-        sdl.GetWindowPosition(window, &before.x, &before.y);
-        sdl.GetWindowSize(window, &before.w, &before.h);
-        if (!sdl.GetDisplayBounds(sdl.GetWindowDisplayIndex(window), &screen))
-            put_window(&screen);
-    }
     sdl.SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
-    if (!full)
-        put_window(&before);
 }
 
 bool window_is_full(void)

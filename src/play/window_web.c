@@ -38,10 +38,9 @@ void window_close(void)
 {
 }
 
-void window_failure(char *reason, size_t size)
+const char *window_failure(void)
 {
-    if (size > 0)
-        reason[0] = '\0';
+    return "";
 }
 
 void window_set_title(const char *title)

@@ -74,6 +74,15 @@ void one_line(const char *text, char *line, size_t size)
     *line = '\0';
 }
 
+void append(char *text, size_t size, const char *format, ...)
+{
+    size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
 Status refuse(Refusal told, const char *format, ...)
 {
     va_list arguments;

@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "play/playing.h"
 #include "play/player.h"
+#include "scenes/one_line.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
@@ -59,62 +60,40 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
 
 /* ---- the address -------------------------------------------------------- */
 
-/* Adds a word to a list of lines. */
-static void add_word(char *list, size_t size, const char *word)
-{
-    size_t used = strlen(list);
-    snprintf(list + used, size - used, "%s%s", used ? "\n" : "", word);
-}
-
-/* What the run began with: the scene or page that is open, and its numbers.
- * words  [MOST_TEXT] out; base out.  Returns false where nobody can say. */
-static bool first_options(const Player *player, const Options *now, char *words,
-                          Options *base)
-{
-    const Options *given = &player->given[0];
-    char message[512], program[] = "elasto", name[64];
-    char *argv[] = {program, name, NULL};
-    *base = *given;
-    words[0] = '\0';
-    if (now->page == given->page && now->scene == given->scene) {
-        snprintf(words, MOST_TEXT, "%s", player->line + strlen("elasto"));
-        for (char *blank = words; (blank = strchr(blank, ' '));)
-            *blank = '\n';
-    } else if (now->page) {
-        snprintf(words, MOST_TEXT, "--lecture\n%s", now->page->name);
-        return !lecture_options(now->page, base, message, sizeof message);
-    } else {
-        snprintf(name, sizeof name, "%s", now->scene->name);
-        add_word(words, MOST_TEXT, name);
-        return !options_parse(2, argv, 0, base, message, sizeof message);
-    }
-    return true;
-}
-
 /* The command line that leads to the scene, page and numbers that are shown, a
  * word a line; "": none does.  The same memory each time. */
 EMSCRIPTEN_KEEPALIVE const char *web_address(void)
 {
     static char words[MOST_TEXT];
-    Options now[OPTIONS_MAX_PANES], base;
+    Player *player = &run->player;
+    const Options *given = &player->given[0];
+    Options now[OPTIONS_MAX_PANES], base[OPTIONS_MAX_PANES];
     words[0] = '\0';
     if (!plays)
         return words;
-    int panes = player_options(&run->player, now);
-    if ((panes != run->player.given[0].panes && !now[0].page) ||
-        !first_options(&run->player, &now[0], words, &base))
-        words[0] = '\0';
+    int count, panes = player_options(player, now);
+    bool same = now->page == given->page && now->scene == given->scene;
+    base[0] = *given; /* what the run began with */
+    if ((panes != given->panes && !now->page) ||
+        (!same &&
+         player_own_options(player, now->scene->name, now->page, base, &count)))
+        return words;
+    snprintf(words, sizeof words, "%s",
+             same        ? player->line + strlen("elasto")
+             : now->page ? "--lecture "
+                         : now->scene->name);
+    if (!same && now->page)
+        append(words, sizeof words, "%s", now->page->name);
+    for (char *blank = words; (blank = strchr(blank, ' '));)
+        *blank = '\n';
     for (const OptionRow *row = option_rows; row->name && words[0]; row++) {
-        char was[64], is[64], option[64];
+        char was[64], is[64];
         if (!row->label || panes > 1)
             continue;
-        option_write(row, base.number[row->slot], was, sizeof was);
-        option_write(row, now[0].number[row->slot], is, sizeof is);
-        if (strcmp(was, is) == 0)
-            continue;
-        snprintf(option, sizeof option, "--%s", row->name);
-        add_word(words, sizeof words, option);
-        add_word(words, sizeof words, is);
+        option_write(row, base->number[row->slot], was, sizeof was);
+        option_write(row, now->number[row->slot], is, sizeof is);
+        if (strcmp(was, is) != 0)
+            append(words, sizeof words, "\n--%s\n%s", row->name, is);
     }
     return words;
 }

@@ -107,19 +107,14 @@ verdict summaries_have_what_was_done_in_each_pane "$(
 )"
 
 if [ -c /dev/full ]; then
-    verdict a_full_output_is_called_what_it_was "$(
-        while IFS='|' read -r what arguments; do
+    verdict a_full_output_is_told "$(
+        for arguments in --help --version --list '--headless --steps 1'; do
             # shellcheck disable=SC2086
             "$elasto" $arguments >/dev/full 2>error
             [ $? = 1 ] && [ "$(cat error)" = \
-                "elasto: cannot write the $what: No space left on device" ] ||
-                echo "$what: $(cat error)"
-        done <<'END'
-help|--help
-version|--version
-list|--list
-summary|--headless --steps 1
-END
+                "elasto: standard output: No space left on device" ] ||
+                echo "$arguments: $(cat error)"
+        done
     )"
 fi
 
