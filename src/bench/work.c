@@ -23,14 +23,11 @@ static const Motion motions[] = {
 };
 enum { MOTIONS = sizeof motions / sizeof *motions };
 
-/* Newton's factors take too long on squares larger than this; it gives up
- * after so many updates of a step. */
-enum { NEWTON_SEGMENTS = 64, MAX_UPDATES = 2000 };
+/* A step has so many updates at most. */
+enum { MAX_UPDATES = 2000, FIRST_STEPS = 8, REPEATS = 3, TARGETS = 5 };
 
-enum { LADDERS = 40, RUNGS = 24, FIRST_STEPS = 8, REPEATS = 3 };
-
-/* Errors that the table asks for; the one that the first rung may have, m. */
-static const double targets[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+/* Errors that the table asks for; the one that the first run may have, m. */
+static const double targets[TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 static const double first_error = 1e-2;
 
 typedef struct Problem {
@@ -48,12 +45,11 @@ typedef struct Rung {
     bool failed;  /* not finite, not converged, or gone by a side */
 } Rung;
 
-typedef struct Ladder {
-    const IntegratorMethod *method;
-    Solver solver;
-    int rungs;
-    Rung rung[RUNGS];
-} Ladder;
+/* The fastest method for a target. */
+typedef struct Best {
+    const char *name;
+    double ms;
+} Best;
 
 /* Lagrange: sum over j of w_j f(1/n_j) is the value at 0 of the polynomial in
  * 1/n^2 through all f, with w_j = product over i of n_j^2 / (n_j^2 - n_i^2). */
@@ -143,17 +139,18 @@ static Status create_problem(const Motion *motion, int segments,
 }
 
 /* From nothing to the end, once. */
-static Status run_once(const Problem *problem, const Ladder *ladder, Rung *rung)
+static Status run_once(const Problem *problem, const IntegratorMethod *method,
+                       Rung *rung)
 {
     NewtonSettings settings = {.h = problem->motion->time / (double)rung->steps,
                                .tolerance = rung->tolerance,
-                               .solver = ladder->solver,
+                               .solver = SOLVER_MULTIGRID,
                                .max_iterations = MAX_UPDATES};
     System system = problem->simulation.system; /* the same arrays */
     TimeIntegrator run;
     double start = bench_cpu();
     Status status =
-        time_integrator_create(ladder->method, &system, &settings,
+        time_integrator_create(method, &system, &settings,
                                problem->simulation.run[0].x, problem->v, &run);
     while (!status && run.steps < rung->steps)
         status = time_integrator_step(&run);
@@ -168,122 +165,88 @@ static Status run_once(const Problem *problem, const Ladder *ladder, Rung *rung)
     return status;
 }
 
-/* What Newton leaves undone in a step is a change of velocity of at most its
- * tolerance; the sum over all steps is steps * tolerance * time / 2.  That may
- * be a tenth of the error that is expected.
- *   longest, finest  s, m: no rung above, none after an error below */
-static Status climb(const Problem *problem, double longest, double finest,
-                    Ladder *ladder)
+/* Where a method comes below an error between two rungs, `last` or none before
+ * it, its time is interpolated. */
+static void find_best(const Rung *last, const Rung *now, const char *name,
+                      Best best[TARGETS])
 {
-    double expected = first_error;
-    for (long steps = FIRST_STEPS; ladder->rungs < RUNGS; steps *= 2) {
-        Rung *rung = &ladder->rung[ladder->rungs++];
+    for (int t = 0; t < TARGETS; t++) {
+        double ms = 1e3 * now->seconds;
+        if (now->error > targets[t] || last->error <= targets[t])
+            continue;
+        if (isfinite(last->error))
+            ms = 1e3 * last->seconds *
+                 pow(now->seconds / last->seconds,
+                     log(last->error / targets[t]) /
+                         log(last->error / now->error));
+        if (ms < best[t].ms)
+            best[t] = (Best){name, ms};
+    }
+}
+
+/* What a minimisation leaves undone in a step is a change of velocity of at
+ * most its tolerance; the sum over all steps is steps * tolerance * time / 2.
+ * That may be a tenth of the error that is expected.  No run takes longer than
+ * so much time, none follows an error that is small enough. */
+static Status climb(Bench *bench, const Problem *problem,
+                    const IntegratorMethod *method, Best best[TARGETS])
+{
+    const Motion *motion = problem->motion;
+    int segments = problem->simulation.options.segments;
+    double longest = bench->quick ? 0.01 : segments / 64.0 + 0.25;
+    double enough = bench->quick ? 1e-5 : 1e-8, expected = first_error;
+    Rung last = {.error = INFINITY}, now = {.failed = true};
+    for (long steps = FIRST_STEPS; now.failed || now.error >= enough;
+         steps *= 2) {
         double fastest = INFINITY;
-        *rung = (Rung){.steps = steps};
-        rung->tolerance =
-            0.2 * expected / ((double)steps * problem->motion->time);
-        for (int i = 0; i < REPEATS && (i == 0 || !rung->failed); i++) {
-            Status status = run_once(problem, ladder, rung);
+        now = (Rung){.steps = steps,
+                     .tolerance = 0.2 * expected / (steps * motion->time)};
+        for (int i = 0; i < REPEATS && (i == 0 || !now.failed); i++) {
+            Status status = run_once(problem, method, &now);
             if (status)
                 return status;
-            fastest = fmin(fastest, rung->seconds);
+            fastest = fmin(fastest, now.seconds);
         }
-        rung->seconds = fastest;
-        if (2 * fastest > longest || (!rung->failed && rung->error < finest))
+        now.seconds = fastest;
+        bench_row(bench, "%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%d", motion->name,
+                  segments, method->name,
+                  method->implicit ? "multigrid" : "none", method->order, steps,
+                  now.tolerance, now.seconds, fmin(now.error, 1e300),
+                  now.failed);
+        if (!now.failed) {
+            find_best(&last, &now, method->name, best);
+            last = now;
+        }
+        if (2 * fastest > longest)
             break;
-        expected = fmin(rung->failed ? first_error : rung->error, first_error) /
-                   (1 << ladder->method->order);
+        expected = fmin(now.failed ? first_error : now.error, first_error) /
+                   (1 << method->order);
     }
     return STATUS_OK;
 }
 
-/* Run time, s, at which the error is reached: interpolated between two rungs;
- * INFINITY if none does. */
-static double seconds_for(const Ladder *ladder, double error)
-{
-    const Rung *last = NULL;
-    for (int i = 0; i < ladder->rungs; i++) {
-        const Rung *next = &ladder->rung[i];
-        if (next->failed)
-            continue;
-        if (next->error <= error) {
-            if (!last)
-                return next->seconds;
-            double part =
-                log(last->error / error) / log(last->error / next->error);
-            return last->seconds * pow(next->seconds / last->seconds, part);
-        }
-        last = next;
-    }
-    return INFINITY;
-}
-
-static const char *solver_of(const Ladder *ladder)
-{
-    return ladder->method->implicit ? solver_name(ladder->solver) : "none";
-}
-
-/* For each error the fastest explicit and the fastest implicit method. */
-static void print_targets(const Ladder *ladders, int count)
-{
-    puts("   error m  best explicit             ms  best implicit"
-         "                  ms  implicit/explicit");
-    for (size_t t = 0; t < sizeof targets / sizeof *targets; t++) {
-        const Ladder *best[2] = {NULL, NULL};
-        double ms[2] = {INFINITY, INFINITY};
-        for (int i = 0; i < count; i++) {
-            int kind = ladders[i].method->implicit;
-            double spent = 1e3 * seconds_for(&ladders[i], targets[t]);
-            if (spent < ms[kind]) {
-                best[kind] = &ladders[i];
-                ms[kind] = spent;
-            }
-        }
-        if (!best[0] || !best[1])
-            continue;
-        printf("   %7.0e  %-16s %11.3f  %-14s %-9s %8.3f  %8.3g: implicit %s\n",
-               targets[t], best[0]->method->name, ms[0], best[1]->method->name,
-               solver_of(best[1]), ms[1], ms[1] / ms[0],
-               ms[1] > ms[0] ? "loses" : "wins");
-    }
-}
-
-static void write_ladder(Bench *bench, const Problem *problem,
-                         const Ladder *ladder)
-{
-    for (int i = 0; i < ladder->rungs; i++) {
-        const Rung *rung = &ladder->rung[i];
-        bench_row(bench, "%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%d",
-                  problem->motion->name,
-                  (int)problem->simulation.options.segments,
-                  ladder->method->name, solver_of(ladder),
-                  ladder->method->order, rung->steps, rung->tolerance,
-                  rung->seconds, fmin(rung->error, 1e300), rung->failed);
-    }
-}
-
-/* All methods on one problem. */
+/* All methods on one problem, and for each error the fastest explicit and the
+ * fastest implicit one. */
 static Status climb_all(Bench *bench, const Problem *problem)
 {
-    static Ladder ladders[LADDERS];
-    int count = 0, segments = problem->simulation.options.segments;
-    double longest = bench->quick ? 0.01 : segments / 64.0 + 0.25;
-    Status status = STATUS_OK;
-    for (const IntegratorMethod *row = integrator_methods; row->name; row++)
-        for (int s = 0; s < (row->implicit ? SOLVER_COUNT : 1); s++) {
-            if (status || count == LADDERS)
-                return status;
-            if (row->implicit && s == SOLVER_NEWTON &&
-                segments > NEWTON_SEGMENTS)
-                continue;
-            Ladder *ladder = &ladders[count++];
-            *ladder = (Ladder){.method = row, .solver = (Solver)s};
-            status =
-                climb(problem, longest, bench->quick ? 1e-5 : 1e-8, ladder);
-            write_ladder(bench, problem, ladder);
-        }
-    print_targets(ladders, count);
-    return status;
+    Best best[2][TARGETS];
+    for (int i = 0; i < 2 * TARGETS; i++)
+        best[i / TARGETS][i % TARGETS] = (Best){NULL, INFINITY};
+    for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
+        Status status = climb(bench, problem, row, best[row->implicit]);
+        if (status)
+            return status;
+    }
+    puts("   error m  best explicit             ms  best implicit"
+         "        ms  implicit/explicit");
+    for (int t = 0; t < TARGETS; t++) {
+        const Best *one = &best[0][t], *other = &best[1][t];
+        if (one->name && other->name)
+            printf("   %7.0e  %-16s %11.3f  %-14s %8.3f  %8.3g: implicit %s\n",
+                   targets[t], one->name, one->ms, other->name, other->ms,
+                   other->ms / one->ms, other->ms > one->ms ? "loses" : "wins");
+    }
+    return STATUS_OK;
 }
 
 Status bench_work(Bench *bench)
