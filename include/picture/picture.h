@@ -17,8 +17,9 @@ typedef struct Card {
     const char *name;  /* as tables and scripts call it: "listing" */
     const char *title; /* a text of facts.h: its first line that is known */
     double least;      /* ems, the height it needs */
-    /* The same for a card that is so many ems wide inside; NULL: least. */
-    double (*needs)(const Show *show, double wide);
+    /* The same for a card that is so many ems wide inside, of so many pixels;
+     * NULL: least. */
+    double (*needs)(const Show *show, double wide, double em);
     double weight;     /* share of the height that is left */
     bool half;         /* half the width of a wide column is enough */
     bool half_on_page; /* the same, but only on a page of the lecture: its words

@@ -16,7 +16,7 @@
 enum {
     SHOW_TEXT = 160,      /* bytes of a sentence */
     SHOW_VALUE = 32,      /* bytes of a setting's value */
-    SHOW_CODE_LINES = 22, /* as many as are seen from the back row */
+    SHOW_CODE_LINES = 24, /* as many as are seen from the back row */
     SHOW_PAGES = 64       /* of the lecture, at most */
 };
 
@@ -237,7 +237,9 @@ typedef struct Show {
     const unsigned char *along; /* [along_nodes] 1: placed with others */
     bool strain;                /* springs coloured by strain */
     bool bare;                  /* the picture of the slide and nothing else */
-    bool print;    /* stage and cards alone, and the page's question */
+    bool print; /* stage and cards alone, and the page's question */
+    struct Text
+        *text;     /* what a page's words are measured with; NULL: guessed */
     double letter; /* pixels that an em has at least; 0: the usual ones */
 
     /* The lecture: the page that is shown, or NULL outside of it. */

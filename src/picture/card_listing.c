@@ -56,10 +56,10 @@ static int count_rows(const Show *show, const ListingRow *row)
 }
 
 /* Ems, with title and margin. */
-double listing_needs(const Show *show, double wide)
+double listing_needs(const Show *show, double wide, double em)
 {
-    (void)wide;
-    return 1.5 * count_rows(show, rows_listing) + 2.6;
+    (void)wide, (void)em;
+    return 1.75 * count_rows(show, rows_listing) + 2.6;
 }
 
 /* Those of what the active pane does. */

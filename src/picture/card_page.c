@@ -21,8 +21,6 @@ static const double GAP = 0.35;      /* lines, between two texts */
 static const double LETTERS = 1.2;   /* ems, on every page */
 static const double FORMULA = 1.25;  /* times that, a formula */
 static const double SMALLEST = 0.9;  /* ems, where the window is too small */
-static const double NARROW = 0.88;   /* a letter of a guessed one */
-static const double GUESSED_EM = 20; /* pixels */
 
 /* One text with its head in bold; facts NULL: guessed, and only measured.
  * Returns where the next one begins. */
@@ -106,12 +104,13 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show)
     return inside;
 }
 
-/* As much as its words take, ems: guessed without fonts and from the names of
- * facts, so that a number that grows moves nothing. */
-double page_needs(const Show *show, double wide)
+/* As much as its words take, ems. */
+double page_needs(const Show *show, double wide, double em)
 {
-    Paper guess = {.em = GUESSED_EM};
-    Box box = {0, 0, (int)(wide * GUESSED_EM / NARROW), 0};
-    return put_page(&guess, box, LETTERS, show, NULL, false) / GUESSED_EM +
-           2.8; /* title and margin */
+    Paper paper = {.text = show->text, .em = em, .least = 1};
+    Box box = {0, 0, (int)(wide * em + 0.5), 0};
+    return put_page(&paper, box, LETTERS, show, &show_pane(show)->facts,
+                    false) /
+               em +
+           2.6; /* title and margin */
 }

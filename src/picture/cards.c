@@ -192,17 +192,19 @@ double cards_code_needs(const Page *page)
     return CODE_LETTER * code_letters(page, &indent) + 4.4; /* margins */
 }
 
-/* Lines of code in letters as large as they fit; those at work are lit. */
+/* Lines of code in letters as large as they fit, nearer to each other where
+ * they are many; those at work are lit. */
 static void draw_code(Paper *paper, Box inside, const Page *page)
 {
-    const double letter = 0.603, high = 1.3, most = 1.9; /* ems */
+    const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     size_t indent;
     double air = 0.3 * paper->em, letters = code_letters(page, &indent);
     double cell = floor((inside.width - 2 * air) / letters); /* whole pixels */
     double wide = floor((cell + 0.49) / letter);
-    double size = fmin(wide, inside.height / (high * page->lines)) / paper->em;
+    double size = fmin(wide, inside.height / (low * page->lines)) / paper->em;
     size = fmax(fmin(size, most), paper->least);
-    int line = paper_pixels(paper, high * size);
+    int line = (int)fmin(paper_pixels(paper, high * size),
+                         inside.height / page->lines);
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
     for (int i = 0; i < page->lines; i++) {
         int y = inside.y + i * line;

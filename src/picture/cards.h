@@ -35,7 +35,7 @@ typedef void StageFacts(const Simulation *simulation, Facts *facts);
 typedef void StagePick(const Plot *stage, double x, double y, Pick *pick);
 typedef int StageSample(const Simulation *simulation, Energy *row);
 typedef void CardDraw(const Plot *card);
-typedef double CardNeeds(const Show *show, double wide);
+typedef double CardNeeds(const Show *show, double wide, double em);
 extern StageBounds square_bounds, circle_bounds, mass_bounds, tangent_bounds,
     spring_bounds, race_bounds;
 extern StageDraw square_draw, circle_draw, curve_draw, landscape_draw,

@@ -98,12 +98,13 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "inside", time && method && !backward);
     fact_when(facts, "one unknown", descent->scalar != NULL);
     fact_when(facts, "by gradient", descent->by_gradient);
-    fact_when(facts, "Algorithm 1", descent->by_gradient && !descent->scalar);
     fact_when(facts, "Algorithm 3", !explicit && !descent->by_gradient);
-    fact_when(facts, "search",
-              descent->scalar || (!explicit && !descent->by_gradient));
+    bool whole = options->line_search == LINE_SEARCH_NONE;
+    bool search = descent->by_gradient ? descent->scalar && !whole : !explicit;
+    fact_when(facts, "Algorithm 1", descent->by_gradient && !search);
+    fact_when(facts, "search", search);
     fact_when(facts, "raw", options->filter == FILTER_NONE);
-    fact_when(facts, "whole", options->line_search == LINE_SEARCH_NONE);
+    fact_when(facts, "whole", whole);
     fact(facts, "springs", simulation->system.springs);
     fact_when(facts, "of a solid", solid_of(&simulation->system));
     fact_when(facts, "done", simulation->done);

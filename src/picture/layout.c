@@ -170,7 +170,8 @@ typedef struct CardRow {
 
 /* The rows [LAYOUT_CARDS] of all cards that are seen: side by side where two
  * want it.  Returns how many. */
-static int find_rows(const Show *show, double wide, bool pairs, CardRow *rows)
+static int find_rows(const Show *show, double wide, double em, bool pairs,
+                     CardRow *rows)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     int count = 0, cards = picture_cards(picture), before = -2;
@@ -188,7 +189,7 @@ static int find_rows(const Show *show, double wide, bool pairs, CardRow *rows)
         before = half && !bar ? i : -2;
         rows[count++] = (CardRow){i, 1, bar,
                                   bar           ? TITLE_BAR
-                                  : card->needs ? card->needs(show, wide)
+                                  : card->needs ? card->needs(show, wide, em)
                                                 : card->least,
                                   bar ? 0 : card->weight};
     }
@@ -205,7 +206,7 @@ static void place_cards(const Show *show, Layout *layout)
     Box rest = box_inset(layout->column, pixels(layout, GAP));
     bool pairs = layout->column.width >= PAIR_LEAST * layout->em;
     double wide = cards_inside(rest, layout->em).width / layout->em;
-    int count = find_rows(show, wide, pairs, rows), open = 0;
+    int count = find_rows(show, wide, layout->em, pairs, rows), open = 0;
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
     double weights = 1e-9, ems = gap / layout->em;
     for (int i = 0; i < count; i++) {
@@ -356,11 +357,12 @@ static void place_folded(const Show *show, Layout *layout)
         return;
     const Card *card = picture_of(simulation->scene)->cards[folded];
     Box *stage = &layout->pane[0];
-    double needs = card->needs ? card->needs(show, stage->width / layout->em)
-                               : card->least;
+    double em = layout->em;
+    double needs =
+        card->needs ? card->needs(show, stage->width / em, em) : card->least;
     double room = layout->page ? stage->height - 0.8 * stage->width : 0;
-    int high = (int)fmin(fmax((needs + 2 * GAP) * layout->em, room),
-                         0.5 * stage->height);
+    int high =
+        (int)fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height);
     layout->card[folded] =
         box_inset(cut(stage, true, high), pixels(layout, GAP));
 }

@@ -78,9 +78,12 @@ int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
     Box before = canvas_clip(&paper->canvas, box);
     double wide = paper_width(paper, face, size, markup);
     size *= wide > box.width ? fmax(0.6, box.width / wide) : 1;
+    TextStyle style = paper_style(paper, face, size, colour);
+    double over = text_extent(paper->text, &style, markup).above -
+                  text_extent(paper->text, &style, "").above;
+    double y = fmax(0.5 * box.height - 0.65 * size * paper->em, over);
     int width = paper_write(paper, face, size, colour,
-                            box.x + 0.5 * (int)align * box.width,
-                            box.y + 0.5 * box.height - 0.65 * size * paper->em,
+                            box.x + 0.5 * (int)align * box.width, box.y + y,
                             align, "%s", markup);
     canvas_clip(&paper->canvas, before);
     return width;

@@ -395,6 +395,7 @@ void player_fill(Player *player)
     show->strain =
         player->strain != (show->pane[0].simulation->scene->strain > 0);
     show->bare = player->bare;
+    show->text = player->paper.text;
     show->letter = player->window  ? window_letter()
                    : player->draws ? SMALL_LETTER
                                    : 0;

@@ -104,6 +104,7 @@ Paper *player_paper(Player *player)
         paper_free(paper);
         return NULL;
     }
+    player->show.text = paper->text;
     tell_of_font(paper);
     return paper;
 }
