@@ -141,6 +141,10 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
             status = write_page(output.file, page, player);
         player_free(player);
     }
+    if (status) {
+        output_discard(&output);
+        return status;
+    }
     fputs("</body>\n</html>\n", output.file);
-    return output_close(&output, status);
+    return output_close(&output, STATUS_OK);
 }

@@ -363,6 +363,8 @@ static void frame_of(const char *line, int step, Canvas frame[2])
         Status status = player_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }
+    /* measured as where they were drawn */
+    assert_int_equal(text_create(&player.paper.text), 0);
     for (int plain = 0; plain < 2; plain++) {
         Paper paper;
         assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
