@@ -7,9 +7,9 @@
 
 #include "base/status.h"
 
-/* Copies a text: each control character, those that turn the direction of
- * writing, and each byte that is no UTF-8 become '?', so that a message stays
- * one line, says what it seems to say, and a terminal obeys nothing.
+/* Copies a text: each byte of a control character, of those that turn the
+ * direction of writing, and that is no UTF-8 becomes '?', so that a message
+ * stays one line, says what it seems to say, and a terminal obeys nothing.
  * A text that does not fit loses its middle: "abc...xyz".
  *   text  in, or NULL: ""
  *   line  [size] out, 12 at least; may be the text itself */
@@ -26,7 +26,7 @@ typedef struct Refusal {
     size_t size;
 } Refusal;
 
-/* Writes it.  Returns INVALID_INPUT. */
+/* Writes it, as one line.  Returns INVALID_INPUT. */
 Status refuse(Refusal told, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

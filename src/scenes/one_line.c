@@ -13,31 +13,20 @@ static bool goes_on(char byte)
     return ((unsigned char)byte & 0xC0) == 0x80;
 }
 
-/* The character of UTF-8 at the beginning of a text.  Returns its bytes; 1 and
- * the code of a control for what is none. */
-static size_t read_character(const unsigned char *text, unsigned *code)
+/* Bytes of the character of UTF-8 at the beginning of a text; 0: it is none, or
+ * may be a control: ASCII's, those before U+00C0, or of U+2000 ... U+2FFF,
+ * where those are that turn the direction of writing. */
+static int letter_bytes(const char *text)
 {
-    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
-    size_t size = text[0] < 0x80   ? 1
-                  : text[0] < 0xE0 ? 2
-                  : text[0] < 0xF0 ? 3
-                                   : 4;
-    *code = size == 1 ? text[0] : text[0] & (0xFFU >> (size + 1));
-    for (size_t i = 1; i < size && *code != 127; i++)
-        *code = goes_on((char)text[i]) ? *code << 6 | (text[i] & 0x3F) : 127;
-    if (*code >= least[size] && text[0] < 0xF8 && *code != 127)
-        return size;
-    *code = 127;
-    return 1;
-}
-
-/* What a terminal obeys, or what turns the order of its letters around. */
-static bool is_control(unsigned code)
-{
-    return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x61C ||
-           code == 0x200E || code == 0x200F ||
-           (code >= 0x2028 && code <= 0x202E) ||
-           (code >= 0x2066 && code <= 0x2069);
+    unsigned char first = (unsigned char)text[0];
+    int size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    if (first < 0x20 || (first >= 0x7F && first < 0xC3) || first == 0xE2 ||
+        first > 0xF4)
+        return 0;
+    for (int i = 1; i < size; i++)
+        if (!goes_on(text[i]))
+            return 0;
+    return size;
 }
 
 void one_line(const char *text, char *line, size_t size)
@@ -60,16 +49,14 @@ void one_line(const char *text, char *line, size_t size)
         memmove(line + left, CUT, sizeof CUT - 1);
         memmove(line + left + sizeof CUT - 1, rest, right + 1);
     }
-    /* Each control, and each byte that is no character, becomes '?'. */
     for (const char *from = line; *from;) {
-        unsigned code;
-        size_t bytes = read_character((const unsigned char *)from, &code);
-        if (is_control(code))
+        int bytes = letter_bytes(from);
+        if (bytes == 0) {
             *line++ = '?';
-        else
-            for (size_t i = 0; i < bytes; i++)
-                *line++ = from[i];
-        from += bytes;
+            from++;
+        }
+        while (bytes-- > 0)
+            *line++ = *from++;
     }
     *line = '\0';
 }
@@ -89,5 +76,7 @@ Status refuse(Refusal told, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(told.message, told.size, format, arguments);
     va_end(arguments);
+    if (told.size > 0)
+        one_line(told.message, told.message, told.size);
     return STATUS_INVALID_INPUT;
 }

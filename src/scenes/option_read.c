@@ -19,28 +19,6 @@ typedef struct Text {
     char text[256];
 } Text;
 
-/* What somebody typed: one line, and short enough to leave room. */
-static Text typed(const char *word)
-{
-    Text shown;
-    one_line(word, shown.text, 64);
-    return shown;
-}
-
-/* 1e-30, 4096, 1e15: as people write it. */
-static Text number_text(double number)
-{
-    Text shown;
-    snprintf(shown.text, sizeof shown.text, fabs(number) >= 1e5 ? "%.0e" : "%g",
-             number);
-    char *plus = strstr(shown.text, "e+");
-    if (plus) {
-        char *digits = plus + 2 + strspn(plus + 2, "0");
-        memmove(plus + 1, digits, strlen(digits) + 1);
-    }
-    return shown;
-}
-
 /* "clamp, none" */
 static Text list_text(Names names)
 {
@@ -85,7 +63,7 @@ static Text meant(const char *text, const char *before, Names names)
 typedef struct Word {
     const OptionRow *row; /* NULL: a scene */
     const char *text;
-    int pick; /* which of a list of values */
+    char picked[64]; /* text, where it was a list of values: one of them */
 } Word;
 
 enum { WORDS_MOST = 256 };
@@ -188,23 +166,22 @@ bool option_read(const OptionRow *row, const char *text, double *value)
 static Status refuse_value(const Line *line, const OptionRow *row, int count,
                            const char *text)
 {
-    Text list;
-    const char *what = count > 1                    ? ", each"
-                       : row->kind == OPTION_NUMBER ? "a number"
-                                                    : "a whole number";
     if (row->kind == OPTION_PAGE)
-        snprintf(list.text, sizeof list.text,
-                 "the pages from 1 to %d, their names", lecture_count());
-    if (row->kind == OPTION_NAME)
-        list = list_text(row->names);
-    if (row->names.table)
-        return refuse(line->told, "--%s: '%s' is none of: %s%s", row->name,
-                      typed(text).text, list.text,
+        return refuse(line->told,
+                      "--%s: '%.60s' is none of: the pages from 1 to %d, their "
+                      "names%s",
+                      row->name, text, lecture_count(),
                       meant(text, "", row->names).text);
-    return refuse(line->told, "--%s: '%s' is not %s%s from %s to %s%s%s",
-                  row->name, typed(text).text, count > 1 ? row->value : "",
-                  what, number_text(row->low).text, number_text(row->high).text,
-                  row->unit[0] ? ", in " : "", row->unit);
+    if (row->kind == OPTION_NAME)
+        return refuse(line->told, "--%s: '%.60s' is none of: %s%s", row->name,
+                      text, list_text(row->names).text,
+                      meant(text, "", row->names).text);
+    return refuse(line->told, "--%s: '%.60s' is not %s%s from %g to %g%s%s",
+                  row->name, text, count > 1 ? row->value : "",
+                  count > 1                    ? ", each"
+                  : row->kind == OPTION_NUMBER ? "a number"
+                                               : "a whole number",
+                  row->low, row->high, row->unit[0] ? ", in " : "", row->unit);
 }
 
 /* A name, or numbers; where a scene is a curve, its start may be x alone. */
@@ -222,8 +199,8 @@ static Status apply_numbers(const Line *line, const OptionRow *row,
                                  : !read_numbers(row, count, text, number))
         return refuse_value(line, row, count, text);
     if (row->times && *given >= row->times)
-        return refuse(line->told, "--%s: '%s' is one too many: at most %d",
-                      row->name, typed(text).text, row->times);
+        return refuse(line->told, "--%s: '%.60s' is one too many: at most %d",
+                      row->name, text, row->times);
     if (row->times)
         used = (int)(*given)++;
     memcpy(&options->number[row->slot + used * most], number,
@@ -289,8 +266,8 @@ Status options_set(Options *options, const char *name, const char *value,
     const Line line = {.options = options, .told = {message, size}};
     const OptionRow *row = option_find(name);
     if (!row || row->kind == OPTION_SWITCH)
-        return refuse(line.told, "there is no option '%s' with a value",
-                      typed(name).text);
+        return refuse(line.told, "there is no option '%.60s' with a value",
+                      name);
     if (check_scene(&line, row) || apply(&line, row, value) ||
         check_integrator(&line))
         return STATUS_INVALID_INPUT;
@@ -305,18 +282,18 @@ Status options_set(Options *options, const char *name, const char *value,
  * have it "-H".  NULL: there is none, and the line says so. */
 static const OptionRow *find_option(const Line *line, const char *word)
 {
-    Text shown = typed(word);
-    const char *name = shown.text + strspn(shown.text, "-");
-    shown.text[strcspn(shown.text, "=")] = '\0';
-    const OptionRow *found = option_find(name);
+    char name[64];
+    int dashes = (int)strspn(word, "-"), length = (int)strcspn(word, "=");
+    snprintf(name, sizeof name, "%.*s", length - dashes, word + dashes);
+    const OptionRow *found = dashes == 2 ? option_find(name) : NULL;
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (name == shown.text + 1 && !name[1] && row->letter == tolower(*name))
+        if (dashes == 1 && !name[1] && row->letter == tolower(name[0]))
             found = row;
-    if (found && (name == shown.text + 2) == (name[1] != '\0'))
-        return found;
-    refuse(line->told, "no option %s; see elasto --help%s", shown.text,
-           meant(name, "--", NAMES_OF(option_rows)).text);
-    return NULL;
+    if (!found)
+        refuse(line->told, "no option %.*s; see elasto --help%s",
+               length < 60 ? length : 60, word,
+               meant(name, "--", NAMES_OF(option_rows)).text);
+    return found;
 }
 
 static Status read_words(int argc, char **argv, Line *line)
@@ -324,10 +301,10 @@ static Status read_words(int argc, char **argv, Line *line)
     for (int i = 1; i < argc;) {
         const char *text = argv[i++], *equals = strchr(text, '=');
         const char *next = i < argc ? argv[i] : "--";
-        Word word = {NULL, text, 0};
+        Word word = {NULL, text, ""};
         if (line->words == WORDS_MOST)
-            return refuse(line->told, "'%s': more than %d words",
-                          typed(text).text, WORDS_MOST);
+            return refuse(line->told, "'%.60s': more than %d words", text,
+                          WORDS_MOST);
         if (text[0] == '-' && text[1]) {
             const OptionRow *row = word.row = find_option(line, text);
             if (!row)
@@ -336,8 +313,8 @@ static Status read_words(int argc, char **argv, Line *line)
             bool bare = row->kind == OPTION_PAGE && next[0] == '-';
             bool follows = !equals && !alone && !bare;
             if (equals && alone)
-                return refuse(line->told, "%s: --%s takes no value",
-                              typed(text).text, row->name);
+                return refuse(line->told, "%s: --%s takes no value", text,
+                              row->name);
             if (follows && strncmp(next, "--", 2) == 0)
                 return refuse(line->told, "--%s: the value is missing: --%s %s",
                               row->name, row->name, row->value);
@@ -376,14 +353,12 @@ static Status find_scene(Line *line, const char *text)
 {
     const Scene **scene = &line->options->scene;
     if (*scene)
-        return refuse(line->told, "'%s': one scene at a time, please",
-                      typed(text).text);
+        return refuse(line->told, "'%.60s': one scene at a time, please", text);
     *scene = scene_find(text);
     return *scene ? STATUS_OK
                   : refuse(line->told,
-                           "there is no scene '%s'; see elasto --list%s",
-                           typed(text).text,
-                           meant(text, "", NAMES_OF(scenes)).text);
+                           "there is no scene '%.60s'; see elasto --list%s",
+                           text, meant(text, "", NAMES_OF(scenes)).text);
 }
 
 /* The scene or the page, and what cannot be said in one line whatever they are:
@@ -395,9 +370,9 @@ static Status check_words(Line *line)
         const Word *word = &line->word[i], *last = given(line, word->row);
         const OptionRow *row = word->row;
         if (row && row->kind == OPTION_TEXT && last != word)
-            return refuse(
-                line->told, "--%s: '%s' and '%s': one at a time, please",
-                row->name, typed(word->text).text, typed(last->text).text);
+            return refuse(line->told,
+                          "--%s: '%.60s' and '%.60s': one at a time, please",
+                          row->name, word->text, last->text);
         if (!row ? find_scene(line, word->text)
                  : row->kind == OPTION_PAGE && apply(line, row, word->text))
             return STATUS_INVALID_INPUT;
@@ -436,50 +411,45 @@ static Status begin_options(Line *line)
     return status;
 }
 
-/* Whether the word has values that are to be compared. */
-static bool is_list(const Word *word)
-{
-    return word && word->row && word->row->label && strchr(word->text, ',');
-}
-
-/* Which value of each list this pane has; the last list changes fastest. */
+/* Of each list of values the one that this pane has; the last list changes
+ * fastest. */
 static Status pick_values(Line *line, int pane)
 {
     for (int i = names_count(NAMES_OF(option_rows)) - 1; i >= 0; i--) {
-        Word *word = given(line, &option_rows[i]);
+        const OptionRow *row = &option_rows[i];
+        Word *word = given(line, row);
+        const char *text = word ? word->text : "";
         int count = 1;
-        if (!is_list(word))
+        if (!row->label || !strchr(text, ','))
             continue;
-        for (const char *at = word->text; *at; at++)
+        for (const char *at = text; *at; at++)
             count += *at == ',';
-        word->pick = pane % count;
-        pane /= count;
         line->options->panes *= count;
         if (line->options->panes > OPTIONS_MAX_PANES)
-            return refuse(
-                line->told, "--%s: '%s' makes more than %d side by side",
-                word->row->name, typed(word->text).text, OPTIONS_MAX_PANES);
+            return refuse(line->told,
+                          "--%s: '%.60s' makes more than %d side by side",
+                          row->name, text, OPTIONS_MAX_PANES);
+        for (int k = pane % count; k > 0; k--)
+            text = strchr(text, ',') + 1;
+        snprintf(word->picked, sizeof word->picked, "%.*s",
+                 (int)strcspn(text, ","), text);
+        word->text = word->picked;
+        pane /= count;
     }
     return STATUS_OK;
 }
 
-/* The value of a word; of a list at most 63 letters of it. */
 static Status apply_word(const Line *line, const Word *word)
 {
-    char value[64];
-    const char *text = word->text;
     if (!word->row)
         return STATUS_OK;
-    for (int i = word->pick; i > 0; i--)
-        text = strchr(text, ',') + 1;
-    snprintf(value, sizeof value, "%.*s", (int)strcspn(text, ","), text);
     if (line->options->page && word->row->needs)
         return refuse(line->told,
                       "--%s: the lecture's pages say that themselves",
                       word->row->name);
     if (check_scene(line, word->row))
         return STATUS_INVALID_INPUT;
-    return apply(line, word->row, is_list(word) ? value : text);
+    return apply(line, word->row, word->text);
 }
 
 /* What depends on several options: which nodes there are to be pinned, what
@@ -493,9 +463,9 @@ static Status check_body(Line *line)
         return STATUS_OK;
     if (options->pin && pins_read(options->pin, &shape, NULL))
         return refuse(line->told,
-                      "--pin: '%s' is no list of node numbers from 0 to %d, "
+                      "--pin: '%.60s' is no list of node numbers from 0 to %d, "
                       "or of: " PINS_WORDS,
-                      typed(options->pin).text, shape.nodes - 1);
+                      options->pin, shape.nodes - 1);
     if (options->bodies > 1 && !given(line, option_find("self-contact")))
         options->self_contact = 1;
     for (int i = 0; i < line->words; i++) {
@@ -582,11 +552,10 @@ static void help_option(FILE *help, const OptionRow *row)
     if (row->kind == OPTION_NAME)
         range = list_text(row->names);
     if (row->kind == OPTION_WHOLE && row->high <= 4096)
-        snprintf(range.text, sizeof range.text, "%.31s ... %.31s",
-                 number_text(row->low).text, number_text(row->high).text);
+        snprintf(range.text, sizeof range.text, "%g ... %g", row->low,
+                 row->high);
     if (row->high > row->low && !row->count && row->standard >= row->low)
-        snprintf(standard.text, sizeof standard.text, "[%.31s]",
-                 number_text(row->standard).text);
+        snprintf(standard.text, sizeof standard.text, "[%g]", row->standard);
     snprintf(words, sizeof words, "%s%s%s %s %s", row->help,
              row->unit[0] ? ", " : "", row->unit, range.text, standard.text);
     help_line(help, start.text, words);

@@ -160,37 +160,36 @@ Status start_table_read(const char *name, double step, int nodes, int run,
                         int runs, double *x, double *v, Refusal told)
 {
     Start start = {fopen(name, "rb"), step, nodes, run, x, v, .line = 0};
-    char shown[64];
     const char *end = strrchr(name, '.');
     bool arrays = end && strcasecmp(end, ".npz") == 0;
     bool whole = start.file && (arrays ? read_arrays : read_lines)(&start);
     const char *error =
         !start.file || ferror(start.file) ? strerror(errno) : NULL;
-    one_line(name, shown, sizeof shown);
     if (start.file)
         fclose(start.file);
     if (error)
-        return refuse(told, "--state '%s': %s", shown, error);
+        return refuse(told, "--state '%.60s': %s", name, error);
     if (!whole && arrays)
         return refuse(told,
-                      "--state '%s': it has no arrays x, y, vx, vy as --states "
-                      "writes them, and numpy.savez",
-                      shown);
+                      "--state '%.60s': it has no arrays x, y, vx, vy as "
+                      "--states writes them, and numpy.savez",
+                      name);
     if (!whole)
         return refuse(told,
-                      "--state '%s': line %ld is not one that --states writes, "
-                      "step,time,node,x,y,vx,vy",
-                      shown, start.line);
+                      "--state '%.60s': line %ld is not one that --states "
+                      "writes, step,time,node,x,y,vx,vy",
+                      name, start.line);
     if (!start.has_step)
-        return refuse(told, "--state '%s': step %.0f is not in it", shown,
+        return refuse(told, "--state '%.60s': step %.0f is not in it", name,
                       step);
     if (start.count == 0 || start.count % nodes != 0 ||
         (!start.has_panes && start.count / nodes > runs))
         return refuse(told,
-                      "--state '%s': its %sstep has %d nodes, the body %d",
-                      shown, step < 0 ? "last " : "", start.count, nodes);
+                      "--state '%.60s': its %sstep has %d nodes, the body %d",
+                      name, step < 0 ? "last " : "", start.count, nodes);
     if (run >= start.count / nodes)
-        return refuse(told, "--state '%s': body %d of the scene is not in it",
-                      shown, run + 1);
+        return refuse(told,
+                      "--state '%.60s': body %d of the scene is not in it",
+                      name, run + 1);
     return STATUS_OK;
 }
