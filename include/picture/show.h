@@ -120,6 +120,7 @@ typedef enum PickKind {
 typedef struct Pick {
     PickKind kind;
     int pane, index;
+    int near;        /* the nearest node within 3/4 of a cell; -1: none */
     double point[2]; /* m, where the mouse is in the world */
 } Pick;
 

@@ -69,7 +69,7 @@ void show_hold(Show *show, int pane)
 Pick show_pick(const Show *show, const Layout *layout, double x, double y)
 {
     Hit hit = layout_hit(layout, x, y);
-    Pick pick = {PICK_NONE, 0, 0, {0, 0}};
+    Pick pick = {.kind = PICK_NONE, .near = -1};
     if (hit.zone != ZONE_STAGE || hit.index >= show->panes)
         return pick;
     Plot stage = show_stage(NULL, show, layout, hit.index);

@@ -60,13 +60,14 @@ static void pick_obstacle(const Simulation *simulation, Pick *pick)
 }
 
 /* The nearest node, else the nearest spring, within reach of the mouse; else an
- * obstacle. */
+ * obstacle.  A hand takes nodes that are farther away, too. */
 void square_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     const System *system = &stage->simulation->system;
     const double *at = pane_x(&stage->show->pane[stage->pane]);
     double spacing = stage->camera.scale[0] * stage->simulation->mesh.spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16);
+    double near = fmax(reach * reach, 0.75 * 0.75 * spacing * spacing);
     for (int springs = 0; springs < 2 && pick->kind == PICK_NONE; springs++) {
         int count = !springs           ? system->nodes
                     : solid_of(system) ? 0
@@ -79,6 +80,10 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
             camera_pixel(&stage->camera, at + 2 * (size_t)e[0], p);
             camera_pixel(&stage->camera, at + 2 * (size_t)e[1], q);
             double d2 = distance2(p, q, x, y);
+            if (!springs && d2 < near) {
+                near = d2;
+                pick->near = i;
+            }
             if (d2 < best) {
                 best = d2;
                 pick->kind = springs ? PICK_SPRING : PICK_NODE;

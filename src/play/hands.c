@@ -171,22 +171,19 @@ static Status check_answer(Player *player)
  * be read leaves the field as it is. */
 Status obey_enter(Player *player, const Command *command)
 {
-    char typed[sizeof player->typed];
+    const OptionRow *row = player->lit;
     Command made = {.kind = COMMAND_SET, .joins = true};
-    Status status;
-    memcpy(typed, player->typed, sizeof typed);
-    if (!player->lit && !lists(player))
+    if (!row && !lists(player))
         return check_answer(player);
-    if (!player->lit) {
-        status = open_line(player, typed);
+    if (!row) {
+        Status status = open_line(player, player->typed);
         player->typing = player->typing && status;
         return status;
     }
-    const OptionRow *row = player->lit;
     made.number = row - option_rows;
-    if (row->count > 1 || !option_read(row, typed, &made.x))
-        memcpy(made.text, typed, sizeof typed);
-    status = player_obey(player, &made);
+    if (row->count > 1 || !option_read(row, player->typed, &made.x))
+        memcpy(made.text, player->typed, sizeof player->typed);
+    Status status = player_obey(player, &made);
     if (!status)
         player_deselect(player);
     return status;
@@ -203,7 +200,7 @@ static Status drag_number(Player *player)
         return STATUS_OK;
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
     if (row->count > 1)
-        return player_pace(player, row, 1);
+        return player_pace(player, row, 1); /* which says why not */
     if (row->pace > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
@@ -231,27 +228,6 @@ static Status drag_edge(Player *player, const Under *under)
     return stretch == options->stretch
                ? STATUS_OK
                : player_ask_set(player, option_find("stretch"), stretch);
-}
-
-/* The node under the mouse, or nearest to it; -1: it is beside the body. */
-static int near_node(const Player *player, const Under *under)
-{
-    const Pane *pane = &player->show.pane[under->pane];
-    const SquareMesh *mesh = &pane->simulation->mesh;
-    const double *x = pane_x(pane);
-    double reach = 0.75 * mesh->spacing;
-    int nearest = -1;
-    if (under->pick.kind == PICK_NODE)
-        return under->pick.index;
-    for (int i = 0; i < mesh->nodes; i++) {
-        double away =
-            math_hypot(x[2 * i] - under->at[0], x[2 * i + 1] - under->at[1]);
-        if (away < reach) {
-            reach = away;
-            nearest = i;
-        }
-    }
-    return nearest;
 }
 
 /* The square with the cell's numbers, from its start: commands that a script
@@ -308,7 +284,7 @@ static Status take(Player *player, const Under *under)
     default:
         if (under->pick.kind != PICK_NODE) /* a spring beside the node */
             player->show.hover.kind = PICK_NONE;
-        mouse->index = near_node(player, under);
+        mouse->index = under->pick.near;
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
                       : paused         ? COMMAND_PLACE
                                        : COMMAND_GRAB;
@@ -318,10 +294,9 @@ static Status take(Player *player, const Under *under)
 
 /* The node under the mouse, or the nearest one of the body there, is pinned or
  * set free. */
-static Status pin(Player *player, const Under *under)
+static Status pin(Player *player, int node)
 {
     const Scene *scene = player_simulation(player)->scene;
-    int node = near_node(player, under);
     if (node < 0 && (scene->needs & NEEDS_MESH) && !scene->step)
         return player_refuse(player, "no node is here: a right click on one "
                                      "pins it, or sets it free");
@@ -376,12 +351,11 @@ static Status follow(Player *player)
             status = grab(player);
         return status ? status : ask_at(player, COMMAND_DRAG, 0, under.at);
     case COMMAND_OBSTACLE:
-        under.at[0] += mouse->grip[0];
-        under.at[1] += mouse->grip[1];
-        return ask_at(player, mouse->drag, mouse->index, under.at);
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
+        under.at[0] += mouse->grip[0];
+        under.at[1] += mouse->grip[1];
         return ask_at(player, mouse->drag, mouse->index, under.at);
     case COMMAND_SET:
         return mouse->index < 0 ? drag_edge(player, &under)
@@ -487,8 +461,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
             status = ask(player, COMMAND_PANE, under->pane);
         if (status || clicks < 2 || !ground)
             return status ? status : take(player, under);
-        return body && near_node(player, under) < 0 &&
-                       under->pick.kind == PICK_NONE
+        return body && under->pick.near < 0 && under->pick.kind == PICK_NONE
                    ? put_ball(player, under->at)
                    : ask(player, COMMAND_FIT, 0);
     default:
@@ -499,38 +472,31 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
 static Status pressed(Player *player, const Input *input)
 {
     Mouse *mouse = &player->mouse;
+    Held *held = &player->show.held;
     Under under = look(player);
-    mouse->from[0] = mouse->last[0] = mouse->x;
-    mouse->from[1] = mouse->last[1] = mouse->y;
+    bool stage = under.hit.zone == ZONE_STAGE;
+    for (int k = 0; k < 2; k++) {
+        mouse->from[k] = mouse->last[k] = k ? mouse->y : mouse->x;
+        mouse->grip[k] = 0;
+    }
     mouse->moved = false;
-    if (input->button == BUTTON_BOX && under.hit.zone == ZONE_STAGE &&
-        player_stands(player)) {
+    if (input->button == BUTTON_BOX && stage && player_stands(player)) {
         mouse->drag = COMMAND_BOX;
         show_hold(&player->show, under.pane);
-        player->show.held.boxes = true;
+        held->boxes = true;
         for (int k = 0; k < 4; k++)
-            player->show.held.box[k] = under.at[k % 2];
+            held->box[k] = under.at[k % 2];
         return STATUS_OK;
     }
     if (input->button == BUTTON_LEFT || input->button == BUTTON_BOX)
         return left_pressed(player, &under, input->clicks);
-    if (under.hit.zone != ZONE_STAGE)
+    if (!stage)
         return STATUS_OK;
     if (input->button == BUTTON_RIGHT)
-        return pin(player, &under);
+        return pin(player, under.pick.near);
     mouse->drag = COMMAND_PAN;
     mouse->moved = true;
     return STATUS_OK;
-}
-
-/* The nodes in the box; a click with Shift lets them go. */
-static Status box_drawn(Player *player)
-{
-    const double *box = player->show.held.box;
-    Command command = {.kind = COMMAND_BOX, .joins = true};
-    snprintf(command.text, sizeof command.text, "%.6g,%.6g,%.6g,%.6g", box[0],
-             box[1], box[2], box[3]);
-    return player_obey(player, &command);
 }
 
 /* A left click on a node of a square does nothing by itself. */
@@ -543,15 +509,21 @@ static void node_clicked(Player *player)
                     simulation->system.pinned[node] ? "frees" : "pins");
 }
 
-/* A click on a name takes the next one. */
+/* The nodes in a box go together; a click with Shift lets them go.  A click on
+ * a name takes the next one. */
 static Status released(Player *player)
 {
     Mouse *mouse = &player->mouse;
+    Command box = {.kind = COMMAND_BOX, .joins = true};
+    const double *at = player->show.held.box;
     CommandKind drag = mouse->drag;
     mouse->drag = COMMAND_NONE;
     player->show.held.on = player->show.held.boxes = false;
-    if (drag == COMMAND_BOX)
-        return box_drawn(player);
+    if (drag == COMMAND_BOX) {
+        snprintf(box.text, sizeof box.text, "%.6g,%.6g,%.6g,%.6g", at[0], at[1],
+                 at[2], at[3]);
+        return player_obey(player, &box);
+    }
     if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE))
         node_clicked(player);
     if (drag == COMMAND_GRAB && player->holds) {

@@ -11,16 +11,16 @@
 /* ---- what the page does ------------------------------------------------- */
 
 /* clang-format off */
-EM_JS(int, page_width, (void), { return Page.width(); });
-EM_JS(int, page_height, (void), { return Page.height(); });
-EM_JS(double, page_letter, (void), { return 9.5 * devicePixelRatio; });
-EM_JS(void, page_title, (const char *title), {
+EM_JS(void, window_size, (int size[2]), {
+    HEAP32[size >> 2] = Page.width();
+    HEAP32[(size >> 2) + 1] = Page.height();
+});
+EM_JS(double, window_letter, (void), { return 9.5 * devicePixelRatio; });
+EM_JS(void, window_set_title, (const char *title), {
     document.title = UTF8ToString(title);
 });
-EM_JS(void, page_full, (int full), { Page.full(full); });
-EM_JS(int, page_is_full, (void), {
-    return document.fullscreenElement ? 1 : 0;
-});
+EM_JS(void, window_set_full, (bool full), { Page.full(full); });
+EM_JS(bool, window_is_full, (void), { return !!document.fullscreenElement; });
 EM_JS(void, page_show, (const uint32_t *pixels, int width, int height), {
     Page.show(HEAPU8, pixels, width, height);
 });
@@ -30,7 +30,7 @@ bool window_open(const char *title, const int size[2], bool full)
 {
     (void)size;
     (void)full;
-    page_title(title);
+    window_set_title(title);
     return true;
 }
 
@@ -41,32 +41,6 @@ void window_close(void)
 const char *window_failure(void)
 {
     return "";
-}
-
-void window_set_title(const char *title)
-{
-    page_title(title);
-}
-
-void window_set_full(bool full)
-{
-    page_full(full);
-}
-
-bool window_is_full(void)
-{
-    return page_is_full();
-}
-
-void window_size(int size[2])
-{
-    size[0] = page_width();
-    size[1] = page_height();
-}
-
-double window_letter(void)
-{
-    return page_letter();
 }
 
 /* As a canvas wants them: red first, nothing shines through. */
@@ -121,12 +95,9 @@ EMSCRIPTEN_KEEPALIVE void web_key(const char *key, int repeats)
 EMSCRIPTEN_KEEPALIVE void web_mouse(int kind, double x, double y, int button,
                                     int clicks, double amount)
 {
-    put_input(&(Input){.kind = (InputKind)kind,
-                       .button = button,
-                       .clicks = clicks,
-                       .x = x,
-                       .y = y,
-                       .amount = amount});
+    const Input input = {(InputKind)kind, "", false, button,
+                         clicks,          x,  y,     amount};
+    put_input(&input);
 }
 
 Input window_input(void)

@@ -1116,7 +1116,7 @@ static void check_frame(const char *name, PickKind kind, int index)
         isinf(simulation_energies(simulation, 0).kinetic))
         return;
     player_fill(&player);
-    show->hover = (Pick){kind, 0, index, {0, 0}};
+    show->hover = (Pick){.kind = kind, .index = index};
     tell_all(show);
     check_facts(name);
     check_texts(name);

@@ -129,7 +129,7 @@ TEST(every_size_is_drawn)
                 show.page.kind = mode == 2 ? PAGE_HELP : PAGE_NONE;
                 show.closed = 0;
                 show.pane[0].trouble = STATUS_NOT_FINITE;
-                show.hover = (Pick){PICK_SPRING, 0, 0, {0, 0}};
+                show.hover = (Pick){.kind = PICK_SPRING, .index = 0};
                 if (simulation.runs > 0 && mode > 0) {
                     simulation.run[0].x[0] = NAN;
                     simulation.run[0].x[1] = mode == 1 ? 1e300 : -INFINITY;
@@ -225,7 +225,7 @@ TEST(states_show_what_they_are)
                              .updates = 3,
                              .difference = falling};
         show.pane[0].trace = trace.line ? &trace : NULL;
-        show.hover = (Pick){states[i].hover, 0, 12, {0, 0}};
+        show.hover = (Pick){.kind = states[i].hover, .index = 12};
         draw_without_words();
         int card = states[i].card;
         int count = count_colour(
@@ -338,7 +338,7 @@ TEST(what_flies_far_is_drawn_or_told)
         x[i] = i == 2 * 11 + 1 ? 1e220 : i == 2 * 13 + 1 ? -1e220 : 0;
     draw();
     CHECK(on_stage(COLOUR_X) > 300);
-    show.hover = (Pick){PICK_SPRING, 0, 0, {0, 0}};
+    show.hover = (Pick){.kind = PICK_SPRING, .index = 0};
     draw();
     CHECK(on_stage(COLOUR_NOTE) > 1000);
     for (int part = 0; part < 2; part++) { /* one node, then all of them */
@@ -502,32 +502,28 @@ TEST(a_stage_tells_in_words)
 {
     static const struct {
         const char *line, *text;
-        Pick hover;
+        PickKind kind;
+        int index;
         bool told;
     } rows[] = {
-        {"square", "node 7", {PICK_NODE, 0, 7, {0, 0}}, true},
-        {"square --pin 4", "node 4, pinned", {PICK_NODE, 0, 4, {0, 0}}, true},
-        {"square", "v = (0, 0) m/s", {PICK_NODE, 0, 7, {0, 0}}, true},
-        {"square", "spring 0\u20135", {PICK_SPRING, 0, 0, {0, 0}}, true},
-        {"square --stretch 1",
-         "eigenvalues 0, 0, 0, 8\u00b710^{5}",
-         {PICK_SPRING, 0, 0, {0, 0}},
+        {"square", "node 7", PICK_NODE, 7, true},
+        {"square --pin 4", "node 4, pinned", PICK_NODE, 4, true},
+        {"square", "v = (0, 0) m/s", PICK_NODE, 7, true},
+        {"square", "spring 0\u20135", PICK_SPRING, 0, true},
+        {"square --stretch 1", "eigenvalues 0, 0, 0, 8\u00b710^{5}",
+         PICK_SPRING, 0, true},
+        {"square --stretch 0.9 --turn 9", "after projection", PICK_SPRING, 0,
          true},
-        {"square --stretch 0.9 --turn 9",
-         "after projection",
-         {PICK_SPRING, 0, 0, {0, 0}},
+        {"square --stretch 0.9 --filter none", "after projection", PICK_SPRING,
+         0, false},
+        {"square", "after projection", PICK_SPRING, 0, false},
+        {"drop --segments 4", "\u03b5 is loose", PICK_NONE, 0, false},
+        {"drop --segments 4 --tolerance 0.01", "\u03b5 is loose", PICK_NONE, 0,
          true},
-        {"square --stretch 0.9 --filter none",
-         "after projection",
-         {PICK_SPRING, 0, 0, {0, 0}},
-         false},
-        {"square", "after projection", {PICK_SPRING, 0, 0, {0, 0}}, false},
-        {"drop --segments 4", "\u03b5 is loose", {0}, false},
-        {"drop --segments 4 --tolerance 0.01", "\u03b5 is loose", {0}, true},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         stand_up(rows[i].line, 0);
-        show.hover = rows[i].hover;
+        show.hover = (Pick){.kind = rows[i].kind, .index = rows[i].index};
         if (is_drawn(rows[i].text) != rows[i].told)
             fail_msg("%s: %s", rows[i].line, rows[i].text);
     }
