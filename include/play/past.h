@@ -39,8 +39,12 @@
 /* Beyond so many times its size in the first step nobody can see a state. */
 #define PAST_EXPLODED 10
 
+/* A state, and what plots show of it (show_sample). */
 typedef struct State {
-    size_t size;
+    size_t size; /* of all this, bytes */
+    double time; /* s */
+    int rows;
+    Energy row[HISTORY_SERIES];
     unsigned char bytes[];
 } State;
 
@@ -52,18 +56,10 @@ typedef struct Outcome {
     double extent; /* m, the largest coordinate of run 0 */
 } Outcome;
 
-/* What plots show of a step (show_sample). */
-typedef struct Sample {
-    double time; /* s */
-    int rows;
-    Energy row[];
-} Sample;
-
 /* One step of one pane: the state after it, and how the next one is made. */
 typedef struct Entry {
     const Control *control; /* from this step on; NULL: it is not made yet */
     State *state;           /* before that control; NULL: made again */
-    Sample *sample;         /* with it; NULL: not known */
     int substeps; /* steps of its own in it: with a shorter h several; 0: its
                      scene is over; or the outcome says why it has ended, and
                      the state is the last one that can be seen */

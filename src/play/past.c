@@ -91,30 +91,6 @@ long past_last_seen(const Past *past, int pane, long step)
     return step;
 }
 
-/* Every so manyth step has a place in a history, and the newest. */
-static long history_stride(const Past *past)
-{
-    long stride = 1;
-    while (past_newest(past) / stride > HISTORY_POINTS - 2)
-        stride *= 2;
-    return stride;
-}
-
-void past_history(const Past *past, int pane, History *history)
-{
-    long last = past_newest(past), stride = history_stride(past);
-    long ended = past_ended(past, pane, last);
-    if (ended >= 0)
-        last = past_last_seen(past, pane, ended);
-    history_clear(history);
-    for (long step = 0; step < last + stride; step += stride) {
-        const Entry *entry = entry_of(past, pane, step < last ? step : last);
-        const Sample *sample = entry ? entry->sample : NULL;
-        if (sample)
-            history_add(history, sample->time, sample->rows, sample->row);
-    }
-}
-
 /* ---- entries and branches ------------------------------------------------ */
 
 static void drop_state(Past *past, Entry *entry)
@@ -125,17 +101,10 @@ static void drop_state(Past *past, Entry *entry)
     entry->state = NULL;
 }
 
-static void drop_sample(Entry *entry)
-{
-    free(entry->sample);
-    entry->sample = NULL;
-}
-
 static void drop_entry(Past *past, Entry *entry)
 {
     control_drop(entry->control);
     drop_state(past, entry);
-    drop_sample(entry);
     *entry = (Entry){0};
 }
 
@@ -228,20 +197,41 @@ bool past_is_given(const Past *past)
     return kept_of(past, 0, past->step).dragged;
 }
 
+/* Of a long run every so manyth step, and the newest. */
+void past_history(const Past *past, int pane, History *history)
+{
+    long last = past_newest(past), stride = 1;
+    while (last / stride > HISTORY_POINTS - 2)
+        stride *= 2;
+    long ended = past_ended(past, pane, last);
+    if (ended >= 0)
+        last = past_last_seen(past, pane, ended);
+    history_clear(history);
+    for (long step = 0; step < last + stride; step += stride) {
+        const State *state =
+            kept_of(past, pane, step < last ? step : last).entry->state;
+        if (state)
+            history_add(history, state->time, state->rows, state->row);
+    }
+}
+
 /* The machine's state into an entry, before which others give way. */
 static Status keep_state(Past *past, int pane, Entry *entry)
 {
     const Simulation *simulation = &past->machine[pane].simulation;
-    size_t size = state_bytes(simulation);
+    size_t size = sizeof *entry->state + state_bytes(simulation);
     drop_state(past, entry);
     while (past->bytes + size > past->limit && thin_states(past))
         continue;
-    entry->state = malloc(sizeof *entry->state + size);
-    if (!entry->state)
+    State *state = malloc(size);
+    if (!state)
         return STATUS_OUT_OF_MEMORY;
-    entry->state->size = size;
+    state->size = size;
+    state->time = simulation_time(simulation);
+    state->rows = show_sample(simulation, state->row);
+    state_save(simulation, state->bytes);
     past->bytes += size;
-    state_save(simulation, entry->state->bytes);
+    entry->state = state;
     return STATUS_OK;
 }
 
@@ -264,17 +254,16 @@ static void leave_all(Past *past)
         leave_step(past, p);
 }
 
-/* The first entries of a pane, as the branch below has them. */
+/* The first entries of a pane, as the branch below has them; of the second one,
+ * whose step is to be made again, the control. */
 static void copy_entries(Branch *branch, int pane)
 {
     int below = branch[-1].panes, source = pane < below ? pane : below - 1;
     for (int i = 0; i < branch->given; i++) {
-        const Entry *from = entry_in(branch - 1, source, branch->first + i);
         Entry *to = &branch->entry[i * branch->panes + pane];
-        to->control = control_keep(from->control);
-        to->substeps = i == 0 ? from->substeps : 0;
-        if (i == 0)
-            to->outcome = from->outcome;
+        *to = *entry_in(branch - 1, source, branch->first + i);
+        control_keep(to->control);
+        to->state = NULL;
     }
     branch->source[pane] = source;
 }
@@ -391,30 +380,13 @@ static Status use_control(Machine *machine, const Control *control)
     return status;
 }
 
-/* What plots show; NULL: nothing, or no memory. */
-static Sample *take_sample(const Simulation *simulation)
-{
-    Energy row[HISTORY_SERIES];
-    int rows = show_sample(simulation, row);
-    Sample *sample = malloc(sizeof *sample + (size_t)rows * sizeof *row);
-    if (!sample)
-        return NULL;
-    sample->time = simulation_time(simulation);
-    sample->rows = rows;
-    memcpy(sample->row, row, (size_t)rows * sizeof *row);
-    return sample;
-}
-
 /* The machine has the state of this step, and takes its control. */
 static Status land(Past *past, int pane, long step)
 {
     Machine *machine = &past->machine[pane];
-    Entry *entry = entry_of(past, pane, step);
-    Status status = use_control(machine, entry->control);
+    Status status = use_control(machine, entry_of(past, pane, step)->control);
     machine->step = step;
     machine->stands = !status;
-    if (!status && past->keeps && !entry->sample)
-        entry->sample = take_sample(&machine->simulation);
     return status;
 }
 
@@ -466,12 +438,10 @@ static Status load(Past *past, int pane, long goal)
 static void unmake(Past *past, int pane)
 {
     const Branch *branch = present(past);
-    Entry *entry = entry_of(past, pane, branch->first + branch->count);
-    const Control *given = NULL;
-    if (branch->count < branch->given)
-        given = control_keep(entry->control);
-    drop_entry(past, entry);
-    entry->control = given;
+    Entry *entry = entry_of(past, pane, past_newest(past) + 1);
+    drop_state(past, entry);
+    if (branch->count >= branch->given)
+        drop_entry(past, entry);
 }
 
 /* Work that is under way ends; the last whole step stays, but machines that
@@ -547,14 +517,11 @@ static Status arrive(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
     long step = machine->step + 1;
-    Entry *from = entry_of(past, pane, step - 1);
     Entry *to = entry_of(past, pane, step);
     Status status = STATUS_OK;
     if (step > past_newest(past)) {
-        if ((step - 1) % history_stride(past))
-            drop_sample(from);
         if (!to->control)
-            to->control = control_keep(from->control);
+            to->control = control_keep(entry_of(past, pane, step - 1)->control);
         to->substeps = machine->substeps;
         to->outcome = machine->outcome;
     }
@@ -889,12 +856,11 @@ const unsigned char *past_along(const Past *past, int pane, long node)
     return has && past->along[node] ? past->along : NULL;
 }
 
-/* A change of an entry of the topmost branch; its sample is another one. */
+/* A change of an entry of the topmost branch. */
 static Status change_entry(Past *past, int pane, const Command *edit,
                            Entry *entry)
 {
     Simulation *simulation = &past->machine[pane].simulation;
-    drop_sample(entry);
     if (!drags(edit)) {
         const Control *control = changed(entry->control, edit);
         if (!control)
