@@ -39,7 +39,8 @@
 /* Beyond so many times its size in the first step nobody can see a state. */
 #define PAST_EXPLODED 10
 
-/* A state, and what plots show of it (show_sample). */
+/* A state, and what plots show of it with the control that it had last
+ * (show_sample). */
 typedef struct State {
     size_t size; /* of all this, bytes */
     double time; /* s */

@@ -23,6 +23,7 @@
 #include "play/view.h"
 
 enum {
+    DRIFT_STEPS = 8,  /* in which nothing deforms, and it drifts */
     SPEED_LEAST = -6, /* a frame every second */
     SPEED_MOST = 10   /* 1024 steps a frame */
 };
@@ -31,9 +32,7 @@ enum {
  * has asked for that. */
 typedef enum Mode {
     MODE_RUN,
-    MODE_DRIFT, /* the same, but nothing deforms any more */
     MODE_PAUSE,
-    MODE_WALK, /* inside a step, at a line of Algorithm 3 */
     MODE_END,  /* the scene is over, or a step did not converge */
     MODE_HELD, /* nothing moves: the tolerance lets forces pass, */
     MODE_REST  /* or they are in balance */
@@ -65,7 +64,7 @@ typedef struct Mouse {
 
 /* What is shown of one of the runs side by side. */
 typedef struct Side {
-    int place;     /* MODE_WALK: in its rounds; -1: it shows the whole step */
+    int place;     /* in the rounds of the step; -1: it shows all of it */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
     char ghost_label[160]; /* which one, and what it was */
     char label[64];        /* what is different here */

@@ -14,7 +14,7 @@ Status player_change(Player *player, const Command *change, int from, int to,
                      bool again)
 {
     Past *past = &player->past;
-    if (player->mode >= MODE_HELD || player->mode == MODE_DRIFT)
+    if (player->mode >= MODE_HELD)
         player->mode = MODE_RUN; /* something may move again */
     Status status = past_edit(past, change, from, to, again, player->gesture);
     return status ? status : player_follow(player);
@@ -42,68 +42,6 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
     for (int p = 0; p < past_panes(&player->past); p++)
         options[p] = past_control(&player->past, p)->options;
     return past_panes(&player->past);
-}
-
-/* ---- the step once more: the counterfactual ------------------------------ */
-
-/* "projection none: E +206 in 12 updates" */
-static void tell_outcome(const Player *player, const OptionRow *row, char *text,
-                         size_t size)
-{
-    const Outcome *outcome = &player_machine(player)->outcome;
-    char value[COMMAND_TEXT_SIZE];
-    option_value(row, player_settings(player), value, sizeof value);
-    snprintf(text, size, "%s %s: E %+.3g in %d update%s%s%s", row->label, value,
-             outcome->change, outcome->updates,
-             outcome->updates == 1 ? "" : "s", outcome->status ? ", " : "",
-             outcome->status ? status_text(outcome->status) : "");
-}
-
-/* The change, and the present step once more with it, from its own start; what
- * it was before stays as a ghost of the active pane. */
-static Status retake_step(Player *player, const Command *change, int from,
-                          int to)
-{
-    Past *past = &player->past;
-    Side *side = &player->side[player->active];
-    const OptionRow *row = &option_rows[change->number];
-    const Machine *machine = player_machine(player);
-    const Simulation *simulation = &machine->simulation;
-    size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
-    int place = player_place(player, player->active);
-    bool failed = machine->failed;
-    long step = past->step + failed;
-    player->retaken = (Station){.round = -1};
-    if (place >= 0 && player->fine > 0)
-        player->retaken = machine->rounds.place[place];
-    player_leave_step(player);
-    tell_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
-    if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
-        side->ghost = malloc(bytes);
-    if (side->ghost)
-        memcpy(side->ghost, simulation->run[0].x, bytes);
-    Status status = player_change(player, change, from, to, !failed);
-    if (status)
-        return status;
-    player->sampled = -1;
-    past_aim(past, step, false);
-    player->then = THEN_TELL;
-    return STATUS_OK;
-}
-
-void player_tell_retake(Player *player)
-{
-    const Past *past = &player->past;
-    const Rounds *rounds = &player_machine(player)->rounds;
-    const Station *at = &player->retaken;
-    char has[160];
-    if (at->round >= 0 && rounds->places > 2)
-        player_stand_at(player, player->active,
-                        rounds_find(rounds, at->round, at->line));
-    tell_outcome(player, &option_rows[past->branch[past->now].edit.number], has,
-                 sizeof has);
-    player_note(player, "%s; %s", player->side[player->active].ghost_label,
-                has);
 }
 
 /* ---- numbers and methods ------------------------------------------------- */
@@ -245,12 +183,12 @@ Status obey_set(Player *player, const Command *command)
     bool again =
         (!past_is_given(&player->past) || player_machine(player)->failed) &&
         (row->effect == EFFECT_AGAIN ||
-         (player->fine > 0 && player_place(player, player->active) >= 0));
+         (player->fine > 0 && player->side[player->active].place >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)
         return player_begin(player, options, past_panes(&player->past),
                             command);
     if (again && change.x != old)
-        return retake_step(player, &change, from, to);
+        return player_retake(player, &change, from, to);
     return player_change(player, &change, from, to, false);
 }
 
@@ -503,10 +441,11 @@ Status obey_handle(Player *player, const Command *command)
     long step = past->step;
     int now = past->now;
     if (command->kind == COMMAND_HANDLE && (needs & NEEDS_START) &&
-        !(needs & NEEDS_TIME))
+        !(needs & NEEDS_TIME)) {
+        player_stop(player);
         status = player_show(player, 0, false, THEN_NOTHING);
-    if (!status)
-        status = player_work(player);
+        status = status ? status : player_work(player);
+    }
     if (!status)
         status = change_all(player, command);
     if (past->now > now)

@@ -261,8 +261,7 @@ static void fill_pane(Player *player, int p, Trace *trace)
     bool newton =
         simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
     if (machine->known && newton) {
-        pane->x =
-            rounds_trace(&machine->rounds, player_place(player, p), trace);
+        pane->x = rounds_trace(&machine->rounds, side->place, trace);
         pane->trace = trace;
     }
 }
@@ -274,7 +273,7 @@ static void fill_hand(Player *player)
     Hand *hand = &player->show.hand;
     player->show.along = player->past.along;
     player->show.along_nodes = player->past.along_nodes;
-    if (control->hand < 0 || player_place(player, player->active) >= 0)
+    if (control->hand < 0 || player->side[player->active].place >= 0)
         return;
     *hand = (Hand){.on = true,
                    .pane = player->active,
@@ -339,10 +338,17 @@ static void fill_time(Player *player)
                ldexp(1, player->speed));
 }
 
-/* A long step says so, and how to stop it. */
-static void fill_computing(Player *player)
+/* What time does; a long step says so, and how to stop it. */
+static void fill_state(Player *player)
 {
     Show *show = &player->show;
+    const char *state = player->mode == MODE_HELD   ? "within \u03b5"
+                        : player->mode == MODE_REST ? "at rest"
+                                                    : "";
+    show->paused = player_stands(player);
+    if (!show->paused && player->rigid >= DRIFT_STEPS)
+        state = "drifting";
+    snprintf(show->state, SHOW_VALUE, "%s", state);
     if (!player->past.making ||
         (clock_now() - player->began <= LONG_WORK && !player_is_slow(player)))
         return;
@@ -355,11 +361,6 @@ static void fill_computing(Player *player)
 void player_fill(Player *player)
 {
     static Trace traces[OPTIONS_MAX_PANES];
-    static const char *const state[] = {
-        [MODE_RUN] = "",        [MODE_DRIFT] = "drifting",
-        [MODE_PAUSE] = "",      [MODE_WALK] = "",
-        [MODE_END] = "",        [MODE_HELD] = "within \u03b5",
-        [MODE_REST] = "at rest"};
     Show *show = &player->show;
     Pick hover = show->hover;
     Hit over = show->over;
@@ -376,9 +377,7 @@ void player_fill(Player *player)
     show->over = over;
     show->held = held;
     show->chosen = chosen;
-    show->paused = player_stands(player);
-    snprintf(show->state, SHOW_VALUE, "%s", state[player->mode]);
-    fill_computing(player);
+    fill_state(player);
     fill_settings(player);
     fill_chips(player);
     fill_hand(player);

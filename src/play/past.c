@@ -227,8 +227,6 @@ static Status keep_state(Past *past, int pane, Entry *entry)
     if (!state)
         return STATUS_OUT_OF_MEMORY;
     state->size = size;
-    state->time = simulation_time(simulation);
-    state->rows = show_sample(simulation, state->row);
     state_save(simulation, state->bytes);
     past->bytes += size;
     entry->state = state;
@@ -384,9 +382,14 @@ static Status use_control(Machine *machine, const Control *control)
 static Status land(Past *past, int pane, long step)
 {
     Machine *machine = &past->machine[pane];
+    State *state = kept_of(past, pane, step).entry->state;
     Status status = use_control(machine, entry_of(past, pane, step)->control);
     machine->step = step;
     machine->stands = !status;
+    if (!status && state) {
+        state->time = simulation_time(&machine->simulation);
+        state->rows = show_sample(&machine->simulation, state->row);
+    }
     return status;
 }
 

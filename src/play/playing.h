@@ -13,7 +13,7 @@ static const double SLICE = 0.05;
 /* ---- obey.c: commands, deeds, the journal -------------------------------- */
 
 Deed obey_pause, obey_next, obey_back, obey_finer, obey_goto,
-    obey_undo; /* walk.c */
+    obey_undo; /* steps.c */
 Deed obey_set, obey_default, obey_select, obey_raise, obey_switch, obey_method,
     obey_add, obey_add_pane, obey_end_pane, obey_pin, obey_grab, obey_drag,
     obey_place, obey_box, obey_obstacle, obey_handle; /* change.c */
@@ -61,12 +61,18 @@ Status player_work(Player *player);
 /* Whether a single factor takes longer than a slice. */
 bool player_is_slow(const Player *player);
 
-/* Wants another step shown, to wait there; again: with all that is told of its
- * iterations.  player_work follows, after a deed by itself. */
+/* Wants a step shown, the newest one or one before it, or the next new one;
+ * again: with all that is told of its iterations.  player_work follows, after a
+ * deed by itself. */
 Status player_show(Player *player, long step, bool again, Then then);
 
-/* The next step, known or new. */
-Status player_go_on(Player *player, Then then);
+/* A change in panes from ... to - 1, and the present step once more with it,
+ * from its own start; what it was before stays as a ghost of the active pane.
+ */
+Status player_retake(Player *player, const Command *change, int from, int to);
+
+/* Somebody has asked for a pause. */
+void player_stop(Player *player);
 
 /* What goes whenever another step is shown. */
 void player_leave_step(Player *player);
@@ -80,20 +86,6 @@ Status player_bear(Player *player, Status status);
 
 /* What tables still lack of the past that is shown. */
 Status player_write_rest(Player *player);
-
-/* ---- walk.c -------------------------------------------------------------- */
-
-/* Somebody has asked for a pause; a walk goes on. */
-void player_stop(Player *player);
-
-/* Into the step that is shown, where any pane has lines: to the first of them,
- * to the last, or to where E rose beyond all proportion. */
-void player_enter(Player *player, Then then);
-
-/* The place in the step that a pane shows; -1: none, it shows all of it.
- * player_stand_at: from now on this one. */
-int player_place(const Player *player, int pane);
-void player_stand_at(Player *player, int pane, int place);
 
 /* ---- change.c ------------------------------------------------------------ */
 
@@ -116,9 +108,6 @@ Status player_pace(Player *player, const OptionRow *row, int paces);
 
 /* Why a number has no meaning now; NULL: it has one. */
 const char *player_idle(const Player *player, const OptionRow *row);
-
-/* Tells what a step did before it was taken again and does now. */
-void player_tell_retake(Player *player);
 
 /* ---- begin.c ------------------------------------------------------------- */
 

@@ -1,8 +1,11 @@
-/* steps.c - the work until a step is shown, what is recorded of it, where the
- * past begins or forks, and where a run stops by itself.
+/* steps.c - through time: the work until a step is shown, what is recorded of
+ * it, and where a run stops by itself; on and back by steps, by updates of
+ * Newton's method, or by lines of Algorithm 3; the present step once more;
+ * undo.
  */
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,13 +115,19 @@ static void enter_scene(Player *player)
         window_set_title(title);
 }
 
+/* All of the step is shown, no line of it. */
+static void leave_lines(Player *player)
+{
+    for (int p = 0; p < OPTIONS_MAX_PANES; p++)
+        player->side[p].place = -1;
+}
+
 void player_leave_step(Player *player)
 {
     player->changed = true;
-    if (player->mode == MODE_WALK)
-        player->mode = MODE_PAUSE;
     if (player->mode > MODE_END)
         player->mode = MODE_END;
+    leave_lines(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->side[p].ghost);
         player->side[p].ghost = NULL;
@@ -159,15 +168,12 @@ Status player_follow(Player *player)
 
 /* ---- where it stops by itself -------------------------------------------- */
 
-/* Whether nothing moved in this step: no update was made, and nothing is
- * held. */
+/* Whether nothing moved in this step, for which no update was made. */
 static bool is_idle(const Machine *machine)
 {
     const Simulation *simulation = &machine->simulation;
     const TimeIntegrator *run = &simulation->run[0];
-    if (!(simulation->scene->needs & NEEDS_TIME) || !run->newton ||
-        simulation->runs > 1 || machine->control->hand >= 0 ||
-        machine->outcome.updates > 0 || simulation->steps == 0)
+    if (!run->newton || machine->outcome.updates > 0 || simulation->steps == 0)
         return false;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
         if (fabs(run->v[i]) > simulation->options.tolerance)
@@ -176,13 +182,11 @@ static bool is_idle(const Machine *machine)
 }
 
 /* Whether nothing has deformed, and nothing acts on it: a free body. */
-static bool is_rigid(const Machine *machine)
+static bool is_rigid(const Simulation *simulation)
 {
-    const Simulation *simulation = &machine->simulation;
-    const unsigned body = NEEDS_MESH | NEEDS_TIME;
-    return (simulation->scene->needs & body) == body &&
-           simulation_is_handled(simulation) && simulation->runs == 1 &&
-           machine->control->hand < 0 && system_is_free(&simulation->system) &&
+    return (simulation->scene->needs & NEEDS_MESH) &&
+           simulation_is_handled(simulation) &&
+           system_is_free(&simulation->system) &&
            !system_has_gravity(&simulation->system) &&
            simulation_deforming(simulation) <= simulation->options.tolerance;
 }
@@ -229,7 +233,6 @@ static void tell_rest(Player *player)
  * nothing may be a turning point; many in a row are not. */
 static void judge(Player *player)
 {
-    enum { DRIFTS = 8 };
     const Past *past = &player->past;
     bool ended = true, idle = true, balance = true, rigid = true, bad = false;
     int going = 0;
@@ -240,36 +243,147 @@ static void judge(Player *player)
         return;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
+        const Simulation *simulation = &machine->simulation;
         if (past_ended(past, p, past->step) >= 0)
             continue;
+        bool free = (simulation->scene->needs & NEEDS_TIME) &&
+                    simulation->runs == 1 && machine->control->hand < 0;
         going++;
-        ended = ended && (machine->simulation.done || machine->failed);
-        idle = idle && is_idle(machine);
-        balance = balance && idle && simulation_rests(&machine->simulation);
-        rigid = rigid && is_rigid(machine);
+        ended = ended && (simulation->done || machine->failed);
+        idle = idle && free && is_idle(machine);
+        balance = balance && idle && simulation_rests(simulation);
+        rigid = rigid && free && is_rigid(simulation);
         bad = bad || machine->outcome.status;
     }
+    bad = bad && past_panes(past) == 1;
     player->still = idle && going > 0 ? player->still + 1 : 0;
     player->rigid = rigid && going > 0 ? player->rigid + 1 : 0;
-    Mode mode = player->rigid < DRIFTS ? MODE_RUN : MODE_DRIFT;
-    if (ended || (bad && !player->warned && past_panes(past) == 1))
-        mode = MODE_END;
-    if (player->still > 0 && (balance || player->still > 1))
-        mode = balance ? MODE_REST : MODE_HELD;
-    player->warned = player->warned || (bad && past_panes(past) == 1);
-    if (mode == MODE_REST)
+    bool goes = !player_stands(player); /* nobody has paused it meanwhile */
+    if (goes && player->still > 0 && (balance || player->still > 1))
+        player->mode = balance ? MODE_REST : MODE_HELD;
+    else if (goes && (ended || (bad && !player->warned)))
+        player->mode = MODE_END;
+    player->warned = player->warned || bad;
+    if (player->mode == MODE_REST)
         tell_rest(player);
-    else if (mode == MODE_HELD)
+    else if (player->mode == MODE_HELD)
         tell_tolerance(player);
-    else if (mode == MODE_DRIFT && player->mode != MODE_DRIFT)
+    else if (player->rigid == DRIFT_STEPS)
         player_note(player, "nothing deforms any more: free as it is, it "
                             "drifts on; pull a node, right click pins one, R "
                             "begins again");
-    if (!player_stands(player))
-        player->mode = mode;
     if (page && page->law && page == player->told &&
         past->step == page->picture) /* what the page is about */
         player->mode = MODE_PAUSE;
+}
+
+/* ---- inside a step -----------------------------------------------
+ */
+
+static void stand_at(Player *player, int pane, int place)
+{
+    player->mode = MODE_PAUSE;
+    player->side[pane].place = place;
+}
+
+/* Into the step that is shown, where any pane has lines: to the first of them,
+ * to the last, or to where E rose beyond all proportion. */
+static void enter(Player *player, Then then)
+{
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        const Machine *machine = &player->past.machine[p];
+        const Rounds *rounds = &machine->rounds;
+        int place = rounds->places <= 2  ? -1 /* the start and the end */
+                    : then == THEN_ENTER ? 0
+                    : then == THEN_LEAVE ? rounds->places - 1
+                                         : rounds_peak(rounds);
+        if (place >= 0)
+            stand_at(player, p, place);
+        if (place < 0 || then != THEN_PEAK)
+            continue;
+        player_note(player, "update %d of %d: nodes are %.4g m away; N goes on",
+                    rounds->place[place].round + 1, rounds->made.count,
+                    fmax(machine->outcome.extent, rounds_extent(rounds)));
+        player->warning = true;
+    }
+}
+
+/* A pace on (1) or back (-1) in all panes; false: each was at its end. */
+static bool walk(Player *player, int way)
+{
+    bool moved = false;
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        const Rounds *rounds = &player->past.machine[p].rounds;
+        int *place = &player->side[p].place;
+        if (*place < 0)
+            continue;
+        int next = rounds_walk(rounds, player->fine, *place, way);
+        bool inside = 0 <= next && next < rounds->places;
+        if (inside)
+            *place = next;
+        moved = moved || inside;
+    }
+    return moved;
+}
+
+/* ---- the step once more: the counterfactual ------------------------------ */
+
+/* "projection none: E +206 in 12 updates" */
+static void tell_outcome(const Player *player, const OptionRow *row, char *text,
+                         size_t size)
+{
+    const Outcome *outcome = &player_machine(player)->outcome;
+    char value[COMMAND_TEXT_SIZE];
+    option_value(row, player_settings(player), value, sizeof value);
+    snprintf(text, size, "%s %s: E %+.3g in %d update%s%s%s", row->label, value,
+             outcome->change, outcome->updates,
+             outcome->updates == 1 ? "" : "s", outcome->status ? ", " : "",
+             outcome->status ? status_text(outcome->status) : "");
+}
+
+/* What the step did before it was taken again and does now. */
+static void tell_retake(Player *player)
+{
+    const Past *past = &player->past;
+    const Rounds *rounds = &player_machine(player)->rounds;
+    const Station *at = &player->retaken;
+    char has[160];
+    if (at->round >= 0 && rounds->places > 2)
+        stand_at(player, player->active,
+                 rounds_find(rounds, at->round, at->line));
+    tell_outcome(player, &option_rows[past->branch[past->now].edit.number], has,
+                 sizeof has);
+    player_note(player, "%s; %s", player->side[player->active].ghost_label,
+                has);
+}
+
+Status player_retake(Player *player, const Command *change, int from, int to)
+{
+    Past *past = &player->past;
+    Side *side = &player->side[player->active];
+    const OptionRow *row = &option_rows[change->number];
+    const Machine *machine = player_machine(player);
+    const Simulation *simulation = &machine->simulation;
+    size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
+    int place = player->side[player->active].place;
+    bool failed = machine->failed;
+    long step = past->step + failed;
+    player->retaken = (Station){.round = -1};
+    if (place >= 0 && player->fine > 0)
+        player->retaken = machine->rounds.place[place];
+    player_leave_step(player);
+    tell_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
+    if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
+        side->ghost = malloc(bytes);
+    if (side->ghost)
+        memcpy(side->ghost, simulation->run[0].x, bytes);
+    Status status = player_change(player, change, from, to, !failed);
+    if (status)
+        return status;
+    player->sampled = -1;
+    past_aim(past, step, false);
+    player->then = THEN_TELL;
+    return STATUS_OK;
 }
 
 /* ---- what happens as a step is shown ------------------------------------- */
@@ -311,9 +425,9 @@ static Status step_shown(Player *player, Status status, long before)
     if (!status && then == THEN_JUDGE)
         judge(player);
     else if (!status && then == THEN_TELL)
-        player_tell_retake(player);
+        tell_retake(player);
     else if (!status && then != THEN_NOTHING)
-        player_enter(player, then);
+        enter(player, then);
     return status;
 }
 
@@ -350,19 +464,6 @@ Status player_work(Player *player)
     return STATUS_OK;
 }
 
-Status player_show(Player *player, long step, bool again, Then then)
-{
-    player_leave_step(player);
-    player->holds = false;
-    player_stop(player);
-    if (!player->past.keeps)
-        return STATUS_OK;
-    long newest = past_newest(&player->past);
-    past_aim(&player->past, step < newest ? step : newest, again);
-    player->then = then;
-    return STATUS_OK;
-}
-
 /* A node that was held when this step was shown, long ago; it is undone by
  * itself. */
 static Status let_go(Player *player)
@@ -378,25 +479,146 @@ static Status let_go(Player *player)
     return status;
 }
 
-Status player_go_on(Player *player, Then then)
+Status player_show(Player *player, long step, bool again, Then then)
 {
-    Past *past = &player->past;
-    bool fresh = past->step >= past_newest(past);
-    Status status = record_step(player);
-    if (!status && fresh)
-        status = let_go(player); /* as a script does by itself */
+    Status status = STATUS_OK;
+    if (step > past_newest(&player->past)) {
+        status = record_step(player);
+        if (!status)
+            status = let_go(player); /* as a script does by itself */
+    } else {
+        player->holds = false;
+    }
     if (status)
         return status;
     player_leave_step(player);
-    past_aim(past, past->step + 1, false);
-    player->then = then == THEN_NOTHING && fresh && !player_stands(player)
-                       ? THEN_JUDGE
-                       : then;
+    past_aim(&player->past, step, again);
+    player->then = then;
     return STATUS_OK;
 }
 
 Status player_step(Player *player)
 {
-    Status status = player_go_on(player, THEN_NOTHING);
+    long next = player->past.step + 1;
+    bool fresh = next > past_newest(&player->past);
+    Status status = player_show(player, next, false,
+                                fresh && !player_stands(player) ? THEN_JUDGE
+                                                                : THEN_NOTHING);
     return status ? status : player_work(player);
+}
+
+/* ---- commands ------------------------------------------------------------ */
+
+void player_stop(Player *player)
+{
+    if (!player_stands(player))
+        player->mode = MODE_PAUSE;
+}
+
+Status obey_pause(Player *player, const Command *command)
+{
+    bool runs = command->kind == COMMAND_PLAY;
+    player->mode = runs ? MODE_RUN : MODE_PAUSE;
+    if (runs)
+        leave_lines(player);
+    return STATUS_OK;
+}
+
+Status obey_next(Player *player, const Command *command)
+{
+    bool whole = command->kind == COMMAND_STEP, fine = player->fine > 0;
+    player_stop(player);
+    if (!whole && fine && walk(player, 1))
+        return STATUS_OK;
+    if (!whole && !fine && player->side[player->active].place >= 0) {
+        leave_lines(player); /* from an explosion's height to its end */
+        return STATUS_OK;
+    }
+    return player_show(player, player->past.step + 1, !whole && fine,
+                       whole  ? THEN_NOTHING
+                       : fine ? THEN_ENTER
+                              : THEN_PEAK);
+}
+
+/* Whether the steps of any pane are made of updates that are shown. */
+static bool has_updates(const Player *player)
+{
+    bool any = false;
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        const Simulation *simulation = &player->past.machine[p].simulation;
+        any = any || ((simulation->scene->needs & NEEDS_TIME) &&
+                      simulation->run[0].newton);
+    }
+    return any;
+}
+
+/* From the first line of a step to the end of the one before. */
+Status obey_back(Player *player, const Command *command)
+{
+    long step = player->past.step;
+    player_stop(player);
+    if (step == 0)
+        player_note(player, "this is step 0: nothing was before it");
+    if (player->fine == 0 || !has_updates(player))
+        return player_show(player, step - 1, false, THEN_NOTHING);
+    if (player->side[player->active].place < 0 && step > 0) {
+        if (!player_machine(player)->known)
+            return player_show(player, step, true, THEN_LEAVE);
+        enter(player, THEN_LEAVE);
+    }
+    if (player->side[player->active].place >= 0 && walk(player, -1))
+        return STATUS_OK;
+    return player_show(player, step - 1, true, THEN_LEAVE);
+}
+
+/* Steps, updates, lines, and steps again. */
+Status obey_finer(Player *player, const Command *command)
+{
+    static const char *const paces[] = {
+        "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
+    if (!has_updates(player) && player->fine == 0)
+        return player_refuse(player, "a step here has no finer ones");
+    player->fine = (player->fine + 1) % 3;
+    player_stop(player);
+    if (player->fine == 0)
+        leave_lines(player);
+    player_note(player, "N and \u2190 go by %s", paces[player->fine]);
+    return STATUS_OK;
+}
+
+/* Step 0, the newest one, or the one with this number. */
+Status obey_goto(Player *player, const Command *command)
+{
+    long step = command->kind == COMMAND_HOME ? 0 : past_newest(&player->past);
+    if (command->kind == COMMAND_GOTO && command->number < step)
+        step = command->number;
+    player_stop(player);
+    return player_show(player, step, false, THEN_NOTHING);
+}
+
+/* What was done last, or undone: "set stretch 1.2". */
+Status obey_undo(Player *player, const Command *command)
+{
+    Past *past = &player->past;
+    char line[2 * COMMAND_TEXT_SIZE];
+    int way = command->kind == COMMAND_UNDO ? -1 : 1;
+    const Command *made = past_undo(past, way);
+    if (!made)
+        return player_refuse(player, way < 0 ? "nothing is to be undone"
+                                             : "nothing was undone");
+    Command edit = *made;
+    double *at[] = {&edit.x, &edit.y};
+    edit.joins = false;
+    for (int k = 0; k < 2; k++) { /* digits as the row of numbers has them */
+        snprintf(line, sizeof line, "%g", *at[k]);
+        *at[k] = strtod(line, NULL);
+    }
+    command_format(&edit, line, sizeof line);
+    player->mode = MODE_PAUSE;
+    player->holds = false;
+    player->mouse.gesture = ++player->gestures; /* if a drag goes on */
+    Status status = player_follow(player);
+    player_leave_step(player);
+    player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
+    return status;
 }
