@@ -1,11 +1,9 @@
-/* pull_energy.h - nodes that are drawn to a point: P(x) = sum c_i/2 |x_i -
- * o|^2.
+/* pull_energy.h - a node that is drawn to a point: P(x) = k/2 |x_i - o|^2.
  *
- * Central field: c_i = m_i omega2 and o = 0; each node has the acceleration
- * -omega2 x.  Hand: one node, on a spring without rest length that is far
- * stiffer than those of the square.  Its end o goes ahead of the node, step by
- * step, towards the mouse: what it does in a step is its work, and between
- * steps it stores nothing.
+ * Central field: o = 0; with k = m omega2 the node has the acceleration -omega2
+ * x.  Hand: a spring without rest length that is far stiffer than those of the
+ * square.  Its end o goes ahead of the node, step by step, towards the mouse:
+ * what it does in a step is its work, and between steps it stores nothing.
  */
 #ifndef ELASTO_PULL_ENERGY_H
 #define ELASTO_PULL_ENERGY_H
@@ -16,8 +14,8 @@ extern const TermKind central_field, hand_energy;
 
 /* The data of both. */
 typedef struct Pull {
-    int node;         /* that is pulled; -1: all are, by their masses */
-    double k;         /* J/m^2; for all: omega2, 1/s^2 */
+    int node;         /* that is pulled */
+    double k;         /* J/m^2 */
     double target[2]; /* m, o */
     /* Of a hand: */
     double mouse[2]; /* m, where it wants the node; */

@@ -2,72 +2,66 @@
 
 #include <math.h>
 
-/* w c of coordinate i; with a huge omega2, w keeps it below overflow. */
-static double stiffness(const Place *at, double w, int i)
-{
-    const Pull *pull = at->term->data;
-    if (pull->node < 0)
-        return w * pull->k * at->system->m[i / 2];
-    return i / 2 == pull->node ? w * pull->k : 0;
-}
-
-/* c/2 |x - o|^2 */
+/* k/2 |x - o|^2 */
 static double value(const Place *at)
 {
     const Pull *pull = at->term->data;
     double sum = 0;
-    for (int i = 0; i < 2 * at->system->nodes; i++) {
-        double x = at->x[i] - pull->target[i % 2];
-        sum += stiffness(at, 0.5, i) * (x * x);
+    for (int i = 0; i < 2; i++) {
+        double d = at->x[2 * pull->node + i] - pull->target[i];
+        sum += 0.5 * pull->k * (d * d);
     }
     return sum;
 }
 
+/* w k (x - o); with a huge k, w keeps it below overflow. */
 static void gradient(const Place *at, double *g)
 {
     const Pull *pull = at->term->data;
-    for (int i = 0; i < 2 * at->system->nodes; i++)
-        g[i] += stiffness(at, at->w, i) * (at->x[i] - pull->target[i % 2]);
+    for (int i = 0; i < 2; i++)
+        g[2 * pull->node + i] +=
+            at->w * pull->k * (at->x[2 * pull->node + i] - pull->target[i]);
 }
 
-/* The diagonal. */
 static long long entries(const Place *at)
 {
-    return 2LL * at->system->nodes;
+    (void)at;
+    return 2;
 }
 
 static void pattern(const Place *at, Triplets *triplets)
 {
-    for (int i = 0; i < 2 * at->system->nodes; i += 2)
-        term_add_diagonal(at->system, i / 2, triplets);
+    const Pull *pull = at->term->data;
+    term_add_diagonal(at->system, pull->node, triplets);
 }
 
 /* It is never negative. */
 static int hessian(const Place *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
+    const Pull *pull = at->term->data;
+    double k = (at->w + at->w_too) * pull->k;
     (void)filter;
-    for (int i = 0; i < 2 * at->system->nodes; i++) {
-        double c = stiffness(at, at->w + at->w_too, i);
+    for (int i = 0; i < 2; i++)
         if (q)
-            out[i] += c * q[i];
+            out[2 * pull->node + i] += k * q[2 * pull->node + i];
         else
-            out[slot[i]] += c;
-    }
+            out[slot[i]] += k;
     return 0;
 }
 
 static void along(const Place *at, const double *p, double q[3])
 {
-    for (int i = 0; i < 2 * at->system->nodes; i++)
-        q[0] += stiffness(at, 0.5 * at->w, i) * p[i] * p[i];
+    const Pull *pull = at->term->data;
+    for (int i = 2 * pull->node; i < 2 * pull->node + 2; i++)
+        q[0] += 0.5 * at->w * pull->k * p[i] * p[i];
 }
 
 static void bounds(const Place *at, double *stiffest, double *force)
 {
+    const Pull *pull = at->term->data;
     (void)force;
-    for (int i = 0; i < 2 * at->system->nodes; i += 2)
-        bound_raise(stiffest, fabs(stiffness(at, 1, i)));
+    bound_raise(stiffest, fabs(pull->k));
 }
 
 /* What both kinds share. */

@@ -38,7 +38,7 @@ static Status create_orbit(Simulation *simulation, double omega2,
     if (status)
         return status;
     status = pull_set(&simulation->system, &central_field,
-                      &(Pull){.node = -1, .k = omega2});
+                      &(Pull){.k = omega2}); /* of 1 kg */
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     memcpy(simulation->exhibit.began, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.began + 2, v, 2 * sizeof *v);

@@ -184,9 +184,7 @@ static Wide wide_pull(const System *system, int i, Wide x, Wide *force)
         const Pull *pull = system->term[t].data;
         if (kind != &central_field && kind != &hand_energy)
             continue;
-        Wide k = pull->node < 0        ? (Wide)pull->k * system->m[i / 2]
-                 : pull->node == i / 2 ? pull->k
-                                       : 0;
+        Wide k = pull->node == i / 2 ? pull->k : 0;
         sum += k;
         *force += k * (x - pull->target[i % 2]);
     }

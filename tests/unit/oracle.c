@@ -426,11 +426,9 @@ static void pull(Spot *spot, Jet *sum, const void *data, int c)
 {
     const Pull *pull = data;
     Jet d = coordinate(spot, c, false);
-    Real k =
-        pull->node < 0 ? (Real)pull->k * spot->at->system->m[c / 2] : pull->k;
     d.f -= pull->target[c % 2];
-    if (pull->node < 0 || pull->node == c / 2)
-        book(spot, sum, k / 2, times(d, d));
+    if (pull->node == c / 2)
+        book(spot, sum, (Real)pull->k / 2, times(d, d));
 }
 
 /* Of what a term has parts. */

@@ -196,10 +196,11 @@ static void make_shape(const Row *row, Random *random, Case *c)
     c->system.k[0] = 7;
 }
 
-/* A field that pulls all nodes, and a hand that pulls one. */
+/* A field and a hand, of one node each. */
 static void set_pulls(Random *random, double strength, System *system)
 {
-    const Pull all = {.node = -1, .k = strength};
+    const Pull all = {.node = random_below(random, system->nodes),
+                      .k = strength};
     const Pull one = {.node = random_below(random, system->nodes),
                       .k = 3 * strength,
                       .target = {random_uniform(random, -2, 2),
