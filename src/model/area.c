@@ -2,6 +2,33 @@
 
 #include "base/mathematics.h"
 
+void area_along(const double f[4], double unit, const double P[4], double *J1,
+                double *J2)
+{
+    *J1 = unit * (cross(P, f + 2) + cross(f, P + 2));
+    *J2 = unit * cross(P, P + 2);
+}
+
+/* c0 + alpha J1 + alpha^2 J2 = 0 */
+double area_reach(const Element *element, double unit, const double P[4])
+{
+    double J1, J2, c0 = ELEMENT_LIMIT * element->s;
+    area_along(element->v, unit, P, &J1, &J2);
+    double discriminant = J1 * J1 - 4 * J2 * c0;
+    if (!(discriminant >= 0))
+        return INFINITY;
+    double denominator = -J1 + sqrt(discriminant);
+    return denominator > 0 ? 2 * c0 / denominator : INFINITY;
+}
+
+void area_gradient(const double f[4], double all, double slope, double g[4])
+{
+    g[0] = all * f[0] + slope * f[3];
+    g[1] = all * f[1] - slope * f[2];
+    g[2] = all * f[2] - slope * f[1];
+    g[3] = all * f[3] + slope * f[0];
+}
+
 /* v [4] made a unit vector; `instead` where it is 0.  Returns its length. */
 static double make_unit(double v[4], const double instead[4])
 {

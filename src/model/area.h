@@ -8,31 +8,23 @@
 #ifndef ELASTO_AREA_H
 #define ELASTO_AREA_H
 
-#include "model/psd.h"
+#include "model/elements.h"
 
 static inline double cross(const double a[2], const double b[2])
 {
     return a[0] * b[1] - a[1] * b[0];
 }
 
-/* Along P J becomes J + alpha J1 + alpha^2 J2, both out. */
-static inline void area_along(const double f[4], const double P[4], double *J1,
-                              double *J2)
-{
-    *J1 = cross(P, f + 2) + cross(f, P + 2);
-    *J2 = cross(P, P + 2);
-}
+/* Along P unit J becomes unit J + alpha J1 + alpha^2 J2, both out. */
+void area_along(const double f[4], double unit, const double P[4], double *J1,
+                double *J2);
 
-/* The alpha > 0 at which c0 + alpha J1 + alpha^2 J2 = 0, c0 > 0; infinite where
- * there is none. */
-static inline double area_reach(double c0, double J1, double J2)
-{
-    double discriminant = J1 * J1 - 4 * J2 * c0;
-    if (!(discriminant >= 0))
-        return INFINITY;
-    double denominator = -J1 + sqrt(discriminant);
-    return denominator > 0 ? 2 * c0 / denominator : INFINITY;
-}
+/* The alpha > 0 that uses up ELEMENT_LIMIT of an element's s = unit J along P;
+ * infinite: none does. */
+double area_reach(const Element *element, double unit, const double P[4]);
+
+/* g [4] out = all f + slope K f */
+void area_gradient(const double f[4], double all, double slope, double g[4]);
 
 /* A Hessian all I + slope K + second (unit K f)(unit K f)^T. */
 typedef struct AreaCurvature {

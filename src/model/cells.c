@@ -5,22 +5,16 @@
 
 #include "model/area.h"
 #include "model/barrier.h"
-#include "model/elements.h"
-
-static const Cells *cells_of(const Place *at)
-{
-    return at->term->data;
-}
 
 static int count(const Place *at)
 {
-    return cells_of(at)->triangles;
+    return ((const Cells *)at->term->data)->triangles;
 }
 
 static int nodes(const Place *at, int t, int node[3])
 {
-    for (int k = 0; k < 3; k++)
-        node[k] = cells_of(at)->node[3 * t + k];
+    const Cells *cells = at->term->data;
+    memcpy(node, cells->node + 3 * t, 3 * sizeof *node);
     return 3;
 }
 
@@ -29,7 +23,7 @@ static int nodes(const Place *at, int t, int node[3])
 static bool get(const Place *at, int t, double way, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
-    const Cells *cells = cells_of(at);
+    const Cells *cells = at->term->data;
     const double *k = at->system->k;
     const int *side = cells->spring + 3 * t;
     const double *x_a = at->x + 2 * cells->node[3 * t];
@@ -54,67 +48,53 @@ static bool get(const Place *at, int t, double way, Element *element)
 
 static double value(const Place *at, const Element *element)
 {
-    return cells_of(at)->c * barrier_value(element->s / CELL_J_HAT);
+    const Cells *cells = at->term->data;
+    return cells->c * barrier_value(element->s / CELL_J_HAT);
 }
 
-/* grad J in e1 and e2 is (S e2, -S e1)/(2 A0) with S v = (v_y, -v_x). */
 static void gradient(const Place *at, const Element *element, double g[4])
 {
-    const double *e1 = element->v, *e2 = element->v + 2;
-    double factor = cells_of(at)->c / CELL_J_HAT / (2 * cells_of(at)->area) *
-                    barrier_slope(element->s / CELL_J_HAT);
-    g[0] = factor * e2[1];
-    g[1] = -factor * e2[0];
-    g[2] = -factor * e1[1];
-    g[3] = factor * e1[0];
+    const Cells *cells = at->term->data;
+    double slope = cells->c / CELL_J_HAT / (2 * cells->area) *
+                   barrier_slope(element->s / CELL_J_HAT);
+    area_gradient(element->v, 0, slope, g);
 }
 
 static bool hessian(const Place *at, const Element *element, Filter filter,
                     double H[4][4])
 {
-    double s = element->s / CELL_J_HAT, q = 1 / (2 * cells_of(at)->area);
+    const Cells *cells = at->term->data;
+    double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->area);
     const AreaCurvature curvature = {
-        .slope = cells_of(at)->c / CELL_J_HAT * barrier_slope(s) * q,
-        .second =
-            cells_of(at)->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s),
+        .slope = cells->c / CELL_J_HAT * barrier_slope(s) * q,
+        .second = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s),
         .unit = q};
     return area_hessian(element->v, &curvature, filter, H);
 }
 
-/* Along P J becomes J + alpha J1 + alpha^2 J2. */
-static void cell_along(const Place *at, const Element *element,
-                       const double P[4], double *J1, double *J2)
-{
-    double q = 1 / (2 * cells_of(at)->area);
-    area_along(element->v, P, J1, J2);
-    *J1 *= q;
-    *J2 *= q;
-}
-
-/* J + alpha J1 + alpha^2 J2 = (1-F) J */
 static double reach(const Place *at, const Element *element, const double P[4])
 {
-    double J1, J2;
-    cell_along(at, element, P, &J1, &J2);
-    return area_reach(ELEMENT_LIMIT * element->s, J1, J2);
+    const Cells *cells = at->term->data;
+    return area_reach(element, 1 / (2 * cells->area), P);
 }
 
 static double remainder_along(const Place *at, const Element *element,
                               const double P[4], double alpha)
 {
+    const Cells *cells = at->term->data;
     double J1, J2, s = element->s / CELL_J_HAT;
-    cell_along(at, element, P, &J1, &J2);
+    area_along(element->v, 1 / (2 * cells->area), P, &J1, &J2);
     J1 *= alpha;
     J2 *= alpha * alpha;
-    return cells_of(at)->c * (barrier_slope(s) * J2 / CELL_J_HAT +
-                              barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
+    return cells->c * (barrier_slope(s) * J2 / CELL_J_HAT +
+                       barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
 }
 
 /* The curvature where the barrier begins, and the force there if it went on
  * without bending: both by g = K e with sides of the rest length. */
 static void bounds(const Place *at, double *stiffest, double *force)
 {
-    const Cells *cells = cells_of(at);
+    const Cells *cells = at->term->data;
     double c = 2 * cells->c / CELL_J_HAT;
     bound_raise(stiffest, c / CELL_J_HAT / cells->area);
     bound_raise(force, c / sqrt(cells->area));

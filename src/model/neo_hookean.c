@@ -1,37 +1,33 @@
 #include "model/neo_hookean.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mathematics.h"
 #include "model/area.h"
 #include "model/barrier.h"
-#include "model/elements.h"
 #include "model/mass_spring_energy.h"
-
-static const NeoHookean *data_of(const Place *at)
-{
-    return at->term->data;
-}
 
 static int count(const Place *at)
 {
-    return data_of(at)->triangles;
+    return ((const NeoHookean *)at->term->data)->triangles;
 }
 
 static int nodes(const Place *at, int t, int node[3])
 {
-    for (int k = 0; k < 3; k++)
-        node[k] = data_of(at)->node[t][k];
+    const NeoHookean *data = at->term->data;
+    memcpy(node, data->node[t], 3 * sizeof *node);
     return 3;
 }
 
 /* a = f1, b = f2, s = J. */
 static bool get(const Place *at, int t, double way, Element *element)
 {
+    const NeoHookean *data = at->term->data;
     (void)way; /* each triangle has a force */
     element->vectors = 2;
     element->nodes = nodes(at, t, element->node);
-    element->weight = (const double(*)[3])data_of(at)->weight[t];
+    element->weight = (const double(*)[3])data->weight[t];
     element->block = t;
     element->factor = at->w;
     element_vectors(element, at->x, element->v);
@@ -57,29 +53,24 @@ static double curvature_in_J(const NeoHookean *data, double J)
 
 static double value(const Place *at, const Element *element)
 {
-    const NeoHookean *data = data_of(at);
+    const NeoHookean *data = at->term->data;
     double L = math_log(element->s);
     return data->area * (0.5 * data->mu * (square_of(element->v) - 2) -
                          data->mu * L + 0.5 * data->lambda * L * L);
 }
 
-/* mu F + dW/dJ grad J, grad J = (S f2, -S f1) with S v = (v_y, -v_x). */
+/* mu F + dW/dJ grad J */
 static void gradient(const Place *at, const Element *element, double g[4])
 {
-    const NeoHookean *data = data_of(at);
-    const double *f = element->v;
-    double c1 = data->area * slope_in_J(data, element->s);
-    double mu = data->area * data->mu;
-    g[0] = mu * f[0] + c1 * f[3];
-    g[1] = mu * f[1] - c1 * f[2];
-    g[2] = mu * f[2] - c1 * f[1];
-    g[3] = mu * f[3] + c1 * f[0];
+    const NeoHookean *data = at->term->data;
+    area_gradient(element->v, data->area * data->mu,
+                  data->area * slope_in_J(data, element->s), g);
 }
 
 static bool hessian(const Place *at, const Element *element, Filter filter,
                     double H[4][4])
 {
-    const NeoHookean *data = data_of(at);
+    const NeoHookean *data = at->term->data;
     double J = element->s;
     const AreaCurvature curvature = {.all = data->area * data->mu,
                                      .slope = data->area * slope_in_J(data, J),
@@ -94,9 +85,9 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
 static double remainder_along(const Place *at, const Element *element,
                               const double P[4], double alpha)
 {
-    const NeoHookean *data = data_of(at);
+    const NeoHookean *data = at->term->data;
     double J1, J2, J = element->s;
-    area_along(element->v, P, &J1, &J2);
+    area_along(element->v, 1, P, &J1, &J2);
     double bent = alpha * alpha * J2 / J, z = alpha * J1 / J + bent;
     if (!(z > -1))
         return INFINITY;
@@ -108,17 +99,15 @@ static double remainder_along(const Place *at, const Element *element,
 
 static double reach(const Place *at, const Element *element, const double P[4])
 {
-    double J1, J2;
     (void)at;
-    area_along(element->v, P, &J1, &J2);
-    return area_reach(ELEMENT_LIMIT * element->s, J1, J2);
+    return area_reach(element, 1, P);
 }
 
 /* At F = I the Hessian is mu (I - K) + (lambda + mu) (K f)(K f)^T; a node has
  * the weights 1/l of a triangle's height l. */
 static void bounds(const Place *at, double *stiffest, double *force)
 {
-    const NeoHookean *data = data_of(at);
+    const NeoHookean *data = at->term->data;
     double size = 4 * data->mu + 2 * data->lambda;
     bound_raise(stiffest, 2 * size);
     bound_raise(force, size * sqrt(data->area));
