@@ -32,9 +32,9 @@ struct System {
     double *l2;        /* [springs] m^2, rest length squared, > 0 */
     double *k;         /* [springs] J/m^2, stiffness; 0: broken, or not there */
     double gravity[2]; /* m/s^2, acceleration of every node */
-    unsigned char *pinned; /* [n] 1: the node never moves; behind e */
+    int *order;        /* [n] place of each node in the elimination order */
+    unsigned char *pinned; /* [n] 1: the node never moves; both are behind e */
     double *pin_v;         /* [2n] m/s, how pins are moved; NULL: not at all */
-    int *order;            /* [n] elimination order, or NULL */
     int segments; /* n, where nodes and springs are those of square_mesh.h */
     unsigned version; /* goes up with every change of numbers or terms */
     unsigned pattern; /* goes up where the entries of the Hessian change too */
@@ -44,9 +44,9 @@ struct System {
                                     their term goes */
 };
 
-/* Allocates the arrays (order stays NULL), all zero; the list has the springs'
- * term where there are springs.
- * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
+/* Allocates the arrays, all zero, the order that of the nodes; the list has the
+ * springs' term where there are springs. Returns OK, INVALID_INPUT,
+ * OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
 /* Whether spring s is broken, or was cut before the start. */

@@ -15,14 +15,11 @@ typedef enum CholeskyKind {
     CHOLESKY_INDEFINITE, /* L D L^T without pivoting: allows D < 0 */
 } CholeskyKind;
 
-/* Symbolic analysis of the pattern of A.
- *   ordered  true: rows are in elimination order already; false: CHOLMOD
- *            looks for an order (AMD)
- *   A        in; must live as long as the handle, which reads its values
- *   out      the handle; free it with cholesky_free; NULL after a failure
+/* Symbolic analysis of the pattern of A, whose rows are in elimination order.
+ *   A    in; must live as long as the handle, which reads its values
+ *   out  the handle; free it with cholesky_free; NULL after a failure
  * Returns OK, OUT_OF_MEMORY, TOO_LARGE. */
-Status cholesky_create(const Sparse *A, CholeskyKind kind, bool ordered,
-                       Cholesky **out);
+Status cholesky_create(const Sparse *A, CholeskyKind kind, Cholesky **out);
 void cholesky_free(Cholesky *cholesky);
 
 /* Numeric factorisation of the values that A has now.

@@ -17,12 +17,15 @@ Status system_create(int nodes, int springs, System *system)
         return STATUS_INVALID_INPUT;
     size_t n = (size_t)nodes, count = (size_t)springs;
     system->m = calloc(n + 2 * count, sizeof *system->m);
-    system->e = calloc(1, 2 * count * sizeof *system->e + n);
+    system->e = calloc(1, (2 * count + n) * sizeof *system->e + n);
     if (!system->m || !system->e)
         return STATUS_OUT_OF_MEMORY;
     system->l2 = system->m + n;
     system->k = system->l2 + count;
-    system->pinned = (unsigned char *)(system->e + 2 * count);
+    system->order = system->e + 2 * count;
+    for (int i = 0; i < nodes; i++)
+        system->order[i] = i;
+    system->pinned = (unsigned char *)(system->order + n);
     return springs == 0 || system_term(system, &mass_spring_energy, 1)
                ? STATUS_OK
                : STATUS_OUT_OF_MEMORY;
@@ -48,7 +51,6 @@ void system_free(System *system)
     free(system->m);
     free(system->e);
     free(system->pin_v);
-    free(system->order);
     for (int t = 0; t < system->terms; t++)
         free_term(&system->term[t]);
     *system = (System){0};
@@ -248,8 +250,7 @@ void system_bounds(const System *system, double *stiffest, double *force)
 
 void term_add_block(const System *system, int i, int j, Triplets *triplets)
 {
-    const int *order = system->order;
-    int r = order ? order[i] : i, c = order ? order[j] : j;
+    int r = system->order[i], c = system->order[j];
     triplets_add(triplets, 2 * r, 2 * c);
     triplets_add(triplets, 2 * r, 2 * c + 1);
     if (r != c)
@@ -259,7 +260,7 @@ void term_add_block(const System *system, int i, int j, Triplets *triplets)
 
 void term_add_diagonal(const System *system, int i, Triplets *triplets)
 {
-    int place = system->order ? system->order[i] : i;
+    int place = system->order[i];
     triplets_add(triplets, 2 * place, 2 * place);
     triplets_add(triplets, 2 * place + 1, 2 * place + 1);
 }

@@ -9,7 +9,7 @@ enum { NOTHING, FILL, ENTRY };
 /* Place of a node in the elimination order, or its number. */
 static int node_place(const System *system, int node, bool natural)
 {
-    return system->order && !natural ? system->order[node] : node;
+    return natural ? node : system->order[node];
 }
 
 /* What is in row i of column j < i of the factor: [j n + i]; NULL: not enough

@@ -111,12 +111,12 @@ static Status create_system(const Options *options, System *system)
         system_create(shape.nodes + (ball >= 0), shape.springs, system);
     if (status)
         return status;
-    system->order = malloc((size_t)system->nodes * sizeof *system->order);
-    if (options->scene->moving_pins)
+    if (options->scene->moving_pins) {
         system->pin_v =
             calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
-    if (!system->order || (options->scene->moving_pins && !system->pin_v))
-        return STATUS_OUT_OF_MEMORY;
+        if (!system->pin_v)
+            return STATUS_OUT_OF_MEMORY;
+    }
     double m = options->density * shape.side * shape.side / nodes;
     if (!square)
         m *= (double)shape.rows / shape.segments;
@@ -135,8 +135,6 @@ static Status create_system(const Options *options, System *system)
         system->segments = shape.segments;
     system->gravity[1] = -options->gravity;
     square_mesh_order(&shape, system->order);
-    if (ball >= 0)
-        system->order[ball] = ball;
     return options->pin ? pins_read(options->pin, &shape, system->pinned)
                         : STATUS_OK;
 }

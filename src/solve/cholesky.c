@@ -12,19 +12,17 @@ struct Cholesky {
     cholmod_factor *L; /* symbolic at first, then numeric */
     CholeskyKind kind;
     const Sparse *matrix; /* the caller's */
-    double *y;            /* [n] solution in the order of the factor's rows */
     double *b, *r;        /* [n] right-hand side; residual or workspace */
 };
 
 /* Supernodes are merged if that adds few zeros; these limits were measured on
  * square meshes. */
-static void set_parameters(cholmod_common *common, CholeskyKind kind,
-                           bool ordered)
+static void set_parameters(cholmod_common *common, CholeskyKind kind)
 {
     common->print = 0;
     common->nmethods = 1;
-    common->method[0].ordering = ordered ? CHOLMOD_NATURAL : CHOLMOD_AMD;
-    common->postorder = !ordered;
+    common->method[0].ordering = CHOLMOD_NATURAL;
+    common->postorder = false;
     common->supernodal =
         kind == CHOLESKY_DEFINITE ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
     common->quick_return_if_not_posdef = 1;
@@ -65,28 +63,26 @@ static cholmod_sparse sparse_view(const Sparse *A)
     };
 }
 
-Status cholesky_create(const Sparse *A, CholeskyKind kind, bool ordered,
-                       Cholesky **out)
+Status cholesky_create(const Sparse *A, CholeskyKind kind, Cholesky **out)
 {
     *out = NULL;
     Cholesky *cholesky = calloc(1, sizeof *cholesky);
     if (!cholesky)
         return STATUS_OUT_OF_MEMORY;
     cholmod_start(&cholesky->common);
-    set_parameters(&cholesky->common, kind, ordered);
+    set_parameters(&cholesky->common, kind);
     cholesky->kind = kind;
     cholesky->matrix = A;
     cholmod_sparse view = sparse_view(A);
     cholesky->L = cholmod_analyze(&view, &cholesky->common);
     Status status = cholmod_failure(&cholesky->common);
-    cholesky->y = malloc(3 * (size_t)A->size * sizeof *cholesky->y);
-    if (!status && (!cholesky->L || !cholesky->y))
+    cholesky->b = malloc(2 * (size_t)A->size * sizeof *cholesky->b);
+    if (!status && (!cholesky->L || !cholesky->b))
         status = STATUS_OUT_OF_MEMORY;
     if (status) {
         cholesky_free(cholesky);
         return status;
     }
-    cholesky->b = cholesky->y + A->size;
     cholesky->r = cholesky->b + A->size;
     *out = cholesky;
     return STATUS_OK;
@@ -98,7 +94,7 @@ void cholesky_free(Cholesky *cholesky)
         return;
     cholmod_free_factor(&cholesky->L, &cholesky->common);
     cholmod_finish(&cholesky->common);
-    free(cholesky->y);
+    free(cholesky->b);
     free(cholesky);
 }
 
@@ -164,20 +160,15 @@ static void solve_by_columns(const cholmod_factor *L, double *y)
     }
 }
 
-/* x = P^T (P A P^T)^-1 P b by the factor, with P the order of its rows. */
+/* x = A^-1 b by the factor. */
 static Status solve_once(Cholesky *cholesky, const double *b, double *x)
 {
     const cholmod_factor *L = cholesky->L;
-    const int *order = L->Perm;
-    double *y = cholesky->y;
-    for (size_t i = 0; i < L->n; i++)
-        y[i] = b[order[i]];
+    memmove(x, b, L->n * sizeof *x);
     if (cholesky->kind == CHOLESKY_INDEFINITE)
-        solve_by_columns(L, y);
+        solve_by_columns(L, x);
     else
-        solve_by_panels(L, y, cholesky->r);
-    for (size_t i = 0; i < L->n; i++)
-        x[order[i]] = y[i];
+        solve_by_panels(L, x, cholesky->r);
     return all_finite(x, L->n) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 

@@ -68,8 +68,7 @@ static Status assemble(Newton *newton, Filter filter, int *projected)
         status =
             incremental_potential_pattern(system, &search->A, &search->slot);
         if (!status)
-            status = cholesky_create(&search->A, kind, system->order != NULL,
-                                     &search->cholesky);
+            status = cholesky_create(&search->A, kind, &search->cholesky);
     }
     search->filter = filter == FILTER_ON_DEMAND ? FILTER_NONE : filter;
     if (!status)
@@ -139,13 +138,13 @@ static Status apply_factor(Newton *newton, const double *r, double *z)
     const int *order = newton->system->order;
     double *b = newton->search.b;
     for (int i = 0; i < newton->system->nodes; i++) {
-        int place = order ? order[i] : i;
+        int place = order[i];
         b[2 * place] = r[2 * i];
         b[2 * place + 1] = r[2 * i + 1];
     }
     Status status = cholesky_solve(newton->search.cholesky, b, b);
     for (int i = 0; i < newton->system->nodes && !status; i++) {
-        int place = order ? order[i] : i;
+        int place = order[i];
         z[2 * i] = b[2 * place];
         z[2 * i + 1] = b[2 * place + 1];
     }
