@@ -9,24 +9,17 @@ void area_along(const double f[4], double unit, const double P[4], double *J1,
     *J2 = unit * cross(P, P + 2);
 }
 
-/* c0 + alpha J1 + alpha^2 J2 = 0 */
-double area_reach(const Element *element, double unit, const double P[4])
+/* most + alpha J1 + alpha^2 J2 = 0 */
+double area_reach(const double f[4], double unit, double most,
+                  const double P[4])
 {
-    double J1, J2, c0 = ELEMENT_LIMIT * element->s;
-    area_along(element->v, unit, P, &J1, &J2);
-    double discriminant = J1 * J1 - 4 * J2 * c0;
+    double J1, J2;
+    area_along(f, unit, P, &J1, &J2);
+    double discriminant = J1 * J1 - 4 * J2 * most;
     if (!(discriminant >= 0))
         return INFINITY;
     double denominator = -J1 + sqrt(discriminant);
-    return denominator > 0 ? 2 * c0 / denominator : INFINITY;
-}
-
-void area_gradient(const double f[4], double all, double slope, double g[4])
-{
-    g[0] = all * f[0] + slope * f[3];
-    g[1] = all * f[1] - slope * f[2];
-    g[2] = all * f[2] - slope * f[1];
-    g[3] = all * f[3] + slope * f[0];
+    return denominator > 0 ? 2 * most / denominator : INFINITY;
 }
 
 /* v [4] made a unit vector; `instead` where it is 0.  Returns its length. */

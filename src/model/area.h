@@ -8,7 +8,7 @@
 #ifndef ELASTO_AREA_H
 #define ELASTO_AREA_H
 
-#include "model/elements.h"
+#include "model/psd.h"
 
 static inline double cross(const double a[2], const double b[2])
 {
@@ -19,12 +19,9 @@ static inline double cross(const double a[2], const double b[2])
 void area_along(const double f[4], double unit, const double P[4], double *J1,
                 double *J2);
 
-/* The alpha > 0 that uses up ELEMENT_LIMIT of an element's s = unit J along P;
- * infinite: none does. */
-double area_reach(const Element *element, double unit, const double P[4]);
-
-/* g [4] out = all f + slope K f */
-void area_gradient(const double f[4], double all, double slope, double g[4]);
+/* The alpha > 0 that uses up `most` of unit J along P; infinite: none does. */
+double area_reach(const double f[4], double unit, double most,
+                  const double P[4]);
 
 /* A Hessian all I + slope K + second (unit K f)(unit K f)^T. */
 typedef struct AreaCurvature {

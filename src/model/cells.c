@@ -5,6 +5,7 @@
 
 #include "model/area.h"
 #include "model/barrier.h"
+#include "model/elements.h"
 
 static int count(const Place *at)
 {
@@ -52,12 +53,17 @@ static double value(const Place *at, const Element *element)
     return cells->c * barrier_value(element->s / CELL_J_HAT);
 }
 
+/* grad J in e1 and e2 is (S e2, -S e1)/(2 A0) with S v = (v_y, -v_x). */
 static void gradient(const Place *at, const Element *element, double g[4])
 {
     const Cells *cells = at->term->data;
-    double slope = cells->c / CELL_J_HAT / (2 * cells->area) *
-                   barrier_slope(element->s / CELL_J_HAT);
-    area_gradient(element->v, 0, slope, g);
+    const double *e1 = element->v, *e2 = element->v + 2;
+    double factor = cells->c / CELL_J_HAT / (2 * cells->area) *
+                    barrier_slope(element->s / CELL_J_HAT);
+    g[0] = factor * e2[1];
+    g[1] = -factor * e2[0];
+    g[2] = -factor * e1[1];
+    g[3] = factor * e1[0];
 }
 
 static bool hessian(const Place *at, const Element *element, Filter filter,
@@ -75,7 +81,8 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
 static double reach(const Place *at, const Element *element, const double P[4])
 {
     const Cells *cells = at->term->data;
-    return area_reach(element, 1 / (2 * cells->area), P);
+    return area_reach(element->v, 1 / (2 * cells->area),
+                      ELEMENT_LIMIT * element->s, P);
 }
 
 static double remainder_along(const Place *at, const Element *element,

@@ -6,6 +6,7 @@
 #include "base/mathematics.h"
 #include "model/area.h"
 #include "model/barrier.h"
+#include "model/elements.h"
 #include "model/mass_spring_energy.h"
 
 static int count(const Place *at)
@@ -59,12 +60,17 @@ static double value(const Place *at, const Element *element)
                          data->mu * L + 0.5 * data->lambda * L * L);
 }
 
-/* mu F + dW/dJ grad J */
+/* mu F + dW/dJ grad J, grad J = (S f2, -S f1) with S v = (v_y, -v_x). */
 static void gradient(const Place *at, const Element *element, double g[4])
 {
     const NeoHookean *data = at->term->data;
-    area_gradient(element->v, data->area * data->mu,
-                  data->area * slope_in_J(data, element->s), g);
+    const double *f = element->v;
+    double c1 = data->area * slope_in_J(data, element->s);
+    double mu = data->area * data->mu;
+    g[0] = mu * f[0] + c1 * f[3];
+    g[1] = mu * f[1] - c1 * f[2];
+    g[2] = mu * f[2] - c1 * f[1];
+    g[3] = mu * f[3] + c1 * f[0];
 }
 
 static bool hessian(const Place *at, const Element *element, Filter filter,
@@ -100,7 +106,7 @@ static double remainder_along(const Place *at, const Element *element,
 static double reach(const Place *at, const Element *element, const double P[4])
 {
     (void)at;
-    return area_reach(element, 1, P);
+    return area_reach(element->v, 1, ELEMENT_LIMIT * element->s, P);
 }
 
 /* At F = I the Hessian is mu (I - K) + (lambda + mu) (K f)(K f)^T; a node has
