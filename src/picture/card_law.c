@@ -5,6 +5,7 @@
  * number of it goes from end to end of the axis: so the dot is on the curve.
  */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "model/fracture.h"
@@ -24,10 +25,11 @@ typedef struct LawNow {
     double breaks;  /* the strain at which the spring does */
     double reach;   /* the unit of the axis */
     double x, felt; /* where it is on the axis, NaN: nowhere; how much */
+    double pressed; /* N, the sum over all contacts, of friction */
 } LawNow;
 
 typedef struct Law {
-    const char *name, *now, *across, *upwards;
+    const char *name, *across, *upwards;
     const TermKind *kind, *source; /* the term; whose elements, or springs */
     double (*value)(const void *now, double x);
     double low, high; /* ends of the axis, in units of reach */
@@ -77,29 +79,32 @@ static double slip_value(const void *now, double v)
 static double spring_value(const void *data, double s)
 {
     const LawNow *now = data;
-    return s > now->breaks ? 0
-                           : spring_law_slope(now->spring, s - now->spring.ep);
+    return spring_law_slope(now->spring, s - now->spring.ep);
 }
 
-#define GAPS   "gap d in m", "W in J"
-#define SLIPS  "slip in m/s", "f/(\u03bc N)"
-#define SPRING "strain s", "f/(2k|d|)"
+/* The same for all springs, in parts of what each bears. */
+static double break_value(const void *now, double part)
+{
+    (void)now;
+    return part > 1 ? 0 : part;
+}
+
+#define GAPS  "gap d in m", "W in J"
+#define SLIPS "slip in m/s", "f/(\u03bc N)"
 
 static const Law laws[] = {
-    {"barrier", "the smallest gap, m", GAPS, &contact_energy, &contact_energy,
-     gap_value, 0, 1.2},
-    {"near", "the nearest point and edge, m", GAPS, &self_contact_energy,
-     &self_contact_energy, near_value, 0, 1.2},
-    {"friction", "where it is pressed most, m/s", SLIPS, &friction_energy,
-     &contact_energy, slip_value, 1e-2, 1e4},
-    {"rub", "where it is pressed most, m/s", SLIPS, &self_friction_energy,
-     &self_contact_energy, slip_value, 1e-2, 1e4},
-    {"triangle", "J of the flattest triangle", "J", "W/A in J/m\u00b2",
-     &neo_hookean_energy, &neo_hookean_energy, triangle_value, 0, 1.5},
-    {"yield", "s of the spring that flowed most", SPRING, &plastic_energy, NULL,
-     spring_value, -1, 1},
-    {"break", "s of the spring nearest to breaking", SPRING, &fracture, NULL,
-     spring_value, 0, 1.3},
+    {"barrier", GAPS, &contact_energy, &contact_energy, gap_value, 0, 1.2},
+    {"near", GAPS, &self_contact_energy, &self_contact_energy, near_value, 0,
+     1.2},
+    {"friction", SLIPS, &friction_energy, &contact_energy, slip_value, 0, 2},
+    {"rub", SLIPS, &self_friction_energy, &self_contact_energy, slip_value, 0,
+     2},
+    {"triangle", "J", "W/A in J/m\u00b2", &neo_hookean_energy,
+     &neo_hookean_energy, triangle_value, 0, 1.5},
+    {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, spring_value, -1,
+     1},
+    {"break", "s/s_{c}", "f/(2k|d| s_{c})", &fracture, NULL, break_value, 0,
+     1.3},
 };
 
 static void find_spring(LawNow *now, int s)
@@ -111,17 +116,20 @@ static void find_spring(LawNow *now, int s)
     now->spring = plasticity_law(system, s);
     now->breaks = tear ? fracture_strength(tear, s) : INFINITY;
     now->x = spring_strain(system->e + 2 * s, system->l2[s], now->at.x, d);
+    now->x = tear ? now->x / now->breaks : now->x;
     now->felt = spring_is_broken(system, s) ? -INFINITY
-                : flow ? fabs(now->spring.ep) + 1e-3 * fabs(now->x)
-                       : now->x / now->breaks;
-    now->reach =
-        flow ? fmax(4 * now->spring.yield, 1.2 * fabs(now->x)) : now->breaks;
+                : tear                      ? now->x
+                       : fabs(now->spring.ep) + 1e-3 * fabs(now->x);
+    if (flow)
+        now->reach = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
 }
 
+/* Of friction all contacts are one, with the mean of their speeds by how they
+ * are pressed; the element is the one that is pressed most. */
 static void find_element(LawNow *now, const Law *law, const double *v)
 {
     const Element *element = &now->element;
-    double t[4], w[4], slip;
+    double t[4], w[4], slip, mean = now->x;
     now->felt = -element->s;
     now->x =
         law->value == near_value ? sqrt(element->s) * now->reach : element->s;
@@ -131,7 +139,9 @@ static void find_element(LawNow *now, const Law *law, const double *v)
     element_vectors(element, v, w);
     for (int i = 0; i < 2 * element->vectors; i++)
         slip -= t[i] * w[i];
-    now->x = fabs(slip);
+    mean = now->pressed > 0 ? mean : 0;
+    now->pressed += now->felt;
+    now->x = mean + (fabs(slip) - mean) * now->felt / now->pressed;
 }
 
 /* The law that the page is about, and where a run is on it, most of all.  NULL:
@@ -171,15 +181,22 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
         find_element(&now, law, v);
         *most = now.felt > most->felt ? now : *most;
     }
+    most->x = law->value == slip_value ? now.x : most->x;
     return law;
+}
+
+/* Whether its axis is a gap. */
+static bool has_gap(const Law *law)
+{
+    return law->value == gap_value || law->value == near_value;
 }
 
 bool law_gap(const Simulation *simulation, LawGap *gap)
 {
     LawNow now;
     const Law *law = law_now(simulation, 0, &now);
-    if (!law || simulation->runs > 1 || isnan(now.x) || !law->source ||
-        law->value == triangle_value)
+    if (!law || simulation->runs > 1 || isnan(now.x) ||
+        !(has_gap(law) || law->value == slip_value))
         return false;
     const System *system = now.at.system;
     bool self = law->source == &self_contact_energy;
@@ -193,19 +210,39 @@ bool law_gap(const Simulation *simulation, LawGap *gap)
     return true;
 }
 
+/* -dW/dd, N. */
+static double force_of(const Law *law, const LawNow *now)
+{
+    double way = 1e-4 * now->x;
+    return (law->value(now, now->x - way) - law->value(now, now->x + way)) /
+           (2 * way);
+}
+
 void law_facts(const Simulation *simulation, Facts *facts)
 {
     LawNow now;
     const Law *law = law_now(simulation, 0, &now);
     if (!law || simulation->runs > 1)
         return;
-    bool flowed = law->kind != &plastic_energy || now.spring.ep != 0;
-    fact_words(facts, "law",
-               isnan(now.x) ? "nothing is near enough"
-               : flowed     ? law->now
-                            : "no spring has flowed");
-    fact(facts, "law x", flowed ? now.x : NAN);
-    fact(facts, "law y", isnan(now.x) ? NAN : law->value(&now, now.x));
+    bool is_there = !isnan(now.x), self = law->source == &self_contact_energy;
+    bool still = law->value == spring_value && now.spring.ep == 0;
+    fact_when(facts, "law", true);
+    fact_when(facts, "unflowed", still);
+    fact_when(facts, law->name, is_there && !still);
+    if (has_gap(law)) {
+        const System *system = now.at.system;
+        fact(facts, "c",
+             self ? self_contact_of(system)->c : contact_of(system)->barrier.c);
+        fact(facts, "d hat", 1e3 * now.reach);
+        fact(facts, "law mm", 1e3 * now.x);
+        fact(facts, "law force", force_of(law, &now));
+    }
+    fact(facts, "law x", now.x);
+    fact(facts, "law y", is_there ? law->value(&now, now.x) : NAN);
+    fact(facts, "s_p", law->value == spring_value ? now.spring.ep : NAN);
+    Energies energies = simulation_energies(simulation, 0);
+    for (int i = 0; i < energies.rows; i++)
+        fact(facts, energies.row[i].name, energies.row[i].value);
     const SquareMesh *mesh = &simulation->mesh;
     int last = mesh->bodies - 1, nodes = mesh->nodes / mesh->bodies;
     double sum = 0;
@@ -215,47 +252,80 @@ void law_facts(const Simulation *simulation, Facts *facts)
         fact(facts, "gone", sum / nodes - simulation->options.body[last][0]);
 }
 
-/* The curve for the element of the first run; of springs all others are there,
- * small; a dot for each run, beyond the axis at its end. */
-void law_draw(const Plot *card)
+/* All springs, small: each is on its own law. */
+static void draw_springs(const Plot *plot, const Law *law, LawNow other)
 {
-    static const double dot = 6, small_dot = 2; /* units */
-    static const char *const names[] = {"upper", "middle", "lower"};
-    const Simulation *simulation = card->simulation;
-    LawNow now;
-    const Law *law = law_now(simulation, 0, &now);
-    if (!law)
-        return;
-    bool log = law->value == slip_value, both = law->low < 0;
-    double low = law->low * now.reach, high = law->high * now.reach;
-    double most = both ? 1.4 * now.spring.yield
-                       : fmax(law->value(&now, 0.9 * low + 0.1 * high),
-                              law->value(&now, 0.25 * low + 0.75 * high));
-    most = plot_round_axis(1.1 * fmax(most, fabs(law->value(&now, now.x))));
-    Plot plot = plot_create(
-        card, (Axis){low, high, log, false, law->across},
-        (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
-    plot_graph(&plot, law->value, &now, 2.4, COLOUR_X);
-    for (int s = 0; s < now.at.system->springs && !law->source; s++) {
-        LawNow other = now;
+    static const double radius = 2; /* units */
+    for (int s = 0; s < other.at.system->springs && !law->source; s++) {
         find_spring(&other, s);
         if (other.felt > -INFINITY)
-            plot_disc(&plot,
-                      (double[2]){other.x, spring_value(&other, other.x)},
-                      small_dot, COLOUR_GHOST);
+            plot_disc(plot, (double[2]){other.x, law->value(&other, other.x)},
+                      radius, COLOUR_GHOST);
     }
-    for (int i = 0; i < 2 * simulation->runs; i++) { /* dots, then words */
-        int run = i % simulation->runs;
-        law_now(simulation, run, &now);
-        double at[1][2] = {
-            {fmin(fmax(now.x, low), high), law->value(&now, now.x)}};
-        if (isnan(now.x))
-            continue;
-        if (i == run) {
-            plot_disc(&plot, at[0], dot, COLOUR_P);
-        } else if (simulation->runs > 1) {
-            plot_words(&plot, 1, at, 0.6, 1, FACE_REGULAR, COLOUR_P,
-                       names[run]);
+}
+
+/* The dots of all runs, and of several which they are, those that lie together
+ * in one text; beyond the axis at its end. */
+static void draw_dots(const Plot *plot, const Law *law, int runs,
+                      const LawNow *now)
+{
+    static const char *const names[] = {"upper", "middle", "lower"};
+    static const double dot = 6, together = 2; /* units; ems */
+    double at[SIMULATION_MAX_RUNS][2], p[2], q[2];
+    for (int i = 0; i < runs; i++) {
+        at[i][0] = fmin(fmax(now[i].x, plot->x.low), plot->x.high);
+        at[i][1] = law->value(&now[i], now[i].x);
+        plot_disc(plot, at[i], isnan(now[i].x) ? 0 : dot, COLOUR_P);
+    }
+    for (int i = 0, with = 0; i < runs && runs > 1; i++) {
+        char words[40] = "";
+        for (int k = i; k < runs; k++) {
+            plot_place(plot, at[i], p);
+            plot_place(plot, at[k], q);
+            if (with >> k & 1 || !(fabs(p[0] - q[0]) < together * plot->em))
+                continue;
+            with |= 1 << k;
+            snprintf(words + strlen(words), sizeof words - strlen(words),
+                     "%s%s", words[0] ? ", " : "", names[k]);
         }
+        if (words[0] && now[i].x > plot->x.high)
+            strcat(words, " \u2192");
+        if (words[0])
+            plot_words(plot, 1, &at[i], 0.6, 1, FACE_REGULAR, COLOUR_P, words);
     }
+}
+
+/* The curve for the element of the first run; a tangent that is the force of a
+ * gap; where a spring that flowed is at rest. */
+void law_draw(const Plot *card)
+{
+    const Simulation *simulation = card->simulation;
+    LawNow now[SIMULATION_MAX_RUNS];
+    const Law *law = NULL;
+    for (int run = simulation->runs - 1; run >= 0; run--)
+        law = law_now(simulation, run, &now[run]);
+    if (!law)
+        return;
+    bool both = law->low < 0;
+    double low = law->low * now->reach, high = law->high * now->reach;
+    double most = both ? 1.4 * now->spring.yield
+                       : fmax(law->value(now, 0.9 * low + 0.1 * high),
+                              law->value(now, 0.25 * low + 0.75 * high));
+    double x = now->x, y = law->value(now, x);
+    most = plot_round_axis(1.1 * fmax(most, fabs(y)));
+    Plot plot = plot_create(
+        card, (Axis){low, high, false, false, law->across},
+        (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
+    const double rest[1][2] = {{now->spring.ep, 0}};
+    plot_graph(&plot, law->value, now, 2.4, COLOUR_X);
+    draw_springs(&plot, law, *now);
+    if (has_gap(law) && !isnan(x)) /* -W' */
+        plot_line(&plot, (double[2]){low, y + (x - low) * force_of(law, now)},
+                  (double[2]){high, y + (x - high) * force_of(law, now)}, 1.4,
+                  COLOUR_FORCE);
+    if (both && rest[0][0] != 0) {
+        plot_ring(&plot, rest[0], 4, 2, COLOUR_PLASTIC);
+        plot_words(&plot, 1, rest, 0.5, 1, FACE_BOLD, COLOUR_PLASTIC, "s_{p}");
+    }
+    draw_dots(&plot, law, simulation->runs, now);
 }

@@ -118,6 +118,10 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...);
 /* Lower left: a line as long as so many metres. */
 void plot_scale(const Plot *plot);
 
+/* What a place costs: more, the more of it has ink or is outside of the plot.
+ */
+double plot_cost(const Plot *plot, Box place);
+
 /* Writes the words beside one of these points, `gap` ems from it, off what has
  * been drawn, which is found by its pixels, on a ground of thin white.
  *   at  [points][2] in; the first ones are preferred */

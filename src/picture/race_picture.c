@@ -1,12 +1,14 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "scenes/small_scenes.h"
 
-static const double NAMED = 36;  /* ems, for names beside the lines */
-static const double NEAR = 0.01; /* m, the error that is asked for */
+static const double NAMED = 36;    /* ems, for names beside the lines */
+static const double NEAR = 0.01;   /* m, the error that is asked for */
+static const double FINEST = 1e-8; /* m, what tolerance and reference leave */
 
 /* Across: run time, or h where that is switched on. */
 static double place_of(const Simulation *simulation, const RacePoint *point)
@@ -47,13 +49,52 @@ static const RacePoint *draw_method(Plot *plot, int method)
     return last;
 }
 
-/* The names of the methods, each at its last point. */
+/* The highest of these points that is not in the set. */
+static int find_highest(const RacePoint *const *last, unsigned set)
+{
+    int highest = -1;
+    for (int i = 0; i < RACE_METHODS; i++)
+        if (last[i] && !(set >> i & 1) &&
+            (highest < 0 || last[i]->error > last[highest]->error))
+            highest = i;
+    return highest;
+}
+
+/* Right of the last points; where one would lie on another it is below that. */
+static void write_names(const Plot *plot, const RacePoint *const *last)
+{
+    static const double size = 0.95, gap = 0.6; /* ems */
+    Paper *paper = plot->paper;
+    Box place[RACE_METHODS];
+    int count = 0, high = paper_pixels(paper, 1.15);
+    unsigned written = 0;
+    for (int i; (i = find_highest(last, written)) >= 0; written |= 1u << i) {
+        const IntegratorMethod *method = race_method(i);
+        double at[2];
+        plot_place(
+            plot,
+            (double[2]){place_of(plot->simulation, last[i]), last[i]->error},
+            at);
+        Box box = {(int)(at[0] + gap * plot->em), (int)at[1] - high / 2,
+                   paper_width(paper, FACE_BOLD, size, method->label), high};
+        for (int k = 0; k < count; k++)
+            if (box_shared(box, place[k]).width > 0 &&
+                box_shared(box, place[k]).height > 0)
+                box.y = place[k].y + high;
+        place[count++] = box;
+        paper_panel(paper, FACE_BOLD, size, colour_of_method(method->name),
+                    box.x, box.y, ALIGN_LEFT, method->label);
+    }
+}
+
+/* Over run time the names of the methods, each at its last point; over h they
+ * would lie on each other, and the table has their colours. */
 void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const RacePoint *last[RACE_METHODS];
     bool over_h = simulation->exhibit.parts;
-    bool wide = stage->text && stage->box.width > NAMED * stage->em;
+    bool wide = stage->text && stage->box.width > NAMED * stage->em && !over_h;
     Plot plot = plot_on(
         stage,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
@@ -66,14 +107,8 @@ void race_draw(Plot *stage)
                   COLOUR_TEXT, "1 cm");
     for (int i = 0; i < RACE_METHODS; i++)
         last[i] = draw_method(&plot, i);
-    for (int i = 0; i < RACE_METHODS && wide; i++)
-        if (last[i])
-            plot_words(&plot, 1,
-                       &(const double[2]){place_of(simulation, last[i]),
-                                          last[i]->error},
-                       0.6, 0.95, FACE_BOLD,
-                       colour_of_method(race_method(i)->name),
-                       race_method(i)->label);
+    if (wide)
+        write_names(&plot, last);
 }
 
 /* The quickest stable run that is so near, of an implicit method or an explicit
@@ -111,58 +146,90 @@ static void put_cell(char *cell, size_t size, const char *sign, double value,
                  unit);
 }
 
+enum { COLUMNS = 9, HALVED = 4, CELL = 64 };
+
 /* A method a row: its error with h, by what it is divided as h is halved again
- * and again, the longest stable step, and with h what is left of the energy
- * after a second, and how long it took; a narrow card has room for some of it.
- */
+ * and again (what is below 10 nm is left to the tolerance), with h what is left
+ * of the energy after a second, the longest stable step that was tried, and how
+ * long it took. */
+static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
+{
+    const IntegratorMethod *shown = race_method(method);
+    const RacePoint *point = &race->point[RACE_SHOWN * RACE_METHODS + method];
+    snprintf(cell[0], CELL, "%s", shown->label);
+    if (race->count > point - race->point) {
+        put_cell(cell[1], CELL, "", point->error, 2, "");
+        snprintf(cell[6], CELL, "explodes");
+        put_cell(cell[6], CELL, "\u00d7 ", point->later, 2, "");
+        put_cell(cell[8], CELL, "", 1e3 * point->seconds, 2, " ms");
+    }
+    for (int k = 1; k <= HALVED; k++) {
+        const RacePoint *half = point + RACE_METHODS;
+        if (race->count <= half - race->point)
+            break;
+        snprintf(cell[1 + k], CELL, "\u03b5");
+        put_cell(cell[1 + k], CELL, "\u00f7 ",
+                 half->error < FINEST ? NAN : point->error / half->error, 2,
+                 "");
+        point = half;
+    }
+    if (shown->implicit)
+        snprintf(cell[7], CELL, "any h");
+    else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
+        snprintf(cell[7], CELL, "none");
+    put_cell(cell[7], CELL, "",
+             shown->implicit ? NAN : 1e3 * race_stable(race, method), 3, " ms");
+}
+
+/* As many columns as there is room for; those of a star begin with others. */
 void table_draw(const Plot *card)
 {
-    enum { COLUMNS = 9, HALVED = 4, CELL = 64 };
-    static const char *const heads[COLUMNS] = {"",          "error, m", "h/2",
-                                               "h/4",       "h/8",      "h/16",
-                                               "stable at", "energy",   "time"};
-    static const double columns[2][COLUMNS] = {
-        {0, 0.56, 0, 0, 0, 0, 0.78, 0, 1},
-        {0, 0.31, 0.395, 0.465, 0.535, 0.605, 0.735, 0.87, 1}};
-    bool wide = card->box.width > 46 * card->paper->em;
-    const Race *race = &card->simulation->exhibit.race;
+    static const char heads[COLUMNS][CELL] = {"",       "error, m", "h/2",
+                                              "h/4",    "h/8",      "h/16",
+                                              "energy", "stable h", "time"};
+    static const char *const widest[COLUMNS] = {"average vector field",
+                                                "4.4\u00b710^{\u22125}",
+                                                "\u00f7 6.4",
+                                                "\u00f7 6.4",
+                                                "\u00f7 6.4",
+                                                "\u00f7 6.4",
+                                                "\u00d7 8.9\u00b710^{\u22128}",
+                                                "stable h\u2007",
+                                                "0.0055 ms"};
+    static const int order[2][COLUMNS] = {{0, 1, 8, 7, 6, 2, 3, 4, 5},
+                                          {0, 1, 2, 3, 4, 5, 6, 7, 8}};
+    const Show *show = card->show;
+    const int *next = order[show->lecture && show->lecture->star];
     Paper *paper = card->paper;
     Box inside = card->box;
+    char cell[COLUMNS][CELL];
+    bool shown[COLUMNS] = {false};
+    double wide[COLUMNS], gap = 0.8 * paper->em, rest = inside.width;
     double line = fmin(3.6 * paper->em, inside.height / (RACE_METHODS + 1.0));
+    int count = 0;
+    for (int c = 0; c < COLUMNS; c++)
+        wide[c] = paper_width(paper, FACE_REGULAR, 1, widest[c]);
+    for (; count < COLUMNS && wide[next[count]] <= rest; count++) {
+        shown[next[count]] = true;
+        rest -= wide[next[count]] + gap;
+    }
+    gap += (rest + gap) / fmax(count - 1, 1);
     for (int row = 0; row <= RACE_METHODS; row++) {
-        char cell[COLUMNS][CELL] = {""};
-        int method = row > 0 ? row - 1 : 0;
-        const IntegratorMethod *shown = race_method(method);
-        const RacePoint *point =
-            &race->point[RACE_SHOWN * RACE_METHODS + method];
-        snprintf(cell[0], CELL, "%s", shown->label);
-        if (race->count > point - race->point) {
-            put_cell(cell[1], CELL, "", point->error, 2, "");
-            snprintf(cell[7], CELL, "explodes");
-            put_cell(cell[7], CELL, "\u00d7 ", point->later, 2, "");
-            put_cell(cell[8], CELL, "", 1e3 * point->seconds, 2, " ms");
-        }
-        for (int k = 1; k <= HALVED; k++) {
-            const RacePoint *half = point + RACE_METHODS;
-            if (race->count > half - race->point)
-                put_cell(cell[1 + k], CELL, "\u00f7 ",
-                         point->error / half->error, 2, "");
-            point = half;
-        }
-        if (shown->implicit)
-            snprintf(cell[6], CELL, "linear: any");
-        else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
-            snprintf(cell[6], CELL, "none");
-        put_cell(cell[6], CELL, "",
-                 shown->implicit ? NAN : 1e3 * race_stable(race, method), 3,
-                 " ms");
-        for (int c = 0; c < COLUMNS; c++)
-            if (c == 0 || columns[wide][c] > 0)
+        double right = inside.x - gap;
+        memset(cell, 0, sizeof cell);
+        if (row > 0)
+            fill_row(&card->simulation->exhibit.race, row - 1, cell);
+        else
+            memcpy(cell, heads, sizeof cell);
+        for (int c = 0; c < COLUMNS; c++) {
+            right += shown[c] ? wide[c] + gap : 0;
+            if (shown[c])
                 paper_write(paper, row ? FACE_REGULAR : FACE_BOLD, 1,
-                            row && c == 0 ? colour_of_method(shown->name)
-                                          : COLOUR_TEXT,
-                            inside.x + columns[wide][c] * inside.width,
-                            inside.y + row * line, c ? ALIGN_RIGHT : ALIGN_LEFT,
-                            "%s", row ? cell[c] : heads[c]);
+                            row && c == 0
+                                ? colour_of_method(race_method(row - 1)->name)
+                                : COLOUR_TEXT,
+                            c ? right : inside.x, inside.y + row * line,
+                            c ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);
+        }
     }
 }

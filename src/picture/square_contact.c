@@ -88,27 +88,30 @@ void square_contact_forces(const SpringPen *pen, int runs)
         plot_legend(pen->stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 
-/* Under the left end of a run's first wall, if it has a slope: its coefficient
- * of friction as a part of the options' and of the slope. */
+/* Under a run's first wall, right of what lies on it, if the wall has a slope:
+ * its coefficient of friction as a part of the options' and of the slope. */
 static void draw_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
     double em = stage->em, grip = pen->simulation->grip[pen->run];
-    double left[2], at[2], slope = -wall->n[0] / wall->n[1];
+    double from[2], at[2], slope = -wall->n[0] / wall->n[1];
     if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
         !(fabs(slope) > 1e-6))
         return;
-    camera_world(&stage->camera, stage->box.x + em, stage->box.y, left);
-    left[1] = wall->o[1] + slope * (left[0] - wall->o[0]);
-    plot_place(stage, left, at);
+    camera_world(&stage->camera, stage->box.x - em, stage->box.y, from);
+    for (int i = 0; i < pen->system->nodes; i++)
+        from[0] = fmax(from[0], pen->x[2 * (size_t)i]);
+    from[0] += 2 * em / stage->camera.scale[0];
+    from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
+    plot_place(stage, from, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
     if (low > 0) { /* further up along the wall */
         at[0] += low / fabs(slope);
         at[1] -= low;
     }
     paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
-                at[1] + 1.5 * em, ALIGN_LEFT, "%s%s\u03bc = %s tan %s\u00b0",
+                at[1] + 1.2 * em, ALIGN_LEFT, "%s%s\u03bc = %s tan %s\u00b0",
                 grip > 0 ? number_of(grip).text : "", grip > 0 ? " " : "",
                 number_of(wall->friction / fabs(slope)).text,
                 number_of(fabs(atan(slope)) / DEGREE).text);

@@ -46,6 +46,26 @@ static double strain_range(const Simulation *simulation, const double *ep)
     return plot_round_up(fmax(0.5 * most, 0.05));
 }
 
+/* The bodies, of several, of which all nodes are pinned: they are drawn as
+ * walls are. */
+static unsigned fixed_bodies(const Simulation *simulation)
+{
+    const SquareMesh *mesh = &simulation->mesh;
+    int each = mesh->nodes / mesh->bodies;
+    unsigned fixed = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0;
+    for (int i = 0; i < mesh->nodes; i++)
+        if (!simulation->system.pinned[i])
+            fixed &= ~(1u << i / each);
+    return fixed;
+}
+
+static bool is_fixed(const SpringPen *pen, int node)
+{
+    const SquareMesh *mesh = &pen->simulation->mesh;
+    return pen->fixed && node < mesh->nodes &&
+           pen->fixed >> node / (mesh->nodes / mesh->bodies) & 1;
+}
+
 SpringPen square_pen(Plot *stage, int run)
 {
     const Show *show = stage->show;
@@ -63,7 +83,8 @@ SpringPen square_pen(Plot *stage, int run)
                      .x = run ? simulation->run[run].x : pane_x(pane),
                      .strain = strain_range(simulation, NULL),
                      .ep = plasticity ? plasticity->ep : NULL,
-                     .contact = contact_of(system)};
+                     .contact = contact_of(system),
+                     .fixed = fixed_bodies(simulation)};
     double unit = stage->paper->unit;
     pen.spacing = seen_spacing(&pen);
     pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
@@ -128,7 +149,7 @@ void square_springs(const SpringPen *pen)
         double d2 = distance2(pen, e[0], e[1], d);
         double strain = pen->range > 0 ? sqrt(d2 / l2) - 1 : 0;
         Colour colour = COLOUR_X;
-        if (spring_is_broken(system, s))
+        if (spring_is_broken(system, s) || is_fixed(pen, e[0]))
             continue;
         if (told_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2,
                         &colour) &&
@@ -214,7 +235,9 @@ static void draw_triangles(const SpringPen *pen, const NeoHookean *solid)
                                    node_at(pen, n[2]), node_at(pen, n[2])};
         double J = fabs(turn(pen->x, n[0], n[1], n[2])) / (2 * solid->area);
         Colour colour = shade(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
-        plot_face(pen->stage, corner, canvas_mix(colour, COLOUR_WHITE, 0.6));
+        plot_face(pen->stage, corner,
+                  is_fixed(pen, n[0]) ? COLOUR_SOLID
+                                      : canvas_mix(colour, COLOUR_WHITE, 0.6));
     }
 }
 
@@ -283,10 +306,18 @@ void square_nodes(const SpringPen *pen)
     if (pen->range > 0) /* they would hide the colours of a fine mesh */
         radius *= 0.75;
     for (int i = 0; radius >= 0.5 * pen->width && i < system->nodes; i++)
-        plot_disc(pen->stage, node_at(pen, i), radius, colour);
+        if (!is_fixed(pen, i))
+            plot_disc(pen->stage, node_at(pen, i), radius, colour);
     for (int i = 0; i < system->nodes; i++)
-        if (system->pinned[i])
+        if (system->pinned[i] && !is_fixed(pen, i))
             plot_pin(pen->stage, node_at(pen, i), radius);
+    for (int k = 0; pen->fixed && k < pen->simulation->mesh.outline; k++) {
+        int node[2];
+        square_mesh_outline(&pen->simulation->mesh, k, node);
+        if (is_fixed(pen, node[0]))
+            plot_line(pen->stage, node_at(pen, node[0]), node_at(pen, node[1]),
+                      1.5, COLOUR_EDGE);
+    }
 }
 
 void square_outline(const SpringPen *pen, const double *x, bool dashed,

@@ -29,6 +29,7 @@ typedef struct SpringPen {
     const double *ep;       /* [springs] of each; NULL: springs do not flow */
     const Contact *contact; /* NULL: there is nothing to touch */
     bool projected;         /* springs whose block was changed are lit */
+    unsigned fixed;         /* bit b: of several bodies b has pins alone */
 } SpringPen;
 
 SpringPen square_pen(Plot *stage, int run);
@@ -69,7 +70,7 @@ typedef struct Touch {
 bool square_next_touch(const SpringPen *pen, Touch *touch);
 
 /* Walls and balls of a run.  Several runs have theirs as slabs, so that they
- * stay apart, and words under the left end of the first one. */
+ * stay apart, and words under the first one. */
 void square_contact_obstacles(const SpringPen *pen);
 
 /* Forces of contact and friction of all runs as arrows that end at their nodes,

@@ -18,8 +18,9 @@ enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
 static const double ROOM = 1.14;       /* of the stage around the square */
-static const double LENS = 12;         /* ems, the side of a lens */
-static const double BARE_ROOM = 1.75;  /* the bare square: 57 % of the side */
+static const double LENS = 12;         /* ems, the side of a lens, at most */
+enum { LENS_SIZES = 3 };
+static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
 
 /* ---- how much of the world is seen -------------------------------------- */
 
@@ -328,20 +329,39 @@ static void draw_cuts(const SpringPen *pen)
     square_outline(pen, pen->x, false, COLOUR_X);
 }
 
-/* In the corner, the gap of the page's law so large that it is seen. */
+/* The corner of the stage, below its legend, where a lens hides least, right
+ * ones first; a smaller one where it would hide something in all of them. */
+static Box lens_box(const Plot *stage)
+{
+    int air = (int)stage->em;
+    Box best = {0, 0, 0, 0};
+    double least = INFINITY;
+    for (int i = 0; i < 4 * LENS_SIZES; i++) {
+        int side = (int)((LENS - 2 * (i / 4)) * stage->em);
+        int left = i & 2 ? air : stage->box.width - side - air;
+        int top = i & 1 ? stage->box.height - side - 2 * air : 2 * air;
+        Box box = {stage->box.x + left, stage->box.y + top, side, side};
+        double cost = plot_cost(stage, box) + 0.1 * (i % 4) + 0.5 * (i / 4);
+        if (cost < least) {
+            least = cost;
+            best = box;
+        }
+    }
+    return best;
+}
+
+/* The gap of the page's law so large that it is seen. */
 static void draw_lens(const SpringPen *pen)
 {
     Plot lens = *pen->stage;
     Canvas *canvas = &lens.paper->canvas;
     LawGap gap;
     char words[60];
-    int side = (int)(LENS * lens.em), air = (int)lens.em;
-    if (!pen->show->lecture || pen->show->veiled || lens.box.width < 2 * side ||
-        !law_gap(pen->simulation, &gap))
-        return;
-    lens.box = (Box){lens.box.x + lens.box.width - side - air, lens.box.y + air,
-                     side, side};
     double bounds[4];
+    if (!pen->show->lecture || pen->show->veiled ||
+        lens.box.width < 2 * LENS * lens.em || !law_gap(pen->simulation, &gap))
+        return;
+    lens.box = lens_box(pen->stage);
     for (int c = 0; c < 4; c++)
         bounds[c] = 0.5 * (gap.foot[c % 2] + gap.node[c % 2]) +
                     (c < 2 ? -1.2 : 1.2) * gap.d_hat;
@@ -397,7 +417,6 @@ void square_draw(Plot *stage)
     if (show->bare)
         return;
     square_contact_forces(pen, runs);
-    draw_lens(pen);
     draw_signs(pen);
     draw_page_arrows(pen);
     draw_warnings(pen, folded);
@@ -405,6 +424,7 @@ void square_draw(Plot *stage)
         draw_numbers(pen);
     if (pen->range > 0)
         draw_colours(pen);
+    draw_lens(pen);
 }
 
 /* ---- its numbers --------------------------------------------------------- */

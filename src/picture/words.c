@@ -114,8 +114,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
 
 /* ---- off what is drawn -------------------------------------------------- */
 
-/* Of a place, the part that has ink, and the part outside of the plot. */
-static double place_cost(const Plot *plot, Box place)
+double plot_cost(const Plot *plot, Box place)
 {
     const Canvas *canvas = &plot->paper->canvas;
     Box seen = box_shared(place, box_shared(plot->box, canvas->clip));
@@ -152,7 +151,7 @@ void plot_words(const Plot *plot, int points, const double (*at)[2], double gap,
                      (int)(p[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
                      wide, high};
         Box wider = box_inset(place, -paper_pixels(paper, AIR));
-        double cost = place_cost(plot, wider) + COST_LATER * i;
+        double cost = plot_cost(plot, wider) + COST_LATER * i;
         if (cost < least) {
             least = cost;
             best = place;

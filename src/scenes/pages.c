@@ -1,5 +1,7 @@
 #include "scenes/pages.h"
 
+#include <string.h>
+
 int lecture_count(void)
 {
     return names_count(NAMES_OF(lecture_pages));
@@ -15,6 +17,9 @@ Status lecture_options(const LecturePage *page, Options *options, char *message,
                        size_t size)
 {
     Status status = options_of_line(page->line, options, message, size);
+    const char *pin = strstr(page->line, "--pin ");
+    if (pin) /* the line's last option: its text stays */
+        options->pin = pin + strlen("--pin ");
     options->page = page;
     options->flips = page->flips;
     options->speed = page->speed;

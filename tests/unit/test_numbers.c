@@ -322,13 +322,14 @@ static Real flattest(const Simulation *simulation, Real *energy)
     return least;
 }
 
-/* The nearest point and edge of which it is no end; how fast it slides along
- * it.  Every pair is tried. */
-static Real nearest(const Simulation *simulation, Real *slip)
+/* The nearest point and edge of which it is no end; how fast those slide that
+ * are nearer than `reach`, in the mean by how hard they press.  Every pair is
+ * tried. */
+static Real nearest(const Simulation *simulation, Real reach, Real *slip)
 {
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
-    Real least = INFINITY;
+    Real least = INFINITY, pressed = 0, sum = 0;
     for (int k = 0; k < system->nodes * system->springs; k++) {
         int p = k % system->nodes, s = k / system->nodes;
         int a = system->e[2 * s], b = system->e[2 * s + 1];
@@ -344,12 +345,38 @@ static Real nearest(const Simulation *simulation, Real *slip)
             w[c] = v[2 * p + c] - (1 - r) * v[2 * a + c] - r * v[2 * b + c];
         }
         Real d = hypotl(n[0], n[1]);
-        if (p == a || p == b || !(d < least))
+        if (p == a || p == b || !(d < reach))
             continue;
-        least = d;
-        *slip = fabsl(n[0] * w[1] - n[1] * w[0]) / d;
+        least = fminl(least, d);
+        Real S = powl(d / reach, 2), force = d * (1 / S - 1 - logl(S));
+        pressed += force;
+        sum += force * fabsl(n[0] * w[1] - n[1] * w[0]) / d;
     }
+    *slip = sum / pressed;
     return least;
+}
+
+/* The strain of the spring that flowed most, or the part of its strength of the
+ * one nearest to breaking; its force in the same unit, its plastic strain. */
+static Real most_loaded(const System *system, const double *x,
+                        const Plasticity *flow, Real *force, Real *rest)
+{
+    Real most = -1, at = NAN;
+    for (int i = 0; i < system->springs; i++) {
+        const int *e = system->e + 2 * i;
+        Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
+                        (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
+        Real strain = d * d / system->l2[i] - 1, ep = flow ? flow->ep[i] : 0;
+        Real load = flow ? fabsl(ep) + 1e-3L * fabsl(strain)
+                         : strain / fracture_strength(fracture_of(system), i);
+        if (system->k[i] == 0 || load <= most)
+            continue;
+        most = load;
+        at = flow ? strain : load;
+        *force = flow ? strain - ep : load;
+        *rest = ep;
+    }
+    return at;
 }
 
 /* Where the scene is on the law that its page draws. */
@@ -360,7 +387,7 @@ static void tell_law(const Simulation *simulation)
     const char *law = o->page->law ? o->page->law : "";
     const double *x = simulation->run[0].x;
     const Plasticity *flow = plasticity_of(system);
-    Real at = INFINITY, value = 0, slip = 0, s, most = -1;
+    Real at = INFINITY, value = 0, slip = 0, s, rest = 0;
     Real reach = o->barrier[0] > 0 ? o->barrier[0] : o->side / 100;
     Real kappa = o->barrier[1] > 0 ? o->barrier[1] : 4 * o->stiffness;
     Real c = o->side / o->segments * reach * kappa / 2;
@@ -372,13 +399,18 @@ static void tell_law(const Simulation *simulation)
         s = at / reach;
         value = c * (s - 1) * logl(s);
         near("gap", 1e3L * at, 1e-10L);
+        /* by differences over a ten thousandth of d to either side */
+        near("law force", c / reach * (1 / s - 1 - logl(s)), 1e-2L);
     } else if (strcmp(law, "near") == 0) {
-        at = nearest(simulation, &slip);
+        at = nearest(simulation, reach, &slip);
         near("gap", 1e3L * at, 1e-10L);
         s = powl(at / reach, 2);
-        value = c / 8 * (s - 1) * logl(s);
+        c /= 8;
+        value = c * (s - 1) * logl(s);
+        near("law force", 2 * c * at / reach / reach * (1 / s - 1 - logl(s)),
+             1e-2L);
     } else if (strcmp(law, "rub") == 0) {
-        near("gap", 1e3L * nearest(simulation, &at), 1e-10L);
+        near("gap", 1e3L * nearest(simulation, reach, &at), 1e-10L);
         Real gone = 0; /* the upper block, whose nodes come last */
         for (int i = system->nodes; i < 2 * system->nodes; i += 2)
             gone += ((Real)x[i] - o->body[1][0]) / (system->nodes / 2);
@@ -388,20 +420,12 @@ static void tell_law(const Simulation *simulation)
     } else if (strcmp(law, "triangle") == 0) {
         at = flattest(simulation, &value);
     }
-    bool springs = strcmp(law, flow ? "yield" : "break") == 0;
-    for (int i = 0; i < system->springs && springs; i++) {
-        const int *e = system->e + 2 * i;
-        Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
-                        (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
-        Real strain = d * d / system->l2[i] - 1, ep = flow ? flow->ep[i] : 0;
-        Real load = flow ? fabsl(ep) + 1e-3L * fabsl(strain)
-                         : strain / fracture_strength(fracture_of(system), i);
-        if (system->k[i] == 0 || load <= most)
-            continue;
-        most = load;
-        at = strain;
-        value = strain - ep;
-    }
+    if (strcmp(law, flow ? "yield" : "break") == 0)
+        at = most_loaded(system, x, flow, &value, &rest);
+    near("s_p", rest, 0);
+    near("c", c, 1e-10L);
+    near("d hat", 1e3L * reach, 1e-10L);
+    near("law mm", 1e3L * at, 1e-10L);
     near("law x", at, 1e-12L * (1 + fabsl(at)));
     near("law y", value, 1e-10L * (1 + fabsl(value)));
 }
