@@ -63,21 +63,24 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
     grid->per_m = memory_piece(memory, plane);
     grid->node_shift = memory_piece(memory, shifts);
     grid->spring_shift = memory_piece(memory, shifts);
-    grid->sums = memory_piece(memory, (size_t)grid->bands * MAX_SUMS *
-                                          sizeof *grid->sums);
 }
 
-/* Row i has written its numbers to the row `at`: where they are those of the
- * row before, the next one may write there.  Returns where that one writes. */
-static int share_row(const Rows *rows, double *const *array, int arrays, int at)
+/* Of rows with the same numbers one after the other only the first keeps its
+ * own, and all move up to stand without gaps.  shift [nodes] out */
+static void share_rows(const Rows *rows, double *const *array, int arrays,
+                       int *shift)
 {
-    for (int a = 0; a < arrays; a++) {
-        const double *row = array[a] + place_of(rows, at, 0);
-        if (at == 0 ||
-            memcmp(row, row - rows->pitch, (size_t)rows->pitch * sizeof *row))
-            return at + 1;
+    size_t bytes = (size_t)rows->pitch * sizeof **array;
+    for (int i = 0, at = 0; i < rows->nodes; i++) {
+        bool same = i > 0;
+        int from = place_of(rows, i, 0), to = place_of(rows, at, 0);
+        for (int a = 0; a < arrays && same; a++)
+            same = !memcmp(array[a] + from, array[a] + to - rows->pitch, bytes);
+        for (int a = 0; a < arrays && !same; a++)
+            memmove(array[a] + to, array[a] + from, bytes);
+        at += !same;
+        shift[i] = (at - 1 - i) * rows->pitch;
     }
-    return at;
 }
 
 double unit_of(double a)
@@ -95,69 +98,51 @@ static void read_nodes(Grid *grid, const System *system, const double *m)
             grid->lightest = fmin(grid->lightest, m[2 * k]);
     grid->mass = unit_of(grid->lightest);
     grid->lightest *= grid->mass;
-    for (int i = 0, node = 0, at = 0; i < rows->nodes; i++) {
+    for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
-            bool held = system->pinned[node];
-            int q = place_of(rows, at, j);
+            int q = place_of(rows, i, j);
             grid->m[q] = grid->mass * m[2 * node];
-            grid->per_m[q] = held ? 0 : 1 / grid->m[q];
+            grid->per_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
         }
-        int next = share_row(rows, arrays, 2, at);
-        grid->node_shift[i] = (next - 1 - i) * rows->pitch;
-        at = next;
-    }
+    share_rows(rows, arrays, 2, grid->node_shift);
 }
 
-/* Of the springs of a kind, in the order of square_mesh.h: the one that starts
- * at node (i, j), or -1. */
-static int spring_at(int n, int kind, int i, int j)
+/* Of nodes a < b: which kind starts at a. */
+static int kind_of(int nodes, int a, int b)
 {
-    int cell = 2 * n * (n + 1) + 2 * (i * n + j);
-    if (i == n && kind != UP)
-        return -1;
-    switch (kind) {
-    case RIGHT:
-        return i * (n + 1) + j;
-    case UP:
-        return j < n ? n * (n + 1) + i * n + j : -1;
-    case DIAGONAL:
-        return j < n ? cell : -1;
-    default:
-        return j > 0 ? cell - 1 : -1;
-    }
+    if (a / nodes == b / nodes)
+        return UP;
+    return b - a == nodes ? RIGHT : b - a > nodes ? DIAGONAL : ANTIDIAGONAL;
 }
 
-static void read_springs(Grid *grid, const double *k, const double *l2,
+static void read_springs(Grid *grid, const System *system, const Place *place,
                          double weight)
 {
     const Rows *rows = &grid->rows;
-    int n = grid->segments;
     double unit, *arrays[2 * KINDS];
     for (int kind = 0; kind < KINDS; kind++) {
         arrays[kind] = grid->c[kind];
         arrays[KINDS + kind] = grid->l2[kind];
     }
-    grid->length = unit_of(sqrt(l2[spring_at(n, DIAGONAL, 0, 0)]));
+    grid->length = unit_of(sqrt(place->l2[system->springs - 1]));
     unit = grid->length * grid->length;
-    for (int i = 0, at = 0; i <= n; i++) {
-        for (int j = 0; j <= n; j++)
-            for (int kind = 0; kind < KINDS; kind++) {
-                int s = spring_at(n, kind, i, j), q = place_of(rows, at, j);
-                double c = s < 0 ? 0 : 2 * weight * k[s] / l2[s];
-                grid->c[kind][q] = grid->mass / unit * c;
-                grid->l2[kind][q] = s < 0 ? 0 : unit * l2[s];
-            }
-        int next = share_row(rows, arrays, 2 * KINDS, at);
-        grid->spring_shift[i + 1] = (next - 1 - i) * rows->pitch;
-        at = next;
+    for (int s = 0; s < system->springs; s++) {
+        const int *e = system->e + 2 * s;
+        int a = e[0] < e[1] ? e[0] : e[1], b = e[0] < e[1] ? e[1] : e[0];
+        int kind = kind_of(rows->nodes, a, b);
+        int q = place_of(rows, a / rows->nodes, a % rows->nodes);
+        double c = 2 * weight * place->k[s] / place->l2[s];
+        grid->c[kind][q] = grid->mass / unit * c;
+        grid->l2[kind][q] = unit * place->l2[s];
     }
+    share_rows(rows, arrays, 2 * KINDS, grid->spring_shift + 1);
 }
 
 void grid_read_system(Grid *grid, const Iterate *at, const double *m)
 {
     Place place = place_at(at->E.system, at->E.x_n, at->u, at->x);
     read_nodes(grid, at->E.system, m);
-    read_springs(grid, place.k, place.l2, at->E.weight);
+    read_springs(grid, at->E.system, &place, at->E.weight);
 }
 
 void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)

@@ -38,8 +38,8 @@ enum { PADDED = LANES };
 enum { PADDED = WIDE_LANES };
 #endif
 
-/* Rows of a band; sums that one loop makes. */
-enum { BAND = 8, MAX_SUMS = 4 };
+/* Rows of a band. */
+enum { BAND = 8 };
 
 /* Where the numbers of nodes x nodes nodes stand. */
 typedef struct Rows {
@@ -72,7 +72,6 @@ typedef struct Grid {
     double *x, *x_tilde, *u_tilde;  /* [2 planes] */
     double *away;                   /* [2 planes] x - x_tilde in the digits of
                                        u; pins: 0 */
-    double *sums;                   /* [bands * MAX_SUMS] */
 } Grid;
 
 /* Pieces of one block of memory, which is laid out twice: first to count, with
@@ -116,9 +115,9 @@ double grid_gradient(const Grid *grid, double *g);
 double grid_remainder(const Grid *grid, const double *g, const double *p,
                       double *rest, double *largest);
 
-/* E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4. */
+/* E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4; q out. */
 void grid_along(const Grid *grid, const double *g, const double *p,
-                double q[4]);
+                double quartic[4]);
 
 /* x += a p */
 void grid_move(const Grid *grid, double a, const double *p);

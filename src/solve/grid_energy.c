@@ -3,37 +3,19 @@
 
 #include "solve/grid_loops.h"
 
-/* What a loop over bands of rows is given. */
-typedef struct Pass {
-    const Grid *grid;
-    const double *a, *b;
-    double *out;
-} Pass;
-
-/* Runs a loop over all bands and adds up what each of them has summed. */
-static void run(void loop(const Pass *), Pass pass, int sums, double *sum)
-{
-    const Grid *grid = pass.grid;
-    loop(&pass);
-    for (int s = 0; s < sums; s++)
-        sum[s] = 0;
-    for (int band = 0; band < grid->bands; band++)
-        for (int s = 0; s < sums; s++)
-            sum[s] += grid->sums[band * MAX_SUMS + s];
-}
-
-/* How each loop begins. */
+/* How each loop begins: a copy of the grid stays in registers. */
 #define BANDS                                                                  \
-    const Grid grid = *pass->grid;                                             \
+    const Grid grid = *of;                                                     \
     const int plane = grid.rows.plane;                                         \
     for (int band = 0; band < grid.bands; band++)
 
-FAST static void gradient(const Pass *pass)
+FAST double grid_gradient(const Grid *of, double *g)
 {
+    double total = 0;
     BANDS
     {
         const double *const ax = grid.away, *const ay = ax + plane;
-        double *const gx = pass->out, *const gy = gx + plane;
+        double *const gx = g, *const gy = gx + plane;
         double sum[LANES] = {0};
         EACH_NODE_OF (grid, band) {
             const int q = at.first + e;
@@ -52,15 +34,9 @@ FAST static void gradient(const Pass *pass)
             PAIR(gy, q) = fy;
             PAIR(sum, e) += PAIR(grid.per_m, q + at.node) * (fx * fx + fy * fy);
         }
-        grid.sums[band * MAX_SUMS] = sum_of(sum);
+        total += sum_of(sum);
     }
-}
-
-double grid_gradient(const Grid *grid, double *g)
-{
-    double sum;
-    run(gradient, (Pass){.grid = grid, .out = g}, 1, &sum);
-    return sum;
+    return total;
 }
 
 /* By how much more one end of a spring moves than the other. */
@@ -68,15 +44,16 @@ double grid_gradient(const Grid *grid, double *g)
     Pair ux = PAIR(px, q) - PAIR(px, q + (to));                                \
     Pair uy = PAIR(py, q) - PAIR(py, q + (to))
 
-/* out = -b - H p, H clamped, and |out|_(M^-1)^2. */
-FAST static void remainder_of(const Pass *pass)
+FAST double grid_remainder(const Grid *of, const double *g, const double *p,
+                           double *rest, double *largest)
 {
+    double total = 0, most[LANES] = {0};
     BANDS
     {
-        const double *const px = pass->a, *const py = px + plane;
-        const double *const bx = pass->b, *const by = bx + plane;
-        double *const to_x = pass->out, *const to_y = to_x + plane;
-        double sum[LANES] = {0}, most[LANES] = {0}, largest = 0;
+        const double *const px = p, *const py = px + plane;
+        const double *const gx = g, *const gy = gx + plane;
+        double *const to_x = rest, *const to_y = to_x + plane;
+        double sum[LANES] = {0};
         EACH_NODE_OF (grid, band) {
             const int q = at.first + e;
             Pair hx = PAIR(px, q), hy = PAIR(py, q);
@@ -95,8 +72,8 @@ FAST static void remainder_of(const Pass *pass)
     }
             ALL_SPRINGS(ADD, at)
 #undef ADD
-            fx = -PAIR(bx, q) - fx;
-            fy = -PAIR(by, q) - fy;
+            fx = -PAIR(gx, q) - fx;
+            fy = -PAIR(gy, q) - fy;
             PAIR(to_x, q) = fx;
             PAIR(to_y, q) = fy;
             PAIR(sum, e) += PAIR(grid.per_m, q + at.node) * (fx * fx + fy * fy);
@@ -106,31 +83,23 @@ FAST static void remainder_of(const Pass *pass)
                 double size = fabs(px[at.first + e]) + fabs(py[at.first + e]);
                 most[e] = size > most[e] ? size : most[e];
             }
-        for (int e = 0; e < LANES; e++)
-            largest = most[e] > largest ? most[e] : largest;
-        grid.sums[band * MAX_SUMS] = sum_of(sum);
-        grid.sums[band * MAX_SUMS + 1] = largest;
+        total += sum_of(sum);
     }
-}
-
-double grid_remainder(const Grid *grid, const double *g, const double *p,
-                      double *rest, double *largest)
-{
-    double sum;
-    run(remainder_of, (Pass){.grid = grid, .a = p, .b = g, .out = rest}, 1,
-        &sum);
     *largest = 0;
-    for (int band = 0; band < grid->bands; band++)
-        *largest = fmax(*largest, grid->sums[band * MAX_SUMS + 1]);
-    return sum;
+    for (int e = 0; e < LANES; e++)
+        *largest = fmax(*largest, most[e]);
+    return total;
 }
 
-FAST static void along_line(const Pass *pass)
+FAST void grid_along(const Grid *of, const double *g, const double *p,
+                     double quartic[4])
 {
+    for (int s = 0; s < 4; s++)
+        quartic[s] = 0;
     BANDS
     {
-        const double *const gx = pass->a, *const gy = gx + plane;
-        const double *const px = pass->b, *const py = px + plane;
+        const double *const gx = g, *const gy = gx + plane;
+        const double *const px = p, *const py = px + plane;
         double sum[4][LANES] = {{0}};
         EACH_NODE_OF (grid, band) {
             const int q = at.first + e;
@@ -155,13 +124,8 @@ FAST static void along_line(const Pass *pass)
             PAIR(sum[3], e) += 0.25 * f3;
         }
         for (int s = 0; s < 4; s++)
-            grid.sums[band * MAX_SUMS + s] = sum_of(sum[s]);
+            quartic[s] += sum_of(sum[s]);
     }
-}
-
-void grid_along(const Grid *grid, const double *g, const double *p, double q[4])
-{
-    run(along_line, (Pass){.grid = grid, .a = g, .b = p}, 4, q);
 }
 
 /* ---- without springs: all numbers of the planes ---- */

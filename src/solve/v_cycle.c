@@ -36,8 +36,6 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
     float **vectors[] = {&cycle->p, &cycle->d, &cycle->Ad};
     for (int i = 0; i < 3; i++)
         *vectors[i] = memory_piece(memory, bytes);
-    cycle->sums = memory_piece(memory, 2 * (size_t)grid->rows.nodes *
-                                           sizeof *cycle->sums);
 }
 
 /* ---- loops in stages ----
@@ -50,7 +48,7 @@ typedef struct Stages {
     const VCycle *cycle;
     const Level *level, *coarse; /* coarse: NULL at the coarsest */
     int rows;                    /* the level's, or one more for the coarse */
-    bool product;                /* the last stage is wanted */
+    double *sums;                /* [2] the last stage is wanted, NULL: not */
 } Stages;
 
 INLINE bool has_row(int rows, int i)
@@ -333,17 +331,19 @@ INLINE void smooth_row(const Level *level, int i, bool back)
     visit_row(level, i, !back, SMOOTH, NULL, NULL);
 }
 
-/* sums  [2] out, x.b and x.w of the row */
+/* sums  [2] x.b and x.w of the row are added */
 INLINE void product_row(const Level *level, int i, double *sums)
 {
     float xb[WIDE_LANES] = {0}, xw[WIDE_LANES] = {0};
     visit_row(level, i, 0, PRODUCT, xb, xw);
     visit_row(level, i, 1, PRODUCT, xb, xw);
-    sums[0] = sums[1] = 0;
+    double row[2] = {0, 0};
     for (int e = 0; e < WIDE_LANES; e++) {
-        sums[0] += (double)xb[e];
-        sums[1] += (double)xw[e];
+        row[0] += (double)xb[e];
+        row[1] += (double)xw[e];
     }
+    sums[0] += row[0];
+    sums[1] += row[1];
 }
 
 /* One plane of row i: to += P from; 0 stays where nodes are held. */
@@ -419,8 +419,8 @@ FAST static void ascend(const Stages *s)
             if ((i % 2 != 0) == (stage == 1) && has_row(nodes, i))
                 smooth_row(l, i, true);
         }
-        if (s->product && has_row(nodes, row - 3))
-            product_row(l, row - 3, s->cycle->sums + 2 * (row - 3));
+        if (s->sums && has_row(nodes, row - 3))
+            product_row(l, row - 3, s->sums);
     }
 }
 
@@ -432,9 +432,11 @@ FAST static void smooth_coarsest(const Level *l, bool back)
             smooth_row(l, i, back);
 }
 
-/* x = about A^-1 b; of the finest level also w = A x, and sums. */
-static void v_cycle(VCycle *cycle)
+/* x = about A^-1 b; of the finest level also w = A x.
+ *   sums  [2] out, x.b and x.w */
+static void v_cycle(VCycle *cycle, double *sums)
 {
+    sums[0] = sums[1] = 0;
     for (int l = 0; l < cycle->levels; l++) {
         const Stages stages = stages_of(cycle, l);
         descend(&stages);
@@ -443,7 +445,7 @@ static void v_cycle(VCycle *cycle)
         smooth_coarsest(&cycle->level[cycle->levels - 1], t >= COARSEST_TIMES);
     for (int l = cycle->levels - 1; l >= 0; l--) {
         Stages stages = stages_of(cycle, l);
-        stages.product = l == 0;
+        stages.sums = l == 0 ? sums : NULL;
         ascend(&stages);
     }
     cycle->cycles++;
@@ -471,64 +473,47 @@ FAST static void give(const Grid *grid, double factor, const float *x,
         p[e] = old * p[e] + factor * x[e];
 }
 
-/* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d; sums
- * |b|_(M^-1)^2 and the largest |p_x| + |p_y| of each band. */
-FAST static void advance(const VCycle *of, float alpha, float beta)
+/* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d, with the
+ * next x.  Returns |b|_(M^-1)^2, and the largest |p_x| + |p_y|. */
+FAST static double advance(const VCycle *of, float alpha, float beta,
+                           double *largest)
 {
     const VCycle cycle = *of;
     const Grid grid = *cycle.grid;
     const Level level = cycle.level[0];
     const int plane = grid.rows.plane;
+    double total = 0;
+    float most[LANES] = {0}, square[LANES];
     for (int band = 0; band < grid.bands; band++) {
         double sum[LANES] = {0};
-        float most[LANES] = {0}, largest = 0, square[LANES];
         EACH_RUN_OF (grid, band) {
             EACH_OF (NEXT(at, LANES)) {
-                const int qx = at.first + e, qy = qx + plane;
-                float dx = level.x[qx] + beta * cycle.d[qx];
-                float dy = level.x[qy] + beta * cycle.d[qy];
-                float Adx = level.w[qx] + beta * cycle.Ad[qx];
-                float Ady = level.w[qy] + beta * cycle.Ad[qy];
-                float px = cycle.p[qx] + alpha * dx;
-                float py = cycle.p[qy] + alpha * dy;
-                float bx = level.b[qx] - alpha * Adx;
-                float by = level.b[qy] - alpha * Ady;
-                cycle.d[qx] = dx;
-                cycle.d[qy] = dy;
-                cycle.Ad[qx] = Adx;
-                cycle.Ad[qy] = Ady;
-                cycle.p[qx] = px;
-                cycle.p[qy] = py;
-                level.b[qx] = bx;
-                level.b[qy] = by;
-                float size = fabsf(px) + fabsf(py);
+                float size = 0, of_b = 0;
+                for (int c = 0, q = at.first + e; c < 2; c++, q += plane) {
+                    float d = level.x[q] + beta * cycle.d[q];
+                    float Ad = level.w[q] + beta * cycle.Ad[q];
+                    float p = cycle.p[q] + alpha * d;
+                    float b = level.b[q] - alpha * Ad;
+                    cycle.d[q] = d;
+                    cycle.Ad[q] = Ad;
+                    cycle.p[q] = p;
+                    level.b[q] = b;
+                    size += fabsf(p);
+                    of_b += b * b;
+                }
                 most[e] = size > most[e] ? size : most[e];
-                square[e] = bx * bx + by * by;
+                square[e] = of_b;
             }
             EACH_OF (NEXT(at, LANES))
                 sum[e] +=
                     grid.per_m[at.first + at.node + e] * (double)square[e];
         }
-        for (int e = 0; e < LANES; e++)
-            largest = most[e] > largest ? most[e] : largest;
-        grid.sums[band * MAX_SUMS] = sum_of(sum);
-        grid.sums[band * MAX_SUMS + 1] = largest;
+        total += sum_of(sum);
     }
-}
-
-/* Does it with the next x.  Returns |b|_(M^-1)^2 and the largest of p. */
-static double update(const VCycle *cycle, double alpha, double beta,
-                     double *largest)
-{
-    const Grid *grid = cycle->grid;
-    double sum = 0;
-    advance(cycle, (float)alpha, (float)beta);
     *largest = 0;
-    for (int band = 0; band < grid->bands; band++) {
-        sum += grid->sums[band * MAX_SUMS];
-        *largest = fmax(*largest, grid->sums[band * MAX_SUMS + 1]);
-    }
-    return sum;
+    for (int e = 0; e < LANES; e++)
+        *largest = fmax(*largest, most[e]);
+    return total;
 }
 
 bool v_decides(const Grid *grid, double largest, double square, double length)
@@ -548,19 +533,16 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
                2 * (size_t)grid->rows.plane * sizeof(float));
     take(grid, sign * unit, a, cycle->level->b);
     for (int i = 0; i < end.cycles; i++) {
-        double xb = 0, xw = 0;
-        v_cycle(cycle);
-        for (int row = 0; row < grid->rows.nodes; row++) {
-            xb += cycle->sums[2 * row];
-            xw += cycle->sums[2 * row + 1];
-        }
-        double beta = i > 0 ? xb / last : 0;
-        double bend = xw - beta * xb / alpha; /* d.A d */
+        double sums[2];
+        v_cycle(cycle, sums);
+        double xb = sums[0], beta = i > 0 ? xb / last : 0;
+        double bend = sums[1] - beta * xb / alpha; /* d.A d */
         if (!(bend > 0 && xb > 0) || !isfinite(xb / bend))
             break;
         last = xb;
         alpha = xb / bend;
-        rest = update(cycle, alpha, beta, &largest) / (unit * unit);
+        rest =
+            advance(cycle, (float)alpha, (float)beta, &largest) / (unit * unit);
         largest /= unit;
         if (rest <= end.share * end.share * square ||
             (end.length > 0 && v_decides(grid, largest, rest, end.length)))

@@ -33,7 +33,6 @@ typedef struct VCycle {
     int levels;
     float *c[KINDS];   /* [plane] the grid's */
     float *p, *d, *Ad; /* [2 planes] of conjugate gradients */
-    double *sums;      /* [2 * rows] of the finest level */
     bool set_up;       /* the tensors are those at grid->x; set to false when
                           that moves */
     long cycles;       /* since somebody has set it to 0 */
