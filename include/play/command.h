@@ -60,7 +60,7 @@ struct Player;
 typedef Status Deed(struct Player *player, const Command *command);
 
 typedef struct CommandRow {
-    Deed *deed;       /* NULL: nothing but what every command does */
+    Deed *deed;
     const char *word; /* in scripts; NULL: not there */
     const char *does; /* for whoever reads or writes one */
     unsigned flags;

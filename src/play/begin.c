@@ -120,9 +120,8 @@ static const LecturePage *find_page(Player *player, const Command *command)
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
         if (!page)
-            snprintf(player->message, sizeof player->message,
-                     "there is no page '%s', they are 1 ... %d", command->text,
-                     lecture_count());
+            player_refuse(player, "there is no page '%s', they are 1 ... %d",
+                          command->text, lecture_count());
         return page;
     }
     if (!page && player->left)

@@ -107,15 +107,11 @@ const char *player_idle(const Player *player, const OptionRow *row)
 Status obey_add(Player *player, const Command *command)
 {
     const OptionRow *row = row_of(command);
-    const char *idle;
     if (!row || !is_number(player, row))
         return player_refuse(player, "this scene has no such number");
-    idle = player_idle(player, row);
-    if (idle) {
-        snprintf(player->message, sizeof player->message, "%s: %s", row->name,
-                 idle);
-        return STATUS_INVALID_INPUT;
-    }
+    const char *idle = player_idle(player, row);
+    if (idle)
+        return player_refuse(player, "%s: %s", row->name, idle);
     player->added |= (uint64_t)1 << (row - option_rows);
     player->column = COLUMN_CARDS;
     player_deselect(player);
@@ -157,14 +153,12 @@ Status obey_set(Player *player, const Command *command)
     const OptionRow *row = row_of(command);
     const Simulation *simulation = player_simulation(player);
     Options options[OPTIONS_MAX_PANES];
-    if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE) {
-        snprintf(player->message, sizeof player->message,
-                 "there is no option '%s' with a value",
-                 row ? row->name : command->text);
-        return STATUS_INVALID_INPUT;
-    }
-    if (player_idle(player, row))
-        return player_refuse(player, player_idle(player, row));
+    if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE)
+        return player_refuse(player, "there is no option '%s' with a value",
+                             row ? row->name : command->text);
+    const char *idle = player_idle(player, row);
+    if (idle)
+        return player_refuse(player, "%s", idle);
     bool one = player->opens || player_compares(player, row);
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);

@@ -599,11 +599,12 @@ Status player_input(Player *player, const Input *input)
         return command.kind ? player_obey(player, &command) : STATUS_OK;
     case INPUT_CLOSE:
         return ask(player, COMMAND_QUIT, 0);
-    case INPUT_REDRAW:
-        return ask(player, COMMAND_REDRAW, 0);
     case INPUT_LEAVE:
         player->show.hover = (Pick){.kind = PICK_NONE};
         player->show.over = (Hit){.zone = ZONE_NONE};
+        player->changed = true;
+        return STATUS_OK;
+    case INPUT_REDRAW:
         player->changed = true;
         return STATUS_OK;
     case INPUT_NONE:

@@ -10,9 +10,12 @@
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
 
-Status player_refuse(Player *player, const char *why)
+Status player_refuse(Player *player, const char *why, ...)
 {
-    snprintf(player->message, sizeof player->message, "%s", why);
+    va_list arguments;
+    va_start(arguments, why);
+    vsnprintf(player->message, sizeof player->message, why, arguments);
+    va_end(arguments);
     return STATUS_INVALID_INPUT;
 }
 
@@ -96,11 +99,10 @@ static Status check_number(Player *player, const Command *command)
     }
     if (command->number < count)
         return STATUS_OK;
-    const char *word = command_row(command->kind)->word;
-    snprintf(player->message, sizeof player->message,
-             count > 0 ? "%s: there are 0 ... %ld, no %ld" : "%s: none is here",
-             word, count - 1, command->number);
-    return STATUS_INVALID_INPUT;
+    return player_refuse(
+        player,
+        count > 0 ? "%s: there are 0 ... %ld, no %ld" : "%s: none is here",
+        command_row(command->kind)->word, count - 1, command->number);
 }
 
 /* Later steps that a change has left behind. */
@@ -176,7 +178,7 @@ Status player_obey(Player *player, const Command *asked)
         return STATUS_OUT_OF_MEMORY;
     if (noted)
         player->journal.line[at].gesture = player->gesture;
-    if (!status && row->deed)
+    if (!status)
         status = row->deed(player, &command);
     if (past->works && !(flags & SCREEN)) {
         Status shown = player_work(player);

@@ -10,21 +10,14 @@
 /* s, of a frame in which steps are made; then inputs are looked at. */
 static const double SLICE = 0.05;
 
-/* ---- obey.c: commands, deeds, the journal -------------------------------- */
+/* ---- obey.c: commands and their deeds ------------------------------------ */
 
-Deed obey_pause, obey_next, obey_back, obey_finer, obey_goto,
-    obey_undo; /* steps.c */
-Deed obey_set, obey_default, obey_select, obey_raise, obey_switch, obey_method,
-    obey_add, obey_add_pane, obey_end_pane, obey_pin, obey_grab, obey_drag,
-    obey_place, obey_box, obey_obstacle, obey_handle; /* change.c */
-Deed obey_scene, obey_restart, obey_page, obey_predict, obey_cell; /* begin.c */
-Deed obey_screen, obey_column, obey_escape, obey_camera, obey_card, obey_shot,
-    obey_film, obey_hash;                /* screen.c */
-Deed obey_type, obey_enter;              /* hands.c */
-Deed obey_sheet, obey_choose, obey_open; /* sheet.c */
+#define ROW(kind, deed, ...) Deed deed;
+#include "play/command_rows.def"
+#undef ROW
 
 /* Says why a command makes no sense here.  Returns INVALID_INPUT. */
-Status player_refuse(Player *player, const char *why);
+Status player_refuse(Player *player, const char *why, ...);
 
 /* A command that belongs to the one that is obeyed, or to what the hand does:
  * they are undone at once.  Of an option: its row, and the value. */
