@@ -604,20 +604,16 @@ static Status begin_step(Past *past, int pane)
     return go_on(past, pane, simulation_begin(&machine->simulation));
 }
 
-static Status iterate(Past *past, int pane)
+/* The next iteration of this pane. */
+static Status work_on(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
+    if (!machine->iterating)
+        return begin_step(past, pane);
     const Newton *newton = listened_to(&machine->simulation);
     if (newton && past->keeps)
         rounds_look(&machine->rounds, newton);
     return go_on(past, pane, simulation_iterate(&machine->simulation));
-}
-
-/* The next iteration of this pane. */
-static Status work_on(Past *past, int pane)
-{
-    return past->machine[pane].iterating ? iterate(past, pane)
-                                         : begin_step(past, pane);
 }
 
 /* ---- work ---------------------------------------------------------------- */
@@ -756,55 +752,48 @@ static Status settle(Past *past)
     return past_finish(past);
 }
 
-/* The branch that could not begin goes. */
-static void pop_branch(Past *past)
+/* A simulation at step 0. */
+static Status begin_machine(Machine *machine, const Options *options)
 {
-    past->works = false;
-    leave_all(past);
-    past->now--;
-    drop_branches(past, past->now + 1);
-    if (past->now >= 0)
-        past->step = present(past)->shown;
-}
-
-/* A simulation at step 0, and its entry. */
-static Status begin_pane(Past *past, int pane, const Options *options)
-{
-    Machine *machine = &past->machine[pane];
-    Entry *entry = &present(past)->entry[pane];
     Status status = make_simulation(machine, options);
     Control *control = status ? NULL : control_of(&machine->simulation);
     if (!control)
         return status ? status : STATUS_OUT_OF_MEMORY;
     control->options = *options;
-    *entry = (Entry){.control = control, .substeps = 1};
-    machine->start = control_keep(control);
+    machine->start = control;
     machine->control = control_keep(control);
     machine->outcome = (Outcome){.status = machine->simulation.status};
     rounds_clear(&machine->rounds);
-    if (past->keeps)
-        status = keep_state(past, pane, entry);
-    return status ? status : land(past, pane, 0);
+    return STATUS_OK;
 }
 
 Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit)
 {
     const Branch wanted = {.fresh = true, .panes = panes, .gesture = gesture};
+    Status status = STATUS_OK;
     stop_work(past);
-    if (!push_branch(past, wanted, edit))
+    leave_all(past);
+    for (int p = 0; p < panes && !status; p++)
+        status = begin_machine(&past->machine[p], &options[p]);
+    if (status && past->now >= 0)
+        past_aim(past, past->step, false);
+    if (status)
+        return status;
+    Branch *branch = push_branch(past, wanted, edit);
+    if (!branch)
         return STATUS_OUT_OF_MEMORY;
     past->along_nodes = 0; /* those were other nodes */
-    Status status = STATUS_OK;
-    for (int p = 0; p < panes && !status; p++)
-        status = begin_pane(past, p, &options[p]);
-    if (!status) {
-        forget_behind(past, -1);
-        return status;
+    forget_behind(past, -1);
+    for (int p = 0; p < panes && !status; p++) {
+        Entry *entry = &branch->entry[p];
+        entry->control = control_keep(past->machine[p].start);
+        entry->substeps = 1;
+        if (past->keeps)
+            status = keep_state(past, p, entry);
+        if (!status)
+            status = land(past, p, 0);
     }
-    pop_branch(past);
-    if (past->now >= 0)
-        past_aim(past, past->step, false);
     return status;
 }
 
