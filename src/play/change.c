@@ -120,8 +120,17 @@ Status obey_add(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* The value of a command into these options. */
-static Status put_value(Player *player, const Command *command,
+/* Whether obstacles leave room for the bodies of a pane; else it is told. */
+static Status find_room(Player *player, int pane, const Options *options)
+{
+    return simulation_has_room(&player->past.machine[pane].simulation, options,
+                               player->message, sizeof player->message)
+               ? STATUS_OK
+               : STATUS_INVALID_INPUT;
+}
+
+/* The value of a command into the options of a pane. */
+static Status put_value(Player *player, int pane, const Command *command,
                         Options *options)
 {
     char value[COMMAND_TEXT_SIZE];
@@ -135,14 +144,7 @@ static Status put_value(Player *player, const Command *command,
         integrator_method_refuses(options_method(options),
                                   &player_simulation(player)->system))
         return player_refuse(player, "a term of this scene refuses it");
-    return status;
-}
-
-/* Whether obstacles leave room for the bodies of a pane; else it is told. */
-static bool has_room(Player *player, int pane, const Options *options)
-{
-    return simulation_has_room(&player->past.machine[pane].simulation, options,
-                               player->message, sizeof player->message);
+    return status || !row->times ? status : find_room(player, pane, options);
 }
 
 /* An option while the run goes on, or from the start where it cannot change any
@@ -166,10 +168,7 @@ Status obey_set(Player *player, const Command *command)
     double old = options[player->active].number[row->slot];
     Status status = STATUS_OK;
     for (int p = from; p < to && !status; p++)
-        status = put_value(player, command, &options[p]);
-    for (int p = from; p < to && !status && row->times; p++)
-        if (!has_room(player, p, &options[p]))
-            status = STATUS_INVALID_INPUT;
+        status = put_value(player, p, command, &options[p]);
     if (status)
         return status;
     Command change = *command;
@@ -409,10 +408,10 @@ Status obey_obstacle(Player *player, const Command *command)
     double *at = obstacle_at(&moved, (int)command->number);
     at[0] = command->x;
     at[1] = command->y;
-    for (int p = 0; p < past_panes(&player->past); p++)
-        if (!has_room(player, p, &moved))
-            return STATUS_INVALID_INPUT;
-    return change_all(player, command);
+    Status status = STATUS_OK;
+    for (int p = 0; p < past_panes(&player->past) && !status; p++)
+        status = find_room(player, p, &moved);
+    return status ? status : change_all(player, command);
 }
 
 /* It pulls, or lets go. */

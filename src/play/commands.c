@@ -148,11 +148,10 @@ Status command_parse(const char *line, Command *command, char *message,
     while (kind < COMMAND_KINDS && (!command_rows[kind].word ||
                                     strcmp(command_rows[kind].word, word) != 0))
         kind++;
-    if (kind == COMMAND_KINDS) {
-        snprintf(message, size,
-                 "there is no command '%.20s': elasto --help commands", word);
-        return STATUS_INVALID_INPUT;
-    }
+    if (kind == COMMAND_KINDS)
+        return refuse((Refusal){message, size},
+                      "there is no command '%.20s': elasto --help commands",
+                      word);
     command->kind = (CommandKind)kind;
     const char *takes = command_rows[kind].takes;
     bool good = true;
@@ -160,9 +159,8 @@ Status command_parse(const char *line, Command *command, char *message,
         good = good && take_word(&line, next) && read_word(next, at, command);
     if (good && line[strspn(line, blanks)] == '\0')
         return STATUS_OK;
-    snprintf(message, size, "behind '%s' stands %s", word,
-             takes ? takes : "nothing");
-    return STATUS_INVALID_INPUT;
+    return refuse((Refusal){message, size}, "behind '%s' stands %s", word,
+                  takes ? takes : "nothing");
 }
 
 void command_format(const Command *command, char *line, size_t size)
@@ -218,10 +216,9 @@ static Status read_line(char *text, Script *script, char *message, size_t size)
     errno = 0;
     long step = strtol(text, &end, 10);
     if (!isdigit((unsigned char)*text) || errno ||
-        !isspace((unsigned char)*end)) {
-        snprintf(message, size, "a line is STEP COMMAND, the step a number");
-        return STATUS_INVALID_INPUT;
-    }
+        !isspace((unsigned char)*end))
+        return refuse((Refusal){message, size},
+                      "a line is STEP COMMAND, the step a number");
     Status status = command_parse(end, &command, message, size);
     return status ? status : script_add(script, step, &command);
 }
@@ -230,26 +227,24 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
 {
     char *text = NULL, why[600] = "", shown[80];
     size_t room = 0;
+    const Refusal told = {message, size};
     *script = (Script){0};
     if (!name)
         return STATUS_OK;
     one_line(name, shown, sizeof shown);
     FILE *file = fopen(name, "r");
-    Status status = file ? STATUS_OK : STATUS_FILE_FAILED;
+    Status status = STATUS_OK;
     long number = 0;
-    for (; !status && getline(&text, &room, file) >= 0; number++)
+    for (; file && !status && getline(&text, &room, file) >= 0; number++)
         status = read_line(text, script, why, sizeof why);
-    if (!status && !feof(file))
-        status = STATUS_FILE_FAILED;
-    if (status == STATUS_FILE_FAILED)
-        snprintf(message, size, "--script: %s: %s", shown, strerror(errno));
-    if (status == STATUS_INVALID_INPUT)
-        snprintf(message, size, "--script: %s, line %ld: %s", shown, number,
-                 why);
+    if (!file || (!status && !feof(file)))
+        status = refuse(told, "--script: %s: %s", shown, strerror(errno));
+    else if (status == STATUS_INVALID_INPUT)
+        refuse(told, "--script: %s, line %ld: %s", shown, number, why);
     free(text);
     if (file)
         fclose(file);
-    return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
+    return status;
 }
 
 /* Whether the next line, of the same drag, does all that this one does. */

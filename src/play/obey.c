@@ -7,6 +7,7 @@
 #include "picture/picture.h"
 #include "picture/plot.h"
 #include "play/playing.h"
+#include "scenes/one_line.h"
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
 
@@ -16,6 +17,7 @@ Status player_refuse(Player *player, const char *why, ...)
     va_start(arguments, why);
     vsnprintf(player->message, sizeof player->message, why, arguments);
     va_end(arguments);
+    one_line(player->message, player->message, sizeof player->message);
     return STATUS_INVALID_INPUT;
 }
 
@@ -109,13 +111,10 @@ static Status check_number(Player *player, const Command *command)
 static void tell_left(Player *player, long step, long newest)
 {
     const Branch *branch = &player->past.branch[player->past.now];
-    size_t used = strlen(player->note);
-    if (branch->fresh || branch->count > 2 || step >= newest ||
-        used >= sizeof player->note)
-        return;
-    snprintf(player->note + used, sizeof player->note - used,
-             "%ssteps %ld ... %ld: Ctrl+Z leads back", used ? "; " : "",
-             step + 1, newest);
+    if (!branch->fresh && step < newest)
+        append(player->note, sizeof player->note,
+               "%ssteps %ld ... %ld: Ctrl+Z leads back",
+               player->note[0] ? "; " : "", step + 1, newest);
 }
 
 /* What a key means here, so that a script of it leads to the same place. */

@@ -179,7 +179,6 @@ static Status obey_script(Player *player)
             char line[128];
             command_format(command, line, sizeof line);
             one_line(line, line, sizeof line);
-            one_line(player->message, player->message, sizeof player->message);
             fprintf(stderr, "script: step %ld: '%s': %s\n", player->past.step,
                     line, player->message);
             player->message[0] = '\0';
