@@ -103,9 +103,6 @@ int rounds_peak(const Rounds *rounds);
  * these do not have: made again, they do. */
 bool rounds_drawn(Rounds *rounds);
 
-/* The largest coordinate in them, m; 0 where none is kept. */
-double rounds_extent(const Rounds *rounds);
-
 /* What the picture shows at a place; -1: the whole step is over.  All pointers
  * stay those of the rounds.  Returns the positions to draw, [size] m, or NULL:
  * those of the state after the step. */

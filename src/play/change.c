@@ -10,16 +10,6 @@
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-Status player_change(Player *player, const Command *change, int from, int to,
-                     bool again)
-{
-    Past *past = &player->past;
-    if (player->mode >= MODE_HELD)
-        player->mode = MODE_RUN; /* something may move again */
-    Status status = past_edit(past, change, from, to, again, player->gesture);
-    return status ? status : player_follow(player);
-}
-
 /* In all panes; the picture of the present step is another one. */
 static Status change_all(Player *player, const Command *change)
 {
@@ -283,19 +273,16 @@ Status obey_method(Player *player, const Command *command)
 /* The same run with the next method beside the last one. */
 Status obey_add_pane(Player *player, const Command *command)
 {
-    Past *past = &player->past;
-    int panes = past_panes(past);
+    int panes = past_panes(&player->past);
     Command change;
     if (panes == OPTIONS_MAX_PANES)
         return player_refuse(player, "six are side by side: no room for more");
     if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
-    if (!past->keeps)
-        return player_refuse(player, "nothing to be put beside it here");
     Status status = find_method(player, panes - 1, &change);
     if (!status)
-        status = past_edit(past, command, 0, 0, false, player->gesture);
+        status = player_change(player, command, 0, 0, false);
     if (!status)
         status = player_change(player, &change, panes, panes + 1, false);
     if (status)
@@ -309,11 +296,9 @@ Status obey_add_pane(Player *player, const Command *command)
 /* The last pane goes. */
 Status obey_end_pane(Player *player, const Command *command)
 {
-    Past *past = &player->past;
-    if (past_panes(past) < 2)
+    if (past_panes(&player->past) < 2)
         return player_refuse(player, "there is only one");
-    Status status = past_edit(past, command, 0, 0, false, player->gesture);
-    return status ? status : player_follow(player);
+    return player_change(player, command, 0, 0, false);
 }
 
 /* ---- hands --------------------------------------------------------------- */

@@ -47,6 +47,11 @@ bool player_stands(const Player *player);
 Status player_begin(Player *player, const Options *options, int count,
                     const Command *edit);
 
+/* A change from here on in panes from ... to - 1; again: the step that is shown
+ * is to be made once more with it. */
+Status player_change(Player *player, const Command *change, int from, int to,
+                     bool again);
+
 /* Iterates until the step that is wanted is shown, or the slice of time of a
  * frame is over. */
 Status player_work(Player *player);
@@ -70,9 +75,6 @@ void player_stop(Player *player);
 /* What goes whenever another step is shown. */
 void player_leave_step(Player *player);
 
-/* The past is another one behind some step. */
-Status player_follow(Player *player);
-
 /* Where somebody attends, a step that failed is only shown.  Returns OK, or the
  * status of what ends the run. */
 Status player_bear(Player *player, Status status);
@@ -81,11 +83,6 @@ Status player_bear(Player *player, Status status);
 Status player_write_rest(Player *player);
 
 /* ---- change.c ------------------------------------------------------------ */
-
-/* A change from here on in panes from ... to - 1; again: the step that is shown
- * is to be made once more with it. */
-Status player_change(Player *player, const Command *change, int from, int to,
-                     bool again);
 
 /* Whether the panes have different values of this option. */
 bool player_compares(const Player *player, const OptionRow *row);

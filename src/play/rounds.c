@@ -290,15 +290,6 @@ bool rounds_drawn(Rounds *rounds)
     return lacks;
 }
 
-double rounds_extent(const Rounds *rounds)
-{
-    double extent = 0;
-    for (int i = 0; i <= rounds->made.count && i < rounds->room; i++)
-        for (int k = 0; rounds->round[i].x && k < rounds->size; k++)
-            extent = fmax(extent, fabs(rounds->round[i].x[k]));
-    return extent;
-}
-
 /* The numbers of a round from the line on at which they are known. */
 static void trace_round(const Rounds *rounds, const Station *at, Trace *trace)
 {

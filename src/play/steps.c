@@ -134,23 +134,8 @@ void player_leave_step(Player *player)
     }
 }
 
-Status player_begin(Player *player, const Options *options, int count,
-                    const Command *edit)
-{
-    Past *past = &player->past;
-    bool again = past->branches > 0;
-    Status status = past_begin(past, options, count, player->gesture, edit);
-    if (status) /* what was there before is going to be shown again */
-        return again ? player_refuse(player, status_text(status)) : status;
-    player_leave_step(player);
-    player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
-    player->sampled = -1;
-    player->warned = player->holds = false;
-    status = player_follow(player);
-    return status ? status : record_step(player);
-}
-
-Status player_follow(Player *player)
+/* The past is another one behind some step. */
+static Status follow(Player *player)
 {
     Past *past = &player->past;
     long same = past->same;
@@ -164,6 +149,32 @@ Status player_follow(Player *player)
         return STATUS_OK;
     player->written = same;
     return recording_cut(&player->recording, same);
+}
+
+Status player_begin(Player *player, const Options *options, int count,
+                    const Command *edit)
+{
+    Past *past = &player->past;
+    bool again = past->branches > 0;
+    Status status = past_begin(past, options, count, player->gesture, edit);
+    if (status) /* what was there before is going to be shown again */
+        return again ? player_refuse(player, status_text(status)) : status;
+    player_leave_step(player);
+    player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
+    player->sampled = -1;
+    player->warned = player->holds = false;
+    status = follow(player);
+    return status ? status : record_step(player);
+}
+
+Status player_change(Player *player, const Command *change, int from, int to,
+                     bool again)
+{
+    Past *past = &player->past;
+    if (player->mode >= MODE_HELD)
+        player->mode = MODE_RUN; /* something may move again */
+    Status status = past_edit(past, change, from, to, again, player->gesture);
+    return status ? status : follow(player);
 }
 
 /* ---- where it stops by itself -------------------------------------------- */
@@ -291,19 +302,23 @@ static void stand_at(Player *player, int pane, int place)
 static void enter(Player *player, Then then)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const Machine *machine = &player->past.machine[p];
-        const Rounds *rounds = &machine->rounds;
+        const Rounds *rounds = &player->past.machine[p].rounds;
+        Trace trace;
+        double far = 0;
         int place = rounds->places <= 2  ? -1 /* the start and the end */
                     : then == THEN_ENTER ? 0
                     : then == THEN_LEAVE ? rounds->places - 1
                                          : rounds_peak(rounds);
-        if (place >= 0)
-            stand_at(player, p, place);
-        if (place < 0 || then != THEN_PEAK)
+        if (place < 0)
             continue;
+        stand_at(player, p, place);
+        const double *x = rounds_trace(rounds, place, &trace);
+        if (then != THEN_PEAK)
+            continue;
+        for (int i = 0; x && i < rounds->size; i++)
+            far = fmax(far, fabs(x[i]));
         player_note(player, "update %d of %d: nodes are %.4g m away; N goes on",
-                    rounds->place[place].round + 1, rounds->made.count,
-                    fmax(machine->outcome.extent, rounds_extent(rounds)));
+                    rounds->place[place].round + 1, rounds->made.count, far);
         player->warning = true;
     }
 }
@@ -617,7 +632,7 @@ Status obey_undo(Player *player, const Command *command)
     player->mode = MODE_PAUSE;
     player->holds = false;
     player->mouse.gesture = ++player->gestures; /* if a drag goes on */
-    Status status = player_follow(player);
+    Status status = follow(player);
     player_leave_step(player);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
     return status;
