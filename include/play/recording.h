@@ -23,7 +23,7 @@
 #include "scenes/simulation.h"
 
 /* Room for the longest path, and for a file's name behind it. */
-enum { RECORDING_NAME_SIZE = 4096 + 64, RECORDING_TOLD = 320 };
+enum { RECORDING_NAME_SIZE = 4096 + 64 };
 
 typedef enum RecordingTable {
     RECORDING_STATES,
@@ -35,17 +35,17 @@ typedef enum RecordingTable {
 } RecordingTable;
 
 typedef struct Recording {
-    const char *folder;             /* of the frames, or NULL: none */
-    long frames;                    /* written */
-    Film film;                      /* of the frames */
-    char film_told[RECORDING_TOLD]; /* the last that ended: frames, name; "" */
-    const char *vtk;                /* folder of steps, or NULL */
-    int panes;                      /* when it was opened */
-    Table table[RECORDING_TABLES];  /* not open: not written */
-    bool tables;                    /* any is open */
-    bool standard;                  /* one of them is standard output */
-    bool aside;                     /* set: at the end tables stay NAME.part */
-    char message[512];              /* the first failure in one line; "" */
+    const char *folder;            /* of the frames, or NULL: none */
+    long frames;                   /* written */
+    Film film;                     /* of the frames */
+    char film_told[512];           /* the last that ended: frames, name; "" */
+    const char *vtk;               /* folder of steps, or NULL */
+    int panes;                     /* when it was opened */
+    Table table[RECORDING_TABLES]; /* not open: not written */
+    bool tables;                   /* any is open */
+    bool standard;                 /* one of them is standard output */
+    bool aside;                    /* set: at the end tables stay NAME.part */
+    char message[RECORDING_NAME_SIZE + 64]; /* the first failure; "" */
 } Recording;
 
 /* Opens what options->frames, film and the tables ask for; makes the folder.

@@ -83,8 +83,8 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
     int both = canvas->width < film->width ? canvas->width : film->width;
     for (int i = 0; i < shown * film->height; i++) {
         int y = i % film->height, there = y < canvas->height ? both : 0;
-        fwrite(canvas->pixels + (size_t)canvas->width * (size_t)y, sizeof white,
-               (size_t)there, film->pipe);
+        size_t first = there > 0 ? (size_t)canvas->width * (size_t)y : 0;
+        fwrite(canvas->pixels + first, sizeof white, (size_t)there, film->pipe);
         for (int x = there; x < film->width; x++)
             fwrite(&white, sizeof white, 1, film->pipe);
     }

@@ -134,18 +134,16 @@ Status obey_type(Player *player, const Command *command)
 static Status open_line(Player *player, const char *line)
 {
     const OptionRow *all[OPTIONS_MOST];
-    Command command = {.kind = COMMAND_PAGE, .joins = true};
-    snprintf(command.text, sizeof command.text, "%s", line);
-    if (player->column == COLUMN_OPTIONS && !player->sheet) {
-        char *end;
-        long number = strtol(line, &end, 10);
-        int count = player_all_numbers(player, all);
-        if (*end || number < 1 || number > count)
-            return player_refuse(player, "there is no such number in the list");
-        command.kind = COMMAND_ADD;
-        command.number = all[number - 1] - option_rows;
+    Command page = {.kind = COMMAND_PAGE, .joins = true};
+    char *end;
+    long number = strtol(line, &end, 10);
+    if (player->column != COLUMN_OPTIONS || player->sheet) {
+        snprintf(page.text, sizeof page.text, "%s", line);
+        return player_obey(player, &page);
     }
-    return player_obey(player, &command);
+    if (*end || number < 1 || number > player_all_numbers(player, all))
+        return player_refuse(player, "there is no such number in the list");
+    return ask(player, COMMAND_ADD, all[number - 1] - option_rows);
 }
 
 /* The number that was typed against the page's answer, which is shown from now

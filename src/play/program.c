@@ -11,8 +11,10 @@
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-/* The one line about what went wrong, fit for a terminal. */
-static void tell(const char *format, ...)
+/* The one line about what went wrong, fit for a terminal.  Returns the exit
+ * code. */
+__attribute__((format(printf, 2, 3))) static int tell(int code,
+                                                      const char *format, ...)
 {
     char line[1024];
     va_list arguments;
@@ -21,22 +23,15 @@ static void tell(const char *format, ...)
     va_end(arguments);
     one_line(line, line, sizeof line);
     fprintf(stderr, "elasto: %s\n", line);
-}
-
-/* A bad command line. */
-static int misuse(const char *message)
-{
-    tell("%s", message);
-    return EXIT_MISUSED;
+    return code;
 }
 
 /* Whether everything printed arrived; errno was 0 before. */
 static int check_output(void)
 {
-    if (!ferror(stdout) && fflush(stdout) == 0)
-        return EXIT_FINE;
-    tell("standard output: %s", output_reason(errno));
-    return EXIT_FAILED;
+    return !ferror(stdout) && fflush(stdout) == 0
+               ? EXIT_FINE
+               : tell(EXIT_FAILED, "standard output: %s", output_reason(errno));
 }
 
 /* What a presenter says, page by page, and when it begins, min. */
@@ -58,9 +53,6 @@ static void print_notes(void)
  * PROGRAM_PLAYS: none of them was asked for. */
 static int print_information(const Options *options)
 {
-    if (!options->help && !options->version && !options->notes &&
-        !options->list)
-        return PROGRAM_PLAYS;
     errno = 0;
     if (options->help)
         options_help(stdout);
@@ -68,6 +60,8 @@ static int print_information(const Options *options)
         puts("elasto " ELASTO_VERSION);
     else if (options->notes)
         print_notes();
+    else if (!options->list)
+        return PROGRAM_PLAYS;
     else if (options->page)
         for (int i = 0; lecture_pages[i].name; i++)
             printf("%2d %-12s %s\n", i + 1, lecture_pages[i].name,
@@ -92,9 +86,10 @@ static const char *advice(const Player *player, Status status)
                                          : "; try a --start nearer to 0,0";
 }
 
-/* The one line about a failure. */
-static void report_failure(const Player *player, Status status)
+/* The one line about a failure.  Returns the exit code. */
+static int report_failure(const Player *player, Status status)
 {
+    int code = status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
     const char *message = player->message;
     int panes = past_panes(&player->past), p = 0;
     char pane[32] = "";
@@ -105,15 +100,14 @@ static void report_failure(const Player *player, Status status)
     if (panes > 1)
         snprintf(pane, sizeof pane, "pane %d, ", p + 1);
     if (message[0])
-        tell("%s", message);
-    else if (status == STATUS_SCREEN_FAILED)
-        tell("%s: %s", status_text(status), window_failure());
-    else if (p < panes)
-        tell("%sstep %ld failed: %s%s", pane,
-             player->past.machine[p].simulation.steps + 1, status_text(status),
-             advice(player, status));
-    else
-        tell("%s%s", status_text(status), advice(player, status));
+        return tell(code, "%s", message);
+    if (status == STATUS_SCREEN_FAILED)
+        return tell(code, "%s: %s", status_text(status), window_failure());
+    if (p < panes)
+        return tell(code, "%sstep %ld failed: %s%s", pane,
+                    player->past.machine[p].simulation.steps + 1,
+                    status_text(status), advice(player, status));
+    return tell(code, "%s%s", status_text(status), advice(player, status));
 }
 
 /* ---- what a run did ------------------------------------------------------ */
@@ -122,12 +116,13 @@ static void report_failure(const Player *player, Status status)
 __attribute__((format(printf, 3, 4))) static void
 print(FILE *file, const char *name, const char *format, ...)
 {
+    char line[512];
     va_list arguments;
     va_start(arguments, format);
-    fprintf(file, "%-20s", name);
-    vfprintf(file, format, arguments);
-    fputc('\n', file);
+    vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
+    one_line(line, line, sizeof line);
+    fprintf(file, "%-20s%s\n", name, line);
 }
 
 /* Who made the first run's last step, and why it was not multigrid; where
@@ -197,7 +192,6 @@ static void print_summary(FILE *file, const Player *player)
 {
     const Recording *recording = &player->recording;
     int panes = past_panes(&player->past);
-    char name[256];
     for (int i = 0; i < panes; i++) {
         if (panes > 1)
             fprintf(file, "pane %-14d %s\n", i + 1, player->side[i].label);
@@ -206,18 +200,16 @@ static void print_summary(FILE *file, const Player *player)
             fputc('\n', file);
     }
     print(file, "wall time", "%.3f s", clock_now() - player->started);
-    if (recording->folder) {
-        one_line(recording->folder, name, sizeof name);
-        print(file, "frames written", "%ld, in %s/", recording->frames, name);
-    }
+    if (recording->folder)
+        print(file, "frames written", "%ld, in %s/", recording->frames,
+              recording->folder);
     if (recording->film_told[0])
         print(file, "film", "%s", recording->film_told);
     print(file, "state hash", "%016llx",
           (unsigned long long)player_hash(player));
 }
 
-/* ---- the end --------------------------------------------------------------
- */
+/* ---- the end ------------------------------------------------------------- */
 
 /* Whether any step, or the scene as a whole, did not converge. */
 static bool is_unconverged(const Player *player)
@@ -238,10 +230,8 @@ int program_end(Player *player, Status status)
     Status closed = player_finish(player);
     if (!status)
         status = closed;
-    if (status) {
-        report_failure(player, status);
-        return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
-    }
+    if (status)
+        return report_failure(player, status);
     errno = 0;
     if (!player->given[0].quiet)
         print_summary(player->recording.standard ? stderr : stdout, player);
@@ -258,12 +248,10 @@ static int make_handout(const Options *options,
                         const volatile sig_atomic_t *stop, Player *player)
 {
     Status status = handout_write(options, stop, player);
-    if (!status)
-        return EXIT_FINE;
-    tell("%s: %s", options->handout,
-         status == STATUS_FILE_FAILED ? output_reason(errno)
-                                      : status_text(status));
-    return EXIT_FAILED;
+    return !status ? EXIT_FINE
+                   : tell(EXIT_FAILED, "%s: %s", options->handout,
+                          status == STATUS_FILE_FAILED ? output_reason(errno)
+                                                       : status_text(status));
 }
 
 /* The words of the command line that decide what is simulated, for messages:
@@ -292,6 +280,8 @@ static void join_line(int argc, char **argv, char *line, size_t size)
 static bool is_same_file(const char *one, const char *other)
 {
     struct stat first, second;
+    if (output_is_standard(one) && output_is_standard(other))
+        return true;
     if (stat(one, &first) || stat(other, &second))
         return strcmp(one, other) == 0;
     return !S_ISCHR(first.st_mode) && first.st_dev == second.st_dev &&
@@ -337,15 +327,15 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     }
     for (int i = 0; i < options->panes; i++)
         if (options_parse(argc, argv, i, &options[i], message, sizeof message))
-            return misuse(message);
+            return tell(EXIT_MISUSED, "%s", message);
     if (options->notes && argc > 2)
-        return misuse(
-            "--notes prints those of all pages: nothing goes with it");
+        return tell(EXIT_MISUSED,
+                    "--notes prints those of all pages: nothing goes with it");
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
     if (!files_differ(options, message, sizeof message))
-        return misuse(message);
+        return tell(EXIT_MISUSED, "%s", message);
     if (options->handout) {
         code = make_handout(options, stop, player);
         *player = (Player){0};

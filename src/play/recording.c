@@ -7,19 +7,16 @@
 
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
-#include "scenes/one_line.h"
 
 /* Tells of the first failure; returns status. */
 static Status note(Recording *recording, Status status, const char *name)
 {
-    char shown[256];
     const char *why = recording->film.reason;
     if (!status || recording->message[0])
         return status;
     if (!why)
         why = output_reason(status == STATUS_OUT_OF_MEMORY ? ENOMEM : errno);
-    one_line(name, shown, sizeof shown);
-    snprintf(recording->message, sizeof recording->message, "%s: %s", shown,
+    snprintf(recording->message, sizeof recording->message, "%s: %s", name,
              why);
     recording->film.reason = NULL;
     return status;
@@ -152,15 +149,15 @@ Status recording_film(Recording *recording, const char *name)
 
 Status recording_end_film(Recording *recording)
 {
-    char name[256], told[RECORDING_TOLD];
+    char name[RECORDING_NAME_SIZE] = "";
     Film *film = &recording->film;
-    if (!film_runs(film))
-        return STATUS_OK;
-    one_line(film->output.name, name, sizeof name);
-    snprintf(told, sizeof told, "%ld frames, in %s", film->frames, name);
+    long frames = film->frames;
+    if (film_runs(film))
+        snprintf(name, sizeof name, "%s", film->output.name);
     Status status = film_close(film);
-    if (!status)
-        memcpy(recording->film_told, told, sizeof told);
+    if (!status && frames > 0)
+        snprintf(recording->film_told, sizeof recording->film_told,
+                 "%ld frames, in %s", frames, name);
     return note(recording, status, name);
 }
 
@@ -174,10 +171,6 @@ static Status open_table(const Options *options, Recording *recording, int t)
     snprintf(list, sizeof list, "%s/steps.pvd", name);
     if (t == RECORDING_VTK)
         name = list;
-    if (output_is_standard(name) && recording->standard) {
-        errno = EBUSY;
-        return note(recording, STATUS_FILE_FAILED, name);
-    }
     recording->standard = recording->standard || output_is_standard(name);
     recording->tables = true;
     set_columns(&recording->table[t], t, recording->panes);

@@ -150,18 +150,17 @@ Status obey_choose(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Its scene as a command that a script can repeat. */
+/* Its scene as a command that a script can repeat; the page that is open is
+ * behind the sheet. */
 Status player_open_cell(Player *player, int cell)
 {
-    Command command = {.kind = cell > 0 ? COMMAND_SCENE : COMMAND_PAGE_ON,
-                       .joins = true};
+    char line[32] = "page-on";
+    bool behind = cell == 0 && player_settings(player)->page;
     if (cell > 0)
-        snprintf(command.text, sizeof command.text, "%s",
-                 scenes[cell - 1].name);
-    else if (player_settings(player)->page)
-        return obey_sheet(player, &command); /* it is behind the sheet */
-    Status status = player_obey(player, &command);
+        snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);
+    Status status = behind ? STATUS_OK : player_obey_lines(player, line);
     player_close_sheet(player);
+    player_deselect(player);
     return status;
 }
 
