@@ -2,9 +2,9 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "play/player.h"
 
 static volatile sig_atomic_t main_stop = 0;
@@ -17,9 +17,7 @@ static Player main_player; /* too large for some stacks */
 static void on_signal(int number)
 {
     static double first; /* s */
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    double now = (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+    double now = clock_now();
     if (!main_stop)
         first = now;
     else if (now - first > 0.1) {

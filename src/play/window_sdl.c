@@ -34,7 +34,7 @@ static bool tab; /* Tab is down and has asked for nothing yet */
 /* As they were at the event that is read: it may have waited, and SDL only
  * tells what is held now. */
 static bool tab_held, shift;
-static int mouse[2];
+static SDL_Point mouse;
 
 const char *window_failure(void)
 {
@@ -194,19 +194,27 @@ static SDL_Keycode latin_key(const SDL_Keysym *key)
 }
 
 /* "Ctrl+", "Shift+", "Tab+" in front of the key's own name.  Signs and digits
- * come as texts, wherever a keyboard has them. */
-static void name_key(const SDL_KeyboardEvent *event, Input *input)
+ * come as texts, wherever a keyboard has them; Tab is told when it comes up
+ * again, for Tab+M is another key.  When the window loses the keys SDL lets go
+ * of all of them. */
+static void read_key(const SDL_KeyboardEvent *event, Input *input)
 {
     SDL_Keycode key = latin_key(&event->keysym);
     SDL_Scancode place = event->keysym.scancode;
     SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
     bool letter = key >= SDLK_a && key <= SDLK_z;
     bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
+    bool down = event->state == SDL_PRESSED, is_tab = key == SDLK_TAB;
+    bool told = is_tab ? tab && !down : down;
+    shift = (mod & KMOD_SHIFT) != 0;
+    if (is_tab)
+        tab_held = down;
     if ((mod & (KMOD_ALT | KMOD_GUI)) || (typed && !(mod & KMOD_CTRL)) ||
         (place >= SDL_SCANCODE_LCTRL && place <= SDL_SCANCODE_RGUI))
         return;
-    tab = key == SDLK_TAB; /* told when it comes up: Tab+M is another key */
-    if (tab)
+    if (down || is_tab)
+        tab = down && is_tab;
+    if (!told)
         return;
     input->kind = INPUT_KEY;
     input->repeats = event->repeat != 0;
@@ -215,27 +223,8 @@ static void name_key(const SDL_KeyboardEvent *event, Input *input)
              tab_held ? "Tab+" : "", sdl.GetKeyName(key));
 }
 
-/* What is held; when the window loses the keys SDL lets go of all of them. */
-static void hold_key(const SDL_KeyboardEvent *event)
-{
-    shift = (event->keysym.mod & KMOD_SHIFT) != 0;
-    if (event->keysym.sym == SDLK_TAB)
-        tab_held = event->state == SDL_PRESSED;
-}
-
-/* Tab alone. */
-static void name_tab(const SDL_KeyboardEvent *event, Input *input)
-{
-    if (event->keysym.sym != SDLK_TAB || !tab)
-        return;
-    tab = false;
-    input->kind = INPUT_KEY;
-    snprintf(input->key, sizeof input->key, "%s",
-             event->keysym.mod & KMOD_SHIFT ? "Shift+Tab" : "Tab");
-}
-
 /* Signs and digits. */
-static void name_text(const char *text, Input *input)
+static void read_text(const char *text, Input *input)
 {
     if (!isgraph((unsigned char)text[0]) || isalpha((unsigned char)text[0]) ||
         text[1] != '\0')
@@ -246,37 +235,15 @@ static void name_text(const char *text, Input *input)
 
 /* ---- mouse and window --------------------------------------------------- */
 
-/* Something at this point of the window. */
-static void place_input(InputKind kind, int x, int y, Input *input)
+static void read_button(const SDL_MouseButtonEvent *event, Input *input)
 {
-    double scale[2];
-    window_scale(scale);
-    input->kind = kind;
-    input->x = x * scale[0];
-    input->y = y * scale[1];
-    mouse[0] = x;
-    mouse[1] = y;
-}
-
-/* A button that went down or up. */
-static void button_input(const SDL_MouseButtonEvent *event, Input *input)
-{
-    place_input(event->state == SDL_PRESSED ? INPUT_PRESS : INPUT_RELEASE,
-                event->x, event->y, input);
+    mouse = (SDL_Point){event->x, event->y};
+    input->kind = event->state == SDL_PRESSED ? INPUT_PRESS : INPUT_RELEASE;
     input->button = event->button == SDL_BUTTON_LEFT && shift ? BUTTON_BOX
                     : event->button == SDL_BUTTON_LEFT        ? BUTTON_LEFT
                     : event->button == SDL_BUTTON_RIGHT       ? BUTTON_RIGHT
                                                               : BUTTON_MIDDLE;
     input->clicks = event->clicks;
-}
-
-/* Where the mouse is when its wheel turns. */
-static void wheel_input(const SDL_MouseWheelEvent *event, Input *input)
-{
-    place_input(INPUT_WHEEL, mouse[0], mouse[1], input);
-    input->amount = event->preciseY;
-    if (event->direction == SDL_MOUSEWHEEL_FLIPPED)
-        input->amount = -input->amount;
 }
 
 /* Uncovered, resized, left or closed. */
@@ -297,41 +264,45 @@ static InputKind change_of_window(const SDL_WindowEvent *event)
     }
 }
 
-/* What an event says. */
+/* What an event says, and where the mouse was then. */
 static Input read_event(const SDL_Event *event)
 {
     Input input = {.kind = INPUT_NONE};
+    double scale[2];
     switch (event->type) {
     case SDL_QUIT:
         input.kind = INPUT_CLOSE;
         break;
     case SDL_KEYDOWN:
-        hold_key(&event->key);
-        name_key(&event->key, &input);
-        break;
     case SDL_KEYUP:
-        hold_key(&event->key);
-        name_tab(&event->key, &input);
+        read_key(&event->key, &input);
         break;
     case SDL_TEXTINPUT:
-        name_text(event->text.text, &input);
+        read_text(event->text.text, &input);
         break;
     case SDL_WINDOWEVENT:
         input.kind = change_of_window(&event->window);
         break;
     case SDL_MOUSEMOTION:
-        place_input(INPUT_MOVE, event->motion.x, event->motion.y, &input);
+        input.kind = INPUT_MOVE;
+        mouse = (SDL_Point){event->motion.x, event->motion.y};
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
-        button_input(&event->button, &input);
+        read_button(&event->button, &input);
         break;
     case SDL_MOUSEWHEEL:
-        wheel_input(&event->wheel, &input);
+        input.kind = INPUT_WHEEL;
+        input.amount = event->wheel.preciseY;
+        if (event->wheel.direction == SDL_MOUSEWHEEL_FLIPPED)
+            input.amount = -input.amount;
         break;
     default:
         break;
     }
+    window_scale(scale);
+    input.x = mouse.x * scale[0];
+    input.y = mouse.y * scale[1];
     return input;
 }
 

@@ -11,7 +11,7 @@
 /* ---- what the page does ------------------------------------------------- */
 
 /* clang-format off */
-EM_JS(void, window_size, (int size[2]), {
+EM_JS(void, window_size, (int *size), {
     HEAP32[size >> 2] = Page.width();
     HEAP32[(size >> 2) + 1] = Page.height();
 });
