@@ -60,10 +60,11 @@ static int find_highest(const RacePoint *const *last, unsigned set)
     return highest;
 }
 
-/* Right of the last points; where one would lie on another it is below that. */
+/* Right of the last points, explicit ones, beside which others begin, below
+ * them; where one would lie on another it is below that. */
 static void write_names(const Plot *plot, const RacePoint *const *last)
 {
-    static const double size = 0.95, gap = 0.6; /* ems */
+    static const double size = 0.95, gap = 0.6, back = -2.6; /* ems */
     Paper *paper = plot->paper;
     Box place[RACE_METHODS];
     int count = 0, high = paper_pixels(paper, 1.15);
@@ -75,7 +76,9 @@ static void write_names(const Plot *plot, const RacePoint *const *last)
             plot,
             (double[2]){place_of(plot->simulation, last[i]), last[i]->error},
             at);
-        Box box = {(int)(at[0] + gap * plot->em), (int)at[1] - high / 2,
+        bool below = !method->implicit;
+        Box box = {(int)(at[0] + (below ? back : gap) * plot->em),
+                   (int)at[1] + high / 2 * (below ? 1 : -1),
                    paper_width(paper, FACE_BOLD, size, method->label), high};
         for (int k = 0; k < count; k++)
             if (box_shared(box, place[k]).width > 0 &&

@@ -1076,7 +1076,7 @@ static double nearest_spring(const Simulation *simulation)
 
 TEST(claim_bodies)
 {
-    says("bodies", "0 8.2 0 4 400 8.2 4");
+    says("bodies", "0 8.2 4 400 8.2 4");
     const Simulation *stack = bodies_after("bodies", "", 400);
     double x[3][2];
     for (int body = 0; body < 3; body++) {
