@@ -42,9 +42,9 @@ typedef struct LecturePage {
     bool forces;          /* that on each node is an arrow */
     bool modes;           /* so is the fastest oscillation, or eigenvectors */
     bool writes;          /* the spring is lit whose number is the step's */
-    bool kinds;           /* so are those of its kind; each kind is a switch */
+    bool kinds;           /* each kind has its colour, and is a switch */
     bool nears;           /* N brings the end of the spring nearer */
-    bool cuts;            /* before the guess there are cells, no springs */
+    bool cuts;            /* before the guess a solid; then it shows kinds */
 } LecturePage;
 
 /* Text, formulas, look and touch are texts of facts.h: live numbers stand in

@@ -9,6 +9,7 @@
 
 static const double STILL = 1000;      /* times as high as what is shown now */
 static const double LOG_FROM = 1e6;    /* times the energy at the beginning */
+static const double MOST_LOG = 1e9;    /* the same: where that axis ends */
 static const double LEAST_LOG = 1e-12; /* the same: where that axis begins */
 static const double LEAST_SEEN =
     2e-3; /* of the largest: less lies on the axis */
@@ -117,6 +118,15 @@ static void extend(double range[2], double value)
     range[1] = fmax(range[1], value);
 }
 
+/* Of what is shown: a pane that ended stays where it was. */
+static double newest_time(const Show *show, int curves, const Curve *curve)
+{
+    double now = simulation_time(show_pane(show)->simulation);
+    for (int c = 0; c < curves; c++)
+        now = fmax(now, simulation_time(curve[c].simulation));
+    return now;
+}
+
 /* An axis that holds still is easier to read: it is that of the whole run as
  * long as what is shown so far can be seen on it. */
 Axis energies_axis(const Show *show, double *last)
@@ -125,7 +135,7 @@ Axis energies_axis(const Show *show, double *last)
     Curve curve[HISTORY_SERIES];
     int curves = find_curves(show, curve);
     double first = 0, least = INFINITY, all[2] = {0, 0}, range[2] = {0, 0};
-    double now = simulation_time(simulation);
+    double now = newest_time(show, curves, curve);
     *last = 100 * simulation->options.timestep;
     for (int c = 0; c < curves; c++) {
         const History *history = curve[c].history;
@@ -147,9 +157,11 @@ Axis energies_axis(const Show *show, double *last)
     double low = fmax(range[0], -1e300);
     if (!(first > 0)) /* at rest in a field: what came first tells */
         first = -low;
-    if (first > 0 && high > LOG_FROM * first)
+    bool modes = show->lecture && show->lecture->modes;
+    if (first > 0 && (modes || high > LOG_FROM * first))
         return (Axis){pow(10, floor(log10(fmax(least, LEAST_LOG * first))) - 1),
-                      pow(10, ceil(log10(high))), true, false, "J"};
+                      pow(10, ceil(log10(fmin(high, MOST_LOG * first)))), true,
+                      false, "J"};
     return (Axis){low < -0.01 * high ? -plot_round_axis(-low) : 0,
                   plot_round_axis(high), false, false, "J"};
 }
@@ -202,35 +214,44 @@ void energies_draw(const Plot *card)
     const Show *show = card->show;
     Curve curve[HISTORY_SERIES];
     double last;
-    double now = simulation_time(card->simulation);
     int curves = find_curves(show, curve);
+    double now = newest_time(show, curves, curve);
     Plot rest = draw_legend(card, curves, curve);
     Axis energy = energies_axis(show, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
-    for (int c = 0; c < curves; c++)
-        now = fmax(now, simulation_time(curve[c].simulation));
     if (now < plot.x.high)
         plot_line(&plot, (double[2]){now, plot.y.low},
                   (double[2]){now, plot.y.high}, 1, COLOUR_BORDER);
     draw_curves(&plot, curves, curve);
 }
 
-/* One curve a run, on an axis of powers of ten: what is multiplied by the same
- * number in every step is a straight line. */
+/* One curve a run, on a logarithmic axis: what is multiplied by the same number
+ * in every step is a straight line.  The first one's radius is doubled where it
+ * crosses the dashes. */
 void radius_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
+    const Show *show = card->show;
     Curve curve[HISTORY_SERIES];
+    char words[40];
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
-    double most = 1; /* powers of ten */
+    double most = 0.4; /* powers of ten */
     for (int r = 0; r < simulation->runs; r++) {
         const double *x = simulation->run[r].x;
-        most = fmax(most, ceil(fabs(log10(math_hypot(x[0], x[1])))));
+        most = fmax(most, 1.1 * fabs(log10(math_hypot(x[0], x[1]))));
     }
     Plot plot = plot_create(
         card, (Axis){0, plot_round_up(last), false, false, "t in s"},
         (Axis){pow(10, -most), pow(10, most), true, false, NULL});
-    draw_curves(&plot, find_curves(card->show, curve), curve);
+    double steps = fact_number(&show_pane(show)->facts, "doubling");
+    const double twice[2] = {steps * simulation->options.timestep, 2};
+    plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,
+                COLOUR_GREY);
+    draw_curves(&plot, find_curves(show, curve), curve);
+    if (show->veiled || !plot_disc(&plot, twice, 4, COLOUR_TEXT))
+        return;
+    snprintf(words, sizeof words, "2 m: step %g", steps);
+    plot_words(&plot, 1, &twice, 0.5, 0.85, FACE_BOLD, COLOUR_TEXT, words);
 }

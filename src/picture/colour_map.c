@@ -83,6 +83,10 @@ static const Named words[] = {{"x", COLOUR_X},
                               {"faint", COLOUR_FAINT},
                               {"grey", COLOUR_GREY},
                               {"shaded", COLOUR_SHADED},
+                              {"orange", 0xffd55e00u}, /* as runs have them */
+                              {"green", 0xff009e73u},
+                              {"blue", 0xff0072b2u},
+                              {"purple", 0xffb0559au},
                               {NULL, 0}};
 
 Colour colour_named(const char *name, size_t length)

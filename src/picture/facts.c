@@ -109,7 +109,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "of a solid", solid_of(&simulation->system));
     fact_when(facts, "done", simulation->done);
     fact_when(facts, "paused", show->paused);
-    fact_when(facts, "told", !show->veiled);
+    fact_when(facts, show->veiled ? "asked" : "told", true);
 }
 
 /* The step as far as it has come, or the last update of a search. */
@@ -227,11 +227,16 @@ static const Fact *find_fact(const Facts *facts, int run, const char *name)
     return NULL;
 }
 
+double fact_number(const Facts *facts, const char *name)
+{
+    const Fact *one = find_fact(facts, 0, name);
+    return one && !one->words ? one->value[0] : NAN;
+}
+
 double show_number(Show *show, const char *name)
 {
     show_know(show);
-    const Fact *one = find_fact(&show_pane(show)->facts, 0, name);
-    return one && !one->words ? one->value[0] : NAN;
+    return fact_number(&show_pane(show)->facts, name);
 }
 
 /* 1/2, 1/4, ... where it is one of them. */
@@ -269,7 +274,6 @@ static void put_fact(const Fact *one, const char *format, char *out,
 /* Fills in the line of so many bytes; false: something in it is not known. */
 static bool fill_line(TextLine *line, const char *text, size_t length)
 {
-    static const Fact guess = {.words = "0000"};
     const Facts *facts = line->facts;
     const char *from = text, *end = text + length;
     size_t used = 0, name = strcspn(text, " *{");
@@ -286,8 +290,7 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
             continue;
         }
         bool minus = from[1] == '-';
-        const Fact *found =
-            facts ? find_fact(facts, line->run, from + 1 + minus) : &guess;
+        const Fact *found = find_fact(facts, line->run, from + 1 + minus);
         name = strcspn(from, ":}");
         if (!found)
             return false;

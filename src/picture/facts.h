@@ -18,12 +18,13 @@
 
 enum { FACTS_TEXT = 512 };
 
-/* A number, NaN: not known; words, NULL: not known; a switch; a point [2]; xx,
- * xy and yy of a matrix, 0 where they are less than `none`.  Of several facts
- * with one name the first counts. */
+/* A number, NaN: not known, and what it is; words, NULL: not known; a switch; a
+ * point [2]; xx, xy and yy of a matrix, 0 where they are less than `none`.  Of
+ * several facts with one name the first counts. */
 void fact(Facts *facts, const char *name, double value);
 void fact_words(Facts *facts, const char *name, const char *words);
 void fact_when(Facts *facts, const char *name, bool on);
+double fact_number(const Facts *facts, const char *name);
 void fact_point(Facts *facts, const char *name, const double point[2]);
 void fact_matrix(Facts *facts, const char *const names[3], const double H[3],
                  double none);
@@ -38,8 +39,7 @@ typedef struct TextLine {
     int run;
 } TextLine;
 
-/* All lines of a text that are known; without facts all, with zeros for them,
- * which are as wide, mostly:
+/* All lines of a text that are known:
  *     for (TextLine line = text_of(facts, text); text_next(&line);)
  * At the end the words are "".  text may be NULL. */
 TextLine text_of(const Facts *facts, const char *text);

@@ -26,7 +26,8 @@ static const char *lit_text(const Show *show, const LecturePage *page)
         "j, (i + 1) * row + j + 1", "1) * row + j, i * row + j + 1"};
     const Simulation *simulation = show->pane[show->active].simulation;
     const Trace *trace = show_pane(show)->trace;
-    if (strcmp(page->function, "step_forward") == 0 && trace &&
+    bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
+    if (strcmp(page->function, "step_forward") == 0 && trace && !whole &&
         trace->line != LINE_NONE && line_texts[trace->line])
         return line_texts[trace->line];
     if (page->kinds)

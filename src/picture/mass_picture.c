@@ -66,7 +66,8 @@ int mass_sample(const Simulation *simulation, Energy *row)
 
 /* ---- the circle ---------------------------------------------------------- */
 
-/* The exact path and its radius, trails, and a disc where each run is now. */
+/* The exact path and its radius; after the guess, dashed, twice the radius;
+ * trails, and a disc where each run is now. */
 void circle_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -74,6 +75,10 @@ void circle_draw(Plot *stage)
     plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
               COLOUR_GRID);
     plot_line(stage, origin, start, 1.2, COLOUR_GREY);
+    double phase = 0;
+    if (stage->show->lecture && !stage->show->veiled)
+        plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
+                     &phase, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
     if (stage->text)
         plot_text(stage, half, 0, 0.2, 0.9, ALIGN_CENTRE, FACE_REGULAR,
@@ -92,7 +97,7 @@ void circle_bounds(const Plot *stage, double bounds[4])
         const double *x = simulation->run[r].x;
         most = fmax(most, fmin(math_hypot(x[0], x[1]), CIRCLE_MOST));
     }
-    bounds_around(CIRCLE_REACH, 1.1 * most, sqrt(2), bounds);
+    bounds_around(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
 }
 
 /* The node of the nearest run. */
@@ -174,9 +179,9 @@ void mass_bounds(const Plot *stage, double bounds[4])
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
         mass_next_step(simulation, r, &step);
-        most = fmax(most, math_hypot(step.new_x[0], step.new_x[1]));
-        most = fmax(most,
-                    math_hypot(step.x[0] + step.v[0], step.x[1] + step.v[1]));
+        for (int k = 0; k < 2; k++)
+            most = fmax(most,
+                        fmax(fabs(step.new_x[k]), fabs(step.x[k] + step.v[k])));
     }
     bounds_around(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
@@ -186,6 +191,27 @@ static void exact_step(const MassStep *step, double h, double end[2])
 {
     for (int i = 0; i < 2; i++)
         end[i] = step->x[i] * cos(h) + step->v[i] * sin(h);
+}
+
+/* What a step of forward Euler lacks: the exact end is h^2/2 a away, or about
+ * that. */
+static void draw_miss(const Plot *stage, const MassStep *step, double h,
+                      const char *words)
+{
+    double to[2], d[2], end[2], at[2][2];
+    exact_step(step, h, end);
+    for (int k = 0; k < 2; k++) {
+        to[k] = step->x[k] + h * step->v[k];
+        d[k] = 0.5 * h * h * step->a[k];
+        at[0][k] = to[k] + d[k];
+        at[1][k] = to[k] + 0.5 * d[k];
+    }
+    plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
+    plot_ring(stage, to, 6, 2, COLOUR_X);
+    plot_arrow(stage, to, d, 1, 2, COLOUR_WARNING);
+    if (stage->text)
+        plot_words(stage, 2, (const double(*)[2])at, 1.2, 1, FACE_BOLD,
+                   COLOUR_WARNING, words);
 }
 
 /* The exact end of the step; of backward Euler x' as it is found: x + h v, then
@@ -200,16 +226,9 @@ static void draw_mass_lesson(Plot *stage)
         return;
     exact_step(&step, h, end);
     plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
-    if (step.by_old_v) { /* what it lacks */
-        const double d[2] = {0.5 * h * h * step.a[0], 0.5 * h * h * step.a[1]};
-        const double at[2][2] = {
-            {step.new_x[0] + d[0], step.new_x[1] + d[1]},
-            {step.new_x[0] + 0.5 * d[0], step.new_x[1] + 0.5 * d[1]}};
-        plot_arrow(stage, step.new_x, d, 1, 2, COLOUR_WARNING);
-        if (stage->text)
-            plot_words(stage, 2, at, 1.2, 1, FACE_BOLD, COLOUR_WARNING,
-                       "h\u00b2/2 a");
-    }
+    for (int half = 1; half >= 0 && step.by_old_v; half--)
+        draw_miss(stage, &step, half ? 0.5 * h : h,
+                  half ? "with h/2: a quarter" : "h\u00b2/2 a");
     if (stage->text)
         plot_words(stage, 1, (const double(*)[2])end, 0.8, 1, FACE_REGULAR,
                    COLOUR_FAINT, "exact");
@@ -224,7 +243,11 @@ static void draw_mass_lesson(Plot *stage)
             plot_line(stage, from, guess, 1.4, COLOUR_GREY);
         plot_hollow(stage, guess, 5, 3, COLOUR_GREY);
         const char number[2] = {(char)('1' + k), 0};
-        if (stage->text && (k < 3 || h >= 1))
+        bool apart =
+            math_hypot(guess[0] - step.new_x[0], guess[1] - step.new_x[1]) *
+                stage->camera.scale[0] >
+            1.5 * stage->em;
+        if (stage->text && apart)
             plot_words(stage, 1, (const double(*)[2])guess, 0.8, 1, FACE_BOLD,
                        COLOUR_FAINT, number);
     }
@@ -240,13 +263,14 @@ static void draw_mass_lesson(Plot *stage)
         }
         if (h >= 2)
             plot_line(stage, from, x, 1, COLOUR_GREY);
-        plot_hollow(stage, x, 4, 2.4, COLOUR_GREY);
+        if (h >= 2)
+            plot_hollow(stage, x, 4, 2.4, COLOUR_GREY);
     }
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const double across[2] = {(step.new_x[0] - turn * step.x[0]) / reach,
                               (step.new_x[1] - turn * step.x[1]) / reach};
     if (symplectic && h < 2)
-        plot_ellipse(stage, origin, step.x, across, 1.6, NULL, COLOUR_GREY);
+        plot_ellipse(stage, origin, step.x, across, 2.4, NULL, COLOUR_ALPHA);
 }
 
 /* The arrows of one method in the order in which it makes them; what a page
@@ -376,6 +400,7 @@ void mass_facts(const Simulation *simulation, Facts *facts)
     double exact[2], h = simulation->run[0].h;
     if (!step.by_old_v && !backward) {
         fact(facts, "h limit", 2);
+        fact_when(facts, "ellipse", h < 2);
         fact(facts, "kept",
              2 * mass_energy(step.x, step.v) -
                  h * (step.x[0] * step.v[0] + step.x[1] * step.v[1]));
@@ -387,6 +412,11 @@ void mass_facts(const Simulation *simulation, Facts *facts)
     exact_step(&step, h, exact);
     fact(facts, "miss",
          math_hypot(step.new_x[0] - exact[0], step.new_x[1] - exact[1]));
-    if (step.by_old_v)
+    if (step.by_old_v) {
         fact(facts, "half", 0.5 * h * h * math_hypot(step.x[0], step.x[1]));
+        exact_step(&step, 0.5 * h, exact);
+        fact(facts, "half miss",
+             math_hypot(step.x[0] + 0.5 * h * step.v[0] - exact[0],
+                        step.x[1] + 0.5 * h * step.v[1] - exact[1]));
+    }
 }

@@ -1,6 +1,7 @@
 /* Newton in one unknown: f with its quadratic models (overshoot), and g with
  * its tangents above E with its parabolas (tangent). */
 #include <math.h>
+#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -25,18 +26,19 @@ static Local scalar_at(const Simulation *simulation, double x)
     return descent_at(simulation, FILTER_NONE, x, 0);
 }
 
-static Update last_update(const Simulation *simulation)
+/* Update i, 0, 1, ...; -1: the first one, which is still to come. */
+static Update update_at(const Simulation *simulation, int i)
 {
     const Descent *descent = &simulation->descent;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     Update update = {
         .simulation = simulation, .x0 = descent->point[0], .alpha = whole};
-    if (descent->count > 0) {
-        const NewtonRecord *record = &descent->record[descent->count - 1];
+    if (i >= 0) {
+        const NewtonRecord *record = &descent->record[i];
         update.x0 = record->from[0];
         update.alpha = record->alpha;
         update.refused = record->trials - (record->alpha > 0);
-        update.number = descent->count - 1;
+        update.number = i;
         update.made = true;
     }
     Local at = scalar_at(simulation, update.x0);
@@ -45,6 +47,11 @@ static Update last_update(const Simulation *simulation)
     update.second = at.H[0];
     update.x1 = update.x0 - at.g[0] / at.H[0];
     return update;
+}
+
+static Update last_update(const Simulation *simulation)
+{
+    return update_at(simulation, simulation->descent.count - 1);
 }
 
 /* The function, its derivative and the model, for graphs. */
@@ -88,6 +95,7 @@ static void draw_iterates(const Plot *plot, const Update *update,
 {
     const Descent *descent = &update->simulation->descent;
     double used[2] = {-1e9, -1e9}, alpha = 1, p[2];
+    char name[16];
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (update->x1 - update->x0);
         plot_hollow(plot, (double[2]){x, curve(update, x)}, 5, 3.2,
@@ -103,8 +111,8 @@ static void draw_iterates(const Plot *plot, const Update *update,
         if (!seen || !plot->text || fabs(p[0] - used[i % 2]) < 1.5 * plot->em)
             continue;
         used[i % 2] = p[0];
-        plot_text(plot, at, 0, i % 2 ? -1.875 : 0.9, 1, ALIGN_CENTRE, FACE_BOLD,
-                  colour, "x^{%d}", i);
+        snprintf(name, sizeof name, "x^{%d}", i);
+        plot_words(plot, 1, &at, 0.9, 1, FACE_BOLD, colour, name);
     }
 }
 
@@ -129,17 +137,35 @@ static void draw_search(const Plot *plot, const Update *update, bool slopes,
     if (model && !slopes && plot->text && isfinite(x1) && (left || right))
         plot_text(
             plot,
-            (double[2]){right ? plot->x.high : plot->x.low, 0.5 * plot->y.low},
+            (double[2]){right ? plot->x.high : plot->x.low, 0.2 * plot->y.low},
             0, 0, 1, right ? ALIGN_RIGHT : ALIGN_LEFT, FACE_BOLD, COLOUR_P,
             "%sto x = %s%s", right ? "" : "\u2190 ", number_of(x1).text,
             right ? " \u2192" : "");
     draw_iterates(plot, update, curve);
 }
 
+/* The models of the whole updates before the last one, pale, and from the
+ * minimum of each the way to the curve. */
+static void draw_earlier(const Plot *plot)
+{
+    const Simulation *simulation = plot->simulation;
+    bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
+    const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
+    for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
+        Update update = update_at(simulation, i);
+        const double low[2] = {update.x1, model_at(&update, update.x1)};
+        const double high[2] = {update.x1, value_at(&update, update.x1)};
+        plot_graph(plot, model_at, &update, 1.4, pale);
+        plot_line(plot, low, high, 1.2, pale);
+        plot_hollow(plot, low, 4, 2.4, COLOUR_P);
+    }
+}
+
 void curve_draw(Plot *stage)
 {
     Update update = last_update(stage->simulation);
     Plot plot = plot_on(stage, (Axis){.label = "x"}, (Axis){0});
+    draw_earlier(&plot);
     draw_search(&plot, &update, false, !stage->show->veiled);
 }
 
@@ -216,8 +242,8 @@ void tangent_draw(Plot *stage)
         return;
     stage_handles(&plot[1]);
     if (plot_disc(&plot[1], target, 5, COLOUR_X_TILDE))
-        plot_text(&plot[1], target, 0, 0.7, 1, ALIGN_CENTRE, FACE_BOLD,
-                  COLOUR_X_TILDE, "{xt}");
+        plot_words(&plot[1], 1, &target, 1, 1, FACE_BOLD, COLOUR_X_TILDE,
+                   "{xt}");
     Paper *paper = stage->paper;
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[0].box.x + paper->em,
                 stage->box.y + 0.5 * paper->em, ALIGN_LEFT,

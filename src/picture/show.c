@@ -5,6 +5,8 @@
 
 #include "picture/cards.h"
 
+static const double WORDS_ROOM = 1.8; /* ems, of a legend or a label */
+
 void show_create(const Simulation *simulation, Show *show)
 {
     const Picture *picture = picture_of(simulation->scene);
@@ -47,8 +49,13 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
                   .em = layout->em};
     double bounds[4];
     bool stretched = picture_of(stage.simulation->scene)->stretched;
+    Box room = stage.box;
+    if (show->lecture && show->panes > 1) { /* words above and below it */
+        room.y += (int)(WORDS_ROOM * layout->em);
+        room.height -= (int)(2 * WORDS_ROOM * layout->em);
+    }
     find_bounds(&stage, bounds);
-    stage.camera = camera_create(stage.box, bounds, stretched, &show->lens);
+    stage.camera = camera_create(room, bounds, stretched, &show->lens);
     return stage;
 }
 

@@ -159,11 +159,6 @@ static void draw_hover(const SpringPen *pen)
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? lecture_spring(pen->simulation)
                                          : -1;
-    bool kinds = page && page->kinds && !pen->show->veiled;
-    for (int s = 0; s < system->springs && lit >= 0 && kinds; s++)
-        if (exhibit_kind(pen->simulation, s) ==
-            exhibit_kind(pen->simulation, lit))
-            draw_spring(pen, s, 3, COLOUR_P);
     if (lit >= 0 && lit < system->springs)
         draw_spring(pen, lit, 4.5, writes ? COLOUR_PROJECT : COLOUR_TEXT);
 }
@@ -198,17 +193,23 @@ static int draw_ground(const SpringPen *pen)
  * tolerance at which bodies would hang in the air or freeze. */
 static void draw_warnings(const SpringPen *pen, int folded)
 {
-    int nodes = pen->system->nodes, lost = 0;
-    double needed;
-    for (int i = 0; i < nodes; i++)
+    int nodes = pen->system->nodes, lost = 0, seen = 0;
+    double needed, at[2];
+    for (int i = 0; i < nodes; i++) {
         lost += !isfinite(pen->x[2 * (size_t)i]) ||
                 !isfinite(pen->x[2 * (size_t)i + 1]);
+        plot_place(pen->stage, pen->x + 2 * (size_t)i, at);
+        seen += box_contains(pen->stage->box, at[0], at[1]);
+    }
     if (lost == nodes)
         plot_legend(pen->stage, COLOUR_WARNING,
                     "no node has a place: beyond all numbers");
     else if (lost > 0)
         plot_legend(pen->stage, COLOUR_WARNING,
                     "%d of %d nodes are beyond all numbers", lost, nodes);
+    else if (seen == 0 && pen->show->lecture)
+        plot_legend(pen->stage, COLOUR_WARNING,
+                    "all nodes are beyond the picture");
     if (folded > 0)
         plot_legend(pen->stage, COLOUR_WARNING, "%d cell%s folded over", folded,
                     folded == 1 ? "" : "s");
@@ -218,14 +219,32 @@ static void draw_warnings(const SpringPen *pen, int folded)
                     number_of(needed).text);
 }
 
+/* Where the rest shape is but a dot: its name below all nodes that are seen,
+ * with an arrow to it. */
+static void draw_origin(const SpringPen *pen)
+{
+    const Plot *stage = pen->stage;
+    const Box *box = &stage->box;
+    double em = stage->em, origin[2], p[2];
+    plot_place(stage, (double[2]){0, 0}, origin);
+    double low = origin[1] + 2 * em, least = box->y + box->height - 4 * em;
+    for (int i = 0; i < pen->system->nodes; i++) {
+        plot_place(stage, pen->x + 2 * i, p);
+        low = p[1] < least ? fmax(low, p[1]) : low;
+    }
+    low += 2.5 * em;
+    canvas_arrow(&stage->paper->canvas, origin[0], low, origin[0], origin[1],
+                 2 * stage->paper->unit, 9 * stage->paper->unit, COLOUR_TEXT);
+    paper_panel(stage->paper, FACE_BOLD, 1.1, COLOUR_TEXT, origin[0], low,
+                ALIGN_CENTRE, "the square was here");
+}
+
 /* Above them; and the rest shape by name where it is a dot. */
 static void draw_signs(const SpringPen *pen)
 {
-    static const double origin[1][2] = {{0, 0}};
     double side = pen->simulation->mesh.side;
     if (side * pen->stage->camera.scale[0] < 4 && !has_frame(pen->simulation))
-        plot_words(pen->stage, 1, origin, 2, 1, FACE_BOLD, COLOUR_TEXT,
-                   "\u2190 the square was here");
+        draw_origin(pen);
     const Trace *trace = pen->pane->trace;
     if (pen->projected)
         plot_legend(pen->stage, COLOUR_PROJECT, "projected spring");
@@ -266,20 +285,24 @@ static void draw_numbers(const SpringPen *pen)
     }
 }
 
-/* An arrow for each node, so many times as long as d; 0: the longest of half a
- * cell. */
+/* An arrow for each node, so many times as long as d, but no longer than nine
+ * tenths of a cell; 0: the longest has that. */
 static void draw_arrows(const SpringPen *pen, const double *d, double factor,
                         Colour colour, const char *word)
 {
     int nodes = pen->system->nodes;
-    double longest = 1e-300;
+    double longest = 1e-300, most = 0.9 * pen->simulation->mesh.spacing;
     for (int i = 0; i < nodes; i++)
         longest = fmax(longest, math_hypot(d[2 * i], d[2 * i + 1]));
     if (factor == 0)
-        factor = 0.5 * pen->simulation->mesh.spacing / longest;
-    for (int i = 0; i < nodes; i++)
-        plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i, factor, 2.6, colour);
-    plot_legend(pen->stage, colour, "%s", word);
+        factor = most / longest;
+    for (int i = 0; i < nodes; i++) {
+        double length = math_hypot(d[2 * i], d[2 * i + 1]);
+        plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i,
+                   fmin(factor, most / fmax(length, 1e-300)), 2.6, colour);
+    }
+    plot_legend(pen->stage, colour, "%s%s", word,
+                factor * longest > 1.001 * most ? ", at most a cell" : "");
 }
 
 /* Where nodes that nobody has moved begin: the rest shape, stretched. */
@@ -305,7 +328,7 @@ static void draw_page_arrows(const SpringPen *pen)
         start_places(pen->simulation, arrow);
         for (int k = 0; k < 2 * system->nodes; k++)
             arrow[k] = pen->x[k] - arrow[k];
-        draw_arrows(pen, arrow, 20, COLOUR_VELOCITY, "displacement \u00d7 20");
+        draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
     }
     if (!page->forces)
         return;
@@ -319,14 +342,33 @@ static void draw_page_arrows(const SpringPen *pen)
     plot_words(pen->stage, 1, last, 0.7, 1, FACE_BOLD, COLOUR_TEXT, word);
 }
 
-/* A solid, cut along the edges of its cells: all springs but the diagonals. */
-static void draw_cuts(const SpringPen *pen)
+/* A solid at rest, not cut yet. */
+static void draw_solid(const SpringPen *pen)
+{
+    double low[2], high[2];
+    plot_place(pen->stage, pen->x, low);
+    plot_place(pen->stage, pen->x + 2 * (pen->system->nodes - 1), high);
+    canvas_fill(&pen->stage->paper->canvas,
+                (Box){(int)low[0], (int)high[1], (int)(high[0] - low[0]),
+                      (int)(low[1] - high[1])},
+                0x180000ffu);
+    square_outline(pen, pen->x, false, COLOUR_X);
+}
+
+/* Springs in the colours of their kinds, which words have, too; of all kinds of
+ * which the mouse can switch some, the one that is written is wider. */
+static void draw_kinds(const SpringPen *pen)
 {
     const System *system = pen->system;
-    for (int s = 0; s < system->springs; s++)
-        if (exhibit_kind(pen->simulation, s) < 2)
-            draw_spring(pen, s, 3, COLOUR_WHITE);
-    square_outline(pen, pen->x, false, COLOUR_X);
+    static const int colours[] = {0, 1, 3, 3}; /* of runs */
+    int newest = exhibit_kind(pen->simulation, lecture_spring(pen->simulation));
+    bool wide = pen->show->lecture->kinds;
+    for (int s = 0; s < system->springs; s++) {
+        int kind = exhibit_kind(pen->simulation, s);
+        if (system->k[s] > 0)
+            draw_spring(pen, s, wide && kind == newest ? 3.5 : 2,
+                        colour_of_run(colours[kind]));
+    }
 }
 
 /* The corner of the stage, below its legend, where a lens hides least, right
@@ -404,10 +446,13 @@ void square_draw(Plot *stage)
     }
     if (!show->bare)
         folded = draw_ground(pen);
-    if (page && page->cuts)
+    bool kinds = page && (page->cuts || page->kinds) && !show->veiled;
+    if (kinds && page->cuts)
         square_cells(pen, true);
     if (page && page->cuts && show->veiled)
-        draw_cuts(pen);
+        draw_solid(pen);
+    else if (kinds)
+        draw_kinds(pen);
     else if (pen->spacing >= LEAST_CELL || fracture_of(system))
         square_springs(pen);
     else

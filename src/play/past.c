@@ -205,7 +205,7 @@ void past_history(const Past *past, int pane, History *history)
         stride *= 2;
     long ended = past_ended(past, pane, last);
     if (ended >= 0)
-        last = past_last_seen(past, pane, ended);
+        last = ended;
     history_clear(history);
     for (long step = 0; step < last + stride; step += stride) {
         const State *state =

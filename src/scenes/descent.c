@@ -34,21 +34,22 @@ enum { DIAL_UPDATES = 100 };
  * derivatives are tanh and 1/cosh^2. */
 static Local log_two_cosh(const Simulation *simulation, double x)
 {
-    double c = cosh(x);
+    double f = fabs(x) + log1p(exp(-2 * fabs(x)));
+    double g = tanh(x);
+    double H = 1 / (cosh(x) * cosh(x));
     (void)simulation;
-    return (Local){.value = fabs(x) + log1p(exp(-2 * fabs(x))),
-                   .g = {tanh(x), 0},
-                   .H = {1 / (c * c), 0, 0}};
+    return (Local){.value = f, .g = {g}, .H = {H}};
 }
 
 static Local line_energy(const Simulation *simulation, double x)
 {
     double m = LINE_MASS, l2 = LINE_LENGTH * LINE_LENGTH, k = LINE_STIFFNESS;
-    double h = simulation->run[0].h, d = x - simulation->exhibit.target[0];
-    double s = x * x / l2 - 1;
-    return (Local){.value = 0.5 * m * d * d + h * h * l2 * 0.5 * k * s * s,
-                   .g = {m * d + 2 * h * h * k * x * s, 0},
-                   .H = {m + 2 * h * h * k * (3 * x * x / l2 - 1), 0, 0}};
+    double h = simulation->run[0].h, x_tilde = simulation->exhibit.target[0];
+    double d = x - x_tilde, s = x * x / l2 - 1;
+    double E = m / 2 * d * d + h * h * l2 * k / 2 * s * s;
+    double g = m * d + h * h * 2 * k * x * s;
+    double H = m + h * h * 2 * k * (3 * x * x / l2 - 1);
+    return (Local){.value = E, .g = {g}, .H = {H}};
 }
 
 /* The parts of E of landscape and dial, with this h; or f of one unknown. */
@@ -109,15 +110,26 @@ int descent_bends_down(const Simulation *simulation, double x, double y)
 
 /* ---- Newton -------------------------------------------------------------- */
 
+/* In one unknown: the zero of the tangent of g. */
+static double tangent_direction(double g, double H)
+{
+    return -g / H;
+}
+
 /* p = -H^-1 g; returns g . p. */
 static double newton_direction(const Local *E, bool scalar, double p[2])
 {
     const double *g = E->g, *H = E->H;
+    if (scalar) {
+        p[0] = tangent_direction(g[0], H[0]);
+        p[1] = 0;
+        return g[0] * p[0];
+    }
     double determinant = H[0] * H[2] - H[1] * H[1], trace = H[0] + H[2];
     if (fabs(determinant) <= 1e-14 * trace * trace)
         determinant = NAN; /* no inverse in the digits of a double */
-    p[0] = scalar ? -g[0] / H[0] : (H[1] * g[1] - H[2] * g[0]) / determinant;
-    p[1] = scalar ? 0 : (H[1] * g[0] - H[0] * g[1]) / determinant;
+    p[0] = (H[1] * g[1] - H[2] * g[0]) / determinant;
+    p[1] = (H[1] * g[0] - H[0] * g[1]) / determinant;
     return g[0] * p[0] + g[1] * p[1];
 }
 

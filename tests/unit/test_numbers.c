@@ -576,6 +576,10 @@ static void tell_masses(const Simulation *simulation)
                 off[i] = new_x[i] - cosl(h) * x[i] - sinl(h) * v[i];
             near("miss", hypotl(off[0], off[1]), 1e-15L * (1 + h));
             is("half", h * h / 2 * hypotl(x[0], x[1]));
+            for (int i = 0; i < 2; i++)
+                off[i] =
+                    (1 - cosl(h / 2)) * x[i] + (h / 2 - sinl(h / 2)) * v[i];
+            near("half miss", hypotl(off[0], off[1]), 1e-15L * (1 + h));
             Real kept = 2 * E[0] - h * (x[0] * v[0] + x[1] * v[1]);
             near("kept", kept, 4e-15L * (E[0] + E[1]));
             near("kept later", kept, 4e-15L * (E[0] + E[1]));
