@@ -231,41 +231,36 @@ Status obey_switch(Player *player, const Command *command)
     double on = player->given[0].number[row->slot];
     if (on == off)
         on = search ? LINE_SEARCH_BACKTRACK : FILTER_CLAMP;
-    const Command change = {
-        .kind = COMMAND_SET,
-        .number = row - option_rows,
-        .x = player_settings(player)->number[row->slot] == off ? on : off};
-    return obey_set(player, &change);
+    bool was_off = player_settings(player)->number[row->slot] == off;
+    return player_ask_set(player, row, was_off ? on : off);
 }
 
-/* The next row of the table of integrators that all terms allow, for this pane,
- * as a command. */
-static Status find_method(Player *player, int pane, Command *change)
+/* The next row of the table of integrators that all terms allow, for this pane.
+ * NULL: refused. */
+static const IntegratorMethod *find_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.machine[pane].simulation;
     const IntegratorMethod *own = simulation->run[0].method, *next = own;
-    if (!(simulation->scene->needs & NEEDS_TIME))
-        return player_refuse(player,
-                             "no time passes here: there is no other method");
+    bool time = simulation->scene->needs & NEEDS_TIME;
     do
         next = next[1].name ? next + 1 : &integrator_methods[0];
     while (next != own && integrator_method_refuses(next, &simulation->system));
     if (simulation->runs > 1)
         next = &integrator_methods[0];
-    if (next == own)
-        return player_refuse(player, "no other method knows all terms of this "
-                                     "scene");
-    *change = (Command){.kind = COMMAND_SET,
-                        .number = option_find("integrator") - option_rows,
-                        .x = (double)(next - integrator_methods)};
-    return STATUS_OK;
+    if (time && next != own)
+        return next;
+    player_refuse(player,
+                  time ? "no other method knows all terms of this scene"
+                       : "no time passes here: there is no other method");
+    return NULL;
 }
 
 Status obey_method(Player *player, const Command *command)
 {
-    Command change;
-    Status status = find_method(player, player->active, &change);
-    return status ? status : obey_set(player, &change);
+    const IntegratorMethod *next = find_method(player, player->active);
+    return next ? player_ask_set(player, option_find("integrator"),
+                                 (double)(next - integrator_methods))
+                : STATUS_INVALID_INPUT;
 }
 
 /* ---- panes --------------------------------------------------------------- */
@@ -274,22 +269,24 @@ Status obey_method(Player *player, const Command *command)
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);
-    Command change;
     if (panes == OPTIONS_MAX_PANES)
         return player_refuse(player, "six are side by side: no room for more");
     if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
-    Status status = find_method(player, panes - 1, &change);
-    if (!status)
-        status = player_change(player, command, 0, 0, false);
+    const IntegratorMethod *next = find_method(player, panes - 1);
+    if (!next)
+        return STATUS_INVALID_INPUT;
+    const Command change = {.kind = COMMAND_SET,
+                            .number = option_find("integrator") - option_rows,
+                            .x = (double)(next - integrator_methods)};
+    Status status = player_change(player, command, 0, 0, false);
     if (!status)
         status = player_change(player, &change, panes, panes + 1, false);
     if (status)
         return status;
     player->active = panes;
-    player_note(player, "beside it: %s",
-                integrator_methods[(int)change.x].label);
+    player_note(player, "beside it: %s", next->label);
     return STATUS_OK;
 }
 

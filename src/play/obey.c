@@ -183,7 +183,7 @@ Status player_obey(Player *player, const Command *asked)
         Status shown = player_work(player);
         status = status ? status : shown;
     }
-    if (past->now > now && command.kind != COMMAND_REDO)
+    if (noted && past->now > now && command.kind != COMMAND_REDO)
         tell_left(player, step, newest);
     if (noted && player->journal.count == at + 1 &&
         status == STATUS_INVALID_INPUT)
