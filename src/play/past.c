@@ -382,7 +382,7 @@ static Status use_control(Machine *machine, const Control *control)
 static Status land(Past *past, int pane, long step)
 {
     Machine *machine = &past->machine[pane];
-    State *state = kept_of(past, pane, step).entry->state;
+    State *state = past->keeps ? kept_of(past, pane, step).entry->state : NULL;
     Status status = use_control(machine, entry_of(past, pane, step)->control);
     machine->step = step;
     machine->stands = !status;

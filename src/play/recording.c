@@ -228,10 +228,11 @@ Status recording_states(Recording *recording,
     Moment at = {.step = (double)step};
     char name[RECORDING_NAME_SIZE], file[VTK_NAME_SIZE];
     Status status = STATUS_OK;
-    vtk_name(step, file);
-    snprintf(name, sizeof name, "%s/%s", recording->vtk, file);
-    if (recording->vtk)
+    if (recording->vtk) {
+        vtk_name(step, file);
+        snprintf(name, sizeof name, "%s/%s", recording->vtk, file);
         status = note(recording, vtk_write(name, simulation, count), name);
+    }
     errno = status ? errno : 0;
     for (int i = 0; i < count && !status; i++)
         for (int r = 0; r < simulation[i]->runs; r++) {
