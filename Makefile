@@ -197,8 +197,12 @@ check-homework:
 	  sh src/homework/check.sh "$$@"
 
 # ---- the rest --------------------------------------------------------------
+bench: TABLES = work steps frames
 bench: build/elasto-bench
-	./build/elasto-bench $(ARGS)
+	@mkdir -p build/bench
+	@for table in $(TABLES); do \
+	  ./build/elasto-bench $$table $(ARGS) | tee build/bench/$$table.csv; \
+	done
 
 figures:
 	gnuplot -c src/bench/figures.gnuplot build/bench tests/data
@@ -227,7 +231,7 @@ help:
 	@echo '                make check-homework [FILE=...] says what is wrong'
 	@echo 'make web        write build/elasto.html, all of it as one page'
 	@echo 'make handout    write the lecture as build/handout.html'
-	@echo 'make bench      measure run time against error (ARGS=--help);'
+	@echo 'make bench      measure run time against error (TABLES=work);'
 	@echo '                make figures: draw what it measured'
 	@echo 'make stress     named cases, random scenes, faults: ten minutes;'
 	@echo '                same-bits, mutants, analyse: tests/README.md'

@@ -4,21 +4,16 @@
 
 #include <SDL_version.h>
 #include <cholmod.h>
-#include <errno.h>
-#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
-typedef struct Table {
+static const struct {
     const char *name, *sentence;
-    Status (*run)(Bench *bench);
+    Status (*run)(bool quick);
     const char *columns;
-} Table;
-
-static const Table tables[] = {
+} tables[] = {
     {"work", "error against run time of all methods", bench_work,
      "case,segments,integrator,solver,order,steps,tolerance_m_s,run_time_s,"
      "error_m,failed"},
@@ -50,18 +45,9 @@ double bench_median(double *values, int count)
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
-void bench_row(Bench *bench, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vfprintf(bench->csv.file, format, arguments);
-    va_end(arguments);
-    fputc('\n', bench->csv.file);
-}
-
 void bench_claim(const char *what, double measured, double at_most)
 {
-    printf("  claim: %s: %.3g, at most %g: %s\n", what, measured, at_most,
+    printf("# claim: %s: %.3g, at most %g: %s\n", what, measured, at_most,
            measured <= at_most ? "met" : "NOT MET");
 }
 
@@ -74,84 +60,28 @@ Options slides_options(int segments)
     return options;
 }
 
-/* Versions and flags in one line. */
-static void describe_machine(const Bench *bench, FILE *file)
-{
-    fprintf(file,
-            "# elasto %s; SuiteSparse %d.%d.%d; SDL %d.%d.%d; compiler %s; "
-            "flags %s; one thread; %s run\n",
-            ELASTO_VERSION, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION,
-            SUITESPARSE_SUBSUB_VERSION, SDL_MAJOR_VERSION, SDL_MINOR_VERSION,
-            SDL_PATCHLEVEL, __VERSION__, BENCH_FLAGS,
-            bench->quick ? "quick" : "full");
-}
-
-/* The table and its file, which appears when it is whole. */
-static Status run_table(Bench *bench, const Table *table)
-{
-    char path[4096];
-    errno = 0;
-    snprintf(path, sizeof path, "%s/%s.csv", bench->folder, table->name);
-    Status status = output_open(path, &bench->csv);
-    if (!status) {
-        describe_machine(bench, bench->csv.file);
-        fprintf(bench->csv.file, "%s\n", table->columns);
-        printf("\n%s: %s\n", table->name, table->sentence);
-        status = output_close(&bench->csv, table->run(bench));
-    }
-    if (status == STATUS_FILE_FAILED)
-        fprintf(stderr, "elasto-bench: %s: %s\n", path, output_reason(errno));
-    else if (status)
-        fprintf(stderr, "elasto-bench: %s: %s\n", table->name,
-                status_text(status));
-    return status;
-}
-
-static int print_help(void)
-{
-    puts("usage: elasto-bench [options] [TABLE]   run time against error\n"
-         "  --quick         seconds instead of minutes: does it all work?\n"
-         "  --output DIR    where the CSV files go     [build/bench]\n"
-         "  --help\n"
-         "tables (all, if none is named):");
-    for (int t = 0; t < TABLES; t++)
-        printf("  %-8s %s\n", tables[t].name, tables[t].sentence);
-    return 0;
-}
-
 int main(int argc, char **argv)
 {
-    Bench bench = {.folder = "build/bench"};
-    int from = 0, to = TABLES;
+    bool quick = argc == 3 && strcmp(argv[2], "--quick") == 0;
+    int t = 0;
+    while (t < TABLES && (argc < 2 || strcmp(argv[1], tables[t].name) != 0))
+        t++;
+    if (t == TABLES || argc != 2 + quick) {
+        fprintf(stderr, "usage: elasto-bench TABLE [--quick]; tables:");
+        for (t = 0; t < TABLES; t++)
+            fprintf(stderr, " %s (%s)%s", tables[t].name, tables[t].sentence,
+                    t + 1 < TABLES ? "," : "\n");
+        return 2;
+    }
     setvbuf(stdout, NULL, _IOLBF, 0); /* each line when it is measured */
-    for (int i = 1, t; i < argc; i++) {
-        for (t = 0; t < TABLES && strcmp(argv[i], tables[t].name); t++)
-            continue;
-        if (strcmp(argv[i], "--help") == 0)
-            return print_help();
-        if (strcmp(argv[i], "--quick") == 0) {
-            bench.quick = true;
-        } else if (strcmp(argv[i], "--output") == 0 && i + 1 < argc) {
-            bench.folder = argv[++i];
-        } else if (t < TABLES) {
-            from = t;
-            to = t + 1;
-        } else {
-            fprintf(stderr,
-                    "elasto-bench: '%s' is no option and no table; see "
-                    "--help\n",
-                    argv[i]);
-            return 2;
-        }
-    }
-    if (mkdir(bench.folder, 0777) && errno != EEXIST) {
-        fprintf(stderr, "elasto-bench: %s: %s\n", bench.folder,
-                strerror(errno));
-        return 1;
-    }
-    describe_machine(&bench, stdout);
-    Status status = STATUS_OK;
-    for (int t = from; t < to && !status; t++)
-        status = run_table(&bench, &tables[t]);
+    printf("# elasto %s; SuiteSparse %d.%d.%d; SDL %d.%d.%d; compiler %s; "
+           "flags %s; one thread; %s run\n%s\n",
+           ELASTO_VERSION, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION,
+           SUITESPARSE_SUBSUB_VERSION, SDL_MAJOR_VERSION, SDL_MINOR_VERSION,
+           SDL_PATCHLEVEL, __VERSION__, BENCH_FLAGS, quick ? "quick" : "full",
+           tables[t].columns);
+    Status status = tables[t].run(quick);
+    if (status)
+        fprintf(stderr, "elasto-bench: %s\n", status_text(status));
     return status || fflush(stdout) || ferror(stdout);
 }

@@ -20,14 +20,13 @@ static Status time_frames(const Show *show, int width, int height, double *ms)
     return status;
 }
 
-Status bench_frames(Bench *bench)
+Status bench_frames(bool quick)
 {
     static Show show;
     static History history;
     Status status = STATUS_OK;
     double bare = 0, full = 0;
-    puts("  segments  bare, 900 x 900  all of 1280 x 800");
-    for (int n = 4; n <= (bench->quick ? 8 : 256) && !status; n *= 2) {
+    for (int n = 4; n <= (quick ? 8 : 256) && !status; n *= 2) {
         Simulation simulation;
         Options options = slides_options(n);
         options.integrator = integrator_method("verlet") - integrator_methods;
@@ -45,10 +44,8 @@ Status bench_frames(Bench *bench)
         if (!status)
             status = time_frames(&show, 900, 900, &bare);
         simulation_free(&simulation);
-        if (!status) {
-            printf("  %8d %16.2f %18.2f\n", n, bare, full);
-            bench_row(bench, "%d,%.6g,%.6g", n, bare, full);
-        }
+        if (!status)
+            printf("%d,%.6g,%.6g\n", n, bare, full);
         if (n == 128)
             bench_claim("ms to draw a bare frame of 128 segments", bare, 4);
     }

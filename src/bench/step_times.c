@@ -58,26 +58,22 @@ static Status play(Maker maker, int segments, int start, int steps, Runs *runs)
 }
 
 /* Returns the median time of a step, ms. */
-static double report(Bench *bench, Maker maker, int segments, Runs *runs,
-                     int count)
+static double report(Maker maker, int segments, Runs *runs, int count)
 {
     double ms = bench_median(runs->ms, count), *sorted = runs->ms;
     double updates = bench_median(runs->updates, count);
     double energy = bench_median(runs->energy, count);
-    printf("  %8d %-10s %6d %10.3f %10.3f %10.3f %8.1f %7.3f\n", segments,
+    printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
            makers[maker].name, count, ms, sorted[0], sorted[count - 1], updates,
-           energy);
-    bench_row(bench, "%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld", segments,
-              makers[maker].name, count, ms, sorted[0], sorted[count - 1],
-              updates, energy, runs->unconverged);
+           energy, runs->unconverged);
     return ms;
 }
 
 /* All solvers on one square, by turns. */
-static Status measure(Bench *bench, int segments, double ms[SOLVERS])
+static Status measure(bool quick, int segments, double ms[SOLVERS])
 {
     Runs runs[SOLVERS] = {{.unconverged = 0}};
-    int starts = bench->quick ? 1 : STARTS, steps = bench->quick ? 3 : STEPS;
+    int starts = quick ? 1 : STARTS, steps = quick ? 3 : STEPS;
     int count = 0;
     double began = clock_now();
     Status status = STATUS_OK;
@@ -87,20 +83,17 @@ static Status measure(Bench *bench, int segments, double ms[SOLVERS])
                 status = play((Maker)m, segments, count, steps, &runs[m]);
     for (int m = 0; m < SOLVERS && !status; m++)
         if (segments <= makers[m].largest)
-            ms[m] = report(bench, (Maker)m, segments, &runs[m], count);
+            ms[m] = report((Maker)m, segments, &runs[m], count);
     return status;
 }
 
-Status bench_steps(Bench *bench)
+Status bench_steps(bool quick)
 {
     Status status = STATUS_OK;
-    puts("  ms of processor time a step, the first ten of the default scene\n"
-         "  segments solver     starts     median      least       most"
-         "  updates    E, %");
-    for (int n = 4; n <= (bench->quick ? 32 : 512) && !status; n *= 2) {
+    for (int n = 4; n <= (quick ? 32 : 512) && !status; n *= 2) {
         double ms[SOLVERS] = {0};
-        status = measure(bench, n, ms);
-        if (status || bench->quick)
+        status = measure(quick, n, ms);
+        if (status || quick)
             continue;
         if (n == 32)
             bench_claim("newton's time over that of the slides' program",

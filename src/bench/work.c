@@ -188,13 +188,13 @@ static void find_best(const Rung *last, const Rung *now, const char *name,
  * most its tolerance; the sum over all steps is steps * tolerance * time / 2.
  * That may be a tenth of the error that is expected.  No run takes longer than
  * so much time, none follows an error that is small enough. */
-static Status climb(Bench *bench, const Problem *problem,
+static Status climb(bool quick, const Problem *problem,
                     const IntegratorMethod *method, Best best[TARGETS])
 {
     const Motion *motion = problem->motion;
     int segments = problem->simulation.options.segments;
-    double longest = bench->quick ? 0.01 : segments / 64.0 + 0.25;
-    double enough = bench->quick ? 1e-5 : 1e-8, expected = first_error;
+    double longest = quick ? 0.01 : segments / 64.0 + 0.25;
+    double enough = quick ? 1e-5 : 1e-8, expected = first_error;
     Rung last = {.error = INFINITY}, now = {.failed = true};
     for (long steps = FIRST_STEPS; now.failed || now.error >= enough;
          steps *= 2) {
@@ -208,11 +208,10 @@ static Status climb(Bench *bench, const Problem *problem,
             fastest = fmin(fastest, now.seconds);
         }
         now.seconds = fastest;
-        bench_row(bench, "%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%d", motion->name,
-                  segments, method->name,
-                  method->implicit ? "multigrid" : "none", method->order, steps,
-                  now.tolerance, now.seconds, fmin(now.error, 1e300),
-                  now.failed);
+        printf("%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%d\n", motion->name, segments,
+               method->name, method->implicit ? "multigrid" : "none",
+               method->order, steps, now.tolerance, now.seconds,
+               fmin(now.error, 1e300), now.failed);
         if (!now.failed) {
             find_best(&last, &now, method->name, best);
             last = now;
@@ -227,45 +226,42 @@ static Status climb(Bench *bench, const Problem *problem,
 
 /* All methods on one problem, and for each error the fastest explicit and the
  * fastest implicit one. */
-static Status climb_all(Bench *bench, const Problem *problem)
+static Status climb_all(bool quick, const Problem *problem)
 {
     Best best[2][TARGETS];
     for (int i = 0; i < 2 * TARGETS; i++)
         best[i / TARGETS][i % TARGETS] = (Best){NULL, INFINITY};
     for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
-        Status status = climb(bench, problem, row, best[row->implicit]);
+        Status status = climb(quick, problem, row, best[row->implicit]);
         if (status)
             return status;
     }
-    puts("   error m  best explicit             ms  best implicit"
-         "        ms  implicit/explicit");
+    printf("# %s, %g segments\n#  error m  best explicit             ms  best "
+           "implicit        ms  implicit/explicit\n",
+           problem->motion->name, problem->simulation.options.segments);
     for (int t = 0; t < TARGETS; t++) {
         const Best *one = &best[0][t], *other = &best[1][t];
         if (one->name && other->name)
-            printf("   %7.0e  %-16s %11.3f  %-14s %8.3f  %8.3g: implicit %s\n",
+            printf("#  %7.0e  %-16s %11.3f  %-14s %8.3f  %8.3g: implicit %s\n",
                    targets[t], one->name, one->ms, other->name, other->ms,
                    other->ms / one->ms, other->ms > one->ms ? "loses" : "wins");
     }
     return STATUS_OK;
 }
 
-Status bench_work(Bench *bench)
+Status bench_work(bool quick)
 {
     Status status = STATUS_OK;
     for (int m = 0; m < MOTIONS; m++)
         for (int i = 0; motions[m].segments[i] && !status; i++) {
             const Motion *motion = &motions[m];
-            int segments = bench->quick ? 4 : motion->segments[i];
+            int segments = quick ? 4 : motion->segments[i];
             Problem problem;
-            if (bench->quick && i > 0)
+            if (quick && i > 0)
                 break;
-            printf("\n  %s: %d segments, k %.0e J/m^2, stretch %g, spin %g "
-                   "rad/s, %g s\n",
-                   motion->name, segments, motion->stiffness, motion->stretch,
-                   motion->spin, motion->time);
             status = create_problem(motion, segments, &problem);
             if (!status)
-                status = climb_all(bench, &problem);
+                status = climb_all(quick, &problem);
             simulation_free(&problem.simulation);
             free(problem.v);
         }
