@@ -20,6 +20,7 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
         Level *level = &cycle->level[cycle->levels++];
         more = nodes > COARSEST;
         level->rows = rows_of(nodes);
+        level->coarse = more ? level + 1 : NULL;
         size_t bytes = (size_t)level->rows.plane * sizeof(float);
         for (int i = 0; i < 3 * KINDS; i++)
             level->K[i / 3][i % 3] = memory_piece(memory, bytes);
@@ -44,16 +45,17 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
  * behind the one before, whose neighbouring rows it needs: what one leaves is
  * still near when the next one reads it. */
 
-typedef struct Stages {
-    const VCycle *cycle;
-    const Level *level, *coarse; /* coarse: NULL at the coarsest */
-    int rows;                    /* the level's, or one more for the coarse */
-    double *sums;                /* [2] the last stage is wanted, NULL: not */
-} Stages;
-
 INLINE bool has_row(int rows, int i)
 {
     return i >= 0 && i < rows;
+}
+
+/* A level's rows, or one more, outside, of which the coarser one has the half.
+ */
+INLINE int rows_for_both(const Level *level)
+{
+    int nodes = level->rows.nodes;
+    return level->coarse ? nodes | 1 : nodes;
 }
 
 /* ---- tensors ---- */
@@ -187,40 +189,24 @@ INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
     }
 }
 
-FAST static void set_up_level(const Stages *s)
+FAST static void set_up_level(const VCycle *cycle, const Level *l)
 {
-    const bool finest = s->level == s->cycle->level;
-    const int nodes = s->level->rows.nodes;
-    for (int row = 0; row < s->rows + 2; row++) {
-        if (finest && has_row(nodes, row))
-            tensor_row(s->cycle, row);
+    const int nodes = l->rows.nodes, rows = rows_for_both(l);
+    for (int row = 0; row < rows + 2; row++) {
+        if (l == cycle->level && has_row(nodes, row))
+            tensor_row(cycle, row);
         if (has_row(nodes, row - 1))
-            invert_row(s->level, row - 1);
+            invert_row(l, row - 1);
         int i = row - 2;
-        if (s->coarse && i % 2 == 0 && has_row(s->rows, i))
-            coarsen_row(s->level, s->coarse, i / 2);
+        if (l->coarse && i % 2 == 0 && has_row(rows, i))
+            coarsen_row(l, l->coarse, i / 2);
     }
-}
-
-/* Their number, and each level with the next coarser one. */
-static Stages stages_of(const VCycle *cycle, int number)
-{
-    const Level *level = &cycle->level[number];
-    Stages s = {.cycle = cycle, .level = level, .rows = level->rows.nodes};
-    if (number + 1 < cycle->levels) {
-        s.coarse = level + 1;
-        if (2 * s.coarse->rows.nodes > s.rows)
-            s.rows = 2 * s.coarse->rows.nodes - 1;
-    }
-    return s;
 }
 
 static void set_up(VCycle *cycle)
 {
-    for (int l = 0; l < cycle->levels && !cycle->set_up; l++) {
-        const Stages stages = stages_of(cycle, l);
-        set_up_level(&stages);
-    }
+    for (int l = 0; l < cycle->levels && !cycle->set_up; l++)
+        set_up_level(cycle, &cycle->level[l]);
     cycle->set_up = true;
 }
 
@@ -236,8 +222,8 @@ void v_cycle_read_system(VCycle *cycle)
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < rows->plane; k++)
             cycle->c[kind][k] = (float)grid->c[kind][k];
-    for (Level *l = cycle->level; l + 1 < cycle->level + cycle->levels; l++) {
-        const Level *coarse = l + 1;
+    for (Level *l = cycle->level; l->coarse; l++) {
+        const Level *coarse = l->coarse;
         int last = l->rows.nodes - 1;
         for (int I = 0; I < coarse->rows.nodes; I++) {
             restrict_row(&l->rows, &coarse->rows, I, l->m, coarse->m);
@@ -371,11 +357,10 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
 
 /* From x = 0 forward, and b of the coarser level: even rows, then odd ones, of
  * each the even columns, then the odd ones. */
-FAST static void descend(const Stages *s)
+FAST static void descend(const Level *l)
 {
-    const Level *l = s->level;
-    const int nodes = l->rows.nodes;
-    for (int row = 0; row < s->rows + 3; row++) {
+    const int nodes = l->rows.nodes, rows = rows_for_both(l);
+    for (int row = 0; row < rows + 3; row++) {
         int i = row;
         if (i % 2 == 0 && has_row(nodes, i)) {
             visit_row(l, i, 0, FIRST, NULL, NULL);
@@ -394,33 +379,32 @@ FAST static void descend(const Stages *s)
             visit_row(l, i, 1, LEFT, NULL, NULL);
         }
         i = row - 3;
-        if (s->coarse && i % 2 == 0 && has_row(s->rows, i))
+        if (l->coarse && i % 2 == 0 && has_row(rows, i))
             for (int c = 0; c < 2; c++)
-                restrict_row(&l->rows, &s->coarse->rows, i / 2,
+                restrict_row(&l->rows, &l->coarse->rows, i / 2,
                              l->w + c * l->rows.plane,
-                             s->coarse->b + c * s->coarse->rows.plane);
+                             l->coarse->b + c * l->coarse->rows.plane);
     }
 }
 
-/* x += P of the coarser level's, then backward in the opposite order; and
- * w = A x where it is wanted. */
-FAST static void ascend(const Stages *s)
+/* x += P of the coarser level's, then backward in the opposite order; where
+ * there are sums, also w = A x. */
+FAST static void ascend(const Level *l, double *sums)
 {
-    const Level *l = s->level;
     const int nodes = l->rows.nodes;
     for (int row = 0; row < nodes + 3; row++) {
-        if (s->coarse && has_row(nodes, row))
+        if (l->coarse && has_row(nodes, row))
             for (int c = 0; c < 2; c++)
-                prolong_row(l, &s->coarse->rows, row,
-                            s->coarse->x + c * s->coarse->rows.plane,
+                prolong_row(l, &l->coarse->rows, row,
+                            l->coarse->x + c * l->coarse->rows.plane,
                             l->x + c * l->rows.plane);
         for (int stage = 1; stage <= 2; stage++) {
             int i = row - stage;
             if ((i % 2 != 0) == (stage == 1) && has_row(nodes, i))
                 smooth_row(l, i, true);
         }
-        if (s->sums && has_row(nodes, row - 3))
-            product_row(l, row - 3, s->sums);
+        if (sums && has_row(nodes, row - 3))
+            product_row(l, row - 3, sums);
     }
 }
 
@@ -437,17 +421,12 @@ FAST static void smooth_coarsest(const Level *l, bool back)
 static void v_cycle(VCycle *cycle, double *sums)
 {
     sums[0] = sums[1] = 0;
-    for (int l = 0; l < cycle->levels; l++) {
-        const Stages stages = stages_of(cycle, l);
-        descend(&stages);
-    }
+    for (int l = 0; l < cycle->levels; l++)
+        descend(&cycle->level[l]);
     for (int t = 1; t < 2 * COARSEST_TIMES - 1; t++)
         smooth_coarsest(&cycle->level[cycle->levels - 1], t >= COARSEST_TIMES);
-    for (int l = cycle->levels - 1; l >= 0; l--) {
-        Stages stages = stages_of(cycle, l);
-        stages.sums = l == 0 ? sums : NULL;
-        ascend(&stages);
-    }
+    for (int l = cycle->levels - 1; l >= 0; l--)
+        ascend(&cycle->level[l], l == 0 ? sums : NULL);
     cycle->cycles++;
 }
 

@@ -21,10 +21,11 @@ enum { MAX_LEVELS = 24 };
 
 typedef struct Level {
     Rows rows;
-    float *K[KINDS][3]; /* [plane] tensors xx, xy, yy at their first node */
-    float *D[3];        /* [plane] inverse 2x2 blocks; 0 where held, outside */
-    float *m;           /* [plane] 0 where held */
-    float *x, *b, *w;   /* [2 planes] about A^-1 b; what is left, or A x */
+    struct Level *coarse; /* NULL: it is the coarsest */
+    float *K[KINDS][3];   /* [plane] tensors xx, xy, yy at their first node */
+    float *D[3];      /* [plane] inverse 2x2 blocks; 0 where held, outside */
+    float *m;         /* [plane] 0 where held */
+    float *x, *b, *w; /* [2 planes] about A^-1 b; what is left, or A x */
 } Level;
 
 typedef struct VCycle {
