@@ -1,7 +1,9 @@
 #include <math.h>
+#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "scenes/small_scenes.h"
 
 enum { LINE_POINTS = 161 };
 
@@ -14,7 +16,8 @@ static const double WORDS_WIDE = 28; /* ems that all words need in one row */
 /* What is drawn: the two functions on one grid of alpha. */
 typedef struct Curves {
     double alpha[LINE_POINTS], exact[LINE_POINTS], model[LINE_POINTS];
-    double low, high; /* of the axis */
+    double other[LINE_POINTS]; /* exact, too, along the projected p; or NaN */
+    double low, high;          /* of the axis */
 } Curves;
 
 /* E(x + alpha p) - E(x) of a quadratic function with minimum at alpha = 1:
@@ -32,7 +35,7 @@ static double exact_value(const Trace *trace, double alpha)
 
 /* From the lowest of both curves to a bit above 0; trials that lie far above
  * are told in words. */
-static void fill_curves(const Trace *trace, Curves *curves)
+static void fill_curves(const Trace *trace, const Trace *other, Curves *curves)
 {
     double end = BEYOND * trace_alpha(trace, 1);
     double low = 0, high = 0;
@@ -41,7 +44,9 @@ static void fill_curves(const Trace *trace, Curves *curves)
         curves->alpha[i] = alpha;
         curves->exact[i] = exact_value(trace, alpha);
         curves->model[i] = model_value(trace->slope, alpha);
+        curves->other[i] = other ? exact_value(other, alpha) : NAN;
         low = fmin(low, fmin(curves->exact[i], curves->model[i]));
+        low = fmin(low, curves->other[i]);
         if (!isnan(curves->exact[i]))
             high = fmax(high, curves->exact[i]);
     }
@@ -55,7 +60,7 @@ static void fill_curves(const Trace *trace, Curves *curves)
             : fmin(fmax(high, 0.25 * depth), ABOVE * depth);
 }
 
-/* A trial above the axis is a small arrow at its upper edge. */
+/* A trial above the axis is a small arrow at its upper edge, with its value. */
 static void draw_trial(const Plot *plot, double alpha, double value,
                        bool accepted)
 {
@@ -72,6 +77,13 @@ static void draw_trial(const Plot *plot, double alpha, double value,
     else
         canvas_arrow(&paper->canvas, at[0], at[1] + 14 * unit, at[0], at[1],
                      1.6 * unit, 7 * unit, colour);
+    if (value > plot->y.high) {
+        char words[128];
+        snprintf(words, sizeof words, "{alpha} = %s: +%s",
+                 number_of(alpha).text, number_of(value).text);
+        plot_words(plot, 1, &(const double[2]){alpha, plot->y.high}, 0.6, 1,
+                   FACE_BOLD, colour, words);
+    }
 }
 
 /* What the curves are, and the last trial, above the plot: nothing of it lies
@@ -96,18 +108,39 @@ static Plot draw_words(const Plot *card)
     return rest;
 }
 
+/* On a page, of a descent whose p is not projected, that along the projected
+ * one, until a step is made; NULL elsewhere. */
+static const Trace *projected_trace(const Plot *card, DescentTrace *space)
+{
+    const Pane *pane = show_pane(card->show);
+    if (!card->show->lecture || pane->update != &pane->descent.trace ||
+        isnan(fact_number(&pane->facts, "projected slope")))
+        return NULL;
+    *space = pane->descent;
+    descent_direction(card->simulation, FILTER_CLAMP, space->from, space->p);
+    space->trace.function = space;
+    return &space->trace;
+}
+
 static void draw_curves(const Plot *card, const Trace *trace)
 {
     static const char *const alpha = "{alpha}";
     Curves curves;
-    fill_curves(trace, &curves);
+    DescentTrace space;
+    fill_curves(trace, projected_trace(card, &space), &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, alpha};
     Axis y = {curves.low, curves.high, false, false, NULL};
     Plot rest = draw_words(card), plot = plot_create(&rest, x, y);
     const double origin[2] = {0, 0};
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
+    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.other, 2,
+               COLOUR_PROJECT);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
     plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
+    double first = trace_alpha(trace, 1), full = exact_value(trace, first);
+    const LecturePage *page = card->show->lecture;
+    if (trace->trials == 0 && page && page->star && full > plot.y.high)
+        draw_trial(&plot, first, full, false);
     for (int t = 0; t < trace->trials; t++) {
         double at = trace_alpha(trace, t + 1);
         bool last = t == trace->trials - 1;

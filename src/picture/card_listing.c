@@ -95,8 +95,8 @@ void prints_draw(const Plot *card)
     Plot below = *card;
     Box inside = card->box;
     const Trace *trace = show_pane(card->show)->update;
-    bool star = inside.width > STAR_WIDE * paper->em;
-    double size = star ? 1.5 : 0.95;
+    bool star = inside.height > 14 * paper->em;
+    double size = inside.width > STAR_WIDE * paper->em ? 1.5 : 0.95;
     if (star && trace) {
         inside.height /= 2;
         below.box.y += inside.height;
@@ -110,16 +110,24 @@ void prints_draw(const Plot *card)
         cards_hint(card, "N makes a step");
         return;
     }
-    for (int i = first; i < count && i - first < room; i++)
-        paper_write(paper, FACE_MONO, size, COLOUR_TEXT, inside.x,
-                    inside.y + (i - first) * pitch, ALIGN_LEFT,
-                    "%s%d: residual = %s  step size = %s",
-                    inside.width < 29 * paper->em ? "" : "Iteration ", i,
-                    number_with(trace->record[i].residual, 4).text,
-                    number_of(trace->record[i].alpha).text);
+    for (int i = first; i < count && i - first < room; i++) {
+        double residual = trace->record[i].residual;
+        double y = inside.y + (i - first) * pitch;
+        int x = paper_write(
+            paper, FACE_MONO, size, COLOUR_TEXT, inside.x, y, ALIGN_LEFT,
+            "%s%d: residual = %s  step%s = %s", size < 1 ? "" : "Iteration ", i,
+            number_with(residual, 4).text, size < 1 ? "" : " size",
+            number_of(trace->record[i].alpha).text);
+        if (i > 0)
+            paper_write(
+                paper, FACE_MONO, size, COLOUR_P,
+                inside.x + x + 1.2 * size * paper->em, y, ALIGN_LEFT,
+                "\u00f7 %s",
+                number_of(trace->record[i - 1].residual / residual).text);
+    }
     if (count - first < room && trace->residual <= trace->tolerance)
         paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x,
                     inside.y + (count - first) * pitch, ALIGN_LEFT,
-                    "then residual \u2264 %s: the loop ends",
+                    "then %d (hollow) \u2264 %s: the loop ends", count,
                     number_of(trace->tolerance).text);
 }

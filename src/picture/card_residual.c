@@ -80,7 +80,7 @@ void residual_draw(const Plot *card)
     const LecturePage *page = card->show->lecture;
     bool star = page && page->star; /* from 0, as the slides' program prints */
     double most = fmax(trace->updates + pending, 4);
-    Axis x = {0.5 - star, most + 0.5 - star, false, true,
+    Axis x = {0.5 - star, most + 0.5 - 0.4 * star, false, true,
               star ? "iteration" : "update"};
     Axis y = {pow(10, floor(log10(range[0]))), pow(10, ceil(log10(range[1]))),
               true, false, star ? "residual, m/s" : NULL};

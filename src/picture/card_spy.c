@@ -12,10 +12,10 @@ static int node_place(const System *system, int node, bool natural)
     return natural ? node : system->order[node];
 }
 
-/* What is in row i of column j < i of the factor: [j n + i]; NULL: not enough
- * memory.  A column has what the matrix has there, and what each column has
- * whose first entry below the diagonal it is (George and Liu 1981).  In the
- * natural order the matrix alone, of so many springs. */
+/* What is in row i of column j < i of the factor of so many springs: [j n + i];
+ * NULL: not enough memory.  A column has what the matrix has there, and what
+ * each column has whose first entry below the diagonal it is (George and Liu
+ * 1981).  In the natural order the matrix alone. */
 static unsigned char *make_pattern(const System *system, bool natural,
                                    int springs)
 {
@@ -73,9 +73,9 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
     const System *system = &card->simulation->system;
     const Pick *hover = &card->show->hover;
     unsigned char *block = make_pattern(system, natural, springs);
-    int lit = hover->kind == PICK_SPRING       ? hover->index
-              : natural && card->show->lecture ? springs - 1
-                                               : -1;
+    int lit = hover->kind == PICK_SPRING ? hover->index
+              : card->show->lecture      ? springs - 1
+                                         : -1;
     if (block)
         draw_pattern(&paper->canvas, square, system->nodes, block);
     free(block);
@@ -124,7 +124,7 @@ void spy_draw(const Plot *card)
                         ALIGN_LEFT,
                         k ? "order of elimination" : "rows 2i, 2i + 1");
             draw_matrix(card, (Box){x, inside.y + line, side, side}, !k,
-                        k ? system->springs : springs);
+                        springs);
         }
         draw_block(card, 2 * line + side);
     }

@@ -85,8 +85,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "grows", settles && forward);
     fact_when(facts, "keeps", settles && method && !method->damps);
     fact(facts, "panes", show->panes > 1 ? show->panes : NAN);
-    fact_when(facts, "searches",
-              scene->turn && scene->picture != PICTURE_ENVELOPE);
+    fact_when(facts, "searches", scene->step == step_descent);
     fact(facts, "runs", simulation->runs);
     fact_when(facts, "mixed", simulation->runs > 1 && method != run[1].method);
     fact_words(facts, "method", method ? method->label : NULL);
@@ -110,6 +109,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "done", simulation->done);
     fact_when(facts, "paused", show->paused);
     fact_when(facts, show->veiled ? "asked" : "told", true);
+    fact_when(facts, show->held.on ? "held" : "free", true);
 }
 
 /* The step as far as it has come, or the last update of a search. */

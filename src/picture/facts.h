@@ -29,6 +29,9 @@ void fact_point(Facts *facts, const char *name, const double point[2]);
 void fact_matrix(Facts *facts, const char *const names[3], const double H[3],
                  double none);
 
+/* The number of this name; NaN: none. */
+double fact_number(const Facts *facts, const char *name);
+
 /* A line as it is written, and where in its text. */
 typedef struct TextLine {
     Colour colour;

@@ -105,7 +105,7 @@ void glow_draw(Paper *paper, const Show *show)
         colour = term_near(&paper->canvas, show->over.at, AT_MOUSE * paper->em);
     if (colour == COLOUR_X && show->over.zone == ZONE_STAGE)
         colour = 0; /* all of the square */
-    if (!colour && trace)
+    if (!colour && trace && strstr(show->lecture->cards, "listing"))
         colour = of_line[trace->line];
     if (colour)
         light(&paper->canvas, colour, (int)(GLOW_RADIUS * paper->unit + 0.5));

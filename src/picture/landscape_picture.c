@@ -125,8 +125,10 @@ static Plot draw_map(const Plot *stage)
     const double *x = simulation->run[0].x;
     Plot plot = plot_on(stage, (Axis){.label = "x in m"}, (Axis){0});
     show_map(&plot);
-    plot_springs(&plot, system, x, 3.5, COLOUR_REST);
-    for (int i = 1; i < system->nodes; i++)
+    bool elastic = simulation->exhibit.parts != PART_INERTIA;
+    if (elastic)
+        plot_springs(&plot, system, x, 3.5, COLOUR_REST);
+    for (int i = 1; i < system->nodes && elastic; i++)
         plot_pin(&plot, x + 2 * i, 5);
     plot_disc(&plot, simulation->exhibit.target, 6, COLOUR_X_TILDE);
     return plot;
@@ -200,12 +202,9 @@ static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
-    unsigned parts = simulation->exhibit.parts;
     bool raw = simulation->options.filter == FILTER_NONE;
+    bool alone = simulation->exhibit.parts != PART_BOTH;
     const double *own = descent->direction;
-    const char *alone = parts == PART_BOTH      ? NULL
-                        : parts == PART_INERTIA ? "inertia alone"
-                                                : "elasticity alone";
     double p[2], slope;
     if (own[0] == 0 && own[1] == 0)
         return;
@@ -213,11 +212,33 @@ static void draw_directions(const Plot *plot, bool both)
                               descent->point, p);
     for (int named = 0; named < 2; named++) {
         if (both && !alone && math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
-            draw_direction(plot, named, p, COLOUR_GHOST,
+            draw_direction(plot, named, p, raw ? COLOUR_PROJECT : COLOUR_GHOST,
                            raw ? "with projection" : "without", slope);
         if (both || !alone)
-            draw_direction(plot, named, own, COLOUR_P, alone, descent->slope);
+            draw_direction(plot, named, own, COLOUR_P, NULL, descent->slope);
     }
+}
+
+/* What the map is of. */
+static void name_parts(unsigned parts, Facts *facts)
+{
+    fact_words(facts, "part",
+               parts == PART_BOTH      ? "E"
+               : parts == PART_INERTIA ? "inertia"
+                                       : "elasticity");
+}
+
+/* What projection makes of the start's Hessian and direction. */
+static void add_projected(const Simulation *simulation, const double *x,
+                          Facts *facts)
+{
+    static const char *const names[] = {"Pxx", "Pxy", "Pyy"};
+    double p[2], slope = descent_direction(simulation, FILTER_CLAMP, x, p);
+    Local E = descent_at(simulation, FILTER_CLAMP, x[0], x[1]);
+    fact_matrix(facts, names, E.H, 0);
+    fact_point(facts, "projected p", p);
+    fact(facts, "projected slope", slope);
+    fact_when(facts, "directions", simulation->options.page);
 }
 
 void landscape_facts(const Simulation *simulation, Facts *facts)
@@ -237,16 +258,16 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "g", E.g);
     fact_point(facts, "solution", descent->direction);
     fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
+    if (simulation->options.filter == FILTER_NONE && parts == PART_BOTH &&
+        descent->count == 0)
+        add_projected(simulation, x, facts);
     fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
     fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);
     fact(facts, "elastic part", springs < 1e-30 ? 0 : springs);
     fact(facts, "Hxx", E.H[0]);
     fact(facts, "Hxy", E.H[1]);
     fact(facts, "Hyy", E.H[2]);
-    fact_words(facts, "part",
-               parts == PART_BOTH      ? "E"
-               : parts == PART_INERTIA ? "inertia"
-                                       : "elasticity");
+    name_parts(parts, facts);
     fact_when(facts, "both", parts == PART_BOTH);
     fact_when(facts, "elastic", parts != PART_INERTIA);
     fact_when(facts, "directed",
@@ -337,6 +358,7 @@ void dial_facts(const Simulation *simulation, Facts *facts)
     const double *target = simulation->exhibit.target;
     double elastic =
         landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]);
+    name_parts(simulation->exhibit.parts, facts);
     fact(facts, "h", h);
     fact_point(facts, "minimiser", x);
     fact(facts, "distance", math_hypot(x[0] - target[0], x[1] - target[1]));

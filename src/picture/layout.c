@@ -16,8 +16,9 @@ static const double BOLD = 1.12;        /* letters that a bold one is wide */
 static const double BARS = 2.4;         /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
 static const double NAME = 1.8, HEADING = 2.2; /* of the sheet */
-static const double PAIR_LEAST = 28; /* a column for two cards in a row */
-static const double STAR_REST = 0.4; /* of the stage, below a star */
+static const double PAIR_LEAST = 28;  /* a column for two cards in a row */
+static const double STAR_REST = 0.4;  /* of the stage, below a star */
+static const double STAR_WORDS = 1.3; /* times what they need, below it */
 
 /* Cards fold where the room is less than this part of what they need. */
 static const double FOLDS = 1.15;
@@ -168,6 +169,18 @@ typedef struct CardRow {
     double least, weight; /* ems it needs; share of what is left */
 } CardRow;
 
+/* Where a page has a star: a card that is below what is on the stage, be it the
+ * star or beside it; beside code there is room for the star alone. */
+static bool is_below(const Show *show, int card)
+{
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    const LecturePage *page = show->lecture;
+    return page && page->star && picture->cards[card]->below &&
+           !((show->hidden | show->closed) >> card & 1) &&
+           (card == picture_card(picture, page->star) ||
+            show->page.kind == PAGE_NONE);
+}
+
 /* The rows [LAYOUT_CARDS] of all cards that are seen: side by side where two
  * want it.  Returns how many. */
 static int find_rows(const Show *show, double wide, double em, bool pairs,
@@ -180,7 +193,7 @@ static int find_rows(const Show *show, double wide, double em, bool pairs,
         const Card *card = picture->cards[i];
         bool bar = (show->closed >> i & 1) || (large && i != show->large);
         bool half = card->half || (card->half_on_page && show->lecture);
-        if (show->hidden >> i & 1)
+        if (show->hidden >> i & 1 || is_below(show, i))
             continue;
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].cards = 2;
@@ -317,7 +330,7 @@ static double least_letter(const Show *show, int width, int height)
 
 /* The card that a page wants large stands on the stage, and the picture in the
  * card's place; where the column has no room for it, or code stands there,
- * below the card. */
+ * below the card; that of some is always below the picture. */
 static void place_star(const Show *show, Layout *layout)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
@@ -325,11 +338,21 @@ static void place_star(const Show *show, Layout *layout)
     int star = page && page->star ? picture_card(picture, page->star) : -1;
     double bar = 3 * layout->em; /* more than a card that is closed has */
     if (star < 0 || star >= layout->cards || layout->panes != 1 ||
-        (layout->card[star].width < 1 && !layout->page) ||
         layout->stage.height < 2 * bar || show->closed >> star & 1 ||
         (show->large >= 0 && show->large != star))
         return;
     Box stage = layout->pane[0], place = layout->card[star];
+    for (int i = 0; i < layout->cards; i++) {
+        if (!is_below(show, i))
+            continue;
+        double needs = STAR_WORDS * picture->cards[i]->least + 2 * GAP;
+        int high = (int)fmin(needs * layout->em, 0.6 * stage.height);
+        layout->card[i] =
+            box_inset(cut(&stage, true, high), pixels(layout, GAP));
+        layout->pane[0] = stage;
+    }
+    if (is_below(show, star) || (place.width < 1 && !layout->page))
+        return;
     if (place.height < bar)
         place = cut(&stage, true, (int)(STAR_REST * stage.height));
     layout->card[star] = box_inset(stage, pixels(layout, GAP));

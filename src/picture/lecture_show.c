@@ -45,7 +45,7 @@ static int count_asides(const char *const *line)
         "cholmod_start|cholmod_common c|common.|size_t n|SDL_Quit|Vec2 *x|"
         "Vec2 *p|int n = |Solid solid = {|Parameter *|Parameter method|"
         "Parameter steps|for (int a|states = |read_argument(|bool drawn|"
-        "Screen s|";
+        "Screen s|cholmod_triplet *IJV|if (drawn ?|";
     const char *head = line[0] + strspn(line[0], " ");
     bool heads = strncmp(head, "if (", 4) == 0 ||
                  strncmp(head, "for (", 5) == 0 || strcmp(head, "else") == 0;

@@ -75,7 +75,9 @@ int paper_width(Paper *paper, Face face, double size, const char *markup)
 int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
               Align align, const char *markup)
 {
-    Box before = canvas_clip(&paper->canvas, box);
+    int air = paper_pixels(paper, 0.35); /* of what is raised */
+    Box room = {box.x, box.y - air, box.width, box.height + 2 * air};
+    Box before = canvas_clip(&paper->canvas, room);
     double wide = paper_width(paper, face, size, markup);
     size *= wide > box.width ? fmax(0.6, box.width / wide) : 1;
     TextStyle style = paper_style(paper, face, size, colour);

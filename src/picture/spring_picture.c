@@ -32,6 +32,17 @@ static SpringFacts facts_of_spring(const Simulation *simulation)
     return facts_at(simulation->run[0].x, &simulation->system);
 }
 
+/* The energies at a signed length along d. */
+static double energy_over(const void *system, double d)
+{
+    return facts_at((double[2]){d, 0}, system).energy;
+}
+
+static double root_over(const void *system, double d)
+{
+    return facts_at((double[2]){d, 0}, system).root_energy;
+}
+
 /* A circle of this radius around the held end, in dashes. */
 static void spring_circle(Plot *stage, double radius, Colour colour,
                           const char *word)
@@ -61,8 +72,8 @@ static void spring_coil(Plot *stage, const double *x, Colour colour)
     }
 }
 
-/* The eigenvectors of its block, longer the larger the eigenvalue, red where it
- * is negative. */
+/* The eigenvectors of its block, (q, -q), longer the larger the eigenvalue, red
+ * where it is negative. */
 static void spring_eigenvectors(Plot *stage, const double *x,
                                 const SpringFacts *facts, double k)
 {
@@ -70,8 +81,10 @@ static void spring_eigenvectors(Plot *stage, const double *x,
     for (int i = 0; i < 2 && facts->length > 0; i++) {
         double n[2] = {x[i] / facts->length, x[1 - i] / facts->length};
         n[0] = i ? -n[0] : n[0];
-        plot_arrow(stage, x, n, fabs(value[i]) / (4 * k), 3.2,
-                   value[i] < 0 ? COLOUR_WARNING : COLOUR_X);
+        for (int end = 0; end < 2; end++)
+            plot_arrow(stage, end ? origin : x, n,
+                       (end ? -1 : 1) * fabs(value[i]) / (4 * k), 3.2,
+                       value[i] < 0 ? COLOUR_WARNING : COLOUR_X);
     }
 }
 
@@ -84,14 +97,15 @@ void spring_draw(Plot *stage)
     double l = sqrt(simulation->system.l2[0]);
     SpringFacts facts = facts_of_spring(simulation);
     bool projects = facts.across < 0 && !show->veiled;
+    bool modes = show->lecture && show->lecture->modes;
     spring_circle(stage, l, COLOUR_FAINT, "l");
-    if (!show->lecture || show->lecture->modes)
+    if (!show->lecture || modes)
         spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     spring_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
-    if (show->lecture && show->lecture->modes && !show->veiled)
+    if (modes && !show->veiled)
         spring_eigenvectors(stage, x, &facts, simulation->system.k[0]);
-    else if (facts.length > 0) { /* beside the spring */
+    else if (!modes && facts.length > 0) { /* beside the spring */
         double side = SPRING_BESIDE / facts.length;
         const double from[2] = {x[0] - side * x[1], x[1] + side * x[0]};
         plot_arrow(stage, from, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
@@ -148,6 +162,7 @@ void length_facts(const Simulation *simulation, Facts *facts)
     Filter filter =
         simulation->options.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
     bool both = simulation->exhibit.parts;
+    const LecturePage *page = simulation->options.page;
     fact_point(facts, "d", simulation->run[0].x);
     fact(facts, "distance", now.length);
     fact(facts, "l", sqrt(simulation->system.l2[0]));
@@ -164,24 +179,16 @@ void length_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "projected across", projected_eigenvalue(filter, across));
     fact(facts, "negative", fmin(fmin(along, across), 0));
     add_hessian(simulation, filter, facts);
-    if (simulation->options.page)
+    if (page)
         add_differences(simulation, facts);
     fact_when(facts, "root", both);
+    fact_when(facts, page ? "lecture" : "alone", true);
+    fact_when(facts, "pulled", !page || !page->modes);
+    fact(facts, "tip", root_over(&simulation->system, 0));
     fact_when(facts, "shortened", now.across < 0);
     fact(facts, "root energy", both ? now.root_energy : NAN);
     fact(facts, "root along", both ? now.root_along : NAN);
     fact(facts, "root across", now.root_across);
-}
-
-/* The energies at a signed length along d. */
-static double energy_over(const void *system, double d)
-{
-    return facts_at((double[2]){d, 0}, system).energy;
-}
-
-static double root_over(const void *system, double d)
-{
-    return facts_at((double[2]){d, 0}, system).root_energy;
 }
 
 void profile_draw(const Plot *card)
@@ -192,8 +199,7 @@ void profile_draw(const Plot *card)
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_over : energy_over)(system, 0);
     Axis x = {-reach, reach, false, false, "d in m"};
-    Axis y = {0, plot_round_axis(1.1 * fmax(tip, now.energy)), false, false,
-              NULL};
+    Axis y = {0, 1.12 * fmax(tip, now.energy), false, false, NULL};
     Plot plot = plot_create(card, x, y);
     const double at[2] = {now.length, now.energy};
     const double root[2] = {now.length, now.root_energy};

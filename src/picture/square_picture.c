@@ -479,14 +479,20 @@ int lecture_spring(const Simulation *simulation)
     return (int)(simulation->steps % simulation->system.springs);
 }
 
-/* Of the block [[H, -H], [-H, H]] of the newest spring, kJ/m^2. */
+/* Of h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and its
+ * rows. */
 static void add_block(const Simulation *simulation, Facts *facts)
 {
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};
+    static const char *const rows[] = {"row 1", "row 2", "row 3", "row 4"};
     const System *system = &simulation->system;
     int s = lecture_spring(simulation);
-    double d[2], H[3], l2 = system->l2[s], k = 1e-3 * system->k[s];
-    spring_strain(system->e + 2 * s, l2, simulation->run[0].x, d);
+    const int *e = system->e + 2 * s;
+    double d[2], H[3], l2 = system->l2[s], h = simulation->options.timestep;
+    double k = h * h * system->k[s];
+    for (int i = 0; i < 4; i++)
+        fact(facts, rows[i], 2 * e[i / 2] + i % 2);
+    spring_strain(e, l2, simulation->run[0].x, d);
     spring_hessian(d, l2, k, simulation->options.filter, H);
     fact_matrix(facts, names, H, 1e-7 * k);
 }

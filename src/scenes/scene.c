@@ -124,7 +124,7 @@ const Scene scenes[] = {
      create_tangent, .turn = "iteration", .step = step_descent, .grips = "xt"},
     {"dial", "The time step as a dial",
      "a longer time step: from free flight to the rest shape", PICTURE_DIAL,
-     NEEDS_STEP, "--timestep 0.005", create_dial, .turn = "turn",
+     NEEDS_STEP, "--timestep 0.005", create_dial, .turn = "point",
      .step = step_dial, .grips = "t", .parts = {"inertia", "elasticity"}},
     {"spring", "One spring",
      "one spring: energy, force, eigenvalues; drag its end", PICTURE_SPRING,

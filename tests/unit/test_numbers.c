@@ -209,6 +209,21 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
         simulation->options.line_search != LINE_SEARCH_NONE)
         CHECK(fabsl(change) < 1e-14L * before || /* rounding */
               (change > 0) == !trace->accepted);
+    for (int t = 1; t <= trace->trials || t == 1; t++) {
+        spot.alpha = trace_alpha(trace, t);
+        change = oracle_step(&spot, u_tilde).f - before;
+        near("trial", change, 1e-6L * fabsl(change) + 1e-14L * before);
+    }
+    for (int i = trace->iteration - 1; i >= 0; i--)
+        before -= trace->record[i].change;
+    for (int i = 0; i <= trace->updates; i++) {
+        near("value", before, 1e-6L * before);
+        before += i < trace->updates ? trace->record[i].change : 0;
+    }
+    Place aim = place_at(system, x_n, u_tilde, trace->x_tilde);
+    aim.w = E.weight;
+    spot = (Spot){.at = &aim, .h = made.timestep};
+    near("value", oracle_step(&spot, u_tilde).f, 1e-12L * before);
 }
 
 /* What the slides' program prints; test_reference has its own lists. */
@@ -218,6 +233,10 @@ static void tell_prints(const Trace *trace)
         is("Iteration", i);
         is("printed", trace->record[i].residual);
         is("printed", trace->record[i].alpha);
+        is("printed", trace->record[i].change);
+        if (i > 0)
+            is("factor",
+               trace->record[i - 1].residual / trace->record[i].residual);
     }
 }
 
@@ -430,11 +449,12 @@ static void tell_law(const Simulation *simulation)
     near("law y", value, 1e-10L * (1 + fabsl(value)));
 }
 
-/* What a stretched spring adds to the Hessian, kJ/m^2: by P'' of its length and
- * P' over it. */
+/* What a stretched spring adds to the Hessian of E, kg, by P'' of its length
+ * and P' over it; and where. */
 static void tell_block(const Simulation *simulation, int spring)
 {
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};
+    static const char *const rows[] = {"row 1", "row 2", "row 3", "row 4"};
     const System *system = &simulation->system;
     const int *e = system->e + 2 * spring;
     const double *x = simulation->run[0].x;
@@ -447,8 +467,12 @@ static void tell_block(const Simulation *simulation, int spring)
     for (int i = 0; i < 3; i++) {
         Real part = d[i / 2] * d[(i + 1) / 2] / r2;
         Real H = part * along + ((i != 1) - part) * across;
-        near(names[i], H / 1000, 1e-9L * k);
+        Real w =
+            (Real)simulation->options.timestep * simulation->options.timestep;
+        near(names[i], w * H, 1e-12L * w * k);
     }
+    for (int i = 0; i < 4; i++)
+        is(rows[i], 2 * e[i / 2] + i % 2);
 }
 
 /* Its mesh, its fastest oscillation, and the force on its last node. */
@@ -627,6 +651,7 @@ static void tell_spring(const Simulation *simulation)
     near("force too", -2 * k * s * y, 1e-6L * k);
     is("apart", 0.1L);
     near("root energy", 2 * k * (r - l) * (r - l), 1e-15L * k);
+    is("tip", 2 * k * l * l);
     is("root along", 4 * k);
     near("root across", 4 * k * (1 - l / r), 1e-14L * k);
     near("block along", 2 * high, 1e-13L * k);
@@ -727,6 +752,7 @@ static void tell_iterate(const Simulation *simulation)
 /* E at the iterate of the landscape: its parts and derivatives. */
 static void tell_landscape(const Simulation *simulation)
 {
+    static const char *const projected[] = {"Pxx", "Pxy", "Pyy"};
     const Descent *descent = &simulation->descent;
     const double *o = simulation->exhibit.target;
     Real at[2] = {descent->point[0], descent->point[1]};
@@ -747,6 +773,12 @@ static void tell_landscape(const Simulation *simulation)
     near("Hxy", E.H[1], 1e-12L);
     near("Hyy", E.H[2], 1e-12L);
     near("m", 1, 0);
+    E = map_E(simulation, PART_BOTH, at, FILTER_CLAMP);
+    for (int i = 0; i < 3; i++)
+        near(projected[i], E.H[i], 1e-12L);
+    for (int i = 0; i < 2; i++)
+        near("projected p", E.p[i], 1e-12L);
+    near("projected slope", E.slope, 1e-12L * fabsl(E.slope));
 }
 
 /* The last update, or the first one that is to come. */
