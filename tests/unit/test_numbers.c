@@ -153,6 +153,27 @@ static bool only_springs(const Simulation *simulation)
            (filter == FILTER_CLAMP || filter == FILTER_NONE);
 }
 
+/* E along p from where it is, at x_tilde, and after each update. */
+static void tell_values(const Trace *trace, Spot *spot, const double *u_tilde,
+                        Real before)
+{
+    for (int t = 1; t <= trace->trials || t == 1; t++) {
+        spot->alpha = trace_alpha(trace, t);
+        Real change = oracle_step(spot, u_tilde).f - before;
+        near("trial", change, 1e-6L * fabsl(change) + 1e-14L * before);
+    }
+    for (int i = trace->iteration - 1; i >= 0; i--)
+        before -= trace->record[i].change;
+    for (int i = 0; i <= trace->updates; i++) {
+        near("value", before, 1e-6L * before);
+        before += i < trace->updates ? trace->record[i].change : 0;
+    }
+    Place aim = place_at(spot->at->system, x_n, u_tilde, trace->x_tilde);
+    aim.w = spot->at->w;
+    Spot there = {.at = &aim, .h = spot->h};
+    near("value", oracle_step(&there, u_tilde).f, 1e-12L * before);
+}
+
 /* The minimisation of the step that led here: where its trace stands. */
 static void tell_springs(const Simulation *simulation, const Trace *trace)
 {
@@ -209,21 +230,7 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
         simulation->options.line_search != LINE_SEARCH_NONE)
         CHECK(fabsl(change) < 1e-14L * before || /* rounding */
               (change > 0) == !trace->accepted);
-    for (int t = 1; t <= trace->trials || t == 1; t++) {
-        spot.alpha = trace_alpha(trace, t);
-        change = oracle_step(&spot, u_tilde).f - before;
-        near("trial", change, 1e-6L * fabsl(change) + 1e-14L * before);
-    }
-    for (int i = trace->iteration - 1; i >= 0; i--)
-        before -= trace->record[i].change;
-    for (int i = 0; i <= trace->updates; i++) {
-        near("value", before, 1e-6L * before);
-        before += i < trace->updates ? trace->record[i].change : 0;
-    }
-    Place aim = place_at(system, x_n, u_tilde, trace->x_tilde);
-    aim.w = E.weight;
-    spot = (Spot){.at = &aim, .h = made.timestep};
-    near("value", oracle_step(&spot, u_tilde).f, 1e-12L * before);
+    tell_values(trace, &spot, u_tilde, before);
 }
 
 /* What the slides' program prints; test_reference has its own lists. */
