@@ -228,6 +228,7 @@ void law_facts(const Simulation *simulation, Facts *facts)
     bool still = law->value == spring_value && now.spring.ep == 0;
     fact_when(facts, "law", true);
     fact_when(facts, "unflowed", still);
+    fact_when(facts, "bodies apart", self);
     fact_when(facts, law->name, is_there && !still);
     if (has_gap(law)) {
         const System *system = now.at.system;
@@ -270,7 +271,8 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
                       const LawNow *now)
 {
     static const char *const names[] = {"upper", "middle", "lower"};
-    static const double dot = 6, together = 2; /* units; ems */
+    static const double dot = 6;                             /* units */
+    static const double near = 0.6, far = 2.6, together = 2; /* ems */
     double at[SIMULATION_MAX_RUNS][2], p[2], q[2];
     for (int i = 0; i < runs; i++) {
         at[i][0] = fmin(fmax(now[i].x, plot->x.low), plot->x.high);
@@ -290,8 +292,11 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
         }
         if (words[0] && now[i].x > plot->x.high)
             strcat(words, " \u2192");
-        if (words[0])
-            plot_words(plot, 1, &at[i], 0.6, 1, FACE_REGULAR, COLOUR_P, words);
+        if (at[i][0] == plot->x.low) /* below the curve that begins there */
+            plot_text(plot, at[i], far, -1, 1, ALIGN_LEFT, FACE_REGULAR,
+                      COLOUR_P, "%s", words);
+        else if (words[0])
+            plot_words(plot, 1, &at[i], near, 1, FACE_REGULAR, COLOUR_P, words);
     }
 }
 
