@@ -1,42 +1,18 @@
 /* small_scenes.h - the lecture's small scenes: one mass, one unknown, one
  * spring, the square a hundred times.
  *
- * circle, arrows: a mass of 1 kg with a = -omega2 x; its exact path is the
- * ellipse x0 cos(omega t) + v0/omega sin(omega t).  In the circle omega is 2 pi
- * / s, the start (1, 0) m with speed omega: a step multiplies the radius by
- * sqrt(1 + (h omega)^2) (forward Euler) or its inverse (backward Euler); the
- * symplectic path stays on an ellipse with 1/sqrt(1 + h omega/2) <= |x| <=
- * 1/sqrt(1 - h omega/2).
- *
- * overshoot: f(x) = ln(e^x + e^-x) is convex with its minimum at 0, but from
- * x = 2 the update p = -f'/f'' = -sinh(2x)/2 leads to -11.6 and from there
- * beyond all numbers; with Algorithm 2 it converges.
- *
+ * circle, arrows: a mass of 1 kg with a = -omega2 x.
+ * overshoot: f(x) = ln(e^x + e^-x), whose minimum is at 0.
  * tangent: one mass on one spring along a line, the other end held at 0:
  *   E(x) = m/2 (x - x_tilde)^2 + h^2 l2 k/2 (x^2/l2 - 1)^2
- *   g(x) = E'(x) = m (x - x_tilde) + 2 h^2 k x (x^2/l2 - 1)
- *
- * landscape: one free node between two pinned ones, too close for its springs.
- * Where the springs are short E is not convex: Newton's direction can point
- * uphill there, the projected one never does.  dial: the minimiser of the same
- * E for every h; at h = 0 only inertia counts and it is x_tilde; the longer the
- * step, the nearer it is to where the springs are at rest.
- *
- * spring: P(d) = l2 k/2 (|d|^2/l2 - 1)^2, d from the held end to the free one,
- * and beside it the energy with a square root that is as stiff at rest,
- * P_root(d) = 2k (|d| - l)^2.  Both bend alike at |d| = l (4k along d); but the
- * curvature of P_root across, 4k (1 - l/|d|), has no lower bound, that of P is
- * at least -2k.
- *
- * race: the stretched square is followed for a fixed time by several methods
- * with several time steps each; every run is a point: how far the worst node is
- * from where velocity Verlet with a 64 times finer step says that it belongs,
- * and how long the run took.  An explicit run goes on after that, unmeasured:
- * with a time step that is too long it may be accurate for a while, and
- * explodes later.
- *
- * envelope: the square with every time step from 1e-9 to 1e3 s and every
- * stiffness from 1e-6 to 1e15 J/m^2, three steps each.
+ * landscape: one free node between two pinned ones, too close for its springs:
+ * where these are short E is not convex.  dial: the minimiser of the same E for
+ * every h; at h = 0 it is x_tilde.
+ * spring: P(d) = l2 k/2 (|d|^2/l2 - 1)^2, and beside it the energy with a
+ * square root that is as stiff at rest, P_root(d) = 2k (|d| - l)^2. race: the
+ * stretched square by several methods with several time steps; every run is a
+ * point, its run time and its error against velocity Verlet with a 64 times
+ * finer step.  envelope: the square with every time step and stiffness.
  *
  * What they keep beside the states of their runs is plain numbers (Descent,
  * Exhibit), and part of the state.
@@ -90,13 +66,13 @@ bool mass_next_step(const Simulation *simulation, int run, MassStep *step);
 void mass_exact(const Simulation *simulation, double t, double x[2]);
 
 typedef struct SpringFacts {
-    double length;       /* |d|, m */
-    double strain;       /* |d|^2/l2 - 1 */
-    double energy;       /* P, J */
-    double force[2];     /* -grad P on the free end, N */
-    double along;        /* eigenvalue of its 2x2 Hessian along d, J/m^2 */
-    double across;       /* and across */
-    double root_energy;  /* P_root, J */
+    double length;      /* |d|, m */
+    double strain;      /* |d|^2/l2 - 1 */
+    double energy;      /* P, J */
+    double force[2];    /* -grad P on the free end, N */
+    double along;       /* eigenvalue of its 2x2 Hessian along d, J/m^2 */
+    double across;      /* and across */
+    double root_energy; /* P_root, J */
     double root_along, root_across; /* -infinity across at |d| = 0 */
 } SpringFacts;
 
@@ -192,8 +168,9 @@ void dial_restart(Simulation *simulation);
 /* RACE_SHOWN: the row of h, h/2 and h/4 in the table of methods. */
 enum { RACE_SHOWN = 1, RACE_METHODS = 9, RACE_STEP_SIZES = 7 };
 
-/* Steps that explicit runs go on, and how often the energy at their end may be
- * that at the start. */
+/* Steps that explicit runs go on, unmeasured, for with too long a time step a
+ * run may be accurate for a while and explode later; and how often the energy
+ * at their end may be that at the start. */
 enum { RACE_LONGER = 2048, RACE_ENERGY = 2 };
 
 /* One run of the race: a method with a time step. */

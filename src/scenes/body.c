@@ -14,65 +14,45 @@
 
 /* ---- pins --------------------------------------------------------------- */
 
-/* A node is meant that is on this side, 0: anywhere, and, where `or` is not 0,
- * on one of those. */
+/* The nodes that are on this side, 0: anywhere, and, where `or` is not 0, on
+ * one of those. */
 static const struct PinWord {
     const char *word;
     int side, or ;
-} pin_words[] = {
-    {"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
-    {"top", MESH_TOP, 0},
-    {"bottom", MESH_BOTTOM, 0},
-    {"left", MESH_LEFT, 0},
-    {"right", MESH_RIGHT, 0},
-    {"all", 0, 0},
-};
-
-/* A number of digits alone, or -1. */
-static long read_digits(const char *text)
-{
-    size_t digits = strspn(text, "0123456789");
-    return digits > 0 && digits < 10 && !text[digits] ? atol(text) : -1;
-}
-
-/* Pins what one item names, a node or a word, of one body where ":2" follows;
- * false: it is none of that. */
-static bool pin_item(const char *item, const SquareMesh *shape,
-                     unsigned char *pinned)
-{
-    const int words = sizeof pin_words / sizeof *pin_words;
-    const struct PinWord *word = pin_words;
-    char name[32];
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(item, ":"), item);
-    const char *colon = strchr(item, ':');
-    while (word < pin_words + words && strcmp(word->word, name) != 0)
-        word++;
-    bool is_word = word < pin_words + words;
-    long number = read_digits(name), body = colon ? read_digits(colon + 1) : 0;
-    if (is_word ? colon && (body < 1 || body > shape->bodies)
-                : colon || number < 0 || number >= shape->nodes)
-        return false;
-    for (int node = 0; pinned && node < shape->nodes; node++) {
-        int own = node, sides = square_mesh_sides(shape, node);
-        bool here = !colon || square_mesh_body(shape, &own) == body - 1;
-        if (is_word ? here && (sides & word->side) == word->side &&
-                          (!word->or || (sides & word->or))
-                    : node == number)
-            pinned[node] = 1;
-    }
-    return true;
-}
+} pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
+                 {"top", MESH_TOP, 0},
+                 {"bottom", MESH_BOTTOM, 0},
+                 {"left", MESH_LEFT, 0},
+                 {"right", MESH_RIGHT, 0},
+                 {"all", 0, 0},
+                 {NULL, 0, 0}};
 
 Status pins_read(const char *text, const SquareMesh *shape,
                  unsigned char *pinned)
 {
     for (;; text++) {
-        char item[32];
-        size_t length = strcspn(text, ",");
-        snprintf(item, sizeof item, "%.*s", (int)length, text);
-        if (length >= sizeof item || !pin_item(item, shape, pinned))
+        char name[16] = "", digits[10] = ""; /* a word, of body 2: "top:2"; 7 */
+        int end = 0;
+        const struct PinWord *word = pin_words;
+        if (!sscanf(text, "%15[a-z-]%n:%9[0-9]%n", name, &end, digits, &end))
+            sscanf(text, "%9[0-9]%n", digits, &end);
+        while (word->word && strcmp(word->word, name) != 0)
+            word++;
+        int number = atoi(digits);
+        int most = name[0] ? shape->bodies : shape->nodes - 1;
+        bool good =
+            name[0] ? word->word && (!digits[0] || number > 0) : digits[0];
+        if (!good || number > most || (text[end] && text[end] != ','))
             return STATUS_INVALID_INPUT;
-        text += length;
+        for (int i = 0; pinned && i < shape->nodes; i++) {
+            int own = i, sides = square_mesh_sides(shape, i);
+            bool here =
+                !digits[0] || square_mesh_body(shape, &own) + 1 == number;
+            pinned[i] |= name[0] ? here && (sides & word->side) == word->side &&
+                                       (!word->or || (sides & word->or))
+                                 : i == number;
+        }
+        text += end;
         if (*text == '\0')
             return STATUS_OK;
     }
