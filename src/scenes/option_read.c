@@ -95,29 +95,25 @@ static const char *read_decimal(const char *text, double *number)
  * nobody knows. */
 static double number_meant(const OptionRow *row, const char *text)
 {
-    static const struct {
-        const char *end, *unit; /* "": of a number without one */
-        double times, over;     /* whole, so that 7 ms are 0.007 s */
-    } ends[] = {
-        {"%", "", 1, 100},   {"sec", "s", 1, 1},      {"ms", "s", 1, 1e3},
-        {"us", "s", 1, 1e6}, {"cm", "m", 1, 1e2},     {"mm", "m", 1, 1e3},
-        {"km", "m", 1e3, 1}, {"cm/s", "m/s", 1, 1e2}, {"mm/s", "m/s", 1, 1e3}};
+    static const char letters[] = "kcmu"; /* kilo, centi, milli, micro */
+    static const double over[] = {1e-3, 1e2, 1e3, 1e6};
     size_t length = strcspn(row->unit, " ");
     double number, below = 1;
-    const char *end = read_decimal(text, &number);
+    const char *end = read_decimal(text, &number), *letter;
     if (end && *end == '/')
         end = read_decimal(end + 1, &below);
     if (!end)
         return NAN;
     end += strspn(end, " ");
-    if (*end == '\0' ||
-        (strlen(end) == length && strncmp(end, row->unit, length) == 0))
-        return number / below;
-    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
-        if (strcmp(end, ends[i].end) == 0 &&
-            strcmp(row->unit, ends[i].unit) == 0)
-            return number * ends[i].times / ends[i].over / below;
-    return NAN;
+    if (length == 0 && strcmp(end, "%") == 0)
+        return number / 100 / below;
+    letter = *end && strlen(end) == length + 1 ? strchr(letters, *end) : NULL;
+    if (letter && length > 0) {
+        below *= over[letter - letters];
+        end++;
+    }
+    bool unit = strlen(end) == length && !strncmp(end, row->unit, length);
+    return *end == '\0' || unit ? number / below : NAN;
 }
 
 /* As many numbers as the row has, or fewer if it allows that, each in its
