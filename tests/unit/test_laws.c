@@ -76,21 +76,6 @@ static void step(void)
     CHECK_STATUS(time_integrator_step(&run), STATUS_OK);
 }
 
-/* However late a term comes; equal ones stand as they came. */
-TEST(terms_stand_in_their_order)
-{
-    static const TermKind kinds[] = {
-        {.place = PLACE_FRACTURE}, {.place = PLACE_FORCE},
-        {.place = PLACE_CONTACT},  {.place = PLACE_HAND},
-        {.place = PLACE_FORCE},    {.place = PLACE_CONTACT}};
-    static const int order[] = {1, 4, 2, 5, 0, 3};
-    few_masses(2, 1); /* and the springs' term */
-    for (int i = 0; i < 6; i++)
-        CHECK(system_term(&few, &kinds[i], 1));
-    for (int i = 0; i < 6; i++)
-        CHECK(few.term[i + 1].kind == &kinds[order[i]]);
-}
-
 /* A belt: an inclined wall that moves along itself at W takes a block along.
  * While it slips, it feels mu N, N = m g cos; what the belt does is mu N W a
  * second, part of which heats. */
