@@ -22,14 +22,6 @@ typedef struct Runs {
     long unconverged;
 } Runs;
 
-/* A step of lecture.c, from the state of the simulation and into it. */
-static Status step_as_slides(Simulation *simulation)
-{
-    TimeIntegrator *run = &simulation->run[0];
-    return lecture_step(&simulation->system, simulation->options.timestep,
-                        simulation->options.tolerance, run->x, run->v);
-}
-
 static Status play(Maker maker, int segments, int start, int steps, Runs *runs)
 {
     Simulation simulation;
@@ -40,8 +32,11 @@ static Status play(Maker maker, int segments, int start, int steps, Runs *runs)
     double energy = status ? 1 : simulation_energies(&simulation, 0).total;
     double began = bench_cpu();
     for (int i = 0; i < steps && !status; i++) {
-        status = maker == LECTURE ? step_as_slides(&simulation)
-                                  : simulation_step(&simulation);
+        status = maker == LECTURE
+                     ? lecture_step(&simulation.system, options.timestep,
+                                    options.tolerance, simulation.run[0].x,
+                                    simulation.run[0].v)
+                     : simulation_step(&simulation);
         if (status_is_unconverged(status)) {
             runs->unconverged++;
             status = STATUS_OK;

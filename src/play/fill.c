@@ -29,19 +29,6 @@ static void pretty_key(char key[KEY_TEXT])
             snprintf(key, KEY_TEXT, "%s", names[i][1]);
 }
 
-/* All of "A|B", behind what the text has: "A, B". */
-static void add_keys(const char *keys, char text[KEY_TEXT])
-{
-    for (; *keys; keys += *keys == '|') {
-        int length = (int)strcspn(keys, "|");
-        char key[KEY_TEXT];
-        snprintf(key, sizeof key, "%.*s", length, keys);
-        pretty_key(key);
-        append(text, KEY_TEXT, "%s%s", text[0] ? ", " : "", key);
-        keys += length;
-    }
-}
-
 static void fill_help(Show *show)
 {
     static const HelpRow mouse[] = {
@@ -71,7 +58,14 @@ static void fill_help(Show *show)
             text[0] = '\0';
             *next++ = (HelpRow){text, row->label};
         }
-        add_keys(row->keys, text);
+        for (const char *at = row->keys; *at; at += *at == '|') {
+            char key[KEY_TEXT]; /* of "A|B", all */
+            int length = (int)strcspn(at, "|");
+            snprintf(key, sizeof key, "%.*s", length, at);
+            pretty_key(key);
+            append(text, KEY_TEXT, "%s%s", text[0] ? ", " : "", key);
+            at += length;
+        }
     }
     show->page.kind = PAGE_HELP;
     show->help = rows;

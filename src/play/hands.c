@@ -13,6 +13,7 @@
 #include "picture/picture.h"
 #include "picture/plot.h"
 #include "play/playing.h"
+#include "scenes/one_line.h"
 #include "scenes/scene.h"
 
 enum {
@@ -96,29 +97,23 @@ void player_deselect(Player *player)
     player->typed[0] = '\0';
 }
 
-/* The letter that a key types; '\0': none. */
-static char key_letter(const char *key)
-{
-    bool shift = strncmp(key, "Shift+", 6) == 0;
-    const char *name = shift ? key + 6 : key;
-    if (strcmp(name, "Space") == 0)
-        return ' ';
-    return name[1] ? '\0' : (char)(shift ? name[0] : tolower(name[0]));
-}
-
 /* One letter more or less.  The first one opens the field. */
 Status obey_type(Player *player, const Command *command)
 {
     char *typed = player->typed;
-    bool list = lists(player);
+    bool list = lists(player), shift = strncmp(command->text, "Shift+", 6) == 0;
+    const char *key = command->text + (shift ? 6 : 0);
     if (!player->typing)
-        memset(typed, 0, sizeof player->typed);
+        typed[0] = '\0';
     player->typing = true;
     size_t length = strlen(typed);
-    if (strcmp(command->text, "Backspace") == 0)
+    if (strcmp(key, "Backspace") == 0)
         typed[length > 0 ? length - 1 : 0] = '\0';
-    else if (length + 1 < sizeof player->typed)    /* there is room for more */
-        typed[length] = key_letter(command->text); /* behind it are zeros */
+    else if (strcmp(key, "Space") == 0)
+        append(typed, sizeof player->typed, " ");
+    else if (!key[1])
+        append(typed, sizeof player->typed, "%c",
+               shift ? key[0] : tolower(key[0]));
     if (player->lit)
         player_note(player, "a number is typed: Enter sets it, Esc leaves it");
     else
@@ -189,43 +184,31 @@ Status obey_enter(Player *player, const Command *command)
 
 /* ---- the row of numbers and the time line -------------------------------- */
 
-/* A number follows the mouse: from its value where the drag began. */
-static Status drag_number(Player *player)
+/* ---- the stage ----------------------------------------------------------- */
+
+/* A number follows the mouse, from its value where the drag began; the stretch
+ * puts the edge there, in hundredths. */
+static Status drag_number(Player *player, const Under *under)
 {
-    Mouse *mouse = &player->mouse;
-    const OptionRow *row = player->lit;
+    const Mouse *mouse = &player->mouse;
+    const Options now = player_numbers(player);
+    bool edge = mouse->index < 0;
+    const OptionRow *row = edge ? option_find("stretch") : player->lit;
+    double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
+    double wanted = fmax(rint(200 * fabs(under->at[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
-    double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
     if (row->count > 1)
         return player_pace(player, row, 1); /* which says why not */
     if (row->pace > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
         paces += 1e-9; /* a value between the round ones */
-    double wanted = option_paced(row, &mouse->options, paces);
-    return player_numbers(player).number[row->slot] == wanted
+    if (!edge)
+        wanted = option_paced(row, &mouse->options, paces);
+    return now.number[row->slot] == wanted
                ? STATUS_OK
                : player_ask_set(player, row, wanted);
-}
-
-static Status go_to_mouse(Player *player, const Under *under)
-{
-    return ask(player, COMMAND_GOTO,
-               show_step_at(&player->show, &under->layout, player->mouse.x));
-}
-
-/* ---- the stage ----------------------------------------------------------- */
-
-/* The stretch that puts the edge under the mouse, in hundredths. */
-static Status drag_edge(Player *player, const Under *under)
-{
-    const Options *options = player_settings(player);
-    double stretch =
-        fmax(rint(200 * fabs(under->at[0]) / options->side), 2) / 100;
-    return stretch == options->stretch
-               ? STATUS_OK
-               : player_ask_set(player, option_find("stretch"), stretch);
 }
 
 /* The square with the cell's numbers, from its start: commands that a script
@@ -301,16 +284,6 @@ static Status pin(Player *player, int node)
     return ask(player, COMMAND_PIN, node < 0 ? 0 : node);
 }
 
-/* The hand takes the node; of a pin it makes a free one first. */
-static Status grab(Player *player)
-{
-    Mouse *mouse = &player->mouse;
-    mouse->pins = player_simulation(player)->system.pinned[mouse->index];
-    Status status =
-        mouse->pins ? ask(player, COMMAND_PIN, mouse->index) : STATUS_OK;
-    return status ? status : ask(player, COMMAND_GRAB, mouse->index);
-}
-
 /* A ball where nothing is, as large as there is room for, but no larger than an
  * eighth of the square. */
 static Status put_ball(Player *player, const double at[2])
@@ -337,6 +310,7 @@ static Status put_ball(Player *player, const double at[2])
 static Status follow(Player *player)
 {
     Mouse *mouse = &player->mouse;
+    const Simulation *simulation = player_simulation(player);
     Under under = look(player);
     double dx = mouse->x - mouse->last[0], dy = mouse->y - mouse->last[1];
     Status status = STATUS_OK;
@@ -344,9 +318,14 @@ static Status follow(Player *player)
         CLICK_ROOM)
         mouse->moved = true;
     switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
-    case COMMAND_GRAB:
-        if (!player->holds)
-            status = grab(player);
+    case COMMAND_GRAB: /* of a pin it makes a free node first */
+        if (!player->holds) {
+            mouse->pins = simulation->system.pinned[mouse->index];
+            if (mouse->pins)
+                status = ask(player, COMMAND_PIN, mouse->index);
+            if (!status)
+                status = ask(player, COMMAND_GRAB, mouse->index);
+        }
         return status ? status : ask_at(player, COMMAND_DRAG, 0, under.at);
     case COMMAND_OBSTACLE:
     case COMMAND_PLACE:
@@ -356,10 +335,10 @@ static Status follow(Player *player)
         under.at[1] += mouse->grip[1];
         return ask_at(player, mouse->drag, mouse->index, under.at);
     case COMMAND_SET:
-        return mouse->index < 0 ? drag_edge(player, &under)
-                                : drag_number(player);
+        return drag_number(player, &under);
     case COMMAND_GOTO:
-        return go_to_mouse(player, &under);
+        return ask(player, COMMAND_GOTO,
+                   show_step_at(&player->show, &under.layout, mouse->x));
     case COMMAND_BOX:
         memcpy(player->show.held.box + 2, under.at, sizeof under.at);
         player->changed = true;
@@ -445,7 +424,8 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
         return ask(player, COMMAND_ENLARGE, index);
     case ZONE_TIME:
         player->mouse.drag = COMMAND_GOTO;
-        return go_to_mouse(player, under);
+        player->mouse.moved = true; /* a click goes there, too */
+        return follow(player);
     case ZONE_SETTING:
         return number_pressed(player, index, clicks);
     case ZONE_PAGE_CLOSE:

@@ -211,18 +211,6 @@ static void print_summary(FILE *file, const Player *player)
 
 /* ---- the end ------------------------------------------------------------- */
 
-/* Whether any step, or the scene as a whole, did not converge. */
-static bool is_unconverged(const Player *player)
-{
-    bool any = false;
-    for (int i = 0; i < past_panes(&player->past); i++) {
-        const Simulation *simulation = &player->past.machine[i].simulation;
-        any = any || simulation->unconverged > 0 ||
-              (simulation->done && simulation->status != STATUS_OK);
-    }
-    return any;
-}
-
 int program_end(Player *player, Status status)
 {
     long steps = player->past.machine[0].simulation.steps;
@@ -238,20 +226,13 @@ int program_end(Player *player, Status status)
     int code = check_output();
     if (code == EXIT_FINE && player->refused)
         return EXIT_MISUSED;
-    if (code == EXIT_FINE && is_unconverged(player))
-        return EXIT_UNCONVERGED;
+    for (int i = 0; i < past_panes(&player->past) && code == EXIT_FINE; i++) {
+        const Simulation *simulation = &player->past.machine[i].simulation;
+        if (simulation->unconverged > 0 ||
+            (simulation->done && simulation->status))
+            return EXIT_UNCONVERGED;
+    }
     return code;
-}
-
-/* --handout.  Returns the exit code. */
-static int make_handout(const Options *options,
-                        const volatile sig_atomic_t *stop, Player *player)
-{
-    Status status = handout_write(options, stop, player);
-    return !status ? EXIT_FINE
-                   : tell(EXIT_FAILED, "%s: %s", options->handout,
-                          status == STATUS_FILE_FAILED ? output_reason(errno)
-                                                       : status_text(status));
 }
 
 /* The words of the command line that decide what is simulated, for messages:
@@ -337,9 +318,13 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     if (!files_differ(options, message, sizeof message))
         return tell(EXIT_MISUSED, "%s", message);
     if (options->handout) {
-        code = make_handout(options, stop, player);
+        Status status = handout_write(options, stop, player);
         *player = (Player){0};
-        return code;
+        return !status
+                   ? EXIT_FINE
+                   : tell(EXIT_FAILED, "%s: %s", options->handout,
+                          status == STATUS_FILE_FAILED ? output_reason(errno)
+                                                       : status_text(status));
     }
     join_line(argc, argv, line, sizeof line);
     Status status = player_create(options, options->panes, line, stop, player);

@@ -306,21 +306,16 @@ static Input read_event(const SDL_Event *event)
     return input;
 }
 
-/* Whether the event behind this movement is another one. */
-static bool moves_on(void)
-{
-    SDL_Event event;
-    return sdl.PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT,
-                          SDL_LASTEVENT) == 1 &&
-           event.type == SDL_MOUSEMOTION;
-}
-
+/* Of several movements in a row the last one. */
 Input window_input(void)
 {
-    SDL_Event event;
+    SDL_Event event, next;
     Input input = {.kind = INPUT_NONE};
     while (window && input.kind == INPUT_NONE && sdl.PollEvent(&event))
-        if (event.type != SDL_MOUSEMOTION || !moves_on())
+        if (event.type != SDL_MOUSEMOTION ||
+            sdl.PeepEvents(&next, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT,
+                           SDL_LASTEVENT) != 1 ||
+            next.type != SDL_MOUSEMOTION)
             input = read_event(&event);
     return input;
 }
