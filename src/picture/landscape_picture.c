@@ -261,6 +261,7 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     if (simulation->options.filter == FILTER_NONE && parts == PART_BOTH &&
         descent->count == 0)
         add_projected(simulation, x, facts);
+    fact_when(facts, "moves", descent->slope != 0);
     fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
     fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);
     fact(facts, "elastic part", springs < 1e-30 ? 0 : springs);

@@ -168,11 +168,38 @@ void circle_facts(const Simulation *simulation, Facts *facts)
 
 /* ---- the arrows ---------------------------------------------------------- */
 
+/* Around the middle, the mass and the tips of its arrows. */
+static void bounds_of_step(const MassStep *step, double bounds[4])
+{
+    const double air = 0.14; /* of the longer side */
+    double side = 0;
+    for (int k = 0; k < 2; k++) {
+        const double at[] = {step->x[k], step->x[k] + step->v[k],
+                             step->new_x[k]};
+        bounds[k] = bounds[2 + k] = 0;
+        for (int i = 0; i < 3; i++) {
+            bounds[k] = fmin(bounds[k], at[i]);
+            bounds[2 + k] = fmax(bounds[2 + k], at[i]);
+        }
+        side = fmax(side, bounds[2 + k] - bounds[k]);
+    }
+    for (int i = 0; i < 4; i++)
+        bounds[i] += (i < 2 ? -air : air) * side;
+}
+
 /* What is farthest from the middle, in steps of sqrt(2), so that the view does
- * not move all the time. */
+ * not move all the time; of a page that is about one step the first one from
+ * near. */
 void mass_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
+    const LecturePage *page = stage->show->lecture;
+    MassStep first;
+    if (page && !page->tell && simulation->steps == 0 &&
+        simulation->runs == 1 && mass_next_step(simulation, 0, &first)) {
+        bounds_of_step(&first, bounds);
+        return;
+    }
     const double *began = simulation->exhibit.began;
     double most = math_hypot(math_hypot(began[0], began[1]),
                              math_hypot(began[2], began[3]));
