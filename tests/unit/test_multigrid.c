@@ -1,6 +1,6 @@
-/* Multigrid: loops against the terms spring by spring, the certified end
- * against a solution in extended precision, the work that it takes, and the
- * same bits whatever was before.
+/* Multigrid: what each update does to E and the certified end, against sums and
+ * a solution in extended precision; the work that it takes, and the same bits
+ * whatever was before.
  */
 #include "test.h"
 #include "stress.h"
@@ -11,10 +11,9 @@
 
 #include "model/pull_energy.h"
 #include "solve/multigrid.h"
-#include "solve/grid.h"
 
 /* A square's step problem: the system of a command line, and where it is. */
-enum { LARGEST = 2 * 129 * 129, VECTORS = 3 };
+enum { LARGEST = 2 * 129 * 129 };
 
 static Newton *newton; /* of the present test's */
 static Iterate *at;
@@ -41,18 +40,6 @@ static Simulation *begin_problem(int segments, double stretch)
     return square;
 }
 
-static bool is_pinned(int node)
-{
-    return body->pinned && body->pinned[node];
-}
-
-/* x = x_n + u */
-static void place(void)
-{
-    for (int i = 0; i < size; i++)
-        at->x[i] = x_n[i] + at->u[i];
-}
-
 /* Moves, breaks, pins and weighs at random. */
 static void disturb(Random *random, bool pins)
 {
@@ -69,8 +56,6 @@ static void disturb(Random *random, bool pins)
             body->m[i / 2] *= random_logarithmic(random, 0.3, 3);
         x_n[i] += random_uniform(random, -0.4, 0.4) * cell;
         newton->u_tilde[i] = random_uniform(random, -0.1, 0.1) * cell;
-        at->u[i] = random_uniform(random, -0.4, 0.4) * cell;
-        at->u[i] = is_pinned(i / 2) ? 0 : at->u[i];
     }
     for (int s = 0; s < body->springs; s++) {
         body->k[s] *= random_logarithmic(random, 0.1, 10);
@@ -86,134 +71,11 @@ static void pull(double times)
 {
     int node = body->nodes / 2;
     Pull hand = {.node = node,
-                 .k = times * body->m[node] / (H * H),
-                 .target = {0.1, 0.4}};
+                 .mouse = {0.1, 0.4},
+                 .strength = times * body->m[node] / (H * H),
+                 .cell = 1.0 / body->segments,
+                 .side = 1};
     CHECK_STATUS(pull_set(body, &hand_energy, &hand), STATUS_OK);
-}
-
-/* ---- the loops --------------------------------------------------------- */
-
-/* A grid and some vectors, at u. */
-typedef struct Parts {
-    Memory memory;
-    Grid grid;
-    double *vector[VECTORS]; /* [2 planes] */
-} Parts;
-
-static void parts_create(Parts *parts)
-{
-    double *m = newton->x_trial, *u_tilde = newton->u_trial;
-    *parts = (Parts){0};
-    for (int pass = 0; pass < 2; pass++) { /* the first one counts */
-        if (pass)
-            CHECK_STATUS(memory_create(&parts->memory), STATUS_OK);
-        grid_lay_out(body->segments, &parts->memory, &parts->grid);
-        for (int i = 0; i < VECTORS; i++)
-            parts->vector[i] = memory_piece(&parts->memory,
-                                            2 * (size_t)parts->grid.rows.plane *
-                                                sizeof(double));
-    }
-    place();
-    incremental_potential_inertia(at, m, u_tilde);
-    grid_read_system(&parts->grid, at, m);
-    grid_read_state(&parts->grid, at, u_tilde);
-}
-
-static void parts_free(Parts *parts)
-{
-    free(parts->memory.base);
-}
-
-/* The place of component i of a vector of the system. */
-static int component(const Parts *parts, int i)
-{
-    const Rows *rows = &parts->grid.rows;
-    return i % 2 * rows->plane +
-           place_of(rows, i / 2 / rows->nodes, i / 2 % rows->nodes);
-}
-
-/* A random vector, 0 for pins, in the grid's units and as it is. */
-static void random_vector(Random *random, const Parts *parts, double *packed,
-                          double *plain)
-{
-    for (int i = 0; i < size; i++) {
-        double number = 0.1 * random_uniform(random, -1, 1);
-        plain[i] = is_pinned(i / 2) ? 0 : number;
-        packed[component(parts, i)] = parts->grid.length * plain[i];
-    }
-}
-
-/* What the loops give where nodes move is some roundings of the largest number
- * away from what terms give.  norm2: its square in the norm M^-1. */
-static void check_vector(const Parts *parts, const double *packed,
-                         const double *expected, double norm2)
-{
-    const Grid *grid = &parts->grid;
-    const double unit = grid->mass * grid->length;
-    double largest = 0, sum = 0;
-    for (int i = 0; i < size; i++)
-        if (!is_pinned(i / 2)) {
-            int q = component(parts, i / 2 * 2);
-            q += grid->node_shift[i / 2 / grid->rows.nodes];
-            largest = fmax(largest, fabs(expected[i]));
-            sum += unit * expected[i] * unit * expected[i] / grid->m[q];
-        }
-    for (int i = 0; i < size; i++)
-        if (!is_pinned(i / 2))
-            CHECK_NEAR(packed[component(parts, i)] / unit, expected[i],
-                       3e-14 * largest);
-    CHECK_NEAR(norm2, sum, 1e-13 * sum);
-}
-
-/* grad E, -g - H p with the clamped H, E along p, and u there. */
-static void check_loops(Random *random, const Parts *parts)
-{
-    static double g[LARGEST], p[LARGEST], y[LARGEST], u[LARGEST];
-    const Grid *grid = &parts->grid;
-    double *const *v = parts->vector, largest, most = 0;
-    double q[4], a = 0.7;
-    incremental_potential_gradient(&at->E, at->u, at->x, g);
-    check_vector(parts, v[0], g, grid_gradient(grid, v[0]));
-    random_vector(random, parts, v[1], p);
-    incremental_potential_product(at, FILTER_CLAMP, p, y);
-    for (int i = 0; i < size; i++)
-        y[i] = -g[i] - y[i];
-    double norm2 = grid_remainder(grid, v[0], v[1], v[2], &largest);
-    check_vector(parts, v[2], y, norm2);
-    for (int i = 0; i < size; i += 2)
-        most = fmax(most, fabs(p[i]) + fabs(p[i + 1]));
-    CHECK_NEAR(largest / grid->length, most, 1e-15);
-    grid_along(grid, v[0], v[1], q);
-    for (int i = 0; i < 4; i++)
-        q[i] /= grid->mass * grid->length * grid->length;
-    Real before = exact_energy(&at->E, at->u, at->x);
-    for (int i = 0; i < size; i++)
-        u[i] = at->u[i] += a * p[i];
-    place();
-    Real change = exact_energy(&at->E, at->u, at->x) - before;
-    CHECK_NEAR(a * (q[0] + a * (q[1] + a * (q[2] + a * q[3]))), change,
-               1e-12L * fabsl(change));
-    grid_move(grid, a, v[1]);
-    grid_write_state(grid, at);
-    for (int i = 0; i < size; i++)
-        CHECK_NEAR(at->u[i], u[i], is_pinned(i / 2) ? 0 : 4e-16);
-}
-
-TEST(loops_agree_with_the_terms)
-{
-    static const int segments[] = {1, 2, 7, 8, 15, 17, 31, 40};
-    for (int i = 0; i < 16; i++) {
-        Random random = {(uint64_t)i};
-        Parts parts;
-        begin_problem(segments[i / 2], 1.1);
-        if (i % 4 < 3)
-            disturb(&random, i % 2 == 1);
-        if (i % 3 == 0)
-            pull(i);
-        parts_create(&parts);
-        check_loops(&random, &parts);
-        parts_free(&parts);
-    }
 }
 
 /* ---- whole steps ------------------------------------------------------- */
@@ -256,8 +118,11 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
     } rows[] = {{16, 1.4, false, false, 0}, {21, 0.7, false, false, 0},
                 {6, 1.2, true, false, 0},   {11, 1.2, true, true, 0},
                 {16, 1.2, true, false, 10}, {21, 1.2, true, true, 0},
-                {40, 1.1, false, false, 3}, {33, 1.4, false, false, 3000}};
-    for (int i = 0; i < 8; i++) {
+                {40, 1.1, false, false, 3}, {33, 1.4, false, false, 3000},
+                {1, 1.2, true, false, 0},   {2, 1.2, true, false, 0},
+                {7, 1.2, true, true, 0},    {8, 1.2, true, false, 0},
+                {15, 1.2, true, true, 0},   {31, 1.2, true, false, 0}};
+    for (int i = 0; i < 14; i++) {
         Random random = {(uint64_t)i};
         Fall fall = {0};
         Simulation *square = begin_problem(rows[i].segments, rows[i].stretch);
@@ -276,7 +141,8 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
 }
 
 /* Where the tolerance is the very residual that it finds, no remainder that
- * rounding leaves decides the test: then it is not passed. */
+ * rounding leaves decides the test: then it is not passed.  And that is the
+ * residual by a factor. */
 TEST(what_is_not_decided_is_not_converged)
 {
     for (int i = 0; i < 5; i++) {
@@ -288,6 +154,7 @@ TEST(what_is_not_decided_is_not_converged)
         for (int k = 0; k < 10 && newton->residual != *tolerance; k++) {
             *tolerance = newton->residual;
             status = multigrid_start(newton);
+            CHECK_NEAR(newton->residual, *tolerance, 1e-9 * *tolerance);
         }
         CHECK(newton->residual == *tolerance);
         CHECK_STATUS(status, STATUS_RUNNING);
@@ -340,7 +207,7 @@ TEST(steps_take_no_more_work)
 {
     static const struct {
         int segments, smooth, rough;
-    } rows[] = {{16, 24, 76}, {32, 26, 130}, {64, 38, 333}, {128, 38, 453}};
+    } rows[] = {{16, 24, 71}, {32, 26, 168}, {64, 38, 278}, {128, 38, 421}};
     for (int i = 0; i < 8; i++) {
         Random random = {7};
         bool rough = i % 2;
