@@ -235,8 +235,8 @@ static void tell_rest(Player *player)
                 folded ? "at rest, with folded cells: springs alone do "
                          "not mind, --cells on forbids it; pull a node, or "
                          "R begins again"
-                       : "at rest: nothing moves any more; pull a node, "
-                         "change a number, or R begins again");
+                       : "at rest, as far as \u03b5 tells; pull a node, change "
+                         "a number, or R begins again");
 }
 
 /* Nothing has moved for a step: it is in balance; or, so says a second step
