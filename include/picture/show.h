@@ -124,13 +124,6 @@ typedef struct Pick {
     double point[2]; /* m, where the mouse is in the world */
 } Pick;
 
-/* The spring between the grabbed node and the mouse, which is at target. */
-typedef struct Hand {
-    bool on;
-    int pane, node;
-    double target[2]; /* m */
-} Hand;
-
 /* The part of a pane's world that stays on the stage while something in it is
  * dragged, so that it stays under the mouse. */
 typedef struct Held {
@@ -230,9 +223,9 @@ typedef struct Show {
 
     /* The stage. */
     Lens lens;
-    Pick hover; /* what the mouse is over */
-    Hit over;   /* and which part of the window */
-    Hand hand;
+    Pick hover;                 /* what the mouse is over */
+    Hit over;                   /* and which part of the window */
+    const struct Control *hand; /* that pulls in the active pane; NULL: none */
     Held held;
     int along_nodes;
     const unsigned char *along; /* [along_nodes] 1: placed with others */

@@ -60,7 +60,7 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
                     ALIGN_CENTRE, label);
     }
     if (picture->hover && stage.text && hover->pane == pane &&
-        hover->kind != PICK_NONE && !show->hand.on)
+        hover->kind != PICK_NONE && !show->hand)
         picture->hover(&stage);
     canvas_clip(&paper->canvas, before);
 }

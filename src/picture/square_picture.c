@@ -9,6 +9,7 @@
 #include "picture/plot.h"
 #include "picture/square_pen.h"
 #include "base/mathematics.h"
+#include "scenes/control.h"
 #include "scenes/scene.h"
 #include "scenes/pages.h"
 
@@ -108,14 +109,14 @@ static void draw_direction(const SpringPen *pen)
 /* The start of the hand's spring, and the spring. */
 static void draw_hand(const SpringPen *pen)
 {
-    const Hand *hand = &pen->show->hand;
+    const Control *hand = pen->show->hand;
     const Plot *stage = pen->stage;
-    if (!hand->on || hand->pane != stage->pane)
+    if (!hand || stage->pane != pen->show->active)
         return;
-    const double *node = pen->x + 2 * (size_t)hand->node;
-    plot_dashes(stage, node, hand->target, 2, NULL, COLOUR_HAND);
+    const double *node = pen->x + 2 * (size_t)hand->hand;
+    plot_dashes(stage, node, hand->at, 2, NULL, COLOUR_HAND);
     plot_ring(stage, node, pen->radius + 4, 2, COLOUR_HAND);
-    plot_disc(stage, hand->target, 4, COLOUR_HAND);
+    plot_disc(stage, hand->at, 4, COLOUR_HAND);
 }
 
 /* Nodes that are placed together; the box that is drawn around some. */

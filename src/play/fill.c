@@ -260,21 +260,6 @@ static void fill_pane(Player *player, int p, Trace *trace)
     }
 }
 
-/* The hand, where it pulls; what is placed together. */
-static void fill_hand(Player *player)
-{
-    const Control *control = past_control(&player->past, player->active);
-    Hand *hand = &player->show.hand;
-    player->show.along = player->past.along;
-    player->show.along_nodes = player->past.along_nodes;
-    if (control->hand < 0 || player->side[player->active].place >= 0)
-        return;
-    *hand = (Hand){.on = true,
-                   .pane = player->active,
-                   .node = control->hand,
-                   .target = {control->at[0], control->at[1]}};
-}
-
 /* What the time line tells of a step. */
 static StepBar bar_of(const void *shown, long step)
 {
@@ -355,6 +340,7 @@ static void fill_state(Player *player)
 void player_fill(Player *player)
 {
     static Trace traces[OPTIONS_MAX_PANES];
+    const Control *control = past_control(&player->past, player->active);
     Show *show = &player->show;
     Pick hover = show->hover;
     Hit over = show->over;
@@ -374,7 +360,10 @@ void player_fill(Player *player)
     fill_state(player);
     fill_settings(player);
     fill_chips(player);
-    fill_hand(player);
+    if (control->hand >= 0 && player->side[player->active].place < 0)
+        show->hand = control;
+    show->along = player->past.along;
+    show->along_nodes = player->past.along_nodes;
     fill_time(player);
     show->bars = player->past.keeps ? past_newest(&player->past) : 0;
     show->bar = bar_of;

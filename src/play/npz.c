@@ -97,27 +97,15 @@ static void put_array(Sink *sink, const Table *table, int c, Shape shape)
             put_value(sink, table, c, row[c]);
 }
 
-/* Numbers of so many bytes each, lowest byte first. */
-typedef struct Field {
-    int bytes;
-    uint64_t value;
-} Field;
-
-static void put_fields(Sink *sink, const Field *field, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        for (int b = 0; b < field[i].bytes; b++) {
-            unsigned char byte = (unsigned char)(field[i].value >> 8 * b);
-            put_bytes(sink, &byte, 1);
-        }
-}
-
+/* Words of a zip file, lowest byte first; numbers that take two or four. */
+#define TWO(number)  (uint16_t)(number), (uint16_t)((number) >> 16)
+#define FOUR(number) TWO(number), TWO((uint64_t)(number) >> 32)
 #define PUT(sink, ...)                                                         \
-    put_fields(sink, (const Field[]){__VA_ARGS__},                             \
-               sizeof((const Field[]){__VA_ARGS__}) / sizeof(Field))
+    put_bytes(sink, (const uint16_t[]){__VA_ARGS__},                           \
+              sizeof((const uint16_t[]){__VA_ARGS__}))
 
 enum { VERSION = 45, FIRST_DAY = 0x21, SIZES = 16 };
-static const uint64_t ALL = UINT64_MAX;
+static const uint32_t ALL = UINT32_MAX;
 
 /* What is said of a file before it, and in the list at the end. */
 static void put_entry(Sink *sink, const char *name, const Sink *array,
@@ -126,18 +114,20 @@ static void put_entry(Sink *sink, const char *name, const Sink *array,
     char file[32];
     size_t letters = (size_t)snprintf(file, sizeof file, "%s.npy", name);
     if (listed)
-        PUT(sink, {4, 0x02014b50}, {2, VERSION});
+        PUT(sink, TWO(0x02014b50), VERSION);
     else
-        PUT(sink, {4, 0x04034b50});
-    PUT(sink, {2, VERSION}, {4, 0}, {2, 0}, {2, FIRST_DAY}, {4, array->crc},
-        {4, ALL}, {4, ALL}, {2, letters});
+        PUT(sink, TWO(0x04034b50));
+    PUT(sink, VERSION, 0, 0, 0, FIRST_DAY, TWO(array->crc), TWO(ALL), TWO(ALL),
+        (uint16_t)letters);
     if (listed)
-        PUT(sink, {2, SIZES + 12}, {8, 0}, {2, 0}, {4, ALL});
+        PUT(sink, SIZES + 12, FOUR(0), 0, TWO(ALL));
     else
-        PUT(sink, {2, SIZES + 4});
+        PUT(sink, SIZES + 4);
     put_bytes(sink, file, letters);
-    PUT(sink, {2, 1}, {2, listed ? SIZES + 8 : SIZES}, {8, array->size},
-        {8, array->size}, {listed ? 8 : 0, at});
+    PUT(sink, 1, listed ? SIZES + 8 : SIZES, FOUR(array->size),
+        FOUR(array->size));
+    if (listed)
+        PUT(sink, FOUR(at));
 }
 
 /* Each array twice: its sum of 32 bits stands before it. */
@@ -156,8 +146,8 @@ void npz_write(const Table *table, FILE *file)
     for (int c = 0; c < table->columns; c++)
         put_entry(&zip, table->column[c].name, &array[c], true, at[c]);
     uint64_t end = zip.size;
-    PUT(&zip, {4, 0x06064b50}, {8, 44}, {2, VERSION}, {2, VERSION}, {8, 0},
-        {8, count}, {8, count}, {8, end - list}, {8, list});
-    PUT(&zip, {4, 0x07064b50}, {4, 0}, {8, end}, {4, 1});
-    PUT(&zip, {4, 0x06054b50}, {4, 0}, {4, ALL}, {4, ALL}, {4, ALL}, {2, 0});
+    PUT(&zip, TWO(0x06064b50), FOUR(44), VERSION, VERSION, FOUR(0), FOUR(count),
+        FOUR(count), FOUR(end - list), FOUR(list));
+    PUT(&zip, TWO(0x07064b50), TWO(0), FOUR(end), TWO(1));
+    PUT(&zip, TWO(0x06054b50), TWO(0), TWO(ALL), TWO(ALL), TWO(ALL), 0);
 }

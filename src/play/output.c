@@ -32,8 +32,14 @@ static bool is_named(int file, const char *name)
 
 /* NAME.part as a stream that nobody else writes, with the permissions of the
  * file whose place it will take (info, or NULL: there is none). */
-static Status open_temporary(Output *output, const struct stat *info)
+static Status open_temporary(const char *name, Output *output,
+                             const struct stat *info)
 {
+    output->target = info ? realpath(name, NULL) : strdup(name);
+    if (!output->target)
+        return errno == ENOMEM ? STATUS_OUT_OF_MEMORY : STATUS_FILE_FAILED;
+    if (info && access(name, W_OK))
+        return STATUS_FILE_FAILED; /* somebody protected it */
     size_t size = strlen(output->target) + sizeof ".part";
     output->temporary = malloc(size);
     if (!output->temporary)
@@ -50,42 +56,31 @@ static Status open_temporary(Output *output, const struct stat *info)
     if (alone && ftruncate(file, 0) == 0 &&
         (!info || fchmod(file, info->st_mode & 0777) == 0))
         output->file = fdopen(file, "w+b");
-    if (output->file)
-        return STATUS_OK;
     int reason = errno;
-    close(file);
+    if (!output->file)
+        close(file);
     errno = reason;
-    return STATUS_FILE_FAILED;
-}
-
-/* By the kind of what stands under the name. */
-static Status open_named(const char *name, Output *output)
-{
-    struct stat info;
-    bool exists = stat(name, &info) == 0;
-    if (!exists && errno != ENOENT)
-        return STATUS_FILE_FAILED;
-    if (exists && !S_ISREG(info.st_mode)) {
-        output->file = fopen(name, "wb");
-        return output->file ? STATUS_OK : STATUS_FILE_FAILED;
-    }
-    output->target = exists ? realpath(name, NULL) : strdup(name);
-    if (!output->target)
-        return errno == ENOMEM ? STATUS_OUT_OF_MEMORY : STATUS_FILE_FAILED;
-    if (exists && access(name, W_OK))
-        return STATUS_FILE_FAILED; /* somebody protected it */
-    return open_temporary(output, exists ? &info : NULL);
+    return output->file ? STATUS_OK : STATUS_FILE_FAILED;
 }
 
 Status output_open(const char *name, Output *output)
 {
+    struct stat info;
     bool standard = output_is_standard(name);
+    bool exists = !standard && stat(name, &info) == 0;
+    bool unknown = !standard && !exists && errno != ENOENT;
+    Status status = STATUS_OK;
     *output = (Output){.name = strdup(standard ? "standard output" : name)};
     if (!output->name)
         return STATUS_OUT_OF_MEMORY;
     if (standard)
         output->file = stdout;
-    Status status = standard ? STATUS_OK : open_named(name, output);
+    else if (exists && !S_ISREG(info.st_mode))
+        output->file = fopen(name, "wb");
+    else if (!unknown)
+        status = open_temporary(name, output, exists ? &info : NULL);
+    if (!output->file && !status)
+        status = STATUS_FILE_FAILED;
     return status ? output_close(output, status) : STATUS_OK;
 }
 
