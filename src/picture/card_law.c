@@ -293,7 +293,7 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
         if (words[0] && now[i].x > plot->x.high)
             strcat(words, " \u2192");
         if (at[i][0] == plot->x.low) /* below the curve that begins there */
-            plot_text(plot, at[i], far, -1, 1, ALIGN_LEFT, FACE_REGULAR,
+            plot_text(plot, at[i], far, -1.5, 1, ALIGN_LEFT, FACE_REGULAR,
                       COLOUR_P, "%s", words);
         else if (words[0])
             plot_words(plot, 1, &at[i], near, 1, FACE_REGULAR, COLOUR_P, words);
