@@ -303,7 +303,7 @@ static void draw_arrows(const SpringPen *pen, const double *d, double factor,
                    fmin(factor, most / fmax(length, 1e-300)), 2.6, colour);
     }
     plot_legend(pen->stage, colour, "%s%s", word,
-                factor * longest > 1.001 * most ? ", at most a cell" : "");
+                factor * longest > 1.001 * most ? ", cut" : "");
 }
 
 /* Where nodes that nobody has moved begin: the rest shape, stretched. */
