@@ -63,12 +63,11 @@ void canvas_card(Canvas *canvas, Box box, Colour fill, Colour border);
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour);
 
-/* In dashes of `on` pixels with gaps of `off`, both > 0.
+/* In dashes of 5 units with gaps of 4.
  * phase  pixels of the pattern that lie before the line, in/out: a polyline
  *        of several calls has even dashes; NULL: begin with a dash */
 void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
-                   double width, double on, double off, double *phase,
-                   Colour colour);
+                   double width, double unit, double *phase, Colour colour);
 
 /* A line with a filled head of this length at (x1, y1); a line shorter than
  * the head has a smaller one. */

@@ -32,13 +32,6 @@ void paper_free(Paper *paper);
 /* Ems to whole pixels. */
 int paper_pixels(const Paper *paper, double ems);
 
-/* Between pixels, at least a pixel wide; width in units.  Dashes have a phase
- * as in canvas.h. */
-void paper_line(Paper *paper, const double a[2], const double b[2],
-                double width, Colour colour);
-void paper_dashes(Paper *paper, const double a[2], const double b[2],
-                  double width, double *phase, Colour colour);
-
 /* One line of markup, made as printf does; y is its upper edge.  Returns its
  * width in pixels. */
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,

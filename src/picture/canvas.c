@@ -276,23 +276,23 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
 }
 
 void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
-                   double width, double on, double off, double *phase,
-                   Colour colour)
+                   double width, double unit, double *phase, Colour colour)
 {
     double line[4] = {a[0], a[1], b[0], b[1]}, begin = phase ? *phase : 0;
+    double on = 5 * unit, pitch = on + 4 * unit;
     double dx = b[0] - a[0], dy = b[1] - a[1], length = math_hypot(dx, dy);
     if (!(length > 0) || !isfinite(length))
         return;
     if (phase)
-        *phase = fmod(begin + length, on + off);
+        *phase = fmod(begin + length, pitch);
     if (!box_cut(&canvas->clip, width + 1, line))
         return;
     dx /= length;
     dy /= length;
     double from = (line[0] - a[0]) * dx + (line[1] - a[1]) * dy;
     double to = (line[2] - a[0]) * dx + (line[3] - a[1]) * dy;
-    double k = floor((begin + from) / (on + off)) * (on + off) - begin;
-    for (; k < to; k += on + off) {
+    double k = floor((begin + from) / pitch) * pitch - begin;
+    for (; k < to; k += pitch) {
         double s = fmax(k, from), t = fmin(k + on, to);
         if (t > s)
             canvas_line(canvas, a[0] + s * dx, a[1] + s * dy, a[0] + t * dx,
@@ -377,37 +377,27 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     }
 }
 
-/* value, limited to 0 ... 1 */
-static inline double limit_part(double value)
-{
-    return value < 0 ? 0 : value > 1 ? 1 : value;
-}
-
 /* By the distance from the centre to its two edges; a disc has but one. */
 void canvas_ring(Canvas *canvas, double x, double y, double radius,
                  double width, Colour colour)
 {
-    double far = radius + 0.5 * width, near = radius - 0.5 * width;
-    double reach = far + 1, out2 = (far + 0.5) * (far + 0.5);
-    double in2 = near > 0.5 ? (near - 0.5) * (near - 0.5) : -1;
-    double solid2 = near <= 0 && far > 0.5 ? (far - 0.5) * (far - 0.5) : -1;
+    double far = radius + 0.5 * width + 0.5, near = radius - 0.5 * width - 0.5;
+    double out2 = far * far, in2 = near > 0 ? near * near : -1;
+    bool disc = near <= -0.5;
     if (!(radius > 0) || !(fabs(x) < 1e6) || !(fabs(y) < 1e6) ||
         !(radius < 1e6))
         return;
-    Box box = touched(canvas->clip, x - reach, y - reach, x + reach, y + reach);
+    Box box = touched(canvas->clip, x - far, y - far, x + far, y + far);
     uint32_t full = opacity(colour);
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
         double dy = j + 0.5 - y;
         for (int i = box.x; i < box.x + box.width; i++) {
-            double dx = i + 0.5 - x, d2 = dx * dx + dy * dy, part = 1;
+            double dx = i + 0.5 - x, d2 = dx * dx + dy * dy;
             if (d2 <= in2 || d2 >= out2)
                 continue;
-            if (d2 > solid2) {
-                double d = sqrt(d2);
-                part = limit_part(far + 0.5 - d);
-                part = near > 0 ? fmin(part, limit_part(d - near + 0.5)) : part;
-            }
+            double d = sqrt(d2), part = least(far - d, 1);
+            part = disc ? part : least(part, d - near);
             row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
         }
     }

@@ -234,7 +234,6 @@ void radius_draw(const Plot *card)
     const Simulation *simulation = card->simulation;
     const Show *show = card->show;
     Curve curve[HISTORY_SERIES];
-    char words[40];
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
     double most = 0.4; /* powers of ten */
@@ -252,6 +251,6 @@ void radius_draw(const Plot *card)
     draw_curves(&plot, find_curves(show, curve), curve);
     if (show->veiled || !plot_disc(&plot, twice, 4, COLOUR_TEXT))
         return;
-    snprintf(words, sizeof words, "2 m: step %g", steps);
-    plot_words(&plot, 1, &twice, 0.5, 0.85, FACE_BOLD, COLOUR_TEXT, words);
+    plot_words(&plot, 1, twice, 0.5, 0.85, FACE_BOLD, COLOUR_TEXT,
+               "2 m: step %g", steps);
 }

@@ -296,7 +296,8 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
             plot_text(plot, at[i], far, -1.5, 1, ALIGN_LEFT, FACE_REGULAR,
                       COLOUR_P, "%s", words);
         else if (words[0])
-            plot_words(plot, 1, &at[i], near, 1, FACE_REGULAR, COLOUR_P, words);
+            plot_words(plot, 1, at[i], near, 1, FACE_REGULAR, COLOUR_P, "%s",
+                       words);
     }
 }
 
@@ -321,15 +322,15 @@ void law_draw(const Plot *card)
     Plot plot = plot_create(
         card, (Axis){low, high, false, false, law->across},
         (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
-    const double rest[1][2] = {{now->spring.ep, 0}};
+    const double rest[2] = {now->spring.ep, 0};
     plot_graph(&plot, law->value, now, 2.4, COLOUR_X);
     draw_springs(&plot, law, *now);
     if (has_gap(law) && !isnan(x)) /* -W' */
         plot_line(&plot, (double[2]){low, y + (x - low) * force_of(law, now)},
                   (double[2]){high, y + (x - high) * force_of(law, now)}, 1.4,
                   COLOUR_FORCE);
-    if (both && rest[0][0] != 0) {
-        plot_ring(&plot, rest[0], 4, 2, COLOUR_PLASTIC);
+    if (both && rest[0] != 0) {
+        plot_ring(&plot, rest, 4, 2, COLOUR_PLASTIC);
         plot_words(&plot, 1, rest, 0.5, 1, FACE_BOLD, COLOUR_PLASTIC, "s_{p}");
     }
     draw_dots(&plot, law, simulation->runs, now);

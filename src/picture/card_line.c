@@ -77,13 +77,10 @@ static void draw_trial(const Plot *plot, double alpha, double value,
     else
         canvas_arrow(&paper->canvas, at[0], at[1] + 14 * unit, at[0], at[1],
                      1.6 * unit, 7 * unit, colour);
-    if (value > plot->y.high) {
-        char words[128];
-        snprintf(words, sizeof words, "{alpha} = %s: +%s",
-                 number_of(alpha).text, number_of(value).text);
-        plot_words(plot, 1, &(const double[2]){alpha, plot->y.high}, 0.6, 1,
-                   FACE_BOLD, colour, words);
-    }
+    if (value > plot->y.high)
+        plot_words(plot, 1, (double[2]){alpha, plot->y.high}, 0.6, 1, FACE_BOLD,
+                   colour, "{alpha} = %s: +%s", number_of(alpha).text,
+                   number_of(value).text);
 }
 
 /* What the curves are, and the last trial, above the plot: nothing of it lies

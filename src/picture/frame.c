@@ -101,8 +101,9 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     box.width += (int)(0.8 * em); /* of the gap */
     int width = paper_fit(paper, setting->changed ? FACE_BOLD : FACE_REGULAR,
                           VALUE, colour, box, ALIGN_LEFT, value);
-    paper_dashes(paper, (double[2]){box.x, below + 0.5},
-                 (double[2]){box.x + width, below + 0.5}, 1, NULL, colour);
+    canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
+                  (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
+                  paper->unit, NULL, colour);
 }
 
 static void draw_row(Paper *paper, const Layout *layout, const Show *show)
@@ -164,8 +165,8 @@ static void draw_time(Paper *paper, const Layout *layout, const Show *show)
     draw_ground(paper, zone, false);
     if (show->bar)
         draw_bars(paper, bars, show);
-    paper_line(paper, (double[2]){x, top},
-               (double[2]){x, bars.y + bars.height + 0.2 * em}, 2, COLOUR_TEXT);
+    canvas_line(&paper->canvas, x, top, x, bars.y + bars.height + 0.2 * em,
+                2 * paper->unit, COLOUR_TEXT);
     canvas_disc(&paper->canvas, x, top, (words ? 7 : 5) * paper->unit,
                 COLOUR_TEXT);
     int width = paper_width(paper, FACE_REGULAR, VALUE, show->time_text);

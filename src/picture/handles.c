@@ -52,9 +52,8 @@ void stage_switches(const Plot *stage)
 
 bool handles_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    double at[SCENE_MAX_HANDLES][2], best = HANDLE_REACH;
+    double at[SCENE_MAX_HANDLES][2];
     Switch out[SCENE_MAX_SWITCHES];
-    bool found = false;
     int switches = exhibit_switches(stage->simulation, out);
     int handles = exhibit_handles(stage->simulation, at);
     for (int i = 0; i < switches && stage->text; i++)
@@ -63,18 +62,8 @@ bool handles_pick(const Plot *stage, double x, double y, Pick *pick)
             pick->index = i;
             return true;
         }
-    for (int i = handles - 1; i >= 0; i--) {
-        double pixel[2];
-        plot_place(stage, at[i], pixel);
-        double distance = math_hypot(pixel[0] - x, pixel[1] - y);
-        if (!(distance < best))
-            continue;
-        best = distance;
-        pick->kind = PICK_HANDLE;
-        pick->index = i;
-        found = true;
-    }
-    return found;
+    return plot_pick(stage, handles, *at, HANDLE_REACH, x, y, PICK_HANDLE,
+                     pick);
 }
 
 /* The guess is a cross; along x alone a line from top to bottom, too. */
@@ -82,22 +71,22 @@ void stage_prediction(const Plot *stage)
 {
     const Prediction *guess = &stage->simulation->prediction;
     const Box *box = &stage->box;
-    Paper *paper = stage->paper;
-    double arm = 7 * paper->unit, at[2], came[2], point[2];
+    Canvas *canvas = &stage->paper->canvas;
+    double unit = stage->paper->unit, arm = 7 * unit, at[2], came[2], point[2];
     if (!guess->made || stage->show->bare)
         return;
     plot_place(stage, guess->at, at);
     plot_place(stage, guess->came, came);
     if (simulation_point(stage->simulation, point) == 1) {
-        paper_line(paper, (double[2]){at[0], box->y + box->height},
-                   (double[2]){at[0], box->y}, 1.5, COLOUR_HAND);
+        canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
+                    1.5 * unit, COLOUR_HAND);
         came[1] = at[1];
     }
     for (int k = -1; k <= 1; k += 2)
-        paper_line(paper, (double[2]){at[0] - arm, at[1] - k * arm},
-                   (double[2]){at[0] + arm, at[1] + k * arm}, 3, COLOUR_HAND);
+        canvas_line(canvas, at[0] - arm, at[1] - k * arm, at[0] + arm,
+                    at[1] + k * arm, 3 * unit, COLOUR_HAND);
     if (guess->shown)
-        paper_dashes(paper, at, came, 1.6, NULL, COLOUR_HAND);
+        canvas_dashes(canvas, at, came, 1.6 * unit, unit, NULL, COLOUR_HAND);
     plot_text(stage, guess->at, 1, -0.6, 1, ALIGN_LEFT, FACE_BOLD, COLOUR_HAND,
               guess->shown ? "%s m off" : "your guess; N shows the step",
               number_of(guess->distance).text);

@@ -112,9 +112,8 @@ static void show_map(const Plot *plot)
 /* x_tilde's name, off the ring of its handle. */
 static void name_target(const Plot *plot)
 {
-    if (plot->text)
-        plot_words(plot, 1, &plot->simulation->exhibit.target, 0.9, 1.1,
-                   FACE_BOLD, COLOUR_X_TILDE, "{xt}");
+    plot_words(plot, 1, plot->simulation->exhibit.target, 0.9, 1.1, FACE_BOLD,
+               COLOUR_X_TILDE, "{xt}");
 }
 
 /* The map, the springs, the pins and x_tilde. */
@@ -159,18 +158,16 @@ static void draw_direction(const Plot *plot, bool named, const double p[2],
     const double *from = plot->simulation->descent.point;
     double length = math_hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
-    const double place[2][2] = {{from[0] + p[0], from[1] + p[1]},
-                                {from[0] + far * p[0], from[1] + far * p[1]}};
-    char words[80];
+    const double place[4] = {from[0] + p[0], from[1] + p[1],
+                             from[0] + far * p[0], from[1] + far * p[1]};
     colour = slope > 0 ? COLOUR_WARNING : colour;
     if (!named)
         plot_arrow(plot, from, p, 1, 2.2, colour);
-    plot_place(plot, place[0], at);
+    plot_place(plot, place, at);
     if (!named || !name || !box_contains(plot->box, at[0], at[1]))
         return;
-    snprintf(words, sizeof words, "%s (slope %s)", name,
-             number_with(slope, 2).text);
-    plot_words(plot, 2, place, 0.8, 1, FACE_BOLD, colour, words);
+    plot_words(plot, 2, place, 0.8, 1, FACE_BOLD, colour, "%s (slope %s)", name,
+               number_with(slope, 2).text);
 }
 
 /* Minima and the saddle of the parts that are on: where Newton's method ends.
@@ -191,8 +188,8 @@ static void name_still(const Plot *plot)
             descent_bends_down(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow(plot, at[i], 4, 2, COLOUR_TEXT);
-        plot_words(plot, 1, (const double(*)[2])at[i], 0.8, 0.95, FACE_REGULAR,
-                   COLOUR_TEXT, saddle ? "saddle" : "minimum");
+        plot_words(plot, 1, at[i], 0.8, 0.95, FACE_REGULAR, COLOUR_TEXT,
+                   saddle ? "saddle" : "minimum");
     }
 }
 
@@ -342,15 +339,10 @@ void dial_draw(Plot *stage)
     if (!show->veiled)
         draw_walk(&plot, walk);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
-    if (!stage->text)
-        return;
     name_target(&plot);
-    for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10) {
-        char words[64];
-        snprintf(words, sizeof words, "h = %s s", number_of(walk->h[i]).text);
-        plot_words(&plot, 1, &walk->point[i], 0.8, 0.95, FACE_REGULAR, COLOUR_X,
-                   words);
-    }
+    for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10)
+        plot_words(&plot, 1, walk->point[i], 0.8, 0.95, FACE_REGULAR, COLOUR_X,
+                   "h = %s s", number_of(walk->h[i]).text);
 }
 
 void dial_facts(const Simulation *simulation, Facts *facts)

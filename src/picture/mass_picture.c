@@ -80,9 +80,8 @@ void circle_draw(Plot *stage)
         plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
                      &phase, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
-    if (stage->text)
-        plot_text(stage, half, 0, 0.2, 0.9, ALIGN_CENTRE, FACE_REGULAR,
-                  COLOUR_FAINT, "1 m");
+    plot_text(stage, half, 0, 0.2, 0.9, ALIGN_CENTRE, FACE_REGULAR,
+              COLOUR_FAINT, "1 m");
     draw_trails(stage, false);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, simulation->run[r].x, 7, run_colour(simulation, r));
@@ -100,20 +99,14 @@ void circle_bounds(const Plot *stage, double bounds[4])
     bounds_around(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
 }
 
-/* The node of the nearest run. */
+/* The node of a run. */
 void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    double best = 16;
-    for (int r = 0; r < stage->simulation->runs; r++) {
-        double at[2];
-        plot_place(stage, stage->simulation->run[r].x, at);
-        double distance = math_hypot(at[0] - x, at[1] - y);
-        if (!(distance < best))
-            continue;
-        best = distance;
-        pick->kind = PICK_NODE;
-        pick->index = r;
-    }
+    const Simulation *simulation = stage->simulation;
+    for (int r = 0; r < simulation->runs; r++)
+        if (plot_pick(stage, 1, simulation->run[r].x, 16, x, y, PICK_NODE,
+                      pick))
+            pick->index = r;
 }
 
 /* The matrix of a step of (x, v/omega), t = h omega, and its eigenvalues: real
@@ -225,20 +218,18 @@ static void exact_step(const MassStep *step, double h, double end[2])
 static void draw_miss(const Plot *stage, const MassStep *step, double h,
                       const char *words)
 {
-    double to[2], d[2], end[2], at[2][2];
+    double to[2], d[2], end[2], at[4];
     exact_step(step, h, end);
     for (int k = 0; k < 2; k++) {
         to[k] = step->x[k] + h * step->v[k];
         d[k] = 0.5 * h * h * step->a[k];
-        at[0][k] = to[k] + d[k];
-        at[1][k] = to[k] + 0.5 * d[k];
+        at[k] = to[k] + d[k];
+        at[2 + k] = to[k] + 0.5 * d[k];
     }
     plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
     plot_ring(stage, to, 6, 2, COLOUR_X);
     plot_arrow(stage, to, d, 1, 2, COLOUR_WARNING);
-    if (stage->text)
-        plot_words(stage, 2, (const double(*)[2])at, 1.2, 1, FACE_BOLD,
-                   COLOUR_WARNING, words);
+    plot_words(stage, 2, at, 1.2, 1, FACE_BOLD, COLOUR_WARNING, "%s", words);
 }
 
 /* The exact end of the step; of backward Euler x' as it is found: x + h v, then
@@ -256,9 +247,7 @@ static void draw_mass_lesson(Plot *stage)
     for (int half = 1; half >= 0 && step.by_old_v; half--)
         draw_miss(stage, &step, half ? 0.5 * h : h,
                   half ? "with h/2: a quarter" : "h\u00b2/2 a");
-    if (stage->text)
-        plot_words(stage, 1, (const double(*)[2])end, 0.8, 1, FACE_REGULAR,
-                   COLOUR_FAINT, "exact");
+    plot_words(stage, 1, end, 0.8, 1, FACE_REGULAR, COLOUR_FAINT, "exact");
     memcpy(guess, step.x, sizeof guess);
     for (int k = 0; k < MASS_GUESSES && implicit; k++) {
         for (int i = 0; i < 2; i++) {
@@ -269,14 +258,13 @@ static void draw_mass_lesson(Plot *stage)
         if (k > 0)
             plot_line(stage, from, guess, 1.4, COLOUR_GREY);
         plot_hollow(stage, guess, 5, 3, COLOUR_GREY);
-        const char number[2] = {(char)('1' + k), 0};
         bool apart =
             math_hypot(guess[0] - step.new_x[0], guess[1] - step.new_x[1]) *
                 stage->camera.scale[0] >
             1.5 * stage->em;
-        if (stage->text && apart)
-            plot_words(stage, 1, (const double(*)[2])guess, 0.8, 1, FACE_BOLD,
-                       COLOUR_FAINT, number);
+        if (apart)
+            plot_words(stage, 1, guess, 0.8, 1, FACE_BOLD, COLOUR_FAINT, "%d",
+                       k + 1);
     }
     bool symplectic = !step.by_old_v && !implicit;
     double x[2], v[2];
@@ -336,18 +324,15 @@ static void draw_mass_step(Plot *stage)
     plot_disc(stage, step.x, 8, COLOUR_X);
     if (stage->show->lecture)
         draw_mass_lesson(stage);
-    if (!stage->text)
-        return;
-    plot_words(stage, 1, (const double(*)[2])step.new_x, 0.9, 1.15, FACE_BOLD,
-               COLOUR_X, "x\u2032");
+    plot_words(stage, 1, step.new_x, 0.9, 1.15, FACE_BOLD, COLOUR_X, "x\u2032");
     for (int i = 0; i < 4 + backward; i++) {
         const struct MassArrow *now = &arrow[order[i]];
-        double at[4][2], scale = stage->camera.scale[0];
+        double at[8], scale = stage->camera.scale[0];
         for (int k = 0; k < 8; k++)
-            at[k / 2][k % 2] = now->a[k % 2] + part[k / 2] * now->d[k % 2];
+            at[k] = now->a[k % 2] + part[k / 2] * now->d[k % 2];
         if (math_hypot(now->d[0], now->d[1]) * scale > 2 * stage->em)
-            plot_words(stage, 4, (const double(*)[2])at, 0.35, 1.15, FACE_BOLD,
-                       now->colour, now->word);
+            plot_words(stage, 4, at, 0.35, 1.15, FACE_BOLD, now->colour, "%s",
+                       now->word);
     }
 }
 

@@ -32,21 +32,6 @@ int paper_pixels(const Paper *paper, double ems)
     return (int)floor(ems * paper->em + 0.5);
 }
 
-void paper_line(Paper *paper, const double a[2], const double b[2],
-                double width, Colour colour)
-{
-    canvas_line(&paper->canvas, a[0], a[1], b[0], b[1],
-                fmax(1, width * paper->unit), colour);
-}
-
-void paper_dashes(Paper *paper, const double a[2], const double b[2],
-                  double width, double *phase, Colour colour)
-{
-    double unit = paper->unit;
-    canvas_dashes(&paper->canvas, a, b, fmax(1, width * unit), 5 * unit,
-                  4 * unit, phase, colour);
-}
-
 static TextStyle paper_style(const Paper *paper, Face face, double size,
                              Colour colour)
 {

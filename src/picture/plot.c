@@ -223,13 +223,20 @@ static bool has_axes(const Plot *plot)
     return plot->x.high > plot->x.low;
 }
 
+/* Of a line so many units wide. */
+static double pixels_wide(const Plot *plot, double width)
+{
+    return fmax(1, width * plot->paper->unit);
+}
+
 /* The line between two pixels, as far as it is inside; NaN draws nothing. */
 static void draw_line(const Plot *plot, const double *a, const double *b,
                       double width, Colour colour)
 {
     double line[4] = {a[0], a[1], b[0], b[1]};
     if (!has_axes(plot) || box_cut(&plot->box, 0, line))
-        paper_line(plot->paper, line, line + 2, width, colour);
+        canvas_line(&plot->paper->canvas, line[0], line[1], line[2], line[3],
+                    pixels_wide(plot, width), colour);
 }
 
 void plot_line(const Plot *plot, const double *a, const double *b, double width,
@@ -249,7 +256,8 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
     Box before = canvas_clip(canvas, plot->box);
     plot_place(plot, a, p);
     plot_place(plot, b, q);
-    paper_dashes(plot->paper, p, q, width, phase, colour);
+    canvas_dashes(canvas, p, q, pixels_wide(plot, width), plot->paper->unit,
+                  phase, colour);
     canvas_clip(canvas, before);
 }
 
@@ -361,7 +369,7 @@ void plot_ring(const Plot *plot, const double *at, double radius, double width,
     double p[2], unit = plot->paper->unit;
     if (find_place(plot, at, p))
         canvas_ring(&plot->paper->canvas, p[0], p[1], radius * unit,
-                    fmax(1, width * unit), colour);
+                    pixels_wide(plot, width), colour);
 }
 
 /* A dark square with a light middle. */
@@ -389,7 +397,7 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
     plot_place(plot, a, p);
     plot_place(plot, b, q);
     canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
-                 fmax(1, width * paper->unit), HEAD * paper->em, colour);
+                 pixels_wide(plot, width), HEAD * paper->em, colour);
     canvas_clip(&paper->canvas, before);
 }
 
@@ -413,6 +421,24 @@ double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
         if (math_hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
             plot_arrow(plot, x + 2 * i, d + 2 * i, factor, 1.6, colour);
     return factor;
+}
+
+bool plot_pick(const Plot *plot, int count, const double *at, double reach,
+               double x, double y, PickKind kind, Pick *pick)
+{
+    bool found = false;
+    for (int i = count - 1; i >= 0; i--) {
+        double p[2];
+        plot_place(plot, at + 2 * i, p);
+        double distance = math_hypot(p[0] - x, p[1] - y);
+        if (!(distance < reach))
+            continue;
+        reach = distance;
+        pick->kind = kind;
+        pick->index = i;
+        found = true;
+    }
+    return found;
 }
 
 void bounds_around(double reach, double most, double factor, double bounds[4])

@@ -52,6 +52,12 @@ Plot plot_on(const Plot *stage, Axis x, Axis y);
 /* Where a point is drawn, pixels; not finite where it has no place. */
 void plot_place(const Plot *plot, const double *at, double pixel[2]);
 
+/* Picks, as this kind, the one of the points [count][2] that is nearest to
+ * pixel (x, y), of several the last one; false: none is within reach, pixels.
+ */
+bool plot_pick(const Plot *plot, int count, const double *at, double reach,
+               double x, double y, PickKind kind, Pick *pick);
+
 /* A square view around the middle, of at least so many metres, in which `most`
  * fits; it grows by this factor, so that it does not move all the time. */
 void bounds_around(double reach, double most, double factor, double bounds[4]);
@@ -106,7 +112,9 @@ double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
 
 /* ---- words (words.c) ---------------------------------------------------- */
 
-/* One line, made as printf does, so many ems right of and below a point. */
+/* They are made as printf does, and only where there is room for words. */
+
+/* One line, so many ems right of and below a point. */
 void plot_text(const Plot *plot, const double *at, double right, double below,
                double size, Align align, Face face, Colour colour,
                const char *format, ...);
@@ -122,11 +130,11 @@ void plot_scale(const Plot *plot);
  */
 double plot_cost(const Plot *plot, Box place);
 
-/* Writes the words beside one of these points, `gap` ems from it, off what has
- * been drawn, which is found by its pixels, on a ground of thin white.
+/* Beside one of these points, `gap` ems from it, off what has been drawn, which
+ * is found by its pixels, on a ground of thin white.
  *   at  [points][2] in; the first ones are preferred */
-void plot_words(const Plot *plot, int points, const double (*at)[2], double gap,
-                double size, Face face, Colour colour, const char *words);
+void plot_words(const Plot *plot, int points, const double *at, double gap,
+                double size, Face face, Colour colour, const char *format, ...);
 
 /* "1e5" as people write it, with so many digits, or three: 100000, 2.5e7,
  * 0.003; in markup with a superscript where it needs a power. */

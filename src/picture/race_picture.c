@@ -105,7 +105,7 @@ void race_draw(Plot *stage)
     const double at[2][2] = {{plot.x.low, NEAR}, {plot.x.high, NEAR}};
     if (!over_h)
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
-    if (!over_h && stage->text)
+    if (!over_h)
         plot_text(&plot, at[1], -0.4, -1.3, 0.95, ALIGN_RIGHT, FACE_BOLD,
                   COLOUR_TEXT, "1 cm");
     for (int i = 0; i < RACE_METHODS; i++)

@@ -95,7 +95,6 @@ static void draw_iterates(const Plot *plot, const Update *update,
 {
     const Descent *descent = &update->simulation->descent;
     double used[2] = {-1e9, -1e9}, alpha = 1, p[2];
-    char name[16];
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (update->x1 - update->x0);
         plot_hollow(plot, (double[2]){x, curve(update, x)}, 5, 3.2,
@@ -111,8 +110,7 @@ static void draw_iterates(const Plot *plot, const Update *update,
         if (!seen || !plot->text || fabs(p[0] - used[i % 2]) < 1.5 * plot->em)
             continue;
         used[i % 2] = p[0];
-        snprintf(name, sizeof name, "x^{%d}", i);
-        plot_words(plot, 1, &at, 0.9, 1, FACE_BOLD, colour, name);
+        plot_words(plot, 1, at, 0.9, 1, FACE_BOLD, colour, "x^{%d}", i);
     }
 }
 
@@ -134,7 +132,7 @@ static void draw_search(const Plot *plot, const Update *update, bool slopes,
         plot_hollow(plot, low, 6, 3.6, COLOUR_P);
         plot_line(plot, low, high, 1.2, COLOUR_P);
     }
-    if (model && !slopes && plot->text && isfinite(x1) && (left || right))
+    if (model && !slopes && isfinite(x1) && (left || right))
         plot_text(
             plot,
             (double[2]){right ? plot->x.high : plot->x.low, 0.2 * plot->y.low},
@@ -242,7 +240,7 @@ void tangent_draw(Plot *stage)
         return;
     stage_handles(&plot[1]);
     if (plot_disc(&plot[1], target, 5, COLOUR_X_TILDE))
-        plot_words(&plot[1], 1, &target, 1, 1, FACE_BOLD, COLOUR_X_TILDE,
+        plot_words(&plot[1], 1, target, 1, 1, FACE_BOLD, COLOUR_X_TILDE,
                    "{xt}");
     Paper *paper = stage->paper;
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[0].box.x + paper->em,
@@ -253,19 +251,12 @@ void tangent_draw(Plot *stage)
                 "E(x) = m/2 (x \u2212 {xt})\u00b2 + h\u00b2 P(x)");
 }
 
-/* By x alone: whichever is nearer. */
+/* By x alone. */
 void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    double at[SCENE_MAX_HANDLES][2], best = 14;
-    (void)y;
-    exhibit_handles(stage->simulation, at);
-    for (int i = 0; i < 2; i++) {
-        double pixel[2];
-        plot_place(stage, at[i], pixel);
-        if (fabs(pixel[0] - x) < best) {
-            best = fabs(pixel[0] - x);
-            pick->kind = PICK_HANDLE;
-            pick->index = i;
-        }
-    }
+    double at[SCENE_MAX_HANDLES][2];
+    int handles = exhibit_handles(stage->simulation, at);
+    for (int i = 0; i < handles; i++)
+        at[i][1] = pick->point[1];
+    plot_pick(stage, handles, *at, 14, x, y, PICK_HANDLE, pick);
 }

@@ -11,57 +11,37 @@ static const double SLAB = 1;           /* ems, depth of a thin wall */
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 
-bool square_next_touch(const SpringPen *pen, Touch *touch)
+ElementWalk square_contacts(const SpringPen *pen)
 {
-    const Contact *contact = pen->contact;
-    const Obstacle *obstacle = NULL;
-    const double *v = pen->simulation->run[pen->run].v;
-    const Term *term = system_find_term(pen->system, &friction_energy);
-    double h = pen->simulation->options.timestep, push = 0, rub = 0;
-    int nodes = pen->system->nodes, pairs = nodes;
-    Gap gap;
-    for (pairs *= contact ? contact->obstacles : 0; !(push > 0);) {
-        if (++touch->pair >= pairs)
-            return false;
-        int number = touch->pair / nodes;
-        touch->node = touch->pair % nodes;
-        obstacle = &contact->obstacle[number];
-        if (!contact_has_pair(contact, pen->system, touch->node, number))
-            continue;
-        gap = contact_pair_gap(contact, pen->x, touch->node, number);
-        push = contact_force(&contact->barrier, gap.d);
-        push = isfinite(push) ? push : 0;
-    }
-    const double *u = obstacle->node < 0 ? obstacle->v : v + 2 * obstacle->node;
-    const double *w = v + 2 * touch->node, t[2] = {-gap.n[1], gap.n[0]};
-    double slip = t[0] * (w[0] - u[0]) + t[1] * (w[1] - u[1]);
-    touch->rough = term && obstacle->friction > 0;
-    touch->slides = false;
-    if (touch->rough) {
-        double speed = ((const Friction *)term->data)->slip_speed;
-        rub = -obstacle->friction * push * friction_slope(slip * h, speed * h);
-        touch->slides = fabs(slip) >= speed;
-    }
-    for (int c = 0; c < 2; c++)
-        touch->force[c] = push * gap.n[c] + rub * t[c];
-    return true;
+    return pen->contact ? elements_from(&pen->contacts, NULL, 0)
+                        : (ElementWalk){0};
 }
 
-/* The largest force that an obstacle and its friction put on a node of these
- * runs, N. */
-static double largest_force(const SpringPen *pen, int runs)
+Touch square_touch(const SpringPen *pen, const Element *element)
 {
-    double most = 0;
-    for (int r = 0; r < runs; r++)
-        for (Touch touch = {.pair = -1}; square_next_touch(&pen[r], &touch);)
-            most = fmax(most, math_hypot(touch.force[0], touch.force[1]));
-    return isfinite(most) ? most : 0;
+    const Term *term = system_find_term(pen->system, &friction_energy);
+    const double *n = element->n, h = pen->simulation->options.timestep;
+    const ElementKind *kind = pen->contacts.term->kind->element;
+    double push = contact_force(&pen->contact->barrier, element->s);
+    double t[4], v[4], carry, rub = 0;
+    double grip = kind->rub(&pen->contacts, element, t, &carry);
+    Touch touch = {.node = element->node[0], .rough = term && grip > 0};
+    if (touch.rough) {
+        double speed = ((const Friction *)term->data)->slip_speed;
+        element_vectors(element, pen->simulation->run[pen->run].v, v);
+        double slip = t[0] * v[0] + t[1] * v[1] - carry;
+        rub = -grip * friction_slope(slip * h, speed * h);
+        touch.slides = fabs(slip) >= speed;
+    }
+    for (int c = 0; c < 2; c++)
+        touch.force[c] = push * n[c] + rub * t[c];
+    return touch;
 }
 
 static void draw_force(const SpringPen *pen, const Touch *touch, double factor,
                        double least)
 {
-    const double *at = pen->x + 2 * (size_t)touch->node, *f = touch->force;
+    const double *at = pen->x + 2 * touch->node, *f = touch->force;
     const double tail[2] = {at[0] - factor * f[0], at[1] - factor * f[1]};
     double radius = fmax(pen->radius, 2);
     if (math_hypot(f[0], f[1]) > least)
@@ -72,6 +52,18 @@ static void draw_force(const SpringPen *pen, const Touch *touch, double factor,
         plot_disc(pen->stage, at, 1.4 * radius, COLOUR_FORCE);
 }
 
+/* Of the contacts of all runs, N. */
+static double largest_force(const SpringPen *pen, int runs)
+{
+    double most = 0;
+    for (int r = 0; r < runs; r++)
+        for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
+            Touch touch = square_touch(&pen[r], &at.element);
+            most = fmax(most, math_hypot(touch.force[0], touch.force[1]));
+        }
+    return isfinite(most) ? most : 0;
+}
+
 void square_contact_forces(const SpringPen *pen, int runs)
 {
     const Plot *stage = pen->stage;
@@ -80,8 +72,10 @@ void square_contact_forces(const SpringPen *pen, int runs)
     if (!(most > 0))
         return;
     for (int r = runs - 1; r >= 0; r--)
-        for (Touch touch = {.pair = -1}; square_next_touch(&pen[r], &touch);)
+        for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
+            Touch touch = square_touch(&pen[r], &at.element);
             draw_force(&pen[r], &touch, factor, FORCE_LEAST * most);
+        }
     plot_legend(pen->stage, COLOUR_FORCE, "contact force \u2264 %s N",
                 number_of(round).text);
     if (system_find_term(pen->system, &friction_energy))
@@ -123,25 +117,26 @@ static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool thin)
 {
     const Box *box = &stage->box;
-    const double *n = wall->n, t[2] = {n[1], -n[0]};
-    double scale = stage->camera.scale[0], middle[2], p[4][2], near[2][2];
+    const double *n = wall->n;
+    double scale = stage->camera.scale[0], middle[2];
     double far = 2 * (box->width + box->height) / scale;
     double deep = thin ? SLAB * stage->em / scale : far;
+    const double over[3] = {0, -deep, reach};
+    double p[3][2][2]; /* on the surface, below, above; left, right */
     camera_world(&stage->camera, box->x + 0.5 * box->width,
                  box->y + 0.5 * box->height, middle);
     double along =
-        (middle[0] - wall->o[0]) * t[0] + (middle[1] - wall->o[1]) * t[1];
-    for (int k = 0; k < 4; k++) /* a b on the surface, c d below it */
-        for (int c = 0; c < 2; c++) {
-            double side = k == 0 || k == 3 ? along - far : along + far;
-            p[k][c] = wall->o[c] + side * t[c] - (k < 2 ? 0 : deep) * n[c];
-            if (k < 2)
-                near[k][c] = p[k][c] + reach * n[c];
-        }
-    plot_face(stage, (const double *[]){p[0], p[1], p[2], p[3]}, COLOUR_SOLID);
-    plot_line(stage, p[0], p[1], 1.5, COLOUR_EDGE);
+        (middle[0] - wall->o[0]) * n[1] - (middle[1] - wall->o[1]) * n[0];
+    for (int k = 0; k < 6; k++) {
+        double side = along + (k % 2 ? far : -far);
+        p[k / 2][k % 2][0] = wall->o[0] + side * n[1] + over[k / 2] * n[0];
+        p[k / 2][k % 2][1] = wall->o[1] - side * n[0] + over[k / 2] * n[1];
+    }
+    plot_face(stage, (const double *[]){p[0][0], p[0][1], p[1][1], p[1][0]},
+              COLOUR_SOLID);
+    plot_line(stage, p[0][0], p[0][1], 1.5, COLOUR_EDGE);
     if (reach * scale > 2)
-        plot_dashes(stage, near[0], near[1], 1, NULL, COLOUR_GREY);
+        plot_dashes(stage, p[2][0], p[2][1], 1, NULL, COLOUR_GREY);
 }
 
 void square_contact_obstacles(const SpringPen *pen)

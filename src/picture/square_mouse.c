@@ -19,12 +19,15 @@ static const double LINE = 1.35; /* ems, of a line of the note */
 static const double SMALL = 0.9; /* ems, size of its letters */
 static const double WIDTH = 17;  /* ems, of it at least */
 
-/* Squared distance of a pixel to a line between two pixels. */
-static double distance2(const double p[2], const double q[2], double x,
-                        double y)
+/* Squared distance of a pixel to a spring. */
+static double spring_distance2(const Plot *stage, const double *at, int s,
+                               double x, double y)
 {
-    double dx = q[0] - p[0], dy = q[1] - p[1];
-    double length2 = dx * dx + dy * dy, t = 0;
+    const int *e = stage->simulation->system.e + 2 * s;
+    double p[2], q[2], t = 0;
+    plot_place(stage, at + 2 * e[0], p);
+    plot_place(stage, at + 2 * e[1], q);
+    double dx = q[0] - p[0], dy = q[1] - p[1], length2 = dx * dx + dy * dy;
     if (length2 > 0)
         t = fmin(fmax(((x - p[0]) * dx + (y - p[1]) * dy) / length2, 0), 1);
     double ex = p[0] + t * dx - x, ey = p[1] + t * dy - y;
@@ -66,29 +69,20 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     const System *system = &stage->simulation->system;
     const double *at = pane_x(&stage->show->pane[stage->pane]);
     double spacing = stage->camera.scale[0] * stage->simulation->mesh.spacing;
-    double reach = fmin(fmax(0.3 * spacing, 7), 16);
-    double near = fmax(reach * reach, 0.75 * 0.75 * spacing * spacing);
-    for (int springs = 0; springs < 2 && pick->kind == PICK_NONE; springs++) {
-        int count = !springs           ? system->nodes
-                    : solid_of(system) ? 0
-                                       : system->springs;
-        double best = springs ? reach * reach / 4 : reach * reach, p[2], q[2];
-        for (int i = 0; i < count; i++) {
-            const int node[2] = {i, i}, *e = springs ? system->e + 2 * i : node;
-            if (springs && spring_is_broken(system, i))
-                continue;
-            camera_pixel(&stage->camera, at + 2 * (size_t)e[0], p);
-            camera_pixel(&stage->camera, at + 2 * (size_t)e[1], q);
-            double d2 = distance2(p, q, x, y);
-            if (!springs && d2 < near) {
-                near = d2;
-                pick->near = i;
-            }
-            if (d2 < best) {
-                best = d2;
-                pick->kind = springs ? PICK_SPRING : PICK_NODE;
-                pick->index = i;
-            }
+    double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
+    int springs = solid_of(system) ? 0 : system->springs;
+    Pick node = *pick;
+    if (plot_pick(stage, system->nodes, at, fmax(reach, 0.75 * spacing), x, y,
+                  PICK_NODE, &node))
+        pick->near = node.index;
+    if (plot_pick(stage, system->nodes, at, reach, x, y, PICK_NODE, pick))
+        return;
+    for (int s = 0; s < springs; s++) {
+        double d2 = spring_distance2(stage, at, s, x, y);
+        if (d2 < best && !spring_is_broken(system, s)) {
+            best = d2;
+            pick->kind = PICK_SPRING;
+            pick->index = s;
         }
     }
     if (pick->kind == PICK_SPRING)

@@ -11,27 +11,21 @@
 
 enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
 
-static const double FLOWN = 10; /* times its side, what explodes fills */
+static const double FLOWN = 30; /* times its side, what explodes fills */
 static const double NODE = 0.1; /* of the distance of two nodes */
 static const double FACE = 4;   /* pixels, the smallest side of one */
 
 /* ---- sizes and colours -------------------------------------------------- */
 
 /* Pixels between two nodes: at rest, or where nodes have flown so far that the
- * rest shape is nothing beside it, of as many over what they fill. */
-static double seen_spacing(const SpringPen *pen)
+ * rest shape is nothing beside what is seen, of as many over all of that. */
+static double seen_spacing(const Plot *stage)
 {
-    const SquareMesh *mesh = &pen->simulation->mesh;
-    double scale = pen->stage->camera.scale[0], reach = 0;
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (int i = 0; i < 2 * pen->system->nodes; i++)
-        if (isfinite(pen->x[i])) {
-            low[i % 2] = fmin(low[i % 2], pen->x[i]);
-            high[i % 2] = fmax(high[i % 2], pen->x[i]);
-        }
-    reach = fmax(high[0] - low[0], high[1] - low[1]);
+    const SquareMesh *mesh = &stage->simulation->mesh;
+    double zoom = stage->show->lens.zoom, scale = stage->camera.scale[0];
+    double seen = zoom * stage->box.width / scale;
     return scale * mesh->spacing *
-           (reach > FLOWN * mesh->side ? reach / mesh->side : 1);
+           (seen > FLOWN * mesh->side ? seen / mesh->side : 1);
 }
 
 /* A range for the colours: half the strain of the start, or half of the largest
@@ -81,22 +75,22 @@ SpringPen square_pen(Plot *stage, int run)
                      .run = run,
                      .system = system,
                      .x = run ? simulation->run[run].x : pane_x(pane),
+                     .spacing = seen_spacing(stage),
                      .strain = strain_range(simulation, NULL),
                      .ep = plasticity ? plasticity->ep : NULL,
                      .contact = contact_of(system),
                      .fixed = fixed_bodies(simulation)};
     double unit = stage->paper->unit;
-    pen.spacing = seen_spacing(&pen);
+    pen.contacts = place_at(system, NULL, NULL, pen.x);
+    pen.contacts.term = system_find_term(system, &contact_energy);
     pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
     pen.width = fmax(1 / unit, pen.width);
     pen.radius = NODE * pen.spacing / unit;
     if (!show->bare)
         pen.radius = fmin(pen.radius, 6.5);
     pen.plastic = !show->strain && !show->bare && pen.ep;
-    if (pen.plastic)
-        pen.range = strain_range(simulation, pen.ep);
-    if (show->strain)
-        pen.range = pen.strain;
+    if (pen.plastic || show->strain)
+        pen.range = pen.plastic ? strain_range(simulation, pen.ep) : pen.strain;
     if (pen.range > 0)
         pen.width *= 1.4;
     pen.projected = trace && trace->line >= LINE_PROJECT &&
@@ -164,16 +158,11 @@ void square_springs(const SpringPen *pen)
 
 /* ---- cells -------------------------------------------------------------- */
 
-/* > 0 if the triangle a b c was not turned over, in units in which no product
- * overflows. */
+/* Twice its area, m^2: > 0 if the triangle a b c was not turned over. */
 static double turn(const double *x, int a, int b, int c)
 {
-    const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
-                 *r = x + 2 * (size_t)c;
-    double dx = q[0] - p[0], dy = q[1] - p[1], unit = 1;
-    if (fabs(dx) > 1e100 || fabs(dy) > 1e100)
-        unit = 1 / fmax(fabs(dx), fabs(dy));
-    return unit * dx * (r[1] - p[1]) - unit * dy * (r[0] - p[0]);
+    const double *p = x + 2 * a, *q = x + 2 * b, *r = x + 2 * c;
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
 /* A face of four nodes, anticlockwise at rest. */

@@ -28,6 +28,7 @@ typedef struct SpringPen {
     bool plastic;           /* the colour is the plastic strain ... */
     const double *ep;       /* [springs] of each; NULL: springs do not flow */
     const Contact *contact; /* NULL: there is nothing to touch */
+    Place contacts;         /* the place that tells of them */
     bool projected;         /* springs whose block was changed are lit */
     unsigned fixed;         /* bit b: of several bodies b has pins alone */
 } SpringPen;
@@ -56,18 +57,18 @@ void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 /* ---- contact: it follows from positions and velocities alone, so that a state
  * from the history is drawn as it was when it was new ---------------------- */
 
-/* One contact as it is now, with the normal force of now. */
+/* The contacts of a run: for (ElementWalk at = square_contacts(pen);
+ * elements_next(&at);) square_touch(pen, &at.element). */
+ElementWalk square_contacts(const SpringPen *pen);
+
+/* One of them as it is now, with the normal force of now. */
 typedef struct Touch {
-    int pair; /* of all nodes with all obstacles; -1: before the first */
     int node;
     double force[2]; /* N, on the node, friction included */
     bool rough;      /* it has friction ... */
     bool slides;     /* ... and is faster than eps_v */
 } Touch;
-
-/* The next contact of the pen's simulation, run, system, x and contact; touch
- * in/out; false: there are no more. */
-bool square_next_touch(const SpringPen *pen, Touch *touch);
+Touch square_touch(const SpringPen *pen, const Element *element);
 
 /* Walls and balls of a run.  Several runs have theirs as slabs, so that they
  * stay apart, and words under the first one. */

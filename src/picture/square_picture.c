@@ -322,7 +322,6 @@ static void draw_page_arrows(const SpringPen *pen)
     const LecturePage *page = pen->show->lecture;
     const System *system = pen->system;
     double arrow[2 * NUMBERED] = {0};
-    char word[24];
     if (!page || system->nodes > NUMBERED)
         return;
     if (page->modes) {
@@ -337,10 +336,8 @@ static void draw_page_arrows(const SpringPen *pen)
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
     draw_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
-    const double(*last)[2] =
-        (const double(*)[2])(pen->x + 2 * system->nodes - 2);
-    snprintf(word, sizeof word, "node %d", system->nodes - 1);
-    plot_words(pen->stage, 1, last, 0.7, 1, FACE_BOLD, COLOUR_TEXT, word);
+    plot_words(pen->stage, 1, pen->x + 2 * system->nodes - 2, 0.7, 1, FACE_BOLD,
+               COLOUR_TEXT, "node %d", system->nodes - 1);
 }
 
 /* A solid at rest, not cut yet. */

@@ -70,6 +70,8 @@ void plot_text(const Plot *plot, const double *at, double right, double below,
     char words[WORDS_TEXT];
     double p[2];
     va_list arguments;
+    if (!plot->text)
+        return;
     va_start(arguments, format);
     vsnprintf(words, sizeof words, format, arguments);
     va_end(arguments);
@@ -129,10 +131,17 @@ double plot_cost(const Plot *plot, Box place)
            COST_OUTSIDE;
 }
 
-void plot_words(const Plot *plot, int points, const double (*at)[2], double gap,
-                double size, Face face, Colour colour, const char *words)
+void plot_words(const Plot *plot, int points, const double *at, double gap,
+                double size, Face face, Colour colour, const char *format, ...)
 {
     Paper *paper = plot->paper;
+    char words[WORDS_TEXT];
+    va_list arguments;
+    if (!plot->text)
+        return;
+    va_start(arguments, format);
+    vsnprintf(words, sizeof words, format, arguments);
+    va_end(arguments);
     /* right, left, below, above, then the corners */
     static const int side[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                    {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
@@ -143,7 +152,7 @@ void plot_words(const Plot *plot, int points, const double (*at)[2], double gap,
     for (int i = 0; i < 8 * points; i++) {
         const int *to = side[i % 8];
         double p[2];
-        plot_place(plot, at[i / 8], p);
+        plot_place(plot, at + i / 8 * 2, p);
         if (!(fabs(p[0]) < FARTHEST && fabs(p[1]) < FARTHEST))
             continue;
         double apart = (i % 8 < 4 ? gap : 0.7 * gap) * paper->em;

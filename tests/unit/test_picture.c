@@ -304,7 +304,7 @@ static int count_pixels(const Canvas *canvas, Colour colour, int *left)
  * words, which stay whole; without a place they are nowhere. */
 TEST(words_keep_off_lines_and_words)
 {
-    const double middle[1][2] = {{200, 150}}, far[1][2] = {{INFINITY, 0}};
+    const double middle[2] = {200, 150}, far[2] = {INFINITY, 0};
     const double up[2] = {200, 280}, right[2] = {390, 150};
     for (int lines = 0; lines < 2; lines++) {
         Paper paper;
@@ -313,10 +313,11 @@ TEST(words_keep_off_lines_and_words)
         Plot plot = {.paper = &paper, /* its unit is a pixel, y up */
                      .box = {0, 0, 400, 300},
                      .camera = {{1, 1}, {0, 300}},
+                     .text = true,
                      .em = paper.em};
         if (lines) {
-            plot_line(&plot, *middle, up, 2, COLOUR_P);
-            plot_line(&plot, *middle, right, 2, COLOUR_P);
+            plot_line(&plot, middle, up, 2, COLOUR_P);
+            plot_line(&plot, middle, right, 2, COLOUR_P);
         }
         int ink = count_pixels(&paper.canvas, COLOUR_P, &left);
         for (int i = 0; i < 5; i++) {

@@ -482,7 +482,8 @@ TEST(contacts_slide_or_hold)
                      part[r], part[r] * mu / tan(angle), angle * 180 / M_PI);
             CHECK(is_drawn(words));
         }
-        for (Touch touch = {.pair = -1}; square_next_touch(&pen, &touch);) {
+        for (ElementWalk to = square_contacts(&pen); elements_next(&to);) {
+            Touch touch = square_touch(&pen, &to.element);
             CHECK(touch.rough && touch.slides == (r < 2));
             plot_place(&stage, pen.x + 2 * touch.node, at);
             lowest = fmax(lowest, at[1]);
