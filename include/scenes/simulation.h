@@ -38,7 +38,6 @@ struct Simulation {
     void *user;
     long steps;                /* done so far */
     long unconverged;          /* of them not converged */
-    Status first;              /* how the first of these ended */
     int reasons[STATUS_COUNT]; /* how many of these ended in this way */
     Status status;             /* of the last step */
     NewtonCounters counted;    /* by solvers that are no more */

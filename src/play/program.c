@@ -161,8 +161,6 @@ static void print_newton(FILE *file, const Simulation *simulation)
 static void print_unconverged(FILE *file, const Simulation *simulation)
 {
     fprintf(file, "steps not converged %ld", simulation->unconverged);
-    if (simulation->unconverged > 0)
-        fprintf(file, ", the first: %s", status_name(simulation->first));
     for (int i = 0; i < STATUS_COUNT; i++)
         if (simulation->reasons[i] > 0)
             fprintf(file, "\n  %-17s %d", status_name((Status)i),

@@ -103,10 +103,10 @@ static Status end_step(Simulation *simulation, Status status)
         guess->distance =
             math_hypot(dx, line ? 0 : guess->came[1] - guess->at[1]);
     }
-    if (status)
+    if (status) {
+        simulation->unconverged++;
         simulation->reasons[status]++;
-    if (status && simulation->unconverged++ == 0)
-        simulation->first = status;
+    }
     return status;
 }
 

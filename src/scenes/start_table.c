@@ -160,36 +160,29 @@ Status start_table_read(const char *name, double step, int nodes, int run,
                         int runs, double *x, double *v, Refusal told)
 {
     Start start = {fopen(name, "rb"), step, nodes, run, x, v, .line = 0};
+    char why[128] = "";
     const char *end = strrchr(name, '.');
     bool arrays = end && strcasecmp(end, ".npz") == 0;
     bool whole = start.file && (arrays ? read_arrays : read_lines)(&start);
-    const char *error =
-        !start.file || ferror(start.file) ? strerror(errno) : NULL;
+    if (!start.file || ferror(start.file))
+        snprintf(why, sizeof why, "%s", strerror(errno));
+    else if (!whole && arrays)
+        strcpy(why, "it has no arrays x, y, vx, vy as --states writes them, "
+                    "and numpy.savez");
+    else if (!whole)
+        snprintf(why, sizeof why,
+                 "line %ld is not one that --states writes, "
+                 "step,time,node,x,y,vx,vy",
+                 start.line);
+    else if (!start.has_step)
+        snprintf(why, sizeof why, "step %.0f is not in it", step);
+    else if (start.count == 0 || start.count % nodes != 0 ||
+             (!start.has_panes && start.count / nodes > runs))
+        snprintf(why, sizeof why, "its %sstep has %d nodes, the body %d",
+                 step < 0 ? "last " : "", start.count, nodes);
+    else if (run >= start.count / nodes)
+        snprintf(why, sizeof why, "body %d of the scene is not in it", run + 1);
     if (start.file)
         fclose(start.file);
-    if (error)
-        return refuse(told, "--state '%.60s': %s", name, error);
-    if (!whole && arrays)
-        return refuse(told,
-                      "--state '%.60s': it has no arrays x, y, vx, vy as "
-                      "--states writes them, and numpy.savez",
-                      name);
-    if (!whole)
-        return refuse(told,
-                      "--state '%.60s': line %ld is not one that --states "
-                      "writes, step,time,node,x,y,vx,vy",
-                      name, start.line);
-    if (!start.has_step)
-        return refuse(told, "--state '%.60s': step %.0f is not in it", name,
-                      step);
-    if (start.count == 0 || start.count % nodes != 0 ||
-        (!start.has_panes && start.count / nodes > runs))
-        return refuse(told,
-                      "--state '%.60s': its %sstep has %d nodes, the body %d",
-                      name, step < 0 ? "last " : "", start.count, nodes);
-    if (run >= start.count / nodes)
-        return refuse(told,
-                      "--state '%.60s': body %d of the scene is not in it",
-                      name, run + 1);
-    return STATUS_OK;
+    return why[0] ? refuse(told, "--state '%.60s': %s", name, why) : STATUS_OK;
 }
