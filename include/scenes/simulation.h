@@ -153,8 +153,8 @@ int simulation_point(const Simulation *simulation, double at[2]);
  * single point or has ended. */
 void simulation_predict(Simulation *simulation, double x, double y);
 
-/* How fast the body of run 0 deforms: the largest speed of a node, m/s, beside
- * the rigid motion with the body's momentum and angular momentum. */
+/* How fast the body of run 0 deforms: the fastest change of a spring's length,
+ * m/s. */
 double simulation_deforming(const Simulation *simulation);
 
 /* omega of the fastest small oscillation around x [2n], 1/s: M mode'' = -H mode

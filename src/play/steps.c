@@ -199,7 +199,9 @@ static bool is_rigid(const Simulation *simulation)
            simulation_is_handled(simulation) &&
            system_is_free(&simulation->system) &&
            !system_has_gravity(&simulation->system) &&
-           simulation_deforming(simulation) <= simulation->options.tolerance;
+           simulation->mesh.bodies == 1 &&
+           simulation_deforming(simulation) * simulation->mesh.segments <=
+               simulation->options.tolerance;
 }
 
 /* What stands still although forces are left, or may be. */

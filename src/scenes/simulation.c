@@ -6,6 +6,7 @@
 #include "model/cells.h"
 #include "model/contact.h"
 #include "model/friction.h"
+#include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
 #include "scenes/body.h"
@@ -286,38 +287,16 @@ bool simulation_projects_springs(const Simulation *simulation)
            !self_contact_of(system);
 }
 
-/* The mean of an array [2n] over the body's mass, out. */
-static void mean_of(const System *system, const double *values, double mean[2])
-{
-    double mass = 0, sum[2] = {0, 0};
-    for (int i = 0; i < system->nodes; i++) {
-        mass += system->m[i];
-        sum[0] += system->m[i] * values[2 * i];
-        sum[1] += system->m[i] * values[2 * i + 1];
-    }
-    mean[0] = sum[0] / mass;
-    mean[1] = sum[1] / mass;
-}
-
 double simulation_deforming(const Simulation *simulation)
 {
     const System *system = &simulation->system;
-    const double *x = simulation->run[0].x, *v = simulation->run[0].v;
-    double x_c[2], v_c[2], momentum = 0, inertia = 0, turn = 0, fastest = 0;
-    mean_of(system, x, x_c);
-    mean_of(system, v, v_c);
-    for (int i = 0; i < 2 * system->nodes; i += 2) {
-        double rx = x[i] - x_c[0], ry = x[i + 1] - x_c[1];
-        momentum += system->m[i / 2] *
-                    (rx * (v[i + 1] - v_c[1]) - ry * (v[i] - v_c[0]));
-        inertia += system->m[i / 2] * (rx * rx + ry * ry);
-    }
-    if (inertia > 0)
-        turn = momentum / inertia;
-    for (int i = 0; i < 2 * system->nodes; i += 2) {
-        double speed = math_hypot(v[i] - v_c[0] + turn * (x[i + 1] - x_c[1]),
-                                  v[i + 1] - v_c[1] - turn * (x[i] - x_c[0]));
-        fastest = speed <= fastest ? fastest : speed; /* NaN stays NaN */
+    const TimeIntegrator *run = &simulation->run[0];
+    double fastest = 0, d[2], w[2];
+    for (int s = 0; s < system->springs; s++) {
+        spring_strain(system->e + 2 * s, 1, run->x, d);
+        spring_strain(system->e + 2 * s, 1, run->v, w);
+        double rate = fabs(d[0] * w[0] + d[1] * w[1]) / math_hypot(d[0], d[1]);
+        fastest = rate <= fastest ? fastest : rate; /* NaN stays NaN */
     }
     return fastest;
 }
