@@ -110,8 +110,7 @@ static Plot draw_words(const Plot *card)
 static const Trace *projected_trace(const Plot *card, DescentTrace *space)
 {
     const Pane *pane = show_pane(card->show);
-    if (!card->show->lecture || pane->update != &pane->descent.trace ||
-        isnan(fact_number(&pane->facts, "projected slope")))
+    if (!text_is_known(&pane->facts, "{directions}"))
         return NULL;
     *space = pane->descent;
     descent_direction(card->simulation, FILTER_CLAMP, space->from, space->p);

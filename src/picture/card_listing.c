@@ -128,6 +128,6 @@ void prints_draw(const Plot *card)
     if (count - first < room && trace->residual <= trace->tolerance)
         paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x,
                     inside.y + (count - first) * pitch, ALIGN_LEFT,
-                    "then %d (hollow) \u2264 %s: the loop ends", count,
+                    "then %d: \u2264 %s, the loop ends", count,
                     number_of(trace->tolerance).text);
 }

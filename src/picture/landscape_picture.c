@@ -225,17 +225,16 @@ static void name_parts(unsigned parts, Facts *facts)
                                        : "elasticity");
 }
 
-/* What projection makes of the start's Hessian and direction. */
+/* The projected Hessian, and whether its direction is shown, too. */
 static void add_projected(const Simulation *simulation, const double *x,
                           Facts *facts)
 {
     static const char *const names[] = {"Pxx", "Pxy", "Pyy"};
-    double p[2], slope = descent_direction(simulation, FILTER_CLAMP, x, p);
     Local E = descent_at(simulation, FILTER_CLAMP, x[0], x[1]);
     fact_matrix(facts, names, E.H, 0);
-    fact_point(facts, "projected p", p);
-    fact(facts, "projected slope", slope);
-    fact_when(facts, "directions", simulation->options.page);
+    fact_when(facts, "directions",
+              simulation->options.page && simulation->descent.count == 0 &&
+                  simulation->options.filter == FILTER_NONE);
 }
 
 void landscape_facts(const Simulation *simulation, Facts *facts)
@@ -255,8 +254,7 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "g", E.g);
     fact_point(facts, "solution", descent->direction);
     fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
-    if (simulation->options.filter == FILTER_NONE && parts == PART_BOTH &&
-        descent->count == 0)
+    if (parts == PART_BOTH)
         add_projected(simulation, x, facts);
     fact_when(facts, "moves", descent->slope != 0);
     fact(facts, "E", E.value < 1e-30 ? 0 : E.value);

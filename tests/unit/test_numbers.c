@@ -783,9 +783,6 @@ static void tell_landscape(const Simulation *simulation)
     E = map_E(simulation, PART_BOTH, at, FILTER_CLAMP);
     for (int i = 0; i < 3; i++)
         near(projected[i], E.H[i], 1e-12L);
-    for (int i = 0; i < 2; i++)
-        near("projected p", E.p[i], 1e-12L);
-    near("projected slope", E.slope, 1e-12L * fabsl(E.slope));
 }
 
 /* The last update, or the first one that is to come. */
