@@ -379,10 +379,9 @@ static Status use_control(Machine *machine, const Control *control)
 }
 
 /* The machine has the state of this step, and takes its control. */
-static Status land(Past *past, int pane, long step)
+static Status land(Past *past, int pane, long step, State *state)
 {
     Machine *machine = &past->machine[pane];
-    State *state = past->keeps ? kept_of(past, pane, step).entry->state : NULL;
     Status status = use_control(machine, entry_of(past, pane, step)->control);
     machine->step = step;
     machine->stands = !status;
@@ -415,7 +414,7 @@ static Status load(Past *past, int pane, long goal)
                 (machine->step >= from || machine->step >= goal - 1);
     if (near &&
         machine->control == entry_of(past, pane, machine->step)->control)
-        return land(past, pane, machine->step);
+        return land(past, pane, machine->step, NULL);
     Kept kept = kept_of(past, pane, from);
     if (!kept.entry->state)
         return STATUS_OUT_OF_MEMORY;
@@ -431,7 +430,7 @@ static Status load(Past *past, int pane, long goal)
     }
     if (!status)
         status = take_state(machine, kept);
-    return status ? status : land(past, pane, from);
+    return status ? status : land(past, pane, from, kept.entry->state);
 }
 
 /* ---- steps --------------------------------------------------------------- */
@@ -537,7 +536,7 @@ static Status arrive(Past *past, int pane)
     else if (past->keeps && !kept.entry->state)
         keep_state(past, pane, kept.entry);
     if (!status)
-        status = land(past, pane, step);
+        status = land(past, pane, step, kept.entry->state);
     return status ? fail(past, pane, status) : STATUS_RUNNING;
 }
 
@@ -792,7 +791,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
         if (past->keeps)
             status = keep_state(past, p, entry);
         if (!status)
-            status = land(past, p, 0);
+            status = land(past, p, 0, entry->state);
     }
     return status;
 }
@@ -869,7 +868,7 @@ static Status change_entry(Past *past, int pane, const Command *edit,
     else
         exhibit_flip(simulation, (int)edit->number);
     Status status = keep_state(past, pane, entry);
-    return status ? status : land(past, pane, past->step);
+    return status ? status : land(past, pane, past->step, entry->state);
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
