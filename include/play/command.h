@@ -122,7 +122,8 @@ typedef struct Script {
 } Script;
 
 /* Appends a line.  Returns OK, OUT_OF_MEMORY. */
-Status script_add(Script *script, long step, const Command *command);
+Status script_add(Script *script, long step, const Command *command,
+                  int gesture);
 
 /* Reads the file of --script; NULL: there is none.
  *   script   out; free it in any case

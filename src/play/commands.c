@@ -189,7 +189,8 @@ void command_format(const Command *command, char *line, size_t size)
 
 /* ---- scripts ------------------------------------------------------------- */
 
-Status script_add(Script *script, long step, const Command *command)
+Status script_add(Script *script, long step, const Command *command,
+                  int gesture)
 {
     if (script->count == script->size) {
         size_t size = script->size ? 2 * script->size : 64;
@@ -199,7 +200,7 @@ Status script_add(Script *script, long step, const Command *command)
         script->line = line;
         script->size = size;
     }
-    script->line[script->count++] = (ScriptLine){step, *command, 0};
+    script->line[script->count++] = (ScriptLine){step, *command, gesture};
     return STATUS_OK;
 }
 
@@ -220,7 +221,7 @@ static Status read_line(char *text, Script *script, char *message, size_t size)
         return refuse((Refusal){message, size},
                       "a line is STEP COMMAND, the step a number");
     Status status = command_parse(end, &command, message, size);
-    return status ? status : script_add(script, step, &command);
+    return status ? status : script_add(script, step, &command, 0);
 }
 
 Status script_read(const char *name, Script *script, char *message, size_t size)

@@ -173,10 +173,8 @@ Status player_obey(Player *player, const Command *asked)
     }
     Status status = check_number(player, &command);
     bool noted = !status && flags & KEPT; /* before what it does in turn */
-    if (noted && script_add(&player->journal, step, &command))
+    if (noted && script_add(&player->journal, step, &command, player->gesture))
         return STATUS_OUT_OF_MEMORY;
-    if (noted)
-        player->journal.line[at].gesture = player->gesture;
     if (!status)
         status = row->deed(player, &command);
     if (past->works && !(flags & SCREEN)) {

@@ -323,7 +323,7 @@ Status player_create(const Options *options, int count, const char *line,
     if (!status)
         status = player_begin(player, player->given, count, &begin);
     if (!status && player_stands(player)) /* scripts begin to run */
-        status = script_add(&player->journal, 0, &pause);
+        status = script_add(&player->journal, 0, &pause, 0);
     if (!status && player->asks && options->page)
         status = player_open_page(player);
     else if (!status && player->asks &&

@@ -220,7 +220,7 @@ Status obey_hash(Player *player, const Command *command)
     Status status = STATUS_OK;
     free_name(player, ".script", name, sizeof name);
     if (!player_stands(player))
-        status = script_add(journal, step, &pause);
+        status = script_add(journal, step, &pause, 0);
     if (!status && count > 0)
         status = script_write(name, journal);
     journal->count = count;

@@ -39,28 +39,24 @@ static Status record_updates(Player *player, long step)
     return status;
 }
 
-/* Whether all panes have the records of the step that is shown: they have made
- * it, and not found its state. */
-static bool has_records(const Past *past)
-{
-    bool all = true;
-    for (int p = 0; past->keeps && past->step > 0 && p < past_panes(past); p++)
-        all = all && (past->machine[p].known ||
-                      past_entry(past, p, past->step)->substeps == 0);
-    return all;
-}
-
-/* The step that is shown, if it is the next one that is not written yet. */
+/* The step that is shown, if it is the next one that is not written yet and all
+ * panes have its records: they have made it, and not found its state. */
 static Status record_step(Player *player)
 {
+    const Past *past = &player->past;
     const Simulation *simulation[OPTIONS_MAX_PANES];
-    int panes = past_panes(&player->past);
-    long step = player->past.step;
-    if (step != player->written + 1 || !has_records(&player->past))
+    int panes = past_panes(past);
+    long step = past->step;
+    bool due = step == player->written + 1;
+    for (int p = 0; p < panes; p++) {
+        const Machine *machine = &past->machine[p];
+        simulation[p] = &machine->simulation;
+        due = due && (machine->known || !past->keeps || step == 0 ||
+                      past_entry(past, p, step)->substeps == 0);
+    }
+    if (!due)
         return STATUS_OK;
     player->written = step;
-    for (int p = 0; p < panes; p++)
-        simulation[p] = &player->past.machine[p].simulation;
     Status status = step > 0 ? record_updates(player, step) : STATUS_OK;
     return status
                ? status

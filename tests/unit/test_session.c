@@ -182,7 +182,7 @@ static void run_until(long step)
     if (player_stands(&player))
         press_key("Space");
     player.script.count = player.script.next; /* nothing else is due */
-    CHECK_STATUS(script_add(&player.script, step, &pause), STATUS_OK);
+    CHECK_STATUS(script_add(&player.script, step, &pause, 0), STATUS_OK);
     player_run(&player);
 }
 
