@@ -418,7 +418,7 @@ Status obey_handle(Player *player, const Command *command)
     if (command->kind == COMMAND_HANDLE && (needs & NEEDS_START) &&
         !(needs & NEEDS_TIME)) {
         player_stop(player);
-        status = player_show(player, 0, false, THEN_NOTHING);
+        status = player_show(player, 0, THEN_NOTHING);
         status = status ? status : player_work(player);
     }
     if (!status)

@@ -59,10 +59,9 @@ Status player_work(Player *player);
 /* Whether a single factor takes longer than a slice. */
 bool player_is_slow(const Player *player);
 
-/* Wants a step shown, the newest one or one before it, or the next new one;
- * again: with all that is told of its iterations.  player_work follows, after a
- * deed by itself. */
-Status player_show(Player *player, long step, bool again, Then then);
+/* Wants a step shown, the newest one or one before it, or the next new one.
+ * player_work follows, after a deed by itself. */
+Status player_show(Player *player, long step, Then then);
 
 /* A change in panes from ... to - 1, and the present step once more with it,
  * from its own start; what it was before stays as a ghost of the active pane.

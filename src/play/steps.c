@@ -432,7 +432,7 @@ static Status step_shown(Player *player, Status status, long before)
                     "last below ten times the size",
                     before + 1, seen);
         player->warning = true;
-        return player_show(player, seen, false, THEN_NOTHING);
+        return player_show(player, seen, THEN_NOTHING);
     }
     status = record_step(player);
     if (!status && then == THEN_JUDGE)
@@ -492,7 +492,7 @@ static Status let_go(Player *player)
     return status;
 }
 
-Status player_show(Player *player, long step, bool again, Then then)
+Status player_show(Player *player, long step, Then then)
 {
     Status status = STATUS_OK;
     if (step > past_newest(&player->past)) {
@@ -505,7 +505,7 @@ Status player_show(Player *player, long step, bool again, Then then)
     if (status)
         return status;
     player_leave_step(player);
-    past_aim(&player->past, step, again);
+    past_aim(&player->past, step, then == THEN_ENTER || then == THEN_LEAVE);
     player->then = then;
     return STATUS_OK;
 }
@@ -514,9 +514,8 @@ Status player_step(Player *player)
 {
     long next = player->past.step + 1;
     bool fresh = next > past_newest(&player->past);
-    Status status = player_show(player, next, false,
-                                fresh && !player_stands(player) ? THEN_JUDGE
-                                                                : THEN_NOTHING);
+    Then then = fresh && !player_stands(player) ? THEN_JUDGE : THEN_NOTHING;
+    Status status = player_show(player, next, then);
     return status ? status : player_work(player);
 }
 
@@ -539,18 +538,17 @@ Status obey_pause(Player *player, const Command *command)
 
 Status obey_next(Player *player, const Command *command)
 {
-    bool whole = command->kind == COMMAND_STEP, fine = player->fine > 0;
+    Then then = command->kind == COMMAND_STEP ? THEN_NOTHING
+                : player->fine > 0            ? THEN_ENTER
+                                              : THEN_PEAK;
     player_stop(player);
-    if (!whole && fine && walk(player, 1))
+    if (then == THEN_ENTER && walk(player, 1))
         return STATUS_OK;
-    if (!whole && !fine && player->side[player->active].place >= 0) {
+    if (then == THEN_PEAK && player->side[player->active].place >= 0) {
         leave_lines(player); /* from an explosion's height to its end */
         return STATUS_OK;
     }
-    return player_show(player, player->past.step + 1, !whole && fine,
-                       whole  ? THEN_NOTHING
-                       : fine ? THEN_ENTER
-                              : THEN_PEAK);
+    return player_show(player, player->past.step + 1, then);
 }
 
 /* Whether the steps of any pane are made of updates that are shown. */
@@ -573,15 +571,15 @@ Status obey_back(Player *player, const Command *command)
     if (step == 0)
         player_note(player, "this is step 0: nothing was before it");
     if (player->fine == 0 || !has_updates(player))
-        return player_show(player, step - 1, false, THEN_NOTHING);
+        return player_show(player, step - 1, THEN_NOTHING);
     if (player->side[player->active].place < 0 && step > 0) {
         if (!player_machine(player)->known)
-            return player_show(player, step, true, THEN_LEAVE);
+            return player_show(player, step, THEN_LEAVE);
         enter(player, THEN_LEAVE);
     }
     if (player->side[player->active].place >= 0 && walk(player, -1))
         return STATUS_OK;
-    return player_show(player, step - 1, true, THEN_LEAVE);
+    return player_show(player, step - 1, THEN_LEAVE);
 }
 
 /* Steps, updates, lines, and steps again. */
@@ -606,7 +604,7 @@ Status obey_goto(Player *player, const Command *command)
     if (command->kind == COMMAND_GOTO && command->number < step)
         step = command->number;
     player_stop(player);
-    return player_show(player, step, false, THEN_NOTHING);
+    return player_show(player, step, THEN_NOTHING);
 }
 
 /* What was done last, or undone: "set stretch 1.2". */
