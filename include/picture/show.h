@@ -14,10 +14,9 @@
 #include "scenes/simulation.h"
 
 enum {
-    SHOW_TEXT = 160,      /* bytes of a sentence */
-    SHOW_VALUE = 32,      /* bytes of a setting's value */
-    SHOW_CODE_LINES = 24, /* as many as are seen from the back row */
-    SHOW_PAGES = 64       /* of the lecture, at most */
+    SHOW_TEXT = 160,     /* bytes of a sentence */
+    SHOW_VALUE = 32,     /* bytes of a setting's value */
+    SHOW_CODE_LINES = 24 /* as many as are seen from the back row */
 };
 
 /* Where in Algorithm 3 the run stands.  Everything up to this line is done:
@@ -169,9 +168,10 @@ typedef struct Page {
     unsigned char lit[SHOW_CODE_LINES]; /* 1: the line is */
 } Page;
 
-/* A key and what it does; a key without text is a heading. */
+/* A line of a list: a key or a number, and what it does. */
 typedef struct HelpRow {
-    const char *key, *text;
+    char key[SHOW_VALUE], text[SHOW_TEXT];
+    bool grey; /* it has no meaning now */
 } HelpRow;
 
 /* A scene on the sheet of all of them. */
@@ -214,8 +214,7 @@ typedef struct Show {
     int large; /* the enlarged one; -1: none */
     Page page;
     int help_rows;
-    const HelpRow *help;
-    bool grey[LAYOUT_ROWS]; /* of these: it has no meaning now */
+    HelpRow help[LAYOUT_ROWS];
 
     /* The sheet of all scenes, where it is open: cells > 0. */
     int cells, chosen;
@@ -242,8 +241,6 @@ typedef struct Show {
     bool numbers;           /* of the nodes are shown, where they are few */
     bool veiled;            /* its answer is not shown before a guess, */
     unsigned veils;         /* nor is what is in these cards */
-    HelpRow page_row[SHOW_PAGES]; /* the list of pages */
-    char page_key[SHOW_PAGES][12];
 } Show;
 
 /* Nothing selected, everything fits, one pane that shows the simulation. */

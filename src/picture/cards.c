@@ -145,16 +145,14 @@ int show_help_row(const Show *show, const Layout *layout, double x, double y)
     return row < grid.rows && at < show->help_rows ? at : -1;
 }
 
-/* Key and meaning, row by row; a row without a meaning is a heading. */
+/* Key and meaning, row by row. */
 static void draw_help(Paper *paper, Box inside, const Show *show)
 {
     HelpGrid grid = help_grid(show, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.line / (1.3 * em));
     double key = 0, wide = inside.width / (double)grid.columns;
     for (int i = 0; i < show->help_rows; i++)
-        if (show->help[i].text)
-            key = fmax(key,
-                       paper_width(paper, FACE_BOLD, size, show->help[i].key));
+        key = fmax(key, paper_width(paper, FACE_BOLD, size, show->help[i].key));
     key += 0.6 * size * em;
     for (int i = 0; i < show->help_rows; i++) {
         const HelpRow *row = &show->help[i];
@@ -162,10 +160,8 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
         double y = inside.y + i % grid.rows * grid.line;
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
                     row->key);
-        if (!row->text)
-            continue;
         paper_fit(paper, FACE_REGULAR, size,
-                  i < LAYOUT_ROWS && show->grey[i] ? COLOUR_GREY : COLOUR_TEXT,
+                  row->grey ? COLOUR_GREY : COLOUR_TEXT,
                   (Box){(int)(x + key), (int)y, (int)(wide - key - 0.5 * em),
                         (int)fmax(grid.line, 1.3 * size * em)},
                   ALIGN_LEFT, row->text);

@@ -106,14 +106,13 @@ static void fill_pages(const LecturePage *marked, Show *show)
     int count = lecture_count();
     show->page.kind = PAGE_HELP;
     show->page.title = "The pages of the lecture";
-    show->help = show->page_row;
-    show->help_rows = count < SHOW_PAGES ? count : SHOW_PAGES;
+    show->help_rows = count < LAYOUT_ROWS ? count : LAYOUT_ROWS;
     for (int i = 0; i < show->help_rows; i++) {
-        bool now = &lecture_pages[i] == marked;
-        snprintf(show->page_key[i], sizeof show->page_key[i], "%s%d",
-                 now ? ">" : "", i + 1);
-        show->page_row[i] =
-            (HelpRow){show->page_key[i], lecture_pages[i].topic};
+        const LecturePage *page = &lecture_pages[i];
+        HelpRow *row = &show->help[i];
+        snprintf(row->key, SHOW_VALUE, "%s%d", page == marked ? ">" : "",
+                 i + 1);
+        snprintf(row->text, SHOW_TEXT, "%s", page->topic);
     }
 }
 

@@ -14,10 +14,8 @@ static const double SMALL_LETTER = 9; /* pixels, of a surface */
 
 /* ---- the list of keys ---------------------------------------------------- */
 
-enum { KEY_TEXT = 32 };
-
 /* As people read it: "Right" is an arrow. */
-static void pretty_key(char key[KEY_TEXT])
+static void pretty_key(char key[SHOW_VALUE])
 {
     static const char *const names[][2] = {
         {"Right", "\u2192"},         {"Left", "\u2190"},   {"Up", "\u2191"},
@@ -26,12 +24,12 @@ static void pretty_key(char key[KEY_TEXT])
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(key, names[i][0]) == 0)
-            snprintf(key, KEY_TEXT, "%s", names[i][1]);
+            snprintf(key, SHOW_VALUE, "%s", names[i][1]);
 }
 
 static void fill_help(Show *show)
 {
-    static const HelpRow mouse[] = {
+    static const char *const mouse[][2] = {
         {"drag", "pulls the square by a node; paused: places it"},
         {"", "a pin, a ground, a ball: moves it"},
         {"Shift+drag", "paused: a box; its nodes go together"},
@@ -43,33 +41,28 @@ static void fill_help(Show *show)
         {"digits", "open a lit number; Enter, Esc"},
         {"1 \u2026 9", "a scene; G shows all"},
     };
-    enum { MOUSE = sizeof mouse / sizeof *mouse };
-    static HelpRow rows[COMMAND_KINDS + MOUSE];
-    static char keys[COMMAND_KINDS][KEY_TEXT];
-    HelpRow *next = rows + MOUSE;
-    char *text = keys[0];
-    memcpy(rows, mouse, sizeof mouse);
+    HelpRow *row = show->help;
+    for (size_t i = 0; i < sizeof mouse / sizeof *mouse; i++, row++) {
+        snprintf(row->key, SHOW_VALUE, "%s", mouse[i][0]);
+        snprintf(row->text, SHOW_TEXT, "%s", mouse[i][1]);
+    }
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
-        const CommandRow *row = command_row((CommandKind)kind);
-        if (!row->label)
+        const CommandRow *command = command_row((CommandKind)kind);
+        if (!command->label)
             continue;
-        if (row->label[0]) {
-            text = keys[kind];
-            text[0] = '\0';
-            *next++ = (HelpRow){text, row->label};
-        }
-        for (const char *at = row->keys; *at; at += *at == '|') {
-            char key[KEY_TEXT]; /* of "A|B", all */
+        if (command->label[0]) /* else it is told with the one before */
+            snprintf((row++)->text, SHOW_TEXT, "%s", command->label);
+        for (const char *at = command->keys; *at; at += *at == '|') {
+            char key[SHOW_VALUE], *keys = row[-1].key; /* of "A|B", all */
             int length = (int)strcspn(at, "|");
             snprintf(key, sizeof key, "%.*s", length, at);
             pretty_key(key);
-            append(text, KEY_TEXT, "%s%s", text[0] ? ", " : "", key);
+            append(keys, SHOW_VALUE, "%s%s", keys[0] ? ", " : "", key);
             at += length;
         }
     }
     show->page.kind = PAGE_HELP;
-    show->help = rows;
-    show->help_rows = (int)(next - rows);
+    show->help_rows = (int)(row - show->help);
 }
 
 /* ---- the row of numbers -------------------------------------------------- */
@@ -132,24 +125,21 @@ static void fill_settings(Player *player)
 /* All numbers of the scene, what they are, and why some have no meaning now. */
 static void fill_options(Player *player)
 {
-    static char keys[OPTIONS_MOST][4], texts[OPTIONS_MOST][SHOW_TEXT];
-    static HelpRow rows[OPTIONS_MOST];
     const OptionRow *all[OPTIONS_MOST];
     const Options options = player_numbers(player);
     Show *show = &player->show;
-    show->help = rows;
     show->help_rows = player_all_numbers(player, all);
     for (int i = 0; i < show->help_rows; i++) {
+        HelpRow *row = &show->help[i];
         char value[SHOW_VALUE];
         const char *idle = player_idle(player, all[i]);
         value_text(all[i], &options, player_simulation(player), value,
                    sizeof value);
-        snprintf(keys[i], sizeof keys[i], "%d", i + 1);
-        snprintf(texts[i], SHOW_TEXT, "%s %s%s%s", all[i]->name, value,
+        snprintf(row->key, SHOW_VALUE, "%d", i + 1);
+        snprintf(row->text, SHOW_TEXT, "%s %s%s%s", all[i]->name, value,
                  idle || all[i]->help[0] ? ": " : "",
                  idle ? idle : all[i]->help);
-        rows[i] = (HelpRow){keys[i], texts[i]};
-        show->grey[i] = idle != NULL;
+        row->grey = idle != NULL;
     }
     show->page = (Page){.kind = PAGE_HELP, .title = "Numbers of this scene"};
 }
@@ -174,7 +164,8 @@ static void explain_number(const Player *player, Show *show)
  * `word` of those of its row. */
 static void add_chip(Player *player, CommandKind kind, int word, bool lit)
 {
-    static char keys[LAYOUT_CHIPS][KEY_TEXT], labels[LAYOUT_CHIPS][KEY_TEXT];
+    static char keys[LAYOUT_CHIPS][SHOW_VALUE],
+        labels[LAYOUT_CHIPS][SHOW_VALUE];
     Show *show = &player->show;
     int i = show->chips;
     const CommandRow *row = command_row(kind);
@@ -183,8 +174,8 @@ static void add_chip(Player *player, CommandKind kind, int word, bool lit)
         return;
     for (; word > 0; word--)
         label = strchr(label, '|') + 1;
-    snprintf(labels[i], KEY_TEXT, "%.*s", (int)strcspn(label, "|"), label);
-    snprintf(keys[i], KEY_TEXT, "%.*s", (int)strcspn(row->keys, "|"),
+    snprintf(labels[i], SHOW_VALUE, "%.*s", (int)strcspn(label, "|"), label);
+    snprintf(keys[i], SHOW_VALUE, "%.*s", (int)strcspn(row->keys, "|"),
              row->keys);
     pretty_key(keys[i]);
     player->chip[i] = kind;
