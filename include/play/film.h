@@ -14,8 +14,6 @@
 #include "picture/canvas.h"
 #include "play/output.h"
 
-enum { FILM_RATE = 60 }; /* frames a second */
-
 typedef struct FilmKind FilmKind;
 
 typedef struct Film {

@@ -32,8 +32,7 @@ static const double first_error = 1e-2;
 
 typedef struct Problem {
     const Motion *motion;
-    Simulation simulation; /* its system is what runs are made with */
-    double *v;             /* [2n] m/s at the start */
+    Simulation simulation; /* at the start; its system is that of all runs */
     double *exact;         /* [4n] m, m/s, at the end; then [4n] room */
 } Problem;
 
@@ -77,11 +76,11 @@ static Status find_exact(Problem *problem)
     double omega = sqrt(2 * 8 * along / system->m[0]);
     long intervals = 1 + (long)(motion->time * omega);
     double H = motion->time / (double)intervals;
+    const TimeIntegrator *begin = &problem->simulation.run[0];
     TimeIntegrator run;
-    Status status =
-        time_integrator_create(integrator_method("verlet"), system,
-                               &(NewtonSettings){.h = H, .tolerance = 1},
-                               problem->simulation.run[0].x, problem->v, &run);
+    Status status = time_integrator_create(
+        integrator_method("verlet"), system,
+        &(NewtonSettings){.h = H, .tolerance = 1}, begin->x, begin->v, &run);
     size_t both = 2 * run.size; /* v is behind x */
     double *start = problem->exact + both;
     if (!status)
@@ -125,17 +124,14 @@ static Status create_problem(const Motion *motion, int segments,
     Status status = simulation_create(&options, NULL, NULL, simulation);
     if (status)
         return status;
-    const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
-    problem->v = malloc(10 * (size_t)system->nodes * sizeof *problem->v);
-    if (!problem->v)
-        return STATUS_OUT_OF_MEMORY;
-    problem->exact = problem->v + 2 * system->nodes;
-    for (int i = 0; i < system->nodes; i++) {
-        problem->v[2 * i] = -motion->spin * x[2 * i + 1];
-        problem->v[2 * i + 1] = motion->spin * x[2 * i];
+    double *v = simulation->run[0].v;
+    for (int i = 0; i < simulation->system.nodes; i++) {
+        v[2 * i] = -motion->spin * x[2 * i + 1];
+        v[2 * i + 1] = motion->spin * x[2 * i];
     }
-    return find_exact(problem);
+    problem->exact = malloc(8 * (size_t)simulation->system.nodes * sizeof *v);
+    return problem->exact ? find_exact(problem) : STATUS_OUT_OF_MEMORY;
 }
 
 /* From nothing to the end, once. */
@@ -147,11 +143,11 @@ static Status run_once(const Problem *problem, const IntegratorMethod *method,
                                .solver = SOLVER_MULTIGRID,
                                .max_iterations = MAX_UPDATES};
     System system = problem->simulation.system; /* the same arrays */
+    const TimeIntegrator *begin = &problem->simulation.run[0];
     TimeIntegrator run;
     double start = bench_cpu();
-    Status status =
-        time_integrator_create(method, &system, &settings,
-                               problem->simulation.run[0].x, problem->v, &run);
+    Status status = time_integrator_create(method, &system, &settings, begin->x,
+                                           begin->v, &run);
     while (!status && run.steps < rung->steps)
         status = time_integrator_step(&run);
     rung->seconds = bench_cpu() - start;
@@ -263,7 +259,7 @@ Status bench_work(bool quick)
             if (!status)
                 status = climb_all(quick, &problem);
             simulation_free(&problem.simulation);
-            free(problem.v);
+            free(problem.exact);
         }
     return status;
 }

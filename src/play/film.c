@@ -13,14 +13,14 @@ struct FilmKind {
 };
 
 static const FilmKind film_kinds[] = {
-    {".mp4", FILM_RATE,
+    {".mp4", 60,
      "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"},
-    {".webm", FILM_RATE,
+    {".webm", 60,
      "-c:v libvpx-vp9 -crf 30 -b:v 0 -deadline realtime -cpu-used 5"},
     {".gif", 50, /* each frame with colours of its own */
      "-vf 'split[a][b];[a]palettegen=stats_mode=single[p];"
      "[b][p]paletteuse=new=1'"},
-    {".apng", FILM_RATE, "-pix_fmt rgb24 -plays 0"},
+    {".apng", 60, "-pix_fmt rgb24 -plays 0"},
     {NULL, 0, NULL},
 };
 

@@ -43,8 +43,6 @@ static void write_base64(FILE *file, const char *bytes, size_t size)
 static Status go_to_picture(Player *player, const LecturePage *page)
 {
     const Command next = {.kind = COMMAND_NEXT};
-    if (!page->open && !page->tell && !page->lines)
-        return player_run(player);
     Status status = player_open_page(player);
     if (!status)
         status = player_obey_lines(player, page->tell);
@@ -141,10 +139,8 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
             status = write_page(output.file, page, player);
         player_free(player);
     }
-    if (status) {
-        output_discard(&output);
-        return status;
-    }
     fputs("</body>\n</html>\n", output.file);
-    return output_close(&output, STATUS_OK);
+    if (status)
+        output_discard(&output);
+    return output_close(&output, status);
 }

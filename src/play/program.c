@@ -267,30 +267,29 @@ static bool is_same_file(const char *one, const char *other)
            first.st_ino == second.st_ino;
 }
 
-/* Whether each file of a run has a name of its own, so that none replaces what
- * another one reads or writes; message: one line if not. */
-static bool files_differ(const Options *options, char *message, size_t size)
+/* What an option names: a file or folder, or NULL. */
+static const char *file_of(const Options *options, const OptionRow *row)
 {
-    const char *name[16], *with[16];
-    char shown[64];
-    int count = 0;
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        if (row->kind != OPTION_TEXT || row->offset == offsetof(Options, pin))
-            continue;
-        with[count] = *(char *const *)((const char *)options + row->offset);
-        name[count] = row->name;
-        for (int i = 0; with[count] && i < count; i++)
-            if (is_same_file(with[i], with[count])) {
-                one_line(with[i], shown, sizeof shown);
-                snprintf(message, size,
-                         "--%s and --%s are one file, '%s': "
-                         "each needs a name of its own",
-                         name[i], name[count], shown);
-                return false;
-            }
-        count += with[count] != NULL;
-    }
-    return true;
+    return row->kind == OPTION_TEXT && row->offset != offsetof(Options, pin)
+               ? *(char *const *)((const char *)options + row->offset)
+               : NULL;
+}
+
+/* Each file of a run has a name of its own, so that none replaces what another
+ * one reads or writes. */
+static Status check_files(const Options *options, Refusal told)
+{
+    for (const OptionRow *row = option_rows; row->name; row++)
+        for (const OptionRow *other = option_rows; other < row; other++) {
+            const char *one = file_of(options, other);
+            const char *two = file_of(options, row);
+            if (one && two && is_same_file(one, two))
+                return refuse(told,
+                              "--%s and --%s are one file, '%.200s': "
+                              "each needs a name of its own",
+                              other->name, row->name, one);
+        }
+    return STATUS_OK;
 }
 
 int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
@@ -313,7 +312,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
-    if (!files_differ(options, message, sizeof message))
+    if (check_files(options, (Refusal){message, sizeof message}))
         return tell(EXIT_MISUSED, "%s", message);
     if (options->handout) {
         Status status = handout_write(options, stop, player);
