@@ -265,23 +265,26 @@ Status obey_method(Player *player, const Command *command)
 
 /* ---- panes --------------------------------------------------------------- */
 
-/* The same run with the next method beside the last one. */
+/* The same run with the next method beside the last one; a page says itself
+ * what is another there. */
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);
+    const TimeIntegrator *run = player_simulation(player)->run;
     if (panes == OPTIONS_MAX_PANES)
         return player_refuse(player, "six are side by side: no room for more");
     if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
-    const IntegratorMethod *next = find_method(player, panes - 1);
+    const IntegratorMethod *next =
+        player->opens ? run->method : find_method(player, panes - 1);
     if (!next)
         return STATUS_INVALID_INPUT;
     const Command change = {.kind = COMMAND_SET,
                             .number = option_find("integrator") - option_rows,
                             .x = (double)(next - integrator_methods)};
     Status status = player_change(player, command, 0, 0, false);
-    if (!status)
+    if (!status && !player->opens)
         status = player_change(player, &change, panes, panes + 1, false);
     if (status)
         return status;
