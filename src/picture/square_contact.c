@@ -83,12 +83,13 @@ void square_contact_forces(const SpringPen *pen, int runs)
 }
 
 /* Under a run's first wall, right of what lies on it, if the wall has a slope:
- * its coefficient of friction as a part of the options' and of the slope. */
+ * its coefficient of friction as a part of the slope. */
 static void draw_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
-    double em = stage->em, grip = pen->simulation->grip[pen->run];
+    double em = stage->em;
+    char words[120];
     double from[2], at[2], slope = -wall->n[0] / wall->n[1];
     if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
         !(fabs(slope) > 1e-6))
@@ -104,11 +105,13 @@ static void draw_words(const SpringPen *pen)
         at[0] += low / fabs(slope);
         at[1] -= low;
     }
-    paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
-                at[1] + 1.2 * em, ALIGN_LEFT, "%s%s\u03bc = %s tan %s\u00b0",
-                grip > 0 ? number_of(grip).text : "", grip > 0 ? " " : "",
-                number_of(wall->friction / fabs(slope)).text,
-                number_of(fabs(atan(slope)) / DEGREE).text);
+    snprintf(words, sizeof words, "\u03bc = %s tan %s\u00b0",
+             number_of(wall->friction / fabs(slope)).text,
+             number_of(fabs(atan(slope)) / DEGREE).text);
+    double most = stage->box.x + stage->box.width - 0.5 * em -
+                  paper_width(stage->paper, FACE_REGULAR, 0.95, words);
+    paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT,
+                fmin(at[0], most), at[1] + 1.2 * em, ALIGN_LEFT, "%s", words);
 }
 
 /* The half plane as far as the stage goes, or a slab, and how far it reaches.
