@@ -53,13 +53,13 @@ typedef struct Mouse {
     bool placed; /* where it rests at the start is known: now it can move */
     CommandKind drag; /* what its movement asks for, while a button is down: */
     int index; /* of a node, a point, a number of the row; -1: the stretch */
-    double from[2], last[2]; /* pixels, where the drag began and has come */
-    bool moved;              /* it is more than a click */
-    double grip[2];          /* m, from the mouse to the point that it moves */
-    bool pins;               /* the node is pinned again when it is let go */
-    bool turns;              /* the last input was the wheel's */
-    int gesture;             /* the last key, click or turn of the wheel */
-    Options options;         /* at its beginning */
+    double from[2];  /* pixels, where the drag began, or has come */
+    bool moved;      /* it is more than a click */
+    double grip[2];  /* m, from the mouse to the point that it moves */
+    bool pins;       /* the node is pinned again when it is let go */
+    bool turns;      /* the last input was the wheel's */
+    int gesture;     /* the last key, click or turn of the wheel */
+    Options options; /* at its beginning */
 } Mouse;
 
 /* What is shown of one of the runs side by side. */

@@ -312,11 +312,9 @@ static Status follow(Player *player)
     Mouse *mouse = &player->mouse;
     const Simulation *simulation = player_simulation(player);
     Under under = look(player);
-    double dx = mouse->x - mouse->last[0], dy = mouse->y - mouse->last[1];
+    double dx = mouse->x - mouse->from[0], dy = mouse->y - mouse->from[1];
     Status status = STATUS_OK;
-    if (math_hypot(mouse->x - mouse->from[0], mouse->y - mouse->from[1]) >
-        CLICK_ROOM)
-        mouse->moved = true;
+    mouse->moved = mouse->moved || math_hypot(dx, dy) > CLICK_ROOM;
     switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
     case COMMAND_GRAB: /* of a pin it makes a free node first */
         if (!player->holds) {
@@ -346,8 +344,8 @@ static Status follow(Player *player)
     case COMMAND_PAN:
         show_move(&player->show, &under.layout, under.pane, dx, dy);
         player->changed = true;
-        mouse->last[0] = mouse->x;
-        mouse->last[1] = mouse->y;
+        mouse->from[0] = mouse->x;
+        mouse->from[1] = mouse->y;
         return STATUS_OK;
     default:
         return STATUS_OK;
@@ -453,10 +451,9 @@ static Status pressed(Player *player, const Input *input)
     Held *held = &player->show.held;
     Under under = look(player);
     bool stage = under.hit.zone == ZONE_STAGE;
-    for (int k = 0; k < 2; k++) {
-        mouse->from[k] = mouse->last[k] = k ? mouse->y : mouse->x;
-        mouse->grip[k] = 0;
-    }
+    mouse->from[0] = mouse->x;
+    mouse->from[1] = mouse->y;
+    mouse->grip[0] = mouse->grip[1] = 0;
     mouse->moved = false;
     if (input->button == BUTTON_BOX && stage && player_stands(player)) {
         mouse->drag = COMMAND_BOX;
@@ -477,24 +474,16 @@ static Status pressed(Player *player, const Input *input)
     return STATUS_OK;
 }
 
-/* A left click on a node of a square does nothing by itself. */
-static void node_clicked(Player *player)
-{
-    const Simulation *simulation = player_simulation(player);
-    int node = player->mouse.index;
-    if (node >= 0 && node < simulation->mesh.nodes)
-        player_note(player, "a drag moves node %d, a right click %s it", node,
-                    simulation->system.pinned[node] ? "frees" : "pins");
-}
-
 /* The nodes in a box go together; a click with Shift lets them go.  A click on
- * a name takes the next one. */
+ * a name takes the next one; on a node it does nothing by itself. */
 static Status released(Player *player)
 {
     Mouse *mouse = &player->mouse;
     Command box = {.kind = COMMAND_BOX, .joins = true};
+    const Simulation *simulation = player_simulation(player);
     const double *at = player->show.held.box;
     CommandKind drag = mouse->drag;
+    int node = mouse->index;
     mouse->drag = COMMAND_NONE;
     player->show.held.on = player->show.held.boxes = false;
     if (drag == COMMAND_BOX) {
@@ -502,12 +491,13 @@ static Status released(Player *player)
                  at[2], at[3]);
         return player_obey(player, &box);
     }
-    if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE))
-        node_clicked(player);
+    if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
+        node < simulation->mesh.nodes)
+        player_note(player, "a drag moves node %d, a right click %s it", node,
+                    simulation->system.pinned[node] ? "frees" : "pins");
     if (drag == COMMAND_GRAB && player->holds) {
         Status status = ask(player, COMMAND_RELEASE, 0);
-        return !status && mouse->pins ? ask(player, COMMAND_PIN, mouse->index)
-                                      : status;
+        return !status && mouse->pins ? ask(player, COMMAND_PIN, node) : status;
     }
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
         player->lit && player->lit->kind == OPTION_NAME)
