@@ -44,7 +44,7 @@ typedef struct Recording {
     Table table[RECORDING_TABLES]; /* not open: not written */
     bool tables;                   /* any is open */
     bool standard;                 /* one of them is standard output */
-    bool aside;                    /* set: at the end tables stay NAME.part */
+    Keep keep;                     /* set: how tables end, and films */
     char message[RECORDING_NAME_SIZE + 64]; /* the first failure; "" */
 } Recording;
 
@@ -79,9 +79,6 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
 /* Closes everything, whatever happened before: a run that fails keeps what it
  * wrote. */
 Status recording_close(Recording *recording);
-
-/* Closes all tables without a trace: for a run that did not begin. */
-void recording_discard(Recording *recording);
 
 /* One picture as a PNG file, whole or not at all (output.h); or into a stream.
  *   small  the file is worth more than the time it takes

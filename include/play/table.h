@@ -57,11 +57,9 @@ Status table_check(const Table *table);
 Status table_cut(Table *table, long last);
 
 /* Writes the rest and gives the file its name (output_close), or leaves it as
- * NAME.part where it is put aside; OK too if it is not open. */
-Status table_close(Table *table, bool aside);
-
-/* Closes it without a trace. */
-void table_discard(Table *table);
+ * NAME.part, or takes it away; OK too if it is not open. */
+typedef enum Keep { KEEP_WHOLE, KEEP_PART, KEEP_NOTHING } Keep;
+Status table_close(Table *table, Keep keep);
 
 /* Goes through the rows of a table with a format: row [columns] out, from the
  * first one after `rewind(table->rows)`.  Returns false behind the last. */

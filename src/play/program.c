@@ -212,7 +212,8 @@ static void print_summary(FILE *file, const Player *player)
 int program_end(Player *player, Status status)
 {
     long steps = player->past.machine[0].simulation.steps;
-    player->recording.aside = status && steps == 0;
+    if (status && steps == 0 && !player->recording.keep)
+        player->recording.keep = KEEP_PART;
     Status closed = player_finish(player);
     if (!status)
         status = closed;
@@ -325,9 +326,6 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     }
     join_line(argc, argv, line, sizeof line);
     Status status = player_create(options, options->panes, line, stop, player);
-    if (status) {
-        recording_discard(&player->recording);
-        return program_end(player, status);
-    }
-    return PROGRAM_PLAYS;
+    player->recording.keep = status ? KEEP_NOTHING : KEEP_WHOLE;
+    return status ? program_end(player, status) : PROGRAM_PLAYS;
 }

@@ -189,8 +189,6 @@ Status recording_open(const Options *options, int panes, Recording *recording)
         status = recording_film(recording, options->film);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
         status = open_table(options, recording, t);
-    if (status)
-        recording_discard(recording); /* what stood there before stays */
     return status;
 }
 
@@ -280,22 +278,16 @@ Status recording_cut(Recording *recording, long step)
 /* Film and all tables, also if one of them fails; the first failure counts. */
 Status recording_close(Recording *recording)
 {
-    Status first = recording_end_film(recording);
+    Status first = recording->keep ? STATUS_OK : recording_end_film(recording);
+    film_close(&recording->film);
     for (int t = 0; t < RECORDING_TABLES; t++) {
         Table *table = &recording->table[t];
         char name[RECORDING_NAME_SIZE] = "";
         if (table->output.name)
             snprintf(name, sizeof name, "%s", table->output.name);
         Status status =
-            note(recording, table_close(table, recording->aside), name);
+            note(recording, table_close(table, recording->keep), name);
         first = first ? first : status;
     }
     return first;
-}
-
-void recording_discard(Recording *recording)
-{
-    film_close(&recording->film);
-    for (int t = 0; t < RECORDING_TABLES; t++)
-        table_discard(&recording->table[t]);
 }

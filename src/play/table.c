@@ -104,7 +104,7 @@ Status table_cut(Table *table, long last)
     return table_check(table);
 }
 
-Status table_close(Table *table, bool aside)
+Status table_close(Table *table, Keep keep)
 {
     Status status = table_check(table);
     if (table->rows && !status && fflush(table->rows) == 0)
@@ -113,16 +113,10 @@ Status table_close(Table *table, bool aside)
     if (table->rows)
         fclose(table->rows);
     table->rows = NULL;
-    if (aside && !status)
+    if (keep == KEEP_NOTHING)
+        output_discard(&table->output);
+    if (keep && !status)
         status = STATUS_INTERRUPTED;
     status = output_close(&table->output, status);
     return status == STATUS_INTERRUPTED ? STATUS_OK : status;
-}
-
-void table_discard(Table *table)
-{
-    if (table->rows)
-        fclose(table->rows);
-    table->rows = NULL;
-    output_discard(&table->output);
 }

@@ -126,12 +126,9 @@ Status vtk_write(const char *name, const Simulation *const *simulation,
         }
     fprintf(file,
             "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n"
-            "<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" "
-            "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%.17g"
-            "</DataArray>\n</FieldData>\n"
+            "<UnstructuredGrid>\n"
             "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
-            simulation_time(simulation[0]), nodes,
-            put_numbers(NULL, part, parts, ARRAYS));
+            nodes, put_numbers(NULL, part, parts, ARRAYS));
     for (Array array = 0; array < ARRAYS; array++) {
         fprintf(file,
                 "%s\n<DataArray type=\"%s\" Name=\"%s\" "
