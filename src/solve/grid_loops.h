@@ -151,12 +151,6 @@ INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
                     PAIR(grid->c[kind], q + at)};
 }
 
-/* What may divide. */
-INLINE Pair safe(Pair d2)
-{
-    return d2 + 1e-300;
-}
-
 /* The parts of a sum, in one order always. */
 INLINE double sum_of(const double s[LANES])
 {

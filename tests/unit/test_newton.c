@@ -14,14 +14,6 @@
 /* Squares of up to 4 segments; most have 3. */
 enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
 
-/* Follows a run from record to record. */
-typedef struct Witness {
-    Simulation *simulation;
-    double u[LARGEST], x[LARGEST]; /* the last iterate */
-    int iteration;
-    long iterations, trials, projected;
-} Witness;
-
 /* A residual that is called a value is that of the exact direction, an estimate
  * is as near to it as to the tolerance, which it decides, and a bound is above
  * it.  The lines end their steps in all three ways. */
