@@ -31,14 +31,19 @@ typedef struct Records {
 /* Makes room for so many.  Returns false where memory is missing. */
 bool records_fit(Records *records, int count);
 
+/* Of which rounds E along p is kept where it is no polynomial: before anything
+ * is drawn of all; then as the last picture has asked. */
+typedef enum Samples { SAMPLES_ALL, SAMPLES_LAST, SAMPLES_NONE } Samples;
+
 typedef struct Round {
-    double *x, *p; /* [size] m; NULL: not kept */
-    double first;  /* alpha that the line search begins with */
+    double *x, *p, *u; /* [size] m; NULL: not kept */
+    double first;      /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
     bool rough;    /* it is not: */
-    double alpha, change; /* the one that was taken, and what E did, J s^2 */
-    double *value;        /* [ROUND_VALUES] J s^2, behind p; NULL: not kept */
-    bool *asked;          /* that of the rounds */
+    double alpha, change;  /* the one that was taken, and what E did, J s^2 */
+    bool sampled;          /* and these are kept: */
+    double *value;         /* [ROUND_VALUES] J s^2, behind u */
+    struct Rounds *rounds; /* that it is one of */
 } Round;
 
 /* A place in the listing: which line of which round; in the line search, how
@@ -55,12 +60,13 @@ typedef struct Rounds {
     Records made;        /* one a round that has a record; behind them, what is
                             known of round made.count */
     Round *round;
-    int room;        /* of it */
-    bool ended;      /* round [count] is there: the last one made an update */
-    bool passed;     /* its test was passed without a direction */
-    bool asked;      /* for values of E along p, since the last picture */
-    bool unseen;     /* nobody asked for them: they are not kept */
-    double *x_tilde; /* [size] m; NULL: not known */
+    int room;    /* of it */
+    bool ended;  /* round [count] is there: the last one made an update */
+    bool passed; /* its test was passed without a direction */
+    Samples samples;
+    bool asked, lacks; /* for such values; for some that are not kept: since
+                          the last picture */
+    double *x_tilde;   /* [size] m; NULL: not known */
     size_t bytes;
     Station *place; /* [places] in the order of the listing; none where memory
                        is missing */
@@ -98,9 +104,8 @@ int rounds_find(const Rounds *rounds, int round, Line line);
  * has changed it in the end: an explosion that is over; -1: there was none. */
 int rounds_peak(const Rounds *rounds);
 
-/* After a picture of them, which may have asked for E along p; where it did not
- * the values of the next ones are not kept.  Returns whether it asked for what
- * these do not have: made again, they do. */
+/* After a picture of them: what is kept of the next ones.  Returns whether it
+ * asked for what these do not have: made again, they do. */
 bool rounds_drawn(Rounds *rounds);
 
 /* What the picture shows at a place; -1: the whole step is over.  All pointers

@@ -73,6 +73,16 @@ static bool make_room(Rounds *rounds)
 
 /* ---- what is kept -------------------------------------------------------- */
 
+/* Where E along p is no polynomial. */
+static void sample(Round *round, const Iterate *at)
+{
+    const Along along = {.smooth = round->along, .at = at, .rough = true};
+    round->sampled = round->rough && round->x;
+    for (int i = 0; i < ROUND_VALUES && round->sampled; i++)
+        round->value[i] =
+            along_difference(&along, i * round->first / ROUND_PARTS);
+}
+
 /* E along p of the round that is due, from the place where `at` is. */
 static void keep_line(Rounds *rounds, const Iterate *at)
 {
@@ -82,10 +92,9 @@ static void keep_line(Rounds *rounds, const Iterate *at)
     round->along = along.smooth;
     rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
     round->rough = along.rough != 0;
-    round->asked = &rounds->asked;
-    for (int i = 0; i < ROUND_VALUES && round->rough && round->value; i++)
-        round->value[i] =
-            along_difference(&along, i * round->first / ROUND_PARTS);
+    round->rounds = rounds;
+    if (rounds->samples == SAMPLES_ALL)
+        sample(round, at);
 }
 
 /* The polynomial, or the kept values, joined by straight lines; without them
@@ -95,9 +104,12 @@ static double kept_difference(const void *function, double alpha)
     const Round *round = function;
     if (!round->rough)
         return quartic_value(&round->along, alpha);
-    *round->asked = *round->asked || alpha != round->alpha;
-    if (!round->value)
-        return alpha == round->alpha ? round->change : NAN;
+    bool asks = alpha != round->alpha;
+    round->rounds->asked = round->rounds->asked || asks;
+    round->rounds->lacks =
+        round->rounds->lacks || (asks && round->x && !round->sampled);
+    if (!round->sampled)
+        return asks ? NAN : round->change;
     double place = alpha / round->first * ROUND_PARTS;
     if (!(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;
@@ -133,8 +145,7 @@ static void keep_round(Rounds *rounds, const Newton *newton)
     Round *round = &rounds->round[rounds->made.count];
     NewtonRecord *record = &rounds->made.row[rounds->made.count];
     size_t size = (size_t)rounds->size;
-    size_t values = rounds->unseen ? 0 : ROUND_VALUES;
-    size_t bytes = (2 * size + values) * sizeof *round->x;
+    size_t bytes = (3 * size + ROUND_VALUES) * sizeof *round->x;
     free_round(round);
     *record = newton->record;
     record->residual = newton->residual;
@@ -143,10 +154,12 @@ static void keep_round(Rounds *rounds, const Newton *newton)
         round->x = malloc(bytes);
     if (round->x) {
         round->p = round->x + size;
-        round->value = rounds->unseen ? NULL : round->p + size;
+        round->u = round->p + size;
+        round->value = round->u + size;
         rounds->bytes += bytes;
         memcpy(round->x, newton->at.x, size * sizeof *round->x);
         memcpy(round->p, newton->at.p, size * sizeof *round->p);
+        memcpy(round->u, newton->at.u, size * sizeof *round->u);
     }
     keep_line(rounds, &newton->at);
 }
@@ -183,8 +196,14 @@ void rounds_add(Rounds *rounds, const Newton *newton,
         made->slope = slope;
         if (multigrid && made->alpha != 0)  /* it goes no line that p alone */
             made->alpha = made->trials = 1; /* gives; it is shown as one */
-        rounds->round[i].alpha = record->alpha;
-        rounds->round[i].change = record->change;
+        Round *round = &rounds->round[i];
+        round->alpha = record->alpha;
+        round->change = record->change;
+        if (record->status != STATUS_RUNNING && rounds->samples == SAMPLES_LAST)
+            sample(round, &(Iterate){.E = newton->at.E,
+                                     .u = round->u,
+                                     .x = round->x,
+                                     .p = round->p});
         rounds->made.count++;
     }
     rounds->ended = first || (record->alpha != 0 &&
@@ -283,10 +302,12 @@ int rounds_peak(const Rounds *rounds)
 
 bool rounds_drawn(Rounds *rounds)
 {
-    bool lacks = rounds->asked && rounds->unseen;
+    bool lacks = rounds->lacks;
     if (rounds->places > 0)
-        rounds->unseen = !rounds->asked;
-    rounds->asked = false;
+        rounds->samples = lacks           ? SAMPLES_ALL
+                          : rounds->asked ? SAMPLES_LAST
+                                          : SAMPLES_NONE;
+    rounds->asked = rounds->lacks = false;
     return lacks;
 }
 

@@ -149,28 +149,38 @@ static int look_along(double *out, int room)
     return count;
 }
 
-/* Of a picture without E along p nothing is kept for the next one; where that
- * asks for it, it gets what it would have had. */
+/* After a picture without E along p nothing is kept for the next one, after one
+ * of a whole step only the last update's; where that asks for more, it gets
+ * what it would have had. */
 TEST(curves_are_made_for_who_looks)
 {
     enum { ROOM = 100 };
-    double kept[2][ROOM];
-    int count[2];
-    for (int closed = 0; closed < 2; closed++) {
+    double kept[3][ROOM], last[3];
+    int count[3];
+    for (int way = 0; way < 3; way++) { /* 0: nothing was drawn before */
+        Trace trace;
+        const Rounds *rounds = &machine(0)->rounds;
         begin("tear --segments 6");
         for (int step = 0; step < 4; step++) {
-            CHECK(!closed || !past_drawn(&player.past));
+            if (step > 0 && way == 2)
+                trace.difference(trace.function, 0.625 * trace.first);
+            CHECK(way == 0 || !past_drawn(&player.past));
             CHECK_STATUS(obey("step"), STATUS_OK);
+            rounds_trace(rounds, -1, &trace);
         }
-        count[closed] = look_along(kept[closed], ROOM);
-        CHECK(count[closed] > 0 && !isnan(kept[closed][0]) == !closed);
-        CHECK(past_drawn(&player.past) == closed);
-        look_along(kept[closed], ROOM);
+        last[way] = trace.difference(trace.function, 0.625 * trace.first);
+        CHECK(!isnan(last[way]) == (way != 1));
+        CHECK(past_drawn(&player.past) == (way == 1));
+        count[way] = look_along(kept[way], ROOM);
+        CHECK(!isnan(kept[way][count[way] - 1]) == (way != 2));
+        CHECK(past_drawn(&player.past) == (way == 2));
+        look_along(kept[way], ROOM);
         CHECK(!past_drawn(&player.past));
         end();
+        CHECK(count[way] == count[0]);
+        CHECK_SAME_BITS(kept[way], kept[0], count[0]);
     }
-    CHECK(count[0] == count[1]);
-    CHECK_SAME_BITS(kept[0], kept[1], count[0]);
+    CHECK(last[2] == last[0]);
 }
 
 static void give_up(int number)
