@@ -64,7 +64,7 @@ FAST double grid_remainder(const Grid *of, const double *g, const double *p,
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
         Pair iso = WHERE(s.s > 0, s.s);                                        \
-        Pair along = 2 + (s.s - iso) / (s.d2 + 1e-300);                             \
+        Pair along = 2 + (s.s - iso) / (s.d2 + 1e-300);                        \
         along = WHERE(along > 0, along) * (s.dx * ux + s.dy * uy);             \
         fx += s.c * (iso * ux + along * s.dx);                                 \
         fy += s.c * (iso * uy + along * s.dy);                                 \
