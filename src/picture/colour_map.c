@@ -19,83 +19,74 @@ Colour colour_of_run(int run)
     return colours[run < 0 ? 0 : run % 6];
 }
 
-/* A colour by its name. */
-typedef struct Named {
+/* Letters of formulas and energies, the terms; words about them; methods. */
+enum { TERMS = 21 };
+static const struct {
     const char *name;
     Colour colour;
-} Named;
+} names[] = {{"x", COLOUR_X},
+             {"xt", COLOUR_X_TILDE},
+             {"p", COLOUR_P},
+             {"alpha", COLOUR_ALPHA},
+             {"force", COLOUR_FORCE},
+             {"velocity", COLOUR_VELOCITY},
+             {"ghost", COLOUR_GHOST},
+             {"project", COLOUR_PROJECT},
+             {"warning", COLOUR_WARNING},
+             {"total", 0xff1c1c1cu},
+             {"kinetic", 0xff3d9bd6u},
+             {"elastic", 0xffb8860bu},
+             {"gravity", 0xff6b8e23u},
+             {"contact", 0xffa0522du},
+             {"hand", 0xff8a8a8au},
+             {"plastic", 0xff7b1fa2u},
+             {"fracture", 0xffc2738bu},
+             {"friction", 0xff2f6f6fu},
+             {"work", 0xff0072b2u},
+             {"dissipated", 0xff00a88fu},
+             {"damping", 0xffd55e00u},
+             {"faint", COLOUR_FAINT},
+             {"grey", COLOUR_GREY},
+             {"shaded", COLOUR_SHADED},
+             {"orange", 0xffd55e00u}, /* as runs have them */
+             {"green", 0xff009e73u},
+             {"blue", 0xff0072b2u},
+             {"purple", 0xffb0559au},
+             {"forward-euler", 0xffd55e00u},
+             {"symplectic-euler", 0xff009e73u},
+             {"backward-euler", 0xff0072b2u},
+             {"verlet", 0xffb0559au},
+             {"midpoint", 0xff7a5c2eu},
+             {"avf4", 0xff56b4e9u},
+             {"bdf2", 0xff8a7a00u},
+             {"sdirk2", 0xff5a4fa2u},
+             {"avf", 0xff444444u}};
 
-static Colour find_colour(const Named *rows, const char *name, size_t length,
-                          Colour otherwise)
+static Colour find_colour(const char *name, size_t length, Colour otherwise)
 {
-    for (; rows->name; rows++)
-        if (strlen(rows->name) == length &&
-            strncmp(rows->name, name, length) == 0)
-            return rows->colour;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strlen(names[i].name) == length &&
+            strncmp(names[i].name, name, length) == 0)
+            return names[i].colour;
     return otherwise;
 }
 
 Colour colour_of_method(const char *name)
 {
-    static const Named rows[] = {{"forward-euler", 0xffd55e00u},
-                                 {"symplectic-euler", 0xff009e73u},
-                                 {"backward-euler", 0xff0072b2u},
-                                 {"verlet", 0xffb0559au},
-                                 {"midpoint", 0xff7a5c2eu},
-                                 {"avf4", 0xff56b4e9u},
-                                 {"bdf2", 0xff8a7a00u},
-                                 {"sdirk2", 0xff5a4fa2u},
-                                 {"avf", 0xff444444u},
-                                 {NULL, 0}};
-    return find_colour(rows, name, strlen(name), COLOUR_X);
+    return find_colour(name, strlen(name), COLOUR_X);
 }
-
-static const Named energies[] = {{"total", 0xff1c1c1cu},
-                                 {"kinetic", 0xff3d9bd6u},
-                                 {"elastic", 0xffb8860bu},
-                                 {"gravity", 0xff6b8e23u},
-                                 {"contact", 0xffa0522du},
-                                 {"hand", 0xff8a8a8au},
-                                 {"plastic", 0xff7b1fa2u},
-                                 {"fracture", 0xffc2738bu},
-                                 {"friction", 0xff2f6f6fu},
-                                 {"work", 0xff0072b2u},
-                                 {"dissipated", 0xff00a88fu},
-                                 {"damping", 0xffd55e00u},
-                                 {NULL, 0}};
 
 Colour colour_of_energy(const char *name)
 {
-    return find_colour(energies, name, strlen(name), COLOUR_SHADED);
+    return find_colour(name, strlen(name), COLOUR_SHADED);
 }
-
-/* Letters of formulas, and behind them words about them. */
-enum { TERMS = 9 };
-static const Named words[] = {{"x", COLOUR_X},
-                              {"xt", COLOUR_X_TILDE},
-                              {"p", COLOUR_P},
-                              {"alpha", COLOUR_ALPHA},
-                              {"force", COLOUR_FORCE},
-                              {"velocity", COLOUR_VELOCITY},
-                              {"ghost", COLOUR_GHOST},
-                              {"project", COLOUR_PROJECT},
-                              {"warning", COLOUR_WARNING},
-                              {"faint", COLOUR_FAINT},
-                              {"grey", COLOUR_GREY},
-                              {"shaded", COLOUR_SHADED},
-                              {"orange", 0xffd55e00u}, /* as runs have them */
-                              {"green", 0xff009e73u},
-                              {"blue", 0xff0072b2u},
-                              {"purple", 0xffb0559au},
-                              {NULL, 0}};
 
 Colour colour_named(const char *name, size_t length)
 {
-    return find_colour(words, name, length,
-                       find_colour(energies, name, length, COLOUR_TEXT));
+    return find_colour(name, length, COLOUR_TEXT);
 }
 
 Colour colour_of_term(int term)
 {
-    return term < TERMS ? words[term].colour : energies[term - TERMS].colour;
+    return term < TERMS ? names[term].colour : 0;
 }

@@ -11,8 +11,9 @@
 #include "picture/font.h"
 
 enum {
-    DEPTH = 6,   /* formulas in formulas */
-    COLUMNS = 8, /* of a matrix */
+    DEPTH = 6, /* formulas in formulas */
+    ROWS = 8,  /* of a matrix */
+    COLUMNS = 8,
     LEAST_SIZE = 5,
     MOST_SIZE = 400
 };
@@ -228,46 +229,38 @@ static bool next_cell(const char **at, const char *end, Part *cell)
     return column == row;
 }
 
-/* matrix{a & b; c & d}.  Goes through the cells twice: first it measures the
- * columns and all rows, then it sets what is in them, to the right. */
+/* matrix{a & b; c & d}: what is in a column ends at its right edge. */
 static void set_matrix(Pen *pen, Part part, int depth)
 {
-    double em = pen->style.size, wide[COLUMNS] = {0}, high = 0, width = 0;
-    double left = pen->x + 3.5 * THIN * em, top = 0;
-    for (int setting = 0; setting < 2; setting++) {
-        double y = top, x = left, above = HIGH * em, below = LOW * em;
-        const char *at = part.from, *row = at;
-        for (int column = 0; at < part.end;) {
-            Part cell;
-            bool last = next_cell(&at, part.end, &cell);
-            TextExtent in = measure(pen, cell, depth);
-            above = fmax(above, in.above);
-            below = fmax(below, in.below);
-            wide[column] = fmax(wide[column], in.width);
-            column += column < COLUMNS - 1;
-            if (!last && at < part.end)
-                continue;
-            for (column = 0; setting && row < at;) {
-                next_cell(&row, at, &cell);
-                in = measure(pen, cell, depth);
-                set_at(pen, x + wide[column] - in.width, y + above, cell,
-                       depth);
-                x += wide[column] + CELL * em;
-                column += column < COLUMNS - 1;
-            }
-            y += above + below + ROW * em;
-            x = left;
-            row = at;
-            column = 0;
-            above = HIGH * em;
-            below = LOW * em;
+    Part cell[ROWS][COLUMNS] = {{{0}}};
+    double em = pen->style.size, above[ROWS], below[ROWS], wide[COLUMNS] = {0};
+    double high = -ROW * em, right = pen->x + (3.5 * THIN - CELL) * em;
+    const char *at = part.from;
+    int rows = 0;
+    for (; at < part.end && rows < ROWS; rows++) {
+        bool last = false;
+        above[rows] = HIGH * em;
+        below[rows] = LOW * em;
+        for (int c = 0; c < COLUMNS && at < part.end && !last; c++) {
+            last = next_cell(&at, part.end, &cell[rows][c]);
+            TextExtent in = measure(pen, cell[rows][c], depth);
+            above[rows] = fmax(above[rows], in.above);
+            below[rows] = fmax(below[rows], in.below);
+            wide[c] = fmax(wide[c], in.width);
         }
-        high = y - top - ROW * em;
-        top = floor(pen->y - AXIS * em - 0.5 * high) + 0.5;
+        high += above[rows] + below[rows] + ROW * em;
     }
-    for (int column = 0; column < COLUMNS && wide[column] > 0; column++)
-        width += wide[column] + (column ? CELL * em : 0);
-    double right = left + width + 2.5 * THIN * em;
+    double top = floor(pen->y - AXIS * em - 0.5 * high) + 0.5;
+    for (int c = 0; c < COLUMNS && wide[c] > 0; c++) {
+        double y = top;
+        right += wide[c] + CELL * em;
+        for (int r = 0; r < rows; r++) {
+            double width = measure(pen, cell[r][c], depth).width;
+            set_at(pen, right - width, y + above[r], cell[r][c], depth);
+            y += above[r] + below[r] + ROW * em;
+        }
+    }
+    right += 2.5 * THIN * em;
     set_brackets(pen, pen->x + THIN * em, right, top, top + high);
     pen->x = right + 1.5 * THIN * em;
 }
