@@ -1,6 +1,7 @@
 /* facts.c - what is known of a frame, by name, and texts that are filled with
  * it.
  */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -356,43 +357,35 @@ void show_say(Show *show, const char *text, char *out, size_t size)
                                  used ? "\n" : "", line.words);
 }
 
-/* The pixels that a line of this size takes, and in *above, if not NULL, those
- * over its words. */
-static double line_height(Paper *paper, const TextLine *line, double size,
-                          double *above)
+/* Draws a line at the upper edge of the box, or only measures it; returns the
+ * pixels that it takes. */
+static int put_line(Paper *paper, Box box, double size, const TextLine *line,
+                    bool draw)
 {
     const double air = 0.2, empty = 0.6; /* ems */
-    TextStyle style = {line->face, size * paper->em, line->colour, false,
-                       paper->least * paper->em};
-    TextExtent extent = text_extent(paper->text, &style, line->words);
-    TextExtent plain = text_extent(paper->text, &style, "");
-    if (above)
-        *above = extent.above - plain.above;
-    return line->words[0] ? extent.above + extent.below + air * style.size
-                          : empty * style.size;
+    box.width = INT_MAX;
+    int high = paper_paragraph(paper, line->face, size, line->colour, box, draw,
+                               line->words);
+    return high + paper_pixels(paper, size * (high > 0 ? air : empty));
 }
 
 void text_in_card(const Plot *card, const Facts *facts, const char *text)
 {
     Paper *paper = card->paper;
-    Box inside = card->box;
-    double height = 0, size = 1, y = inside.y, above;
+    Box box = card->box;
+    double height = 0, size = 1;
     if (card->show->lecture) /* in a star it is seen from farther away */
-        size = inside.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
+        size = box.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_of(facts, text);
     for (TextLine line = begin; text_next(&line);) {
         int width = paper_width(paper, line.face, 1, line.words);
-        height += line_height(paper, &line, 1, NULL);
+        height += put_line(paper, box, 1, &line, false);
         if (width > 0)
-            size = fmin(size, (double)inside.width / width);
+            size = fmin(size, (double)box.width / width);
     }
-    size = fmax(fmin(size, inside.height / height), paper->least);
-    for (TextLine line = begin; text_next(&line);) {
-        double used = line_height(paper, &line, size, &above);
-        paper_write(paper, line.face, size, line.colour, inside.x, y + above,
-                    ALIGN_LEFT, "%s", line.words);
-        y += used;
-    }
+    size = fmax(fmin(size, box.height / height), paper->least);
+    for (TextLine line = begin; text_next(&line);)
+        box.y += put_line(paper, box, size, &line, true);
 }
 
 int words_flow(const Plot *card, int at[2], double size, double gap,

@@ -96,6 +96,9 @@ static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
     char part[PAPER_TEXT];
     size_t fits = 0, length = strlen(markup);
     int depth = 0;
+    if (length < sizeof part &&
+        text_width(paper->text, style, markup) <= width)
+        return length;
     for (size_t end = 0; end <= length && end < sizeof part; end++) {
         depth += (markup[end] == '{') - (markup[end] == '}');
         if (end == 0 || (end < length && (depth > 0 || markup[end] != ' ')))
