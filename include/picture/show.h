@@ -25,8 +25,8 @@ typedef enum Line {
     LINE_NONE,    /* between two steps; no line is lit */
     LINE_START,   /* 1  x^i <- x^n */
     LINE_DO,      /* 2  do */
-    LINE_PROJECT, /* 3  P <- SPDProjection(Hessian E(x^i)) */
-    LINE_SOLVE,   /* 4  p <- -P^-1 grad E(x^i) */
+    LINE_PROJECT, /* 3  H^ <- SPDProjection(Hessian E(x^i)) */
+    LINE_SOLVE,   /* 4  p <- -H^^-1 grad E(x^i) */
     LINE_SEARCH,  /* 5  alpha <- BackTrackingLineSearch(x^i, p) */
     LINE_UPDATE,  /* 6  x^i <- x^i + alpha p */
     LINE_TEST,    /* 7  while |p|/h > epsilon */

@@ -21,7 +21,7 @@ typedef struct Curves {
 } Curves;
 
 /* E(x + alpha p) - E(x) of a quadratic function with minimum at alpha = 1:
- * p solves P p = -g, so p P p = -g p, the slope. */
+ * p solves H^ p = -g, so p H^ p = -g p, the slope. */
 static double model_value(double slope, double alpha)
 {
     return slope * (alpha - 0.5 * alpha * alpha);
