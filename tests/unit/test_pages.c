@@ -1133,7 +1133,7 @@ TEST(claim_rub)
 
 TEST(claim_gap)
 {
-    says("gap", "0.5 0.3 462 20 259 36 462 20 259 100 200000");
+    says("gap", "0.5 0.3 462 20 259 978 36 462 20 259 978 100 200000");
     for (int i = 0; i < 2; i++) {
         double x[2];
         middle_of(bodies_after("gap", i ? "--young 200000" : "", 100), 0, x);
@@ -1141,6 +1141,11 @@ TEST(claim_gap)
     }
     const LecturePage *page = lecture_find("gap");
     Simulation *through = open_page("gap", "");
+    Options options;
+    char message[80];
+    CHECK_STATUS(lecture_options(page, &options, message, sizeof message), 0);
+    assert_string_equal(options.pin, "all:2,all:3");
+    CHECK(options.pin == strstr(page->line, "all:2")); /* it stays */
     double most[2] = {0, 0};
     CHECK(page->picture == 36);
     for (int step = 0; step < 36; step++) {
@@ -1151,6 +1156,7 @@ TEST(claim_gap)
     CHECK_NEAR(most[0], 462, 0.5);
     CHECK_NEAR(most[1], 20, 0.5);
     CHECK_NEAR(energy_now(through, 0, "friction"), 259, 0.5);
+    CHECK_NEAR(simulation_energies(through, 0).dissipated, 978, 0.6);
     for (int i = 0; i < through->mesh.nodes / 3; i++)
         CHECK(through->run[0].x[2 * i + 1] < 0);
 }
