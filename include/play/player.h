@@ -41,7 +41,6 @@ typedef enum Mode {
 /* What is to be done as soon as the step that was asked for is shown. */
 typedef enum Then {
     THEN_NOTHING,
-    THEN_JUDGE, /* nobody has asked for it, it is new: is it time to stop? */
     THEN_ENTER, /* its lines are walked through from the first one, */
     THEN_LEAVE, /* or from the last one back */
     THEN_PEAK,  /* it was taken by itself: an explosion in it is shown */

@@ -267,10 +267,9 @@ static void judge(Player *player)
     bad = bad && past_panes(past) == 1;
     player->still = idle && going > 0 ? player->still + 1 : 0;
     player->rigid = rigid && going > 0 ? player->rigid + 1 : 0;
-    bool goes = !player_stands(player); /* nobody has paused it meanwhile */
-    if (goes && player->still > 0 && (balance || player->still > 1))
+    if (player->still > 0 && (balance || player->still > 1))
         player->mode = balance ? MODE_REST : MODE_HELD;
-    else if (goes && (ended || (bad && !player->warned)))
+    else if (ended || (bad && !player->warned))
         player->mode = MODE_END;
     player->warned = player->warned || bad;
     if (player->mode == MODE_REST)
@@ -412,17 +411,18 @@ Status player_bear(Player *player, Status status)
     return STATUS_OK;
 }
 
-/* The work has come to its end. */
-static Status step_shown(Player *player, Status status, long before)
+/* The work has come to its end; made: of a new step. */
+static Status step_shown(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
     Then then = player->then;
+    bool runs = made && then == THEN_NOTHING && !player_stands(player);
     bool failed = status && !status_is_unconverged(status);
     player->then = THEN_NOTHING;
     player->changed = true;
     if (failed && past->step == before) { /* it tells why */
         long seen = past_last_seen(past, 0, before);
-        bool lost = then == THEN_JUDGE && status == STATUS_NOT_FINITE;
+        bool lost = runs && status == STATUS_NOT_FINITE;
         player->sampled = -1;
         status = player_bear(player, status);
         if (status || !lost || seen == before)
@@ -435,7 +435,7 @@ static Status step_shown(Player *player, Status status, long before)
         return player_show(player, seen, THEN_NOTHING);
     }
     status = record_step(player);
-    if (!status && then == THEN_JUDGE)
+    if (!status && runs)
         judge(player);
     else if (!status && then == THEN_TELL)
         tell_retake(player);
@@ -462,7 +462,7 @@ Status player_work(Player *player)
         bool made = past->making;
         Status status = past_iterate(past);
         if (!past->works || (status && status != STATUS_RUNNING)) {
-            status = step_shown(player, status, before);
+            status = step_shown(player, status, before, made);
             if (status)
                 return status;
         }
@@ -512,10 +512,7 @@ Status player_show(Player *player, long step, Then then)
 
 Status player_step(Player *player)
 {
-    long next = player->past.step + 1;
-    bool fresh = next > past_newest(&player->past);
-    Then then = fresh && !player_stands(player) ? THEN_JUDGE : THEN_NOTHING;
-    Status status = player_show(player, next, then);
+    Status status = player_show(player, player->past.step + 1, THEN_NOTHING);
     return status ? status : player_work(player);
 }
 
