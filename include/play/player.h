@@ -93,11 +93,12 @@ typedef struct Player {
     int fine; /* one on is: 0 a step, 1 an update, 2 a line */
     Then then;
     Station
-        retaken; /* the place in a step that is taken again; round -1: none */
-    int still;   /* steps in a row that needed no update, up to this one, */
-    int rigid;   /* and those in which nothing has deformed */
-    bool holds;  /* the hand has not let go since it took a node */
-    bool warned; /* it has stopped because a step did not converge */
+        retaken;   /* the place in a step that is taken again; round -1: none */
+    int still;     /* steps in a row that needed no update, up to this one, */
+    int rigid;     /* and those in which nothing has deformed */
+    bool holds;    /* the hand has not let go since it took a node */
+    Command later; /* where it goes as soon as the step is there that is made */
+    bool warned;   /* it has stopped because a step did not converge */
 
     int gesture;    /* what is done now is undone at once: its number, */
     int gestures;   /* how many there were, */

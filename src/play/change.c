@@ -10,10 +10,9 @@
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-/* In all panes; the picture of the present step is another one. */
+/* In all panes. */
 static Status change_all(Player *player, const Command *change)
 {
-    player->sampled = -1;
     return player_change(player, change, 0, past_panes(&player->past), false);
 }
 

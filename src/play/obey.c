@@ -132,6 +132,24 @@ static Command meant_by(const Player *player, const Command *asked)
     return meant;
 }
 
+/* A page that waits for a guess tells what it is; whether that is all that a
+ * step on means. */
+static bool unveils(Player *player, const Command *command, Status *status)
+{
+    const LecturePage *page = player_settings(player)->page;
+    if (!player_veils(player) ||
+        (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
+        return false;
+    player->told = page;
+    double truth = page->answer ? show_number(&player->show, page->answer) : 0;
+    *status = player_obey_lines(player, page->tell);
+    if (page->answer)
+        player_note(player, "it is %s", number_with(truth, 5).text);
+    bool guessed = player_simulation(player)->prediction.made;
+    return page->answer || page->waits || page->tell ||
+           (page->predict && !guessed);
+}
+
 Status player_obey(Player *player, const Command *asked)
 {
     Past *past = &player->past;
@@ -149,29 +167,23 @@ Status player_obey(Player *player, const Command *asked)
         player->note[0] = '\0';
     if (past->works && command.kind == COMMAND_NEXT)
         return STATUS_OK; /* it is on its way */
-    if (player_veils(player) &&
-        (command.kind == COMMAND_NEXT || command.kind == COMMAND_PLAY)) {
-        player->told = player_settings(player)->page;
-        const LecturePage *told = player->told;
-        double truth =
-            told->answer ? show_number(&player->show, told->answer) : 0;
-        Status shown = player_obey_lines(player, told->tell);
-        if (told->answer)
-            player_note(player, "it is %s", number_with(truth, 5).text);
-        bool guessed = player_simulation(player)->prediction.made;
-        if (told->answer || told->waits || told->tell ||
-            (told->predict && !guessed))
-            return shown; /* the step is the next press */
+    if (past->making && command.kind == COMMAND_DRAG) {
+        player->later = command; /* a mouse that moves holds up no step */
+        return STATUS_OK;
     }
+    Status status = STATUS_OK;
+    if (unveils(player, &command, &status))
+        return status; /* the step is the next press */
     if (past->works && !(flags & SCREEN)) {
         past_aim(past, step, false);
         player->then = THEN_NOTHING;
+        player->later.kind = COMMAND_NONE;
         if (command.kind == COMMAND_ESCAPE) {
             player_note(player, "given up: the last whole step stands");
             return player_work(player);
         }
     }
-    Status status = check_number(player, &command);
+    status = check_number(player, &command);
     bool noted = !status && flags & KEPT; /* before what it does in turn */
     if (noted && script_add(&player->journal, step, &command, player->gesture))
         return STATUS_OUT_OF_MEMORY;

@@ -130,13 +130,16 @@ void player_leave_step(Player *player)
     }
 }
 
-/* The past is another one behind some step. */
+/* The past is another one behind some step; where time stands still that is
+ * drawn anew, too. */
 static Status follow(Player *player)
 {
     Past *past = &player->past;
     long same = past->same;
     past->same = LONG_MAX;
     player->changed = true;
+    if (player_stands(player))
+        player->sampled = -1;
     player->still = player->rigid = 0;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
@@ -472,9 +475,12 @@ Status player_work(Player *player)
             break;
     }
     player->changed = true;
-    if (!past->works)
-        player->began = 0;
-    return STATUS_OK;
+    if (past->works)
+        return STATUS_OK;
+    const Command later = player->later;
+    player->began = 0;
+    player->later.kind = COMMAND_NONE;
+    return later.kind ? player_obey(player, &later) : STATUS_OK;
 }
 
 /* A node that was held when this step was shown, long ago; it is undone by
@@ -486,7 +492,6 @@ static Status let_go(Player *player)
     if (past_control(&player->past, 0)->hand < 0 || player->holds)
         return STATUS_OK;
     player->gesture = ++player->gestures;
-    player->sampled = -1;
     Status status = player_change(player, &release, 0, panes, false);
     player->gesture = gesture;
     return status;

@@ -235,6 +235,12 @@ TEST(a_long_step_is_made_in_slices)
     work_off();
     CHECK(player.past.step == 1 && past_newest(&player.past) == 1);
     CHECK(player_hash(&player) == state_hash(&plain, STATE_HASH_SEED));
+    obey_all((const char *const[]){"grab 0", "next", "drag 0.2 0.3", NULL});
+    CHECK(player.past.works); /* the hand follows as soon as it is there */
+    work_off();
+    CHECK(player.past.step == 2 && past_control(&player.past, 0)->at[0] == 0.2);
+    obey_all((const char *const[]){"undo", NULL});
+    work_off();
     obey_all((const char *const[]){"next", "escape", NULL});
     work_off();
     CHECK(!player.quit && player.past.step == 1 && !player.past.works);
@@ -244,6 +250,24 @@ TEST(a_long_step_is_made_in_slices)
     CHECK(player.past.step == 0 && player_hash(&player) == start);
     CHECK(past_newest(&player.past) == 1);
     simulation_free(&plain);
+    end();
+}
+
+/* A hand that moves at every frame does not hold up time. */
+TEST(time_goes_on_while_a_node_is_pulled)
+{
+    begin("square --segments 2");
+    player.draws = player.window = true;
+    player.size[0] = player.size[1] = 200;
+    CHECK_STATUS(player_draw(&player), STATUS_OK);
+    obey_all((const char *const[]){"play", "grab 3", NULL});
+    for (int frame = 1; frame <= 1000 && player.past.step < 20; frame++) {
+        const Command drag = {.kind = COMMAND_DRAG, .x = 0.001 * frame};
+        CHECK_STATUS(player_obey(&player, &drag), STATUS_OK);
+        player.due = 0; /* as if the last one were long ago */
+        CHECK_STATUS(player_frame(&player), STATUS_OK);
+    }
+    CHECK(player.past.step == 20);
     end();
 }
 
