@@ -49,17 +49,6 @@ static const RacePoint *draw_method(Plot *plot, int method)
     return last;
 }
 
-/* The highest of these points that is not in the set. */
-static int find_highest(const RacePoint *const *last, unsigned set)
-{
-    int highest = -1;
-    for (int i = 0; i < RACE_METHODS; i++)
-        if (last[i] && !(set >> i & 1) &&
-            (highest < 0 || last[i]->error > last[highest]->error))
-            highest = i;
-    return highest;
-}
-
 /* Right of the last points, explicit ones, beside which others begin, below
  * them; where one would lie on another it is below that. */
 static void write_names(const Plot *plot, const RacePoint *const *last)
@@ -68,8 +57,9 @@ static void write_names(const Plot *plot, const RacePoint *const *last)
     Paper *paper = plot->paper;
     Box place[RACE_METHODS];
     int count = 0, high = paper_pixels(paper, 1.15);
-    unsigned written = 0;
-    for (int i; (i = find_highest(last, written)) >= 0; written |= 1u << i) {
+    for (int i = RACE_METHODS - 1; i >= 0; i--) {
+        if (!last[i])
+            continue;
         const IntegratorMethod *method = race_method(i);
         double at[2];
         plot_place(
