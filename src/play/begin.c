@@ -124,16 +124,15 @@ static const LecturePage *find_page(Player *player, const Command *command)
                           command->text, lecture_count());
         return page;
     }
-    if (!page && player->left)
-        return on && player->left[1].name ? player->left + 1 : player->left;
-    if (!page)
+    if (!page && !player->left)
         return &lecture_pages[0];
-    if (on ? !page[1].name : page == lecture_pages) {
-        player_refuse(player,
-                      on ? "this is the last page" : "this is the first page");
-        return NULL;
-    }
-    return on ? page + 1 : page - 1;
+    if (!page)
+        return on && player->left[1].name ? player->left + 1 : player->left;
+    if (on ? page[1].name != NULL : page > lecture_pages)
+        return on ? page + 1 : page - 1;
+    player_refuse(player,
+                  on ? "this is the last page" : "this is the first page");
+    return NULL;
 }
 
 /* The page's scene from its start, with its settings. */
