@@ -176,7 +176,7 @@ typedef struct HelpRow {
 
 /* A scene on the sheet of all of them. */
 typedef struct SheetCell {
-    const char *name, *sentence;
+    const char *name;
     const char *group;            /* the heading above it, or NULL */
     const Simulation *simulation; /* NULL: not made yet */
 } SheetCell;

@@ -53,9 +53,9 @@ void bench_claim(const char *what, double measured, double at_most)
 
 Options slides_options(int segments)
 {
-    char program[] = "elasto", message[128], *arguments[] = {program, NULL};
+    char message[128];
     Options options;
-    options_parse(1, arguments, 0, &options, message, sizeof message);
+    options_of_line("square", &options, message, sizeof message);
     options.segments = segments;
     return options;
 }

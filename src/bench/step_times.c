@@ -52,19 +52,7 @@ static Status play(Maker maker, int segments, int start, int steps, Runs *runs)
     return status;
 }
 
-/* Returns the median time of a step, ms. */
-static double report(Maker maker, int segments, Runs *runs, int count)
-{
-    double ms = bench_median(runs->ms, count), *sorted = runs->ms;
-    double updates = bench_median(runs->updates, count);
-    double energy = bench_median(runs->energy, count);
-    printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
-           makers[maker].name, count, ms, sorted[0], sorted[count - 1], updates,
-           energy, runs->unconverged);
-    return ms;
-}
-
-/* All solvers on one square, by turns. */
+/* All solvers on one square, by turns.  ms out: the median of a step */
 static Status measure(bool quick, int segments, double ms[SOLVERS])
 {
     Runs runs[SOLVERS] = {{.unconverged = 0}};
@@ -76,9 +64,16 @@ static Status measure(bool quick, int segments, double ms[SOLVERS])
         for (int m = 0; m < SOLVERS && !status; m++)
             if (segments <= makers[m].largest)
                 status = play((Maker)m, segments, count, steps, &runs[m]);
-    for (int m = 0; m < SOLVERS && !status; m++)
-        if (segments <= makers[m].largest)
-            ms[m] = report((Maker)m, segments, &runs[m], count);
+    for (int m = 0; m < SOLVERS && !status; m++) {
+        Runs *all = &runs[m];
+        if (segments > makers[m].largest)
+            continue;
+        ms[m] = bench_median(all->ms, count); /* which sorts them */
+        printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
+               makers[m].name, count, ms[m], all->ms[0], all->ms[count - 1],
+               bench_median(all->updates, count),
+               bench_median(all->energy, count), all->unconverged);
+    }
     return status;
 }
 

@@ -187,23 +187,20 @@ Status obey_film(Player *player, const Command *command)
 {
     char name[80];
     Recording *recording = &player->recording;
-    Status status;
     bool ends = film_runs(&recording->film);
     if (!player->draws)
         return player_refuse(player, "nothing is drawn that could be filmed");
-    if (ends) {
-        status = recording_end_film(recording);
-    } else {
-        free_name(player, ".mp4", name, sizeof name);
-        status = recording_film(recording, name);
-        player->sampled = -1; /* the present frame is the first */
-    }
-    if (status)
-        player_note(player, "no film: %s", recording->message);
-    else if (ends)
-        player_note(player, "film ends: %s", recording->film_told);
-    else
-        player_note(player, "filming %s", name);
+    free_name(player, ".mp4", name, sizeof name);
+    Status status =
+        ends ? recording_end_film(recording) : recording_film(recording, name);
+    player->sampled = -1; /* the present frame is the first, or drawn again */
+    player_note(player, "%s%s",
+                status ? "no film: "
+                : ends ? "film ends: "
+                       : "filming ",
+                status ? recording->message
+                : ends ? recording->film_told
+                       : name);
     recording->message[0] = '\0';
     return STATUS_OK;
 }

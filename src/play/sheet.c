@@ -113,16 +113,14 @@ void player_fill_sheet(Player *player)
         const Scene *scene = &scenes[i > 0 ? i - 1 : 0];
         const Simulation *simulation = &sheet->simulation[i];
         show->cell[i] =
-            (SheetCell){.name = scene->name,
-                        .sentence = scene->sentence,
+            (SheetCell){.name = i > 0 ? scene->name : "the guided tour",
                         .group = i == 1 ? NULL : scene->group,
                         .simulation = simulation->scene ? simulation : NULL};
+        if (i == show->chosen)
+            snprintf(show->sentence, SHOW_TEXT, "%s: %s", show->cell[i].name,
+                     i > 0 ? scene->sentence : "the lecture, page by page");
     }
-    show->cell[0].name = "the guided tour";
-    show->cell[0].sentence = "the lecture, page by page";
     show->topic = "All scenes";
-    snprintf(show->sentence, SHOW_TEXT, "%s: %s", show->cell[show->chosen].name,
-             show->cell[show->chosen].sentence);
     snprintf(show->method, SHOW_TEXT, "arrows, Enter");
     snprintf(show->state, SHOW_VALUE, "digits: a page of the tour");
 }

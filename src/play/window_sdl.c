@@ -59,20 +59,6 @@ static bool find_sdl(void)
 
 /* ---- opening and closing ------------------------------------------------ */
 
-/* What was asked for, or what fits on the screen.  fitting [2] out */
-static void fit_size(const int size[2], int fitting[2])
-{
-    SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
-    if (size[0] == 0)
-        sdl.GetDisplayUsableBounds(0, &area);
-    fitting[0] = size[0] > 0             ? size[0]
-                 : area.w < WINDOW_WIDTH ? area.w
-                                         : WINDOW_WIDTH;
-    fitting[1] = size[1] > 0              ? size[1]
-                 : area.h < WINDOW_HEIGHT ? area.h
-                                          : WINDOW_HEIGHT;
-}
-
 /* Whether SDL's video shows what is drawn; if not, SDL's error tells why.
  * Without XDG_RUNTIME_DIR Wayland's library would write a line of its own to
  * standard error, so SDL should not even ask it. */
@@ -105,7 +91,7 @@ bool window_is_full(void)
  * instead of 14 ms a frame of 900 x 900 pixels). */
 bool window_open(const char *title, const int size[2], bool full)
 {
-    int fitting[2];
+    SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
     if (!find_sdl())
         return false;
     sdl.SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
@@ -116,10 +102,12 @@ bool window_open(const char *title, const int size[2], bool full)
         return false;
     if (strcmp(sdl.GetCurrentVideoDriver(), "x11") == 0)
         sdl.SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    fit_size(size, fitting);
-    window = sdl.CreateWindow(title, SDL_WINDOWPOS_CENTERED,
-                              SDL_WINDOWPOS_CENTERED, fitting[0], fitting[1],
-                              SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    sdl.GetDisplayUsableBounds(0, &area);
+    window =
+        sdl.CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                         size[0] > 0 ? size[0] : SDL_min(area.w, WINDOW_WIDTH),
+                         size[1] > 0 ? size[1] : SDL_min(area.h, WINDOW_HEIGHT),
+                         SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!window || !sdl.GetWindowSurface(window))
         return false;
     if (full)
