@@ -50,20 +50,12 @@ typedef struct Best {
     double ms;
 } Best;
 
-/* Lagrange: sum over j of w_j f(1/n_j) is the value at 0 of the polynomial in
- * 1/n^2 through all f, with w_j = product over i of n_j^2 / (n_j^2 - n_i^2). */
-static double weight_of(int j, int columns)
-{
-    double weight = 1;
-    for (int i = 1; i <= columns; i++)
-        weight *= i == j ? 1 : (double)(j * j) / (j * j - i * i);
-    return weight;
-}
-
 /* Each interval H, omega H <= 1, is crossed by velocity Verlet in 1, 2, ... 6
  * steps; these results are extrapolated to steps of length 0.  Verlet is
  * symmetric, its error has even powers of the step, and what is left is
- * O(H^12) (Gragg 1965). */
+ * O(H^12) (Gragg 1965).  Lagrange: the polynomial in 1/n^2 through all results
+ * has at 0 the sum over j of w_j times result j, with w_j = product over i of
+ * n_j^2 / (n_j^2 - n_i^2). */
 static Status find_exact(Problem *problem)
 {
     enum { COLUMNS = 6 };
@@ -88,7 +80,9 @@ static Status find_exact(Problem *problem)
     for (long k = 0; k < intervals && !status; k++) {
         memcpy(start, problem->exact, both * sizeof *start);
         for (int j = 1; j <= COLUMNS && !status; j++) {
-            double weight = weight_of(j, COLUMNS);
+            double weight = 1;
+            for (int i = 1; i <= COLUMNS; i++)
+                weight *= i == j ? 1 : (double)(j * j) / (j * j - i * i);
             memcpy(run.x, start, both * sizeof *start);
             run.memory_h = 0;
             run.h = H / j;

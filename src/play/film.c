@@ -24,18 +24,13 @@ static const FilmKind film_kinds[] = {
     {NULL, 0, NULL},
 };
 
-static const FilmKind *kind_of(const char *name)
-{
-    const char *end = strrchr(name, '.');
-    const FilmKind *kind = film_kinds;
-    while (kind->end && (!end || end == name || strcmp(end, kind->end)))
-        kind++;
-    return kind;
-}
-
 Status film_open(const char *name, Film *film)
 {
-    *film = (Film){.kind = kind_of(name)};
+    const char *end = strrchr(name, '.');
+    *film = (Film){.kind = film_kinds};
+    while (film->kind->end &&
+           (!end || end == name || strcmp(end, film->kind->end)))
+        film->kind++;
     if (!film->kind->end)
         film->reason = "its name does not end in .mp4, .webm, .gif or .apng";
     else if (system("command -v ffmpeg >/dev/null 2>&1") != 0)

@@ -158,16 +158,6 @@ static void print_newton(FILE *file, const Simulation *simulation)
             print(file, rows[i].name, "%lld", rows[i].count);
 }
 
-static void print_unconverged(FILE *file, const Simulation *simulation)
-{
-    fprintf(file, "steps not converged %ld", simulation->unconverged);
-    for (int i = 0; i < STATUS_COUNT; i++)
-        if (simulation->reasons[i] > 0)
-            fprintf(file, "\n  %-17s %d", status_name((Status)i),
-                    simulation->reasons[i]);
-    fputc('\n', file);
-}
-
 /* How far a pane came, what it took, and where that led its first run. */
 static void print_pane(FILE *file, const Machine *machine)
 {
@@ -182,7 +172,12 @@ static void print_pane(FILE *file, const Machine *machine)
         print(file, "energy at end", "%.9g J",
               simulation_energies(simulation, 0).total);
     }
-    print_unconverged(file, simulation);
+    fprintf(file, "steps not converged %ld", simulation->unconverged);
+    for (int i = 0; i < STATUS_COUNT; i++)
+        if (simulation->reasons[i] > 0)
+            fprintf(file, "\n  %-17s %d", status_name((Status)i),
+                    simulation->reasons[i]);
+    fputc('\n', file);
 }
 
 /* One quantity a line; of several panes those of each, one after the other. */
