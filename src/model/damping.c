@@ -10,31 +10,20 @@ Damping *damping_of(const System *system)
     return system_data(system, &damping);
 }
 
-/* *old = new; returns whether that is a change. */
-static bool renew(double *old, double new)
-{
-    bool changed = *old != new;
-    *old = new;
-    return changed;
-}
-
 /* The springs of the step from x_n.  A broken one stays broken. */
 static Status begin(const TermStep *step)
 {
     System *system = step->system;
     Damping *data = step->term->data;
-    double theta = data->eta / step->h;
-    bool changed = renew(&data->theta, theta);
+    double theta = data->theta = data->eta / step->h;
     for (int s = 0; s < system->springs; s++) {
         double d[2], l2 = system->l2[s];
         data->E_n[s] = spring_strain(system->e + 2 * s, l2, step->x, d);
         double d2 = d[0] * d[0] + d[1] * d[1];
-        double mean = theta > 0 ? (l2 + theta * d2) / (1 + theta) : l2;
-        changed |= renew(&data->l2[s], mean);
-        changed |= renew(&data->k[s], system->k[s] * (1 + theta) * (mean / l2));
+        data->l2[s] = theta > 0 ? (l2 + theta * d2) / (1 + theta) : l2;
+        data->k[s] = system->k[s] * (1 + theta) * (data->l2[s] / l2);
     }
-    if (changed)
-        system_changed(system, false);
+    system_changed(system, false);
     return STATUS_OK;
 }
 
