@@ -121,25 +121,6 @@ static int by_left_side(const void *one, const void *other)
     return a->edge - b->edge;
 }
 
-/* From the order of the last time, which is nearly the one that is wanted: each
- * moves past those before it, all together so many places for each edge.  That
- * was not enough: it is another order. */
-static void sort_from_last(Boundary *boundary)
-{
-    enum { PLACES = 8 };
-    Box2 *box = boundary->box;
-    long left = PLACES * (long)boundary->edges;
-    for (int k = 1; k < boundary->edges && left >= 0; k++) {
-        Box2 own = box[k];
-        int to = k;
-        for (; to > 0 && by_left_side(&box[to - 1], &own) > 0; to--, left--)
-            box[to] = box[to - 1];
-        box[to] = own;
-    }
-    if (left < 0)
-        qsort(box, (size_t)boundary->edges, sizeof *box, by_left_side);
-}
-
 static void make_boxes(Boundary *boundary, const System *system)
 {
     const double *x = boundary->x, *p = boundary->moves ? boundary->p : NULL;
@@ -167,7 +148,7 @@ static void make_boxes(Boundary *boundary, const System *system)
         double wide = box->high[0] - box->low[0];
         boundary->widest = wide > boundary->widest ? wide : boundary->widest;
     }
-    sort_from_last(boundary);
+    qsort(boundary->box, (size_t)boundary->edges, sizeof(Box2), by_left_side);
 }
 
 /* The first edge that may end behind this. */

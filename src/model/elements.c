@@ -93,29 +93,38 @@ void elements_pattern(const Place *at, Triplets *triplets)
     }
 }
 
-/* Entry (r, c) of the part of nodes k and l. */
-static double entry(const Element *element, double H[4][4], int k, int l, int r,
-                    int c)
-{
-    double sum = 0;
-    for (int n = 0; n < element->vectors; n++) {
-        double column = 0;
-        for (int m = 0; m < element->vectors; m++)
-            column += element->weight[m][k] * H[2 * m + r][2 * n + c];
-        sum += element->weight[n][l] * column;
-    }
-    return element->factor * sum;
-}
-
-static void add_to_matrix(const Element *element, double H[4][4],
-                          const int *slot, double *out)
+/* Entry (r, c) of the part of nodes k and l is factor sum w_k w_l H_(r,c) over
+ * the pairs of vectors. */
+static inline void add_block(const Element *element, int vectors,
+                             double H[4][4], const int *slot, double *out)
 {
     for (int i = 0; i < PARTS; i++) {
         int k = part[i][0], l = part[i][1];
-        for (int r = 0; r < 2 && l < element->nodes; r++)
-            for (int c = k == l ? r : 0; c < 2; c++)
-                out[*slot++] += entry(element, H, k, l, r, c);
+        if (l >= element->nodes)
+            continue;
+        for (int r = 0; r < 2; r++)
+            for (int c = k == l ? r : 0; c < 2; c++) {
+                double sum = 0;
+                for (int n = 0; n < vectors; n++) {
+                    double column = 0;
+                    for (int m = 0; m < vectors; m++)
+                        column +=
+                            element->weight[m][k] * H[2 * m + r][2 * n + c];
+                    sum += element->weight[n][l] * column;
+                }
+                out[*slot++] += element->factor * sum;
+            }
     }
+}
+
+/* The compiler makes a function of its own for each number of vectors. */
+static void add_to_matrix(const Element *element, double H[4][4],
+                          const int *slot, double *out)
+{
+    if (element->vectors == 1)
+        add_block(element, 1, H, slot, out);
+    else
+        add_block(element, 2, H, slot, out);
 }
 
 static void add_product(const Element *element, double H[4][4], const double *q,
