@@ -27,8 +27,8 @@ typedef struct Output {
 /* Opens it.  Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
 Status output_open(const char *name, Output *output);
 
-/* Why a file failed, after FILE_FAILED: what errno means here. */
-const char *output_reason(int reason);
+/* Why something failed: after FILE_FAILED what errno means here. */
+const char *output_reason(Status status);
 
 /* Flushes, closes, renames; OK too if it is not open.  After FILE_FAILED, or
  * where this status is no OK, which it returns then, what stood under the name

@@ -13,10 +13,11 @@ bool output_is_standard(const char *name)
     return strcmp(name, "-") == 0 || strcmp(name, "/dev/stdout") == 0;
 }
 
-const char *output_reason(int reason)
+const char *output_reason(Status status)
 {
-    return reason == EBUSY ? "it is being written already"
-                           : strerror(reason ? reason : EIO);
+    return status != STATUS_FILE_FAILED ? status_text(status)
+           : errno == EBUSY             ? "it is being written already"
+                                        : strerror(errno ? errno : EIO);
 }
 
 /* ---- opening ------------------------------------------------------------ */

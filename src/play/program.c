@@ -31,7 +31,8 @@ static int check_output(void)
 {
     return !ferror(stdout) && fflush(stdout) == 0
                ? EXIT_FINE
-               : tell(EXIT_FAILED, "standard output: %s", output_reason(errno));
+               : tell(EXIT_FAILED, "standard output: %s",
+                      output_reason(STATUS_FILE_FAILED));
 }
 
 /* What a presenter says, page by page, and when it begins, min. */
@@ -313,11 +314,9 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     if (options->handout) {
         Status status = handout_write(options, stop, player);
         *player = (Player){0};
-        return !status
-                   ? EXIT_FINE
-                   : tell(EXIT_FAILED, "%s: %s", options->handout,
-                          status == STATUS_FILE_FAILED ? output_reason(errno)
-                                                       : status_text(status));
+        return !status ? EXIT_FINE
+                       : tell(EXIT_FAILED, "%s: %s", options->handout,
+                              output_reason(status));
     }
     join_line(argc, argv, line, sizeof line);
     Status status = player_create(options, options->panes, line, stop, player);

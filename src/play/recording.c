@@ -15,7 +15,7 @@ static Status note(Recording *recording, Status status, const char *name)
     if (!status || recording->message[0])
         return status;
     if (!why)
-        why = output_reason(status == STATUS_OUT_OF_MEMORY ? ENOMEM : errno);
+        why = output_reason(status);
     snprintf(recording->message, sizeof recording->message, "%s: %s", name,
              why);
     recording->film.reason = NULL;

@@ -156,11 +156,6 @@ static void free_name(const Player *player, const char *end, char *name,
     }
 }
 
-static const char *reason_of(Status status)
-{
-    return status == STATUS_FILE_FAILED ? strerror(errno) : status_text(status);
-}
-
 /* The frame as it is, in the present folder. */
 Status obey_shot(Player *player, const Command *command)
 {
@@ -176,7 +171,7 @@ Status obey_shot(Player *player, const Command *command)
         status = png_file_write(name, &paper->canvas);
     }
     if (status)
-        player_note(player, "not saved: %s", reason_of(status));
+        player_note(player, "not saved: %s", output_reason(status));
     else
         player_note(player, "saved %s", name);
     return STATUS_OK;
@@ -224,7 +219,7 @@ Status obey_hash(Player *player, const Command *command)
     if (count == 0)
         snprintf(way, sizeof way, "%.80s --steps %ld", player->line, step);
     else if (status)
-        snprintf(way, sizeof way, "no script: %s", reason_of(status));
+        snprintf(way, sizeof way, "no script: %s", output_reason(status));
     else
         snprintf(way, sizeof way, "%.60s --script %s", player->line, name);
     player_note(player, "state %016llx at step %ld: %s",
