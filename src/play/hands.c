@@ -378,18 +378,6 @@ static Status hover(Player *player)
                : STATUS_OK;
 }
 
-/* The line of the list that was hit. */
-static Status page_clicked(Player *player, const Under *under)
-{
-    char line[16];
-    int row = show_help_row(&player->show, &under->layout, player->mouse.x,
-                            player->mouse.y);
-    if (keyboard_now(player) != AT_LIST || row < 0)
-        return STATUS_OK;
-    snprintf(line, sizeof line, "%d", row + 1);
-    return open_line(player, line);
-}
-
 static Status number_pressed(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->mouse;
@@ -407,6 +395,7 @@ static Status number_pressed(Player *player, int index, int clicks)
 
 static Status left_pressed(Player *player, const Under *under, int clicks)
 {
+    char line[16];
     int index = under->hit.index;
     bool ground =
         under->pick.kind == PICK_NONE || under->pick.kind == PICK_SPRING;
@@ -428,10 +417,16 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
         return number_pressed(player, index, clicks);
     case ZONE_PAGE_CLOSE:
         return ask(player, COMMAND_ESCAPE, 0);
-    case ZONE_PAGE:
-        return page_clicked(player, under);
+    case ZONE_PAGE: /* a line of a list */
+        index = show_help_row(&player->show, &under->layout, player->mouse.x,
+                              player->mouse.y);
+        snprintf(line, sizeof line, "%d", index + 1);
+        return keyboard_now(player) == AT_LIST && index >= 0
+                   ? open_line(player, line)
+                   : STATUS_OK;
     case ZONE_CELL:
-        return player_open_cell(player, index);
+        player->show.chosen = index;
+        return ask(player, COMMAND_OPEN, 0);
     case ZONE_STAGE:
         if (under->pane != player->active)
             status = ask(player, COMMAND_PANE, under->pane);

@@ -123,9 +123,8 @@ int player_first_speed(const Options *options);
 /* The scenes on the sheet go on for a slice of time, where it is open. */
 void player_live(Player *player);
 
-/* What is drawn of it; the scene of a cell that was hit; it is closed. */
+/* What is drawn of it; it is closed. */
 void player_fill_sheet(Player *player);
-Status player_open_cell(Player *player, int cell);
 void player_close_sheet(Player *player);
 
 /* ---- hands.c ------------------------------------------------------------- */

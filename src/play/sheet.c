@@ -148,11 +148,12 @@ Status obey_choose(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Its scene as a command that a script can repeat; the page that is open is
- * behind the sheet. */
-Status player_open_cell(Player *player, int cell)
+/* The scene that is chosen, by a command that a script can repeat; the page
+ * that is open is behind the sheet. */
+Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";
+    int cell = player->show.chosen;
     bool behind = cell == 0 && player_settings(player)->page;
     if (cell > 0)
         snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);
@@ -160,9 +161,4 @@ Status player_open_cell(Player *player, int cell)
     player_close_sheet(player);
     player_deselect(player);
     return status;
-}
-
-Status obey_open(Player *player, const Command *command)
-{
-    return player_open_cell(player, player->show.chosen);
 }
