@@ -98,48 +98,40 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
     return *stop && !status ? STATUS_INTERRUPTED : status;
 }
 
-/* ---- pages -------------------------------------------------------------- */
-
-/* The page that the player shows. */
-static Status write_page(FILE *file, const LecturePage *page, Player *player)
-{
-    fprintf(file,
-            "<section>\n<h2 id=\"%s\">%d. %s</h2>\n"
-            "<img alt=\"%s\" src=\"data:image/png;base64,\n",
-            page->name, (int)(page - lecture_pages) + 1, page->topic,
-            page->topic);
-    Status status = draw_picture(player, file);
-    fprintf(file,
-            "\n\">\n<p class=\"small\"><a href=\"elasto.html#--lecture+%s\">"
-            "live: elasto.html#--lecture+%s</a> or <code>elasto %s</code></p>\n"
-            "<div class=\"room\"><hr><hr></div>\n</section>\n",
-            page->name, page->name, page->line);
-    return status;
-}
-
 Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
                      Player *player)
 {
     Output output;
     const Listing *head = listing_find("src/play/handout.html");
     Status status = output_open(options->handout, &output);
+    FILE *file = output.file;
     if (status)
         return status;
     for (int i = 0; i < head->lines; i++)
-        fprintf(output.file, "%s\n", head->line[i]);
-    for (const LecturePage *page = lecture_pages; page->name && !status;
-         page++) {
+        fprintf(file, "%s\n", head->line[i]);
+    for (int i = 0; lecture_pages[i].name && !status; i++) {
+        const LecturePage *page = &lecture_pages[i];
         Options of_page;
         char message[256];
         status = lecture_options(page, &of_page, message, sizeof message);
         if (status)
             break; /* which a test rules out */
         status = play_page(&of_page, stop, player);
+        fprintf(file,
+                "<section>\n<h2 id=\"%s\">%d. %s</h2>\n"
+                "<img alt=\"%s\" src=\"data:image/png;base64,\n",
+                page->name, i + 1, page->topic, page->topic);
         if (!status)
-            status = write_page(output.file, page, player);
+            status = draw_picture(player, file);
+        fprintf(
+            file,
+            "\n\">\n<p class=\"small\"><a href=\"elasto.html#--lecture+%s\">"
+            "live: elasto.html#--lecture+%s</a> or <code>elasto %s</code>"
+            "</p>\n<div class=\"room\"><hr><hr></div>\n</section>\n",
+            page->name, page->name, page->line);
         player_free(player);
     }
-    fputs("</body>\n</html>\n", output.file);
+    fputs("</body>\n</html>\n", file);
     if (status)
         output_discard(&output);
     return output_close(&output, status);
