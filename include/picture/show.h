@@ -272,12 +272,6 @@ void show_hold(Show *show, int pane);
 /* What is at this pixel of the stage; PICK_NONE elsewhere. */
 Pick show_pick(const Show *show, const Layout *layout, double x, double y);
 
-/* Wheel and middle button: see lens_zoom, lens_move. */
-void show_zoom(Show *show, const Layout *layout, double x, double y,
-               double factor);
-void show_move(Show *show, const Layout *layout, int pane, double dx,
-               double dy);
-
 /* The row of help or of the list of pages at this pixel; -1: none. */
 int show_help_row(const Show *show, const Layout *layout, double x, double y);
 
@@ -308,10 +302,6 @@ void show_describe(Show *show);
 
 /* The number that texts know by this name now; NaN: none. */
 double show_number(Show *show, const char *name);
-
-/* All lines of a text (facts.h) that are known of the active pane now; out
- * [size]. */
-void show_say(Show *show, const char *text, char *out, size_t size);
 
 /* What the history of this scene's picture shows of the state now.  row out;
  * returns how many. */

@@ -347,16 +347,6 @@ bool text_is_known(const Facts *facts, const char *text)
     return text_next(&line);
 }
 
-void show_say(Show *show, const char *text, char *out, size_t size)
-{
-    size_t used = 0;
-    show_know(show);
-    for (TextLine line = text_of(&show_pane(show)->facts, text);
-         used + 1 < size && text_next(&line);)
-        used += (size_t)snprintf(out + used, size - used, "%s%s",
-                                 used ? "\n" : "", line.words);
-}
-
 /* Draws a line at the upper edge of the box, or only measures it; returns the
  * pixels that it takes. */
 static int put_line(Paper *paper, Box box, double size, const TextLine *line,

@@ -69,20 +69,20 @@ static void light(Canvas *canvas, Colour colour, int radius)
     free(map);
 }
 
-/* The colour of the term within this distance, or 0. */
-static Colour term_near(const Canvas *canvas, const double at[2], double ems)
+/* The colour of the term within so many pixels, or 0. */
+static Colour term_near(const Canvas *canvas, const double at[2], int reach)
 {
-    int reach = (int)ems, x = (int)at[0], y = (int)at[1];
+    const Box whole = {0, 0, canvas->width, canvas->height};
+    int x = (int)at[0], y = (int)at[1], least = reach * reach + 1;
+    Box box = box_shared(
+        whole, (Box){x - reach, y - reach, 2 * reach + 1, 2 * reach + 1});
     Colour colour, best = 0;
-    int least = reach * reach + 1;
-    for (int j = -reach; j <= reach; j++)
-        for (int i = -reach; i <= reach; i++) {
-            bool inside = x + i >= 0 && x + i < canvas->width && y + j >= 0 &&
-                          y + j < canvas->height;
-            int far = i * i + j * j;
-            if (!inside || far >= least)
+    for (int j = box.y; j < box.y + box.height; j++)
+        for (int i = box.x; i < box.x + box.width; i++) {
+            int far = (i - x) * (i - x) + (j - y) * (j - y);
+            if (far >= least)
                 continue;
-            Colour pixel = canvas->pixels[canvas->width * (y + j) + x + i];
+            Colour pixel = canvas->pixels[canvas->width * j + i];
             for (int term = 0; (colour = colour_of_term(term)); term++)
                 if (colour != COLOUR_TEXT && has_colour(pixel, colour)) {
                     best = colour;
@@ -102,7 +102,8 @@ void glow_draw(Paper *paper, const Show *show)
     if (!show->lecture || show->print)
         return;
     if (show->over.zone == ZONE_CARD || show->over.zone == ZONE_STAGE)
-        colour = term_near(&paper->canvas, show->over.at, AT_MOUSE * paper->em);
+        colour = term_near(&paper->canvas, show->over.at,
+                           (int)(AT_MOUSE * paper->em));
     if (colour == COLOUR_X && show->over.zone == ZONE_STAGE)
         colour = 0; /* all of the square */
     if (!colour && trace && strstr(show->lecture->cards, "listing"))

@@ -96,8 +96,7 @@ static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
     char part[PAPER_TEXT];
     size_t fits = 0, length = strlen(markup);
     int depth = 0;
-    if (length < sizeof part &&
-        text_width(paper->text, style, markup) <= width)
+    if (length < sizeof part && text_width(paper->text, style, markup) <= width)
         return length;
     for (size_t end = 0; end <= length && end < sizeof part; end++) {
         depth += (markup[end] == '{') - (markup[end] == '}');

@@ -91,19 +91,6 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
     return pick;
 }
 
-void show_zoom(Show *show, const Layout *layout, double x, double y,
-               double factor)
-{
-    Hit hit = layout_hit(layout, x, y);
-    if (hit.zone == ZONE_STAGE)
-        lens_zoom(&show->lens, layout->pane[hit.index], x, y, factor);
-}
-
-void show_move(Show *show, const Layout *layout, int pane, double dx, double dy)
-{
-    lens_move(&show->lens, layout->pane[pane], dx, dy);
-}
-
 long show_step_at(const Show *show, const Layout *layout, double x)
 {
     const Box *bars = &layout->bars;

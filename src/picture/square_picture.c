@@ -128,12 +128,11 @@ static void draw_box(const SpringPen *pen)
         if (show->along_nodes == pen->system->nodes && show->along[i])
             plot_ring(pen->stage, pen->x + 2 * (size_t)i, pen->radius + 3, 2,
                       COLOUR_HAND);
-    for (int i = 0; i < 4 && show->held.boxes; i++) { /* a side each */
-        int near = i & 2, far = 2 - near, along = i & 1;
-        double a[2] = {box[near], box[near + 1]}, b[2] = {a[0], a[1]};
-        b[along] = box[far + along];
-        plot_dashes(pen->stage, a, b, 2, NULL, COLOUR_HAND);
-    }
+    const double corner[4][2] = {
+        {box[0], box[1]}, {box[2], box[1]}, {box[2], box[3]}, {box[0], box[3]}};
+    for (int i = 0; i < 4 && show->held.boxes; i++)
+        plot_dashes(pen->stage, corner[i], corner[(i + 1) % 4], 2, NULL,
+                    COLOUR_HAND);
 }
 
 static void draw_spring(const SpringPen *pen, int s, double width,

@@ -342,7 +342,7 @@ static Status follow(Player *player)
         player->changed = true;
         return STATUS_OK;
     case COMMAND_PAN:
-        show_move(&player->show, &under.layout, under.pane, dx, dy);
+        lens_move(&player->show.lens, under.layout.pane[under.pane], dx, dy);
         player->changed = true;
         mouse->from[0] = mouse->x;
         mouse->from[1] = mouse->y;
@@ -510,8 +510,8 @@ static Status wheeled(Player *player, double amount)
         return ask(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
     if (under.hit.zone != ZONE_STAGE)
         return STATUS_OK;
-    show_zoom(&player->show, &under.layout, player->mouse.x, player->mouse.y,
-              pow(WHEEL_ZOOM, amount));
+    lens_zoom(&player->show.lens, under.layout.pane[under.hit.index],
+              player->mouse.x, player->mouse.y, pow(WHEEL_ZOOM, amount));
     player->changed = true;
     return STATUS_OK;
 }

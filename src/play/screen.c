@@ -115,13 +115,14 @@ Status obey_camera(Player *player, const Command *command)
     Layout layout =
         show_layout(show, paper->canvas.width, paper->canvas.height);
     Camera camera = show_camera(show, &layout, player->active);
+    Box pane = layout.pane[player->active];
     double at[2] = {command->x, command->y}, pixel[2];
     camera_pixel(&camera, at, pixel);
     if (command->kind == COMMAND_ZOOM)
-        show_zoom(show, &layout, pixel[0], pixel[1],
+        lens_zoom(&show->lens, pane, pixel[0], pixel[1],
                   fmin(fmax((double)command->number, 1), 1e6) / 100);
     else
-        show_move(show, &layout, player->active, camera.scale[0] * command->x,
+        lens_move(&show->lens, pane, camera.scale[0] * command->x,
                   -camera.scale[1] * command->y);
     return STATUS_OK;
 }

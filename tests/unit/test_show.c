@@ -402,7 +402,7 @@ TEST(the_mouse_finds_nodes_and_springs)
         }
         camera_pixel(&camera, middle, at);
         CHECK(picks(pick_at(middle[0], middle[1], 0, 1), PICK_SPRING, 0));
-        show_zoom(&show, &layout, at[0], at[1], 2.5);
+        lens_zoom(&show.lens, layout.pane[0], at[0], at[1], 2.5);
     }
     show.lens = LENS_FITS;
     for (int s = 0; s < system->springs; s++) { /* where diagonals cross, too */
