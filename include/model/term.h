@@ -171,7 +171,6 @@ struct Term {
 
 /* Triplets of the 2x2 block of nodes i and j: xx xy yx yy, and on the diagonal
  * (i = j) only xx xy yy. */
-enum { DIAGONAL_ENTRIES = 3 };
 void term_add_block(const System *system, int i, int j, Triplets *triplets);
 
 /* Triplets xx and yy of node i alone. */

@@ -20,8 +20,6 @@ SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies)
  */
 static int body_of(const SquareMesh *shape, int all, int *i)
 {
-    if (shape->bodies == 1)
-        return 0;
     int each = all / shape->bodies, body = *i / each;
     *i %= each;
     return body;
