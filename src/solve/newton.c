@@ -28,11 +28,9 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
                                    NULL};
     if (newton->settings.averaged)
         at->E.between = newton->x_trial + size;
-    memset(at->u, 0, (size_t)size * sizeof *at->u);
-    memcpy(at->x, x_n, (size_t)size * sizeof *at->x);
-    for (int i = 0; u && i < size; i++) {
-        at->u[i] = u[i];
-        at->x[i] += u[i];
+    for (int i = 0; i < size; i++) {
+        at->u[i] = u ? u[i] : 0;
+        at->x[i] = x_n[i] + at->u[i];
     }
     newton->tolerance = newton->settings.tolerance;
     if (newton->rough)
