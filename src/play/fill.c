@@ -228,11 +228,12 @@ static void fill_chips(Player *player)
 /* ---- the picture --------------------------------------------------------- */
 
 /* One picture on the stage. */
-static void fill_pane(Player *player, int p, Trace *trace)
+static void fill_pane(Player *player, int p)
 {
     const Machine *machine = &player->past.machine[p];
     const Simulation *simulation = &machine->simulation;
     static History histories[OPTIONS_MAX_PANES];
+    static Trace traces[OPTIONS_MAX_PANES];
     const Side *side = &player->side[p];
     Pane *pane = &player->show.pane[p];
     past_history(&player->past, p, &histories[p]);
@@ -246,8 +247,8 @@ static void fill_pane(Player *player, int p, Trace *trace)
     bool newton =
         simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
     if (machine->known && newton) {
-        pane->x = rounds_trace(&machine->rounds, side->place, trace);
-        pane->trace = trace;
+        pane->x = rounds_trace(&machine->rounds, side->place, &traces[p]);
+        pane->trace = &traces[p];
     }
 }
 
@@ -330,7 +331,6 @@ static void fill_state(Player *player)
 
 void player_fill(Player *player)
 {
-    static Trace traces[OPTIONS_MAX_PANES];
     const Control *control = past_control(&player->past, player->active);
     Show *show = &player->show;
     Pick hover = show->hover;
@@ -343,7 +343,7 @@ void player_fill(Player *player)
     show->active = player->active;
     player_label_panes(player);
     for (int i = 0; i < past_panes(&player->past); i++)
-        fill_pane(player, i, &traces[i]);
+        fill_pane(player, i);
     show->hover = hover;
     show->over = over;
     show->held = held;

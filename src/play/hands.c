@@ -273,17 +273,6 @@ static Status take(Player *player, const Under *under)
     }
 }
 
-/* The node under the mouse, or the nearest one of the body there, is pinned or
- * set free. */
-static Status pin(Player *player, int node)
-{
-    const Scene *scene = player_simulation(player)->scene;
-    if (node < 0 && (scene->needs & NEEDS_MESH) && !scene->step)
-        return player_refuse(player, "no node is here: a right click on one "
-                                     "pins it, or sets it free");
-    return ask(player, COMMAND_PIN, node < 0 ? 0 : node);
-}
-
 /* A ball where nothing is, as large as there is room for, but no larger than an
  * eighth of the square. */
 static Status put_ball(Player *player, const double at[2])
@@ -446,6 +435,9 @@ static Status pressed(Player *player, const Input *input)
     Held *held = &player->show.held;
     Under under = look(player);
     bool stage = under.hit.zone == ZONE_STAGE;
+    const Scene *scene = player_simulation(player)->scene;
+    bool nodes = (scene->needs & NEEDS_MESH) && !scene->step;
+    int near = under.pick.near;
     mouse->from[0] = mouse->x;
     mouse->from[1] = mouse->y;
     mouse->grip[0] = mouse->grip[1] = 0;
@@ -462,8 +454,11 @@ static Status pressed(Player *player, const Input *input)
         return left_pressed(player, &under, input->clicks);
     if (!stage)
         return STATUS_OK;
+    if (input->button == BUTTON_RIGHT && near < 0 && nodes)
+        return player_refuse(player, "no node is here: a right click on one "
+                                     "pins it, or sets it free");
     if (input->button == BUTTON_RIGHT)
-        return pin(player, under.pick.near);
+        return ask(player, COMMAND_PIN, near < 0 ? 0 : near);
     mouse->drag = COMMAND_PAN;
     mouse->moved = true;
     return STATUS_OK;

@@ -207,8 +207,8 @@ static void print_summary(FILE *file, const Player *player)
 
 int program_end(Player *player, Status status)
 {
-    long steps = player->past.machine[0].simulation.steps;
-    if (status && steps == 0 && !player->recording.keep)
+    if (status && player->past.machine[0].simulation.steps == 0 &&
+        !player->recording.keep)
         player->recording.keep = KEEP_PART;
     Status closed = player_finish(player);
     if (!status)
