@@ -44,15 +44,12 @@ Status simulation_use(Simulation *simulation, const Control *control);
  * and terms remember, counters; of the lecture's small scenes what they show,
  * too, and of those that show iterations the minimisation that is under way. */
 
-/* Bytes of a saved state. */
-size_t state_bytes(const Simulation *simulation);
-
-/* bytes [state_bytes] out. */
-void state_save(const Simulation *simulation, void *bytes);
+/* Returns how many bytes it has.  bytes: out, or NULL. */
+size_t state_save(const Simulation *simulation, void *bytes);
 
 /* As it was when these bytes were saved.  Springs that are whole, and walls,
  * have the numbers of the simulation's options.
- *   bytes  [state_bytes] in, of a simulation with the same system */
+ *   bytes  in, of a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);
 
 /* 64 bits of steps, positions and velocities of all runs (FNV-1a): equal

@@ -219,7 +219,7 @@ void past_history(const Past *past, int pane, History *history)
 static Status keep_state(Past *past, int pane, Entry *entry)
 {
     const Simulation *simulation = &past->machine[pane].simulation;
-    size_t size = sizeof *entry->state + state_bytes(simulation);
+    size_t size = sizeof *entry->state + state_save(simulation, NULL);
     drop_state(past, entry);
     while (past->bytes + size > past->limit && thin_states(past))
         continue;

@@ -7,28 +7,22 @@
 #include "model/plasticity.h"
 #include "scenes/body.h"
 
-/* Doubles of one array of a run. */
-static size_t array_size(const Simulation *simulation)
-{
-    return 2 * (size_t)simulation->system.nodes;
-}
-
-/* What is done with each piece of a state: counted, saved or restored. */
+/* Where pieces of a state are saved to or restored from, NULL: they are only
+ * counted; and how many bytes there were. */
 typedef struct Cursor {
-    enum { COUNT, SAVE, RESTORE } way;
-    unsigned char *at; /* NULL while counting */
-    size_t bytes;
+    unsigned char *bytes;
+    bool restores;
+    size_t used;
 } Cursor;
 
 static void pass(Cursor *cursor, void *piece, size_t size)
 {
-    if (cursor->way == SAVE)
-        memcpy(cursor->at, piece, size);
-    if (cursor->way == RESTORE)
-        memcpy(piece, cursor->at, size);
-    if (cursor->at)
-        cursor->at += size;
-    cursor->bytes += size;
+    unsigned char *at = cursor->bytes ? cursor->bytes + cursor->used : NULL;
+    if (at && cursor->restores)
+        memcpy(piece, at, size);
+    else if (at)
+        memcpy(at, piece, size);
+    cursor->used += size;
 }
 
 #define PASS(piece) pass(cursor, &(piece), sizeof(piece))
@@ -59,7 +53,7 @@ static void pass_system(Cursor *cursor, System *system)
 static void pass_run(Cursor *cursor, Simulation *simulation, int r)
 {
     TimeIntegrator *run = &simulation->run[r];
-    size_t array = array_size(simulation) * sizeof(double);
+    size_t array = run->size * sizeof(double);
     PASS(run->steps);
     PASS(run->clock);
     PASS(run->moved);
@@ -71,7 +65,7 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     pass(cursor, run->memory, (size_t)run->method->memory * array);
     if (r == 0 || run->system != simulation->run[0].system)
         pass_system(cursor, run->system);
-    if (cursor->way == RESTORE)
+    if (cursor->restores)
         system_changed(run->system, false);
 }
 
@@ -112,22 +106,16 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
         pass_run(cursor, simulation, r);
 }
 
-size_t state_bytes(const Simulation *simulation)
+size_t state_save(const Simulation *simulation, void *bytes)
 {
-    Cursor cursor = {COUNT, NULL, 0};
-    pass_all(&cursor, (Simulation *)simulation); /* counting changes nothing */
-    return cursor.bytes;
-}
-
-void state_save(const Simulation *simulation, void *bytes)
-{
-    Cursor cursor = {SAVE, bytes, 0};
-    pass_all(&cursor, (Simulation *)simulation);
+    Cursor cursor = {bytes, false, 0};
+    pass_all(&cursor, (Simulation *)simulation); /* it is not changed */
+    return cursor.used;
 }
 
 void state_restore(const void *bytes, Simulation *simulation)
 {
-    Cursor cursor = {RESTORE, (unsigned char *)bytes, 0};
+    Cursor cursor = {(unsigned char *)bytes, true, 0};
     simulation->prediction = (Prediction){0}; /* it was of another step */
     pass_all(&cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
@@ -146,12 +134,12 @@ static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
 
 uint64_t state_hash(const Simulation *simulation, uint64_t seed)
 {
-    size_t array = array_size(simulation) * sizeof(double);
     int64_t steps = simulation->steps;
     uint64_t hash = hash_bytes(seed, &steps, sizeof steps);
     for (int r = 0; r < simulation->runs; r++) {
-        hash = hash_bytes(hash, simulation->run[r].x, array);
-        hash = hash_bytes(hash, simulation->run[r].v, array);
+        const TimeIntegrator *run = &simulation->run[r];
+        hash = hash_bytes(hash, run->x, run->size * sizeof(double));
+        hash = hash_bytes(hash, run->v, run->size * sizeof(double));
     }
     return hash;
 }

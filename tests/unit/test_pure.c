@@ -11,7 +11,7 @@
 
 enum { STEPS = 36 }; /* no multiple of 37 */
 
-/* The state after the next step; bytes [state_bytes] out. */
+/* The state after the next step; bytes out. */
 static void step(Simulation *simulation, void *bytes)
 {
     Status status = simulation_step(simulation);
@@ -81,7 +81,7 @@ static bool check_run(const Options *options)
 {
     Simulation simulation;
     Status status = simulation_create(options, NULL, NULL, &simulation);
-    size_t size = status ? 0 : state_bytes(&simulation);
+    size_t size = status ? 0 : state_save(&simulation, NULL);
     unsigned char *states = malloc((STEPS + 1) * size + 1);
     CHECK(states != NULL);
     CHECK(!status || status == STATUS_INVALID_INPUT);
@@ -159,7 +159,7 @@ TEST(another_timestep_begins_anew)
                      STATUS_OK);
         for (int i = 0; i < 5; i++)
             CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-        unsigned char *bytes = malloc(state_bytes(&simulation));
+        unsigned char *bytes = malloc(state_save(&simulation, NULL));
         CHECK(bytes != NULL);
         state_save(&simulation, bytes);
         options.timestep = 2e-3;
