@@ -49,10 +49,6 @@ static inline void element_vectors(const Element *element, const double *x,
     }
 }
 
-/* out [2n] += factor g, g [4] in a and b. */
-void element_add(const Element *element, double factor, const double g[4],
-                 double *out);
-
 /* What a term says.  Elements are counted from 0. */
 struct ElementKind {
     /* Looks for elements before they are counted: those at x, and with p [2n]

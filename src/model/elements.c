@@ -29,8 +29,9 @@ bool elements_next(ElementWalk *walk)
     return false;
 }
 
-void element_add(const Element *element, double factor, const double g[4],
-                 double *out)
+/* out [2n] += factor g, g [4] in a and b. */
+static void element_add(const Element *element, double factor,
+                        const double g[4], double *out)
 {
     for (int i = 0; i < 2 * element->nodes; i++) {
         double sum = 0;

@@ -74,21 +74,19 @@ static void pass_exhibit(Cursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
-    if (exhibit_has_kinds(simulation)) {
+    bool kinds = exhibit_has_kinds(simulation);
+    if (kinds)
         PASS(simulation->exhibit.parts);
+    if (kinds || scene->step)
         pass(cursor, simulation->system.k,
              (size_t)simulation->system.springs * sizeof(double));
-    }
-    if (!scene->step && !scene->grips)
-        return;
-    PASS(simulation->exhibit);
+    if (scene->step || scene->grips)
+        PASS(simulation->exhibit);
     if (!scene->step)
         return;
     PASS(simulation->descent);
     PASS(simulation->options.timestep);
     PASS(run->h);
-    pass(cursor, simulation->system.k,
-         (size_t)simulation->system.springs * sizeof(double));
     if (run->newton)
         run->newton->settings.h = run->h;
 }
