@@ -126,6 +126,7 @@ static void read_springs(Grid *grid, const System *system, const Place *place,
     }
     grid->length = unit_of(sqrt(place->l2[system->springs - 1]));
     unit = grid->length * grid->length;
+    grid->energy = grid->mass * unit;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         int a = e[0] < e[1] ? e[0] : e[1], b = e[0] < e[1] ? e[1] : e[0];

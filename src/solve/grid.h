@@ -61,7 +61,7 @@ static inline int place_of(const Rows *rows, int i, int j)
 typedef struct Grid {
     Rows rows;
     int segments, bands;
-    double length, mass; /* its units: 1/m, 1/kg */
+    double length, mass, energy; /* its units: 1/m, 1/kg, 1/(J s^2) */
     /* Rows with the same masses, or the same springs, share one place: numbers
      * of row i stand shift[i + 1] further than its nodes. */
     int *node_shift, *spring_shift; /* [nodes + 1] */

@@ -254,12 +254,6 @@ static double lowest(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
-/* The grid's: 1/(J s^2). */
-static double energy_unit(const Grid *grid)
-{
-    return grid->mass * grid->length * grid->length;
-}
-
 /* Goes along p to where E is lowest, and tells the record.  Returns OK,
  * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE. */
 static Status search_step(Newton *newton)
@@ -269,7 +263,7 @@ static Status search_step(Newton *newton)
     Quartic along;
     grid_along(&mg->grid, mg->g, mg->p, along.q);
     for (int i = 0; i < 4; i++)
-        along.q[i] /= energy_unit(&mg->grid);
+        along.q[i] /= mg->grid.energy;
     record->slope = along.q[0];
     record->alpha = record->change = record->trials = 0;
     if (!isfinite(record->slope))
@@ -305,7 +299,7 @@ static Status iterate(Newton *newton)
     mg->directions++;
     newton->counters.iterations++;
     int tiles = mg->tiles.high * mg->tiles.wide;
-    double unit = energy_unit(&mg->grid);
+    double unit = mg->grid.energy;
     if (mg->stalls)
         record->change +=
             tiles_relax(&mg->tiles, PACE * record->change * unit / tiles) /
