@@ -9,15 +9,11 @@
 #ifndef ELASTO_FILM_H
 #define ELASTO_FILM_H
 
-#include <stdbool.h>
-
 #include "picture/canvas.h"
 #include "play/output.h"
 
-typedef struct FilmKind FilmKind;
-
 typedef struct Film {
-    const FilmKind *kind;
+    const struct FilmKind *kind;
     int width, height; /* pixels; those of the first frame */
     long frames;       /* so far */
     Output output;

@@ -5,7 +5,6 @@
 #define ELASTO_VIEW_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "picture/paper.h"
 

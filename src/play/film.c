@@ -4,15 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-struct FilmKind {
+static const struct FilmKind {
     const char *end;   /* of the name; without its dot the name of the format */
     int rate;          /* frames a second */
     const char *words; /* what ffmpeg is told behind its input */
-};
-
-static const FilmKind film_kinds[] = {
+} film_kinds[] = {
     {".mp4", 60,
      "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"},
     {".webm", 60,

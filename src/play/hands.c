@@ -81,13 +81,12 @@ static Keyboard keyboard_now(const Player *player)
     bool number = player->lit;
     bool list = lists(player);
     bool asks = player_veils(player) && player_settings(player)->page->answer;
-    if (player->typing && (number || list || asks))
-        return AT_FIELD;
-    return player->sheet ? AT_SHEET
-           : number      ? AT_NUMBER
-           : list        ? AT_LIST
-           : asks        ? AT_QUESTION
-                         : AT_RUN;
+    return player->typing && (number || list || asks) ? AT_FIELD
+           : player->sheet                            ? AT_SHEET
+           : number                                   ? AT_NUMBER
+           : list                                     ? AT_LIST
+           : asks                                     ? AT_QUESTION
+                                                      : AT_RUN;
 }
 
 void player_deselect(Player *player)

@@ -4,7 +4,6 @@
  * so that equal tables are equal files.
  */
 #include <inttypes.h>
-#include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 

@@ -190,13 +190,11 @@ Status obey_film(Player *player, const Command *command)
     Status status =
         ends ? recording_end_film(recording) : recording_film(recording, name);
     player->sampled = -1; /* the present frame is the first, or drawn again */
-    player_note(player, "%s%s",
-                status ? "no film: "
-                : ends ? "film ends: "
-                       : "filming ",
-                status ? recording->message
-                : ends ? recording->film_told
-                       : name);
+    if (status)
+        player_note(player, "no film: %s", recording->message);
+    else
+        player_note(player, "%s%s", ends ? "film ends: " : "filming ",
+                    ends ? recording->film_told : name);
     recording->message[0] = '\0';
     return STATUS_OK;
 }

@@ -4,12 +4,10 @@
 #include <emscripten.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "play/playing.h"
-#include "play/player.h"
 #include "scenes/one_line.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
