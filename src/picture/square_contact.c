@@ -95,8 +95,11 @@ static void draw_words(const SpringPen *pen)
         !(fabs(slope) > 1e-6))
         return;
     camera_world(&stage->camera, stage->box.x - em, stage->box.y, from);
+    double left = from[0];
     for (int i = 0; i < pen->system->nodes; i++)
         from[0] = fmax(from[0], pen->x[2 * (size_t)i]);
+    if (!(from[0] > left)) /* it has left the picture */
+        return;
     from[0] += 2 * em / stage->camera.scale[0];
     from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
     plot_place(stage, from, at);

@@ -207,7 +207,7 @@ static void draw_warnings(const SpringPen *pen, int folded)
     else if (lost > 0)
         plot_legend(pen->stage, COLOUR_WARNING,
                     "%d of %d nodes are beyond all numbers", lost, nodes);
-    else if (seen == 0 && pen->show->lecture)
+    else if (seen == 0 && pen->show->lecture && pen->simulation->runs == 1)
         plot_legend(pen->stage, COLOUR_WARNING,
                     "all nodes are beyond the picture");
     if (folded > 0)

@@ -822,7 +822,7 @@ TEST(claim_potential)
 
 TEST(claim_algorithm3)
 {
-    says("algorithm3", "3 52 72 5 1");
+    says("algorithm3", "3 52 52 72 5 1");
     CHECK(known("algorithm3", "short") == 52);
     Simulation *simulation = open_page("algorithm3", "");
     make_steps(simulation, 1);
