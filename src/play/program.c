@@ -300,9 +300,15 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
         commands_help(stdout);
         return check_output();
     }
-    for (int i = 0; i < options->panes; i++)
-        if (options_parse(argc, argv, i, &options[i], message, sizeof message))
+    for (int i = 0; i < options->panes; i++) {
+        Status status = options_parse(argc, argv, i, &options[i], message,
+                                      sizeof message);
+        if (status == STATUS_INVALID_INPUT)
             return tell(EXIT_MISUSED, "%s", message);
+        if (status)
+            return tell(EXIT_FAILED, "%s; try fewer --segments",
+                        status_text(status));
+    }
     if (options->notes && argc > 2)
         return tell(EXIT_MISUSED,
                     "--notes prints those of all pages: nothing goes with it");

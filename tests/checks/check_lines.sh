@@ -32,6 +32,7 @@ mkdir refused
 cd refused || exit 1
 verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|no option --nonsense.*--help|--nonsense --states k.csv
+1|too large.*fewer --segments|--segments 3000 --body 0,0 --body 2,0
 2|--density|--states k.csv --log l.csv --density 1,1e-320
 2|from 1 to $pages|--lecture $((pages + 1))
 2|from 1 to $pages|--lecture 2x
