@@ -15,9 +15,6 @@ typedef struct History {
     double value[HISTORY_SERIES][HISTORY_POINTS]; /* one row a quantity */
 } History;
 
-/* Empties it; it has no series any more. */
-void history_clear(History *history);
-
 /* Appends a point, unless a number is not finite or it is full.  A quantity
  * that is new was 0 before; the last ones are left out where there are too
  * many.

@@ -45,14 +45,12 @@ void text_free(Text *text);
 /* Pixels from the upper edge of a line of words to that of the next. */
 double text_line(double size);
 
-/* Pixels; above and below of the baseline, no less than a line of words. */
+/* Pixels, the width whole; above and below of the baseline, no less than a line
+ * of words. */
 typedef struct TextExtent {
     double width, above, below;
 } TextExtent;
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
-
-/* Width in pixels. */
-int text_width(Text *text, const TextStyle *style, const char *markup);
 
 /* One line; y is the upper edge of its words, beyond which fractions and
  * matrices reach.  Returns the width. */

@@ -32,7 +32,7 @@ Status bench_frames(bool quick)
         options.integrator = integrator_method("verlet") - integrator_methods;
         status = simulation_create(&options, NULL, NULL, &simulation);
         if (!status) {
-            history_clear(&history);
+            history.series = history.count = 0;
             Energy row[HISTORY_SERIES];
             history_add(&history, 0, show_sample(&simulation, row), row);
             show_create(&simulation, &show);

@@ -3,12 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-void history_clear(History *history)
-{
-    history->series = 0;
-    history->count = 0;
-}
-
 /* The series of this name, most often number i; one more where it is new;
  * HISTORY_SERIES where there is no room. */
 static int find_series(History *history, int i, const char *name)

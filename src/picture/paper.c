@@ -54,7 +54,7 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
 int paper_width(Paper *paper, Face face, double size, const char *markup)
 {
     TextStyle style = paper_style(paper, face, size, 0);
-    return text_width(paper->text, &style, markup);
+    return (int)text_extent(paper->text, &style, markup).width;
 }
 
 int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
@@ -96,7 +96,8 @@ static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
     char part[PAPER_TEXT];
     size_t fits = 0, length = strlen(markup);
     int depth = 0;
-    if (length < sizeof part && text_width(paper->text, style, markup) <= width)
+    if (length < sizeof part &&
+        text_extent(paper->text, style, markup).width <= width)
         return length;
     for (size_t end = 0; end <= length && end < sizeof part; end++) {
         depth += (markup[end] == '{') - (markup[end] == '}');
@@ -104,7 +105,7 @@ static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
             continue;
         memcpy(part, markup, end);
         part[end] = '\0';
-        if (fits > 0 && text_width(paper->text, style, part) > width)
+        if (fits > 0 && text_extent(paper->text, style, part).width > width)
             break;
         fits = end;
     }

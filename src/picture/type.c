@@ -375,16 +375,11 @@ TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
                         ink.below > below ? ink.below + air : below};
 }
 
-int text_width(Text *text, const TextStyle *style, const char *markup)
-{
-    return (int)text_extent(text, style, markup).width;
-}
-
 /* Letters start at whole pixels; what flies off has no pixel. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {
-    int width = text_width(text, style, markup);
+    int width = (int)text_extent(text, style, markup).width;
     double start = align == ALIGN_LEFT     ? x
                    : align == ALIGN_CENTRE ? x - 0.5 * width
                                            : x - width;

@@ -206,7 +206,7 @@ void past_history(const Past *past, int pane, History *history)
     long ended = past_ended(past, pane, last);
     if (ended >= 0)
         last = ended;
-    history_clear(history);
+    history->series = history->count = 0;
     for (long step = 0; step < last + stride; step += stride) {
         const State *state =
             kept_of(past, pane, step < last ? step : last).entry->state;

@@ -275,10 +275,10 @@ TEST(markup_is_set)
         {"{x}", 2.01, 9, true},
     };
     TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
-    int x = text_width(text, &style, "x");
+    double x = text_extent(text, &style, "x").width;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         style.plain = rows[i].plain;
-        double width = text_width(text, &style, rows[i].markup);
+        double width = text_extent(text, &style, rows[i].markup).width;
         CHECK(width >= rows[i].least * x && width <= rows[i].most * x);
     }
 }
@@ -398,7 +398,7 @@ TEST(texts_are_clipped)
                 text_draw(text, &canvas, &style, x, y, ALIGN_RIGHT, "");
             }
         for (double far = 1e5; far < 1e300; far *= 1e5) {
-            int width = text_width(text, &style, "x");
+            double width = text_extent(text, &style, "x").width;
             CHECK(width ==
                   text_draw(text, &canvas, &style, far, -far, ALIGN_LEFT, "x"));
             CHECK(width == text_draw(text, &canvas, &style, -far, NAN,

@@ -156,7 +156,7 @@ TEST(history_goes_by_names)
     static History history;
     const Energy rows[] = {{"one", 1}, {"two", 2}, {"late", 3}};
     const Energy bad[] = {{"one", 1}, {"two", NAN}};
-    history_clear(&history);
+    history.series = history.count = 0;
     history_add(&history, 0, 2, rows);
     history_add(&history, 1, 2, bad);
     history_add(&history, NAN, 2, rows);

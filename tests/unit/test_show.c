@@ -36,7 +36,7 @@ static void stand_up(const char *line, int steps)
 {
     simulation_free(&simulation);
     simulation_from_line(line, NULL, NULL, &simulation);
-    history_clear(&history);
+    history.series = history.count = 0;
     sample();
     for (int i = 0; i < steps; i++) {
         Status status = simulation_step(&simulation);
