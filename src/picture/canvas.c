@@ -161,17 +161,6 @@ void canvas_card(Canvas *canvas, Box box, Colour fill, Colour border)
 
 /* ---- lines -------------------------------------------------------------- */
 
-/* A line with its long direction as the first axis: a is along, b across.
- * Pixel (i, j) in these axes is first[i * along + j * across]. */
-typedef struct LineFrame {
-    uint32_t *first;
-    ptrdiff_t along, across; /* distances in pixels[] */
-    int begin, end;          /* clip along */
-    int low, high;           /* clip across, fixed point */
-    Colour colour;
-    uint32_t full; /* opacity, 0 ... 256 */
-} LineFrame;
-
 bool box_cut(const Box *box, double margin, double line[4])
 {
     double left = box->x - margin, right = box->x + box->width + margin;
@@ -199,57 +188,39 @@ bool box_cut(const Box *box, double margin, double line[4])
     return t0 <= t1;
 }
 
-/* Adds the pixels between low and high (fixed point) of one column, as far as
- * the clip goes. */
-static inline void line_column(const LineFrame *frame, uint32_t *column,
-                               int low, int high, uint32_t amount)
+/* Adds the pixels from low to high > low, fixed point, which are `across`
+ * pixels[] apart. */
+static inline void mix_column(uint32_t *column, ptrdiff_t across, int low,
+                              int high, Colour colour, uint32_t amount)
 {
-    low = low < frame->low ? frame->low : low;
-    high = high > frame->high ? frame->high : high;
-    if (low >= high)
-        return;
     int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
-    Colour colour = frame->colour;
-    uint32_t *p = column + row * frame->across;
+    uint32_t *p = column + row * across;
     if (row == last) {
         *p = mix(*p, colour, (uint32_t)(high - low) * amount >> FIXED_BITS);
         return;
     }
     uint32_t part = (uint32_t)(FIXED_ONE - (low & (FIXED_ONE - 1)));
     *p = mix(*p, colour, part * amount >> FIXED_BITS);
-    for (p += frame->across; ++row < last; p += frame->across)
+    for (p += across; ++row < last; p += across)
         *p = mix(*p, colour, amount);
     part = (uint32_t)(high - last * FIXED_ONE);
     *p = mix(*p, colour, part * amount >> FIXED_BITS);
 }
 
-/* From a0 to a1 > a0, |slope| <= 1, b = b0 at a0, in the axes of the frame; in
- * fixed point, for most lines are a few pixels long. */
-static void line_columns(const LineFrame *frame, double a0, double a1,
-                         double b0, double slope, double width)
+/* The smaller, the larger one. */
+static inline int lower(int a, int b)
 {
-    int from = (int)(a0 * FIXED_ONE), to = (int)(a1 * FIXED_ONE);
-    int begin = from >> FIXED_BITS, end = (to + FIXED_ONE - 1) >> FIXED_BITS;
-    begin = begin < frame->begin ? frame->begin : begin;
-    end = end > frame->end ? frame->end : end;
-    int b = (int)((b0 + (begin + 0.5 - a0) * slope) * FIXED_ONE);
-    int step = (int)(slope * FIXED_ONE);
-    int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
-    uint32_t *column = frame->first + begin * frame->along;
-    for (int i = begin; i < end; i++, b += step, column += frame->along) {
-        uint32_t amount = frame->full;
-        if (i == begin || i + 1 == end) { /* its ends cover parts of pixels */
-            int left = i * FIXED_ONE, right = left + FIXED_ONE;
-            left = left < from ? from : left;
-            right = right > to ? to : right;
-            amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
-        }
-        line_column(frame, column, b - reach, b + reach, amount);
-    }
+    return a < b ? a : b;
 }
 
-/* Columns or rows, whichever the line crosses more of; from left to right or
- * downwards. */
+static inline int upper(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+/* Columns or rows, whichever the line crosses more of, from left to right or
+ * downwards: axis k is along the line, axis j across it.  In fixed point, for
+ * most lines are a few pixels long. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
 {
@@ -258,21 +229,35 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     if (!(width > 0) || width > MOST_WIDTH || !box_cut(clip, width + 1, line))
         return;
     const double d[2] = {line[2] - line[0], line[3] - line[1]};
-    const int from[2] = {clip->x, clip->y};
-    const int to[2] = {clip->x + clip->width, clip->y + clip->height};
-    int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1, back = d[k] > 0 ? 0 : 2;
-    const LineFrame frame = {.first = canvas->pixels,
-                             .along = k ? canvas->width : 1,
-                             .across = k ? 1 : canvas->width,
-                             .begin = from[k],
-                             .end = to[k],
-                             .low = from[1 - k] * FIXED_ONE,
-                             .high = to[1 - k] * FIXED_ONE,
-                             .colour = colour,
-                             .full = opacity(colour)};
-    if (d[k] != 0)
-        line_columns(&frame, line[back + k], line[2 - back + k],
-                     line[back + 1 - k], d[1 - k] / d[k], width);
+    const int first[2] = {clip->x, clip->y};
+    const int behind[2] = {clip->x + clip->width, clip->y + clip->height};
+    const ptrdiff_t next[2] = {1, canvas->width}; /* in pixels[] */
+    int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1, j = 1 - k,
+        back = d[k] > 0 ? 0 : 2;
+    if (d[k] == 0)
+        return;
+    double from = line[back + k], slope = d[j] / d[k];
+    int start = (int)(from * FIXED_ONE);
+    int stop = (int)(line[2 - back + k] * FIXED_ONE);
+    int begin = upper(start >> FIXED_BITS, first[k]);
+    int end = lower((stop + FIXED_ONE - 1) >> FIXED_BITS, behind[k]);
+    int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
+    int middle =
+        (int)((line[back + j] + (begin + 0.5 - from) * slope) * FIXED_ONE);
+    int step = (int)(slope * FIXED_ONE);
+    uint32_t full = opacity(colour), *column = canvas->pixels + begin * next[k];
+    for (int i = begin; i < end; i++, middle += step, column += next[k]) {
+        int low = upper(middle - reach, first[j] * FIXED_ONE);
+        int high = lower(middle + reach, behind[j] * FIXED_ONE);
+        uint32_t amount = full;
+        if (i == begin || i + 1 == end) { /* its ends cover parts of pixels */
+            int left = upper(i * FIXED_ONE, start);
+            int right = lower((i + 1) * FIXED_ONE, stop);
+            amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
+        }
+        if (low < high)
+            mix_column(column, next[j], low, high, colour, amount);
+    }
 }
 
 void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
