@@ -251,6 +251,5 @@ void radius_draw(const Plot *card)
     draw_curves(&plot, find_curves(show, curve), curve);
     if (show->veiled || !plot_disc(&plot, twice, 4, COLOUR_TEXT))
         return;
-    plot_words(&plot, 1, twice, 0.5, 0.85, FACE_BOLD, COLOUR_TEXT,
-               "2 m: step %g", steps);
+    plot_words(&plot, 1, twice, COLOUR_TEXT, "2 m: step %g", steps);
 }

@@ -271,33 +271,27 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
                       const LawNow *now)
 {
     static const char *const names[] = {"upper", "middle", "lower"};
-    static const double dot = 6;                             /* units */
-    static const double near = 0.6, far = 2.6, together = 2; /* ems */
-    double at[SIMULATION_MAX_RUNS][2], p[2], q[2];
+    static const double dot = 6; /* units */
+    double at[SIMULATION_MAX_RUNS][2];
     for (int i = 0; i < runs; i++) {
         at[i][0] = fmin(fmax(now[i].x, plot->x.low), plot->x.high);
         at[i][1] = law->value(&now[i], now[i].x);
         plot_disc(plot, at[i], isnan(now[i].x) ? 0 : dot, COLOUR_P);
     }
     for (int i = 0, with = 0; i < runs && runs > 1; i++) {
+        const double across = 0.2 * (plot->x.high - plot->x.low);
+        const double place[4] = {at[i][0], at[i][1], at[i][0] + across,
+                                 at[i][1]};
         char words[40] = "";
-        for (int k = i; k < runs; k++) {
-            plot_place(plot, at[i], p);
-            plot_place(plot, at[k], q);
-            if (with >> k & 1 || !(fabs(p[0] - q[0]) < together * plot->em))
-                continue;
-            with |= 1 << k;
-            snprintf(words + strlen(words), sizeof words - strlen(words),
-                     "%s%s", words[0] ? ", " : "", names[k]);
-        }
-        if (words[0] && now[i].x > plot->x.high)
-            strcat(words, " \u2192");
-        if (at[i][0] == plot->x.low) /* below the curve that begins there */
-            plot_text(plot, at[i], far, -1.5, 1, ALIGN_LEFT, FACE_REGULAR,
-                      COLOUR_P, "%s", words);
-        else if (words[0])
-            plot_words(plot, 1, at[i], near, 1, FACE_REGULAR, COLOUR_P, "%s",
-                       words);
+        for (int k = i; k < runs; k++)
+            if (!(with >> k & 1) && fabs(at[i][0] - at[k][0]) < 0.5 * across) {
+                with |= 1 << k;
+                snprintf(words + strlen(words), sizeof words - strlen(words),
+                         "%s%s", words[0] ? ", " : "", names[k]);
+            }
+        if (words[0])
+            plot_words(plot, 2, place, COLOUR_P, "%s%s", words,
+                       now[i].x > plot->x.high ? " \u2192" : "");
     }
 }
 
@@ -331,7 +325,7 @@ void law_draw(const Plot *card)
                   COLOUR_FORCE);
     if (both && rest[0] != 0) {
         plot_ring(&plot, rest, 4, 2, COLOUR_PLASTIC);
-        plot_words(&plot, 1, rest, 0.5, 1, FACE_BOLD, COLOUR_PLASTIC, "s_{p}");
+        plot_words(&plot, 1, rest, COLOUR_PLASTIC, "s_{p}");
     }
     draw_dots(&plot, law, simulation->runs, now);
 }

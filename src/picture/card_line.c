@@ -78,8 +78,8 @@ static void draw_trial(const Plot *plot, double alpha, double value,
         canvas_arrow(&paper->canvas, at[0], at[1] + 14 * unit, at[0], at[1],
                      1.6 * unit, 7 * unit, colour);
     if (value > plot->y.high)
-        plot_words(plot, 1, (double[2]){alpha, plot->y.high}, 0.6, 1, FACE_BOLD,
-                   colour, "{alpha} = %s: +%s", number_of(alpha).text,
+        plot_words(plot, 1, (double[2]){alpha, plot->y.high}, colour,
+                   "{alpha} = %s: +%s", number_of(alpha).text,
                    number_of(value).text);
 }
 

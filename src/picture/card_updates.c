@@ -44,8 +44,8 @@ void values_draw(const Plot *card)
     const double from[2] = {-0.4, aim}, to[2] = {right, aim};
     const double told[2] = {0.5 * right, aim};
     plot_dashes(&plot, from, to, 1.6, NULL, COLOUR_X_TILDE);
-    plot_text(&plot, told, 0, -1.35, 1, ALIGN_LEFT, FACE_BOLD, COLOUR_X_TILDE,
-              "at {xt}: %s", number_with(aim, 4).text);
+    plot_words(&plot, 1, told, COLOUR_X_TILDE, "at {xt}: %s",
+               number_with(aim, 4).text);
     for (int i = 0; i <= made; i++) {
         if (i > 0) {
             at[0] = i;
@@ -53,8 +53,7 @@ void values_draw(const Plot *card)
             plot_line(&plot, before, at, 1.6, COLOUR_X);
         }
         plot_disc(&plot, at, 4.5, COLOUR_X);
-        plot_text(&plot, at, 0.5, -1.4, 1, ALIGN_LEFT, FACE_BOLD, COLOUR_X,
-                  "%s", number_with(at[1], 4).text);
+        plot_words(&plot, 1, at, COLOUR_X, "%s", number_with(at[1], 4).text);
         before[0] = at[0];
         before[1] = at[1];
     }

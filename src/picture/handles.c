@@ -87,7 +87,7 @@ void stage_prediction(const Plot *stage)
                     at[1] + k * arm, 3 * unit, COLOUR_HAND);
     if (guess->shown)
         canvas_dashes(canvas, at, came, 1.6 * unit, unit, NULL, COLOUR_HAND);
-    plot_text(stage, guess->at, 1, -0.6, 1, ALIGN_LEFT, FACE_BOLD, COLOUR_HAND,
-              guess->shown ? "%s m off" : "your guess; N shows the step",
-              number_of(guess->distance).text);
+    plot_words(stage, 1, guess->at, COLOUR_HAND,
+               guess->shown ? "%s m off" : "your guess; N shows the step",
+               number_of(guess->distance).text);
 }

@@ -109,13 +109,6 @@ static void show_map(const Plot *plot)
     canvas_copy(&paper->canvas, &paper->map, plot->box.x, plot->box.y);
 }
 
-/* x_tilde's name, off the ring of its handle. */
-static void name_target(const Plot *plot)
-{
-    plot_words(plot, 1, plot->simulation->exhibit.target, 0.9, 1.1, FACE_BOLD,
-               COLOUR_X_TILDE, "{xt}");
-}
-
 /* The map, the springs, the pins and x_tilde. */
 static Plot draw_map(const Plot *stage)
 {
@@ -166,7 +159,7 @@ static void draw_direction(const Plot *plot, bool named, const double p[2],
     plot_place(plot, place, at);
     if (!named || !name || !box_contains(plot->box, at[0], at[1]))
         return;
-    plot_words(plot, 2, place, 0.8, 1, FACE_BOLD, colour, "%s (slope %s)", name,
+    plot_words(plot, 2, place, colour, "%s (slope %s)", name,
                number_with(slope, 2).text);
 }
 
@@ -188,8 +181,7 @@ static void name_still(const Plot *plot)
             descent_bends_down(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow(plot, at[i], 4, 2, COLOUR_TEXT);
-        plot_words(plot, 1, at[i], 0.8, 0.95, FACE_REGULAR, COLOUR_TEXT,
-                   saddle ? "saddle" : "minimum");
+        plot_words(plot, 1, at[i], COLOUR_TEXT, saddle ? "saddle" : "minimum");
     }
 }
 
@@ -314,7 +306,7 @@ void landscape_draw(Plot *stage)
         simulation->exhibit.parts != PART_INERTIA)
         name_still(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
-    name_target(&plot);
+    plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
 }
 
 /* ---- the dial ----------------------------------------------------------- */
@@ -337,10 +329,10 @@ void dial_draw(Plot *stage)
     if (!show->veiled)
         draw_walk(&plot, walk);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
-    name_target(&plot);
+    plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
     for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10)
-        plot_words(&plot, 1, walk->point[i], 0.8, 0.95, FACE_REGULAR, COLOUR_X,
-                   "h = %s s", number_of(walk->h[i]).text);
+        plot_words(&plot, 1, walk->point[i], COLOUR_X, "h = %s s",
+                   number_of(walk->h[i]).text);
 }
 
 void dial_facts(const Simulation *simulation, Facts *facts)

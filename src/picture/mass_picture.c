@@ -80,8 +80,7 @@ void circle_draw(Plot *stage)
         plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
                      &phase, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
-    plot_text(stage, half, 0, 0.2, 0.9, ALIGN_CENTRE, FACE_REGULAR,
-              COLOUR_FAINT, "1 m");
+    plot_words(stage, 1, half, COLOUR_FAINT, "1 m");
     draw_trails(stage, false);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, simulation->run[r].x, 7, run_colour(simulation, r));
@@ -229,7 +228,7 @@ static void draw_miss(const Plot *stage, const MassStep *step, double h,
     plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
     plot_ring(stage, to, 6, 2, COLOUR_X);
     plot_arrow(stage, to, d, 1, 2, COLOUR_WARNING);
-    plot_words(stage, 2, at, 1.2, 1, FACE_BOLD, COLOUR_WARNING, "%s", words);
+    plot_words(stage, 2, at, COLOUR_WARNING, "%s", words);
 }
 
 /* The exact end of the step; of backward Euler x' as it is found: x + h v, then
@@ -247,7 +246,7 @@ static void draw_mass_lesson(Plot *stage)
     for (int half = 1; half >= 0 && step.by_old_v; half--)
         draw_miss(stage, &step, half ? 0.5 * h : h,
                   half ? "with h/2: a quarter" : "h\u00b2/2 a");
-    plot_words(stage, 1, end, 0.8, 1, FACE_REGULAR, COLOUR_FAINT, "exact");
+    plot_words(stage, 1, end, COLOUR_FAINT, "exact");
     memcpy(guess, step.x, sizeof guess);
     for (int k = 0; k < MASS_GUESSES && implicit; k++) {
         for (int i = 0; i < 2; i++) {
@@ -263,8 +262,7 @@ static void draw_mass_lesson(Plot *stage)
                 stage->camera.scale[0] >
             1.5 * stage->em;
         if (apart)
-            plot_words(stage, 1, guess, 0.8, 1, FACE_BOLD, COLOUR_FAINT, "%d",
-                       k + 1);
+            plot_words(stage, 1, guess, COLOUR_FAINT, "%d", k + 1);
     }
     bool symplectic = !step.by_old_v && !implicit;
     double x[2], v[2];
@@ -324,15 +322,14 @@ static void draw_mass_step(Plot *stage)
     plot_disc(stage, step.x, 8, COLOUR_X);
     if (stage->show->lecture)
         draw_mass_lesson(stage);
-    plot_words(stage, 1, step.new_x, 0.9, 1.15, FACE_BOLD, COLOUR_X, "x\u2032");
+    plot_words(stage, 1, step.new_x, COLOUR_X, "x\u2032");
     for (int i = 0; i < 4 + backward; i++) {
         const struct MassArrow *now = &arrow[order[i]];
         double at[8], scale = stage->camera.scale[0];
         for (int k = 0; k < 8; k++)
             at[k] = now->a[k % 2] + part[k / 2] * now->d[k % 2];
         if (math_hypot(now->d[0], now->d[1]) * scale > 2 * stage->em)
-            plot_words(stage, 4, at, 0.35, 1.15, FACE_BOLD, now->colour, "%s",
-                       now->word);
+            plot_words(stage, 4, at, now->colour, "%s", now->word);
     }
 }
 

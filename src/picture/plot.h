@@ -114,11 +114,6 @@ double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
 
 /* They are made as printf does, and only where there is room for words. */
 
-/* One line, so many ems right of and below a point. */
-void plot_text(const Plot *plot, const double *at, double right, double below,
-               double size, Align align, Face face, Colour colour,
-               const char *format, ...);
-
 /* Words in colours from the upper left corner to the right, on a second line
  * if there is no room. */
 void plot_legend(Plot *plot, Colour colour, const char *format, ...);
@@ -130,11 +125,11 @@ void plot_scale(const Plot *plot);
  */
 double plot_cost(const Plot *plot, Box place);
 
-/* Beside one of these points, `gap` ems from it, off what has been drawn, which
- * is found by its pixels, on a ground of thin white.
+/* In bold beside one of these points, off what has been drawn, which is found
+ * by its pixels, on a ground of thin white.
  *   at  [points][2] in; the first ones are preferred */
-void plot_words(const Plot *plot, int points, const double *at, double gap,
-                double size, Face face, Colour colour, const char *format, ...);
+void plot_words(const Plot *plot, int points, const double *at, Colour colour,
+                const char *format, ...);
 
 /* "1e5" as people write it, with so many digits, or three: 100000, 2.5e7,
  * 0.003; in markup with a superscript where it needs a power. */

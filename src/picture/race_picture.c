@@ -49,37 +49,6 @@ static const RacePoint *draw_method(Plot *plot, int method)
     return last;
 }
 
-/* Right of the last points, explicit ones, beside which others begin, below
- * them; where one would lie on another it is below that. */
-static void write_names(const Plot *plot, const RacePoint *const *last)
-{
-    static const double size = 0.95, gap = 0.6, back = -2.6; /* ems */
-    Paper *paper = plot->paper;
-    Box place[RACE_METHODS];
-    int count = 0, high = paper_pixels(paper, 1.15);
-    for (int i = RACE_METHODS - 1; i >= 0; i--) {
-        if (!last[i])
-            continue;
-        const IntegratorMethod *method = race_method(i);
-        double at[2];
-        plot_place(
-            plot,
-            (double[2]){place_of(plot->simulation, last[i]), last[i]->error},
-            at);
-        bool below = !method->implicit;
-        Box box = {(int)(at[0] + (below ? back : gap) * plot->em),
-                   (int)at[1] + high / 2 * (below ? 1 : -1),
-                   paper_width(paper, FACE_BOLD, size, method->label), high};
-        for (int k = 0; k < count; k++)
-            if (box_shared(box, place[k]).width > 0 &&
-                box_shared(box, place[k]).height > 0)
-                box.y = place[k].y + high;
-        place[count++] = box;
-        paper_panel(paper, FACE_BOLD, size, colour_of_method(method->name),
-                    box.x, box.y, ALIGN_LEFT, method->label);
-    }
-}
-
 /* Over run time the names of the methods, each at its last point; over h they
  * would lie on each other, and the table has their colours. */
 void race_draw(Plot *stage)
@@ -93,15 +62,19 @@ void race_draw(Plot *stage)
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true});
     const double at[2][2] = {{plot.x.low, NEAR}, {plot.x.high, NEAR}};
-    if (!over_h)
+    if (!over_h) {
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
-    if (!over_h)
-        plot_text(&plot, at[1], -0.4, -1.3, 0.95, ALIGN_RIGHT, FACE_BOLD,
-                  COLOUR_TEXT, "1 cm");
+        plot_words(&plot, 1, at[1], COLOUR_TEXT, "1 cm");
+    }
     for (int i = 0; i < RACE_METHODS; i++)
         last[i] = draw_method(&plot, i);
-    if (wide)
-        write_names(&plot, last);
+    for (int i = RACE_METHODS - 1; i >= 0 && wide; i--) {
+        double x = last[i] ? place_of(simulation, last[i]) : NAN;
+        double y = last[i] ? last[i]->error : NAN;
+        plot_words(&plot, 3, (double[6]){x, y, 2 * x, y, x, 0.1 * y},
+                   colour_of_method(race_method(i)->name), "%s",
+                   race_method(i)->label);
+    }
 }
 
 /* The quickest stable run that is so near, of an implicit method or an explicit

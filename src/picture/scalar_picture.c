@@ -110,7 +110,7 @@ static void draw_iterates(const Plot *plot, const Update *update,
         if (!seen || !plot->text || fabs(p[0] - used[i % 2]) < 1.5 * plot->em)
             continue;
         used[i % 2] = p[0];
-        plot_words(plot, 1, at, 0.9, 1, FACE_BOLD, colour, "x^{%d}", i);
+        plot_words(plot, 1, at, colour, "x^{%d}", i);
     }
 }
 
@@ -132,13 +132,12 @@ static void draw_search(const Plot *plot, const Update *update, bool slopes,
         plot_hollow(plot, low, 6, 3.6, COLOUR_P);
         plot_line(plot, low, high, 1.2, COLOUR_P);
     }
+    const double edge[2] = {right ? plot->x.high : plot->x.low,
+                            0.2 * plot->y.low};
     if (model && !slopes && isfinite(x1) && (left || right))
-        plot_text(
-            plot,
-            (double[2]){right ? plot->x.high : plot->x.low, 0.2 * plot->y.low},
-            0, 0, 1, right ? ALIGN_RIGHT : ALIGN_LEFT, FACE_BOLD, COLOUR_P,
-            "%sto x = %s%s", right ? "" : "\u2190 ", number_of(x1).text,
-            right ? " \u2192" : "");
+        plot_words(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
+                   right ? "" : "\u2190 ", number_of(x1).text,
+                   right ? " \u2192" : "");
     draw_iterates(plot, update, curve);
 }
 
@@ -240,8 +239,7 @@ void tangent_draw(Plot *stage)
         return;
     stage_handles(&plot[1]);
     if (plot_disc(&plot[1], target, 5, COLOUR_X_TILDE))
-        plot_words(&plot[1], 1, target, 1, 1, FACE_BOLD, COLOUR_X_TILDE,
-                   "{xt}");
+        plot_words(&plot[1], 1, target, COLOUR_X_TILDE, "{xt}");
     Paper *paper = stage->paper;
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[0].box.x + paper->em,
                 stage->box.y + 0.5 * paper->em, ALIGN_LEFT,

@@ -51,8 +51,7 @@ static void spring_circle(Plot *stage, double radius, Colour colour,
     const double label[2] = {-0.7071 * radius, -0.7071 * radius};
     double phase = 0;
     plot_ellipse(stage, origin, a, b, 1.4, &phase, colour);
-    plot_text(stage, label, -0.4, 0.1, 0.95, ALIGN_RIGHT, FACE_REGULAR, colour,
-              "%s", word);
+    plot_words(stage, 1, label, colour, "%s", word);
 }
 
 /* A zigzag from the held end to x. */
@@ -206,10 +205,10 @@ void profile_draw(const Plot *card)
     if (both) {
         plot_graph(&plot, root_over, system, 1.8, COLOUR_GHOST);
         plot_disc(&plot, root, 5, COLOUR_GHOST);
-        plot_words(&plot, 1, (double[2]){0, root_over(system, 0)}, 0.6, 1.2,
-                   FACE_BOLD, COLOUR_GHOST, "P_{r} = 2k (|d| \u2212 l)\u00b2");
-        plot_words(&plot, 1, (double[2]){0, energy_over(system, 0)}, 0.6, 1.2,
-                   FACE_BOLD, COLOUR_X, "P");
+        plot_words(&plot, 1, (double[2]){0, root_over(system, 0)}, COLOUR_GHOST,
+                   "P_{r} = 2k (|d| \u2212 l)\u00b2");
+        plot_words(&plot, 1, (double[2]){0, energy_over(system, 0)}, COLOUR_X,
+                   "P");
     }
     plot_disc(&plot, at, 6, COLOUR_TEXT);
 }

@@ -335,8 +335,8 @@ static void draw_page_arrows(const SpringPen *pen)
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
     draw_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
-    plot_words(pen->stage, 1, pen->x + 2 * system->nodes - 2, 0.7, 1, FACE_BOLD,
-               COLOUR_TEXT, "node %d", system->nodes - 1);
+    plot_words(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
+               "node %d", system->nodes - 1);
 }
 
 /* A solid at rest, not cut yet. */

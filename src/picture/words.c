@@ -20,8 +20,9 @@ static const double LINE_HEIGHT = 1.3;  /* ems of the words */
 /* What a place costs: full of ink, outside of the plot, and for each place that
  * would have been preferred. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_LATER = 0.08;
-static const double AIR = 0.2; /* ems, between words and ink */
-static const Colour INK = 190; /* of 255, a pixel is no ground below that */
+static const double AIR = 0.2;   /* ems, between words and ink */
+static const double APART = 0.8; /* ems, from a point to its words */
+static const Colour INK = 190;   /* of 255, a pixel is no ground below that */
 
 /* ---- numbers ------------------------------------------------------------ */
 
@@ -60,25 +61,8 @@ Number number_of(double value)
     return number_with(value, 3);
 }
 
-/* ---- beside a point, in a row, at the edges ----------------------------- */
-
-void plot_text(const Plot *plot, const double *at, double right, double below,
-               double size, Align align, Face face, Colour colour,
-               const char *format, ...)
-{
-    Paper *paper = plot->paper;
-    char words[WORDS_TEXT];
-    double p[2];
-    va_list arguments;
-    if (!plot->text)
-        return;
-    va_start(arguments, format);
-    vsnprintf(words, sizeof words, format, arguments);
-    va_end(arguments);
-    plot_place(plot, at, p);
-    paper_write(paper, face, size, colour, p[0] + right * paper->em,
-                p[1] + below * paper->em, align, "%s", words);
-}
+/* ---- in a row, at the edges -----------------------------------------------
+ */
 
 /* 1, 2 or 5 times a power of ten metres. */
 void plot_scale(const Plot *plot)
@@ -131,8 +115,8 @@ double plot_cost(const Plot *plot, Box place)
            COST_OUTSIDE;
 }
 
-void plot_words(const Plot *plot, int points, const double *at, double gap,
-                double size, Face face, Colour colour, const char *format, ...)
+void plot_words(const Plot *plot, int points, const double *at, Colour colour,
+                const char *format, ...)
 {
     Paper *paper = plot->paper;
     char words[WORDS_TEXT];
@@ -145,8 +129,8 @@ void plot_words(const Plot *plot, int points, const double *at, double gap,
     /* right, left, below, above, then the corners */
     static const int side[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                    {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
-    int wide = paper_width(paper, face, size, words);
-    int high = (int)ceil(LINE_HEIGHT * size * paper->em);
+    int wide = paper_width(paper, FACE_BOLD, 1, words);
+    int high = (int)ceil(LINE_HEIGHT * paper->em);
     Box best = {0, 0, wide, high};
     double least = INFINITY;
     for (int i = 0; i < 8 * points; i++) {
@@ -155,7 +139,7 @@ void plot_words(const Plot *plot, int points, const double *at, double gap,
         plot_place(plot, at + i / 8 * 2, p);
         if (!(fabs(p[0]) < FARTHEST && fabs(p[1]) < FARTHEST))
             continue;
-        double apart = (i % 8 < 4 ? gap : 0.7 * gap) * paper->em;
+        double apart = (i % 8 < 4 ? APART : 0.7 * APART) * paper->em;
         Box place = {(int)(p[0] + to[0] * (apart + 0.5 * wide) - 0.5 * wide),
                      (int)(p[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
                      wide, high};
@@ -171,6 +155,6 @@ void plot_words(const Plot *plot, int points, const double *at, double gap,
     canvas_fill(&paper->canvas,
                 (Box){best.x - 1, best.y + high / 8, wide + 2, high - high / 4},
                 COLOUR_PANEL);
-    paper_write(paper, face, size, colour, best.x, best.y, ALIGN_LEFT, "%s",
+    paper_write(paper, FACE_BOLD, 1, colour, best.x, best.y, ALIGN_LEFT, "%s",
                 words);
 }

@@ -321,8 +321,7 @@ TEST(words_keep_off_lines_and_words)
         }
         int ink = count_pixels(&paper.canvas, COLOUR_P, &left);
         for (int i = 0; i < 5; i++) {
-            plot_words(&plot, 1, i ? middle : far, 1.5, 1, FACE_REGULAR,
-                       COLOUR_TEXT, "words");
+            plot_words(&plot, 1, i ? middle : far, COLOUR_TEXT, "words");
             int letters = count_pixels(&paper.canvas, COLOUR_TEXT, &left);
             one = i == 1 ? letters : one;
             CHECK(letters == i * one && (i == 0) == (letters == 0));
