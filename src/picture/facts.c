@@ -164,13 +164,6 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     }
 }
 
-/* Whether lines of an algorithm are shown, or the search in one of them. */
-static bool has_listing(const LecturePage *page)
-{
-    return !page || strstr(page->cards, "listing") ||
-           strstr(page->cards, "line");
-}
-
 /* What is known of a pane, whose update is known, and what its picture knows
  * beside that; facts out. */
 static void facts_of(const Show *show, int pane, Facts *facts)
@@ -192,7 +185,8 @@ static void facts_of(const Show *show, int pane, Facts *facts)
         fact_words(facts, status_name(now->trouble), "");
         fact_words(facts, "trouble", status_text(now->trouble));
     }
-    if (has_listing(show->lecture)) /* or nobody knows what a line is */
+    const char *cards = show->lecture ? show->lecture->cards : "listing";
+    if (strstr(cards, "listing") || strstr(cards, "line")) /* they are seen */
         fact_when(facts, lines[line], line);
     fact_when(facts, "no step", !now->update);
     if (now->update)

@@ -284,7 +284,7 @@ static void draw_model(const Plot *plot)
     for (int k = 0; k < 3; k++) {
         double radius = levels[k] * sqrt(height), up = radius / sqrt(rest);
         const double a[2] = {radius / sqrt(low), 0}, b[2] = {-lift * up, up};
-        plot_ellipse(plot, middle, a, b, 1.6, NULL, COLOUR_P);
+        plot_ellipse(plot, middle, a, b, 1.6, false, COLOUR_P);
     }
 }
 

@@ -75,10 +75,9 @@ void circle_draw(Plot *stage)
     plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
               COLOUR_GRID);
     plot_line(stage, origin, start, 1.2, COLOUR_GREY);
-    double phase = 0;
     if (stage->show->lecture && !stage->show->veiled)
         plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
-                     &phase, COLOUR_GREY);
+                     true, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
     plot_words(stage, 1, half, COLOUR_FAINT, "1 m");
     draw_trails(stage, false);
@@ -283,7 +282,7 @@ static void draw_mass_lesson(Plot *stage)
     const double across[2] = {(step.new_x[0] - turn * step.x[0]) / reach,
                               (step.new_x[1] - turn * step.x[1]) / reach};
     if (symplectic && h < 2)
-        plot_ellipse(stage, origin, step.x, across, 2.4, NULL, COLOUR_ALPHA);
+        plot_ellipse(stage, origin, step.x, across, 2.4, false, COLOUR_ALPHA);
 }
 
 /* The arrows of one method in the order in which it makes them; what a page
@@ -357,7 +356,7 @@ void mass_draw(Plot *stage)
     const Prediction *guess = &simulation->prediction;
     mass_exact(simulation, 0, start);
     mass_exact(simulation, 0.25 * MASS_TURN, across);
-    plot_ellipse(stage, origin, start, across, 4, NULL, COLOUR_GRID);
+    plot_ellipse(stage, origin, start, across, 4, false, COLOUR_GRID);
     for (int r = 0; r < simulation->runs; r++)
         plot_line(stage, origin, run[r].x, 1.4, COLOUR_REST);
     plot_pin(stage, origin, 5);

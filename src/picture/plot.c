@@ -262,15 +262,15 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
 }
 
 void plot_ellipse(const Plot *plot, const double *middle, const double *a,
-                  const double *b, double width, double *phase, Colour colour)
+                  const double *b, double width, bool dashed, Colour colour)
 {
-    double from[2];
+    double from[2], phase = 0;
     for (int i = 0; i <= PLOT_CORNERS; i++) {
         double t = TURN * i / PLOT_CORNERS;
         const double to[2] = {middle[0] + a[0] * cos(t) + b[0] * sin(t),
                               middle[1] + a[1] * cos(t) + b[1] * sin(t)};
-        if (i > 0 && phase)
-            plot_dashes(plot, from, to, width, phase, colour);
+        if (i > 0 && dashed)
+            plot_dashes(plot, from, to, width, &phase, colour);
         else if (i > 0)
             plot_line(plot, from, to, width, colour);
         memcpy(from, to, sizeof from);

@@ -70,9 +70,9 @@ void plot_line(const Plot *plot, const double *a, const double *b, double width,
 void plot_dashes(const Plot *plot, const double *a, const double *b,
                  double width, double *phase, Colour colour);
 
-/* middle + a cos t + b sin t; phase NULL: it has no dashes. */
+/* middle + a cos t + b sin t. */
 void plot_ellipse(const Plot *plot, const double *middle, const double *a,
-                  const double *b, double width, double *phase, Colour colour);
+                  const double *b, double width, bool dashed, Colour colour);
 
 /* All springs of a system at x [2n], the broken ones too. */
 void plot_springs(const Plot *plot, const System *system, const double *x,

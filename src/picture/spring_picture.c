@@ -49,8 +49,7 @@ static void spring_circle(Plot *stage, double radius, Colour colour,
 {
     const double a[2] = {radius, 0}, b[2] = {0, radius};
     const double label[2] = {-0.7071 * radius, -0.7071 * radius};
-    double phase = 0;
-    plot_ellipse(stage, origin, a, b, 1.4, &phase, colour);
+    plot_ellipse(stage, origin, a, b, 1.4, true, colour);
     plot_words(stage, 1, label, colour, "%s", word);
 }
 

@@ -32,14 +32,6 @@ static bool has_frame(const Simulation *simulation)
     return frame[2] > frame[0];
 }
 
-/* Whether nothing holds the body or is in its way: then the view follows it. */
-static bool is_free(const Simulation *simulation)
-{
-    const Options *options = &simulation->options;
-    return options->grounds + options->balls == 0 && !simulation->scene->own &&
-           options->ceiling[1] == 0 && simulation->runs == 1;
-}
-
 /* The square as it starts, or with the room that a squeezed one needs to spring
  * out and bulge, around the middle or where a free one has drifted,
  * less the way that the view has room for; where nodes have left that, 1.5,
@@ -51,6 +43,10 @@ void square_bounds(const Plot *stage, double bounds[4])
     const double *x = pane_x(&show->pane[stage->pane]);
     int nodes = simulation->system.nodes;
     const Options *options = &simulation->options;
+    /* Nothing holds the body or is in its way: the view follows it. */
+    bool drifts = options->grounds + options->balls == 0 &&
+                  !simulation->scene->own && options->ceiling[1] == 0 &&
+                  simulation->runs == 1;
     double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
@@ -63,7 +59,7 @@ void square_bounds(const Plot *stage, double bounds[4])
     }
     for (int k = 0; k < 2; k++) {
         double centre = 0, room = 0.5 * size[k];
-        for (int i = 0; i < nodes && is_free(simulation); i++)
+        for (int i = 0; i < nodes && drifts; i++)
             centre += x[2 * i + k];
         centre /= nodes;
         if (isfinite(centre) && fabs(centre) > room)
