@@ -175,18 +175,21 @@ static void judge_direction(Watch *watch, const double *u, double limit)
         return;
     moment.clamped = !bound && (newton->settings.filter == FILTER_CLAMP ||
                                 newton->record.projected > 0);
-    Real noise, given = 0, residual = claimed_residual(newton);
+    Real noise, given = 0, residual = claimed_residual(newton), far = 0;
     if (!(residual <= limit * (1 + 1e-9L)))
         blame(watch, "converged, but the residual is %Lg m/s", residual);
     for (int i = 0; i < watch_size(watch); i++) {
         bool held = pinned && pinned[i / 2];
         watch->way[i] = held ? 0 : 2 * random_below(&random, 2) - 1;
         given += watch->way[i] * lacking(newton, i);
+        far += bound ? 0 : fabs(newton->at.p[i]);
     }
     Real off = wide_imbalance(&moment, u, bound ? NULL : newton->at.p,
                               watch->way, given, &noise);
-    /* once for the sums, once for the factor */
-    if (!(fabsl(off) <= ROUNDINGS * ROUNDINGS * noise))
+    /* of the sums; of a factor, whose entries are sums over a node's springs */
+    Real factor = DBL_EPSILON * newton->at.E.weight *
+                  (Real)newton->rounding.stiffest * far;
+    if (!(fabsl(off) <= ROUNDINGS * (ROUNDINGS * noise + factor)))
         blame(watch, "converged, but H p + grad E is %Lg, rounding %Lg", off,
               noise);
     watch->judged++;

@@ -92,6 +92,15 @@ TEST(springs_on_the_edge_of_flow_are_judged)
     }
 }
 
+/* In its step 6 all move alike, so that what springs add to H p is far smaller
+ * than the entries of H, and their rounding, times p. */
+TEST(a_factor_has_the_digits_of_its_entries)
+{
+    CHECK(judged_of("tear --segments 2 --stiffness 9.25e6 --timestep 0.772 "
+                    "--tolerance 1.8e-4 --yield 0.0415 --hardening 0.101",
+                    6) >= 6);
+}
+
 /* Steps that break one promise each, and else are those of the slides. */
 static void go_back_a_little(TimeIntegrator *run)
 {
