@@ -26,6 +26,9 @@ typedef struct Box {
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);
 
+/* Takes a strip off the upper or the lower edge of `rest`. */
+Box box_cut_off(Box *rest, bool below, int height);
+
 /* What two boxes share, the first of them at corners >= 0. */
 Box box_shared(Box a, Box b);
 

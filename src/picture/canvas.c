@@ -109,6 +109,15 @@ Box box_inset(Box box, int margin)
                  height > 0 ? height : 0};
 }
 
+Box box_cut_off(Box *rest, bool below, int height)
+{
+    Box strip = {rest->x, rest->y, rest->width, height};
+    rest->height -= height;
+    rest->y += below ? 0 : height;
+    strip.y += below ? rest->height : 0;
+    return strip;
+}
+
 bool box_contains(Box box, double x, double y)
 {
     return x >= box.x && x < box.x + box.width && y >= box.y &&

@@ -13,7 +13,7 @@ static const double MOST_LOG = 1e9;    /* the same: where that axis ends */
 static const double LEAST_LOG = 1e-12; /* the same: where that axis begins */
 static const double LEAST_SEEN =
     2e-3; /* of the largest: less lies on the axis */
-static const double LEGEND_PART = 0.34; /* of the card, at most */
+static const double LEGEND = 0.85, CROWDED = 0.6; /* ems, its letters */
 
 /* A quantity over time. */
 typedef struct Curve {
@@ -25,20 +25,12 @@ typedef struct Curve {
     const char *name;
 } Curve;
 
-/* Whether its series are runs side by side, each with a total of its own, not
- * the parts of one. */
+/* Whether its series are runs, each with a total of its own, not the parts of
+ * one; then places follow them. */
 static bool series_are_runs(const Simulation *simulation)
 {
-    return simulation->scene->picture == PICTURE_CIRCLE ||
-           (simulation->scene->picture == PICTURE_MASS && simulation->runs > 1);
-}
-
-/* How many of its series are energies or radii, not places. */
-static int drawn_series(const Simulation *simulation, const History *history)
-{
     PictureKind kind = simulation->scene->picture;
-    bool masses = kind == PICTURE_CIRCLE || kind == PICTURE_MASS;
-    return masses && history->series ? simulation->runs : history->series;
+    return kind == PICTURE_CIRCLE || kind == PICTURE_MASS;
 }
 
 /* Whether a quantity is worth a curve: the first three are, and those which at
@@ -68,7 +60,9 @@ static int find_curves(const Show *show, Curve *curve)
             curve[count++] = (Curve){
                 show->pane[p].simulation, show->pane[p].history, 0, true,
                 colour_of_run(p),         show->pane[p].label};
-    int series = history ? drawn_series(active->simulation, history) : 0;
+    int series = !history || !history->series ? 0
+                 : runs                       ? active->simulation->runs
+                                              : history->series;
     for (int s = 0; show->panes <= 1 && s < series; s++)
         if (runs || is_worthy(history, s))
             curve[count++] = (Curve){
@@ -167,12 +161,14 @@ Axis energies_axis(const Show *show, double *last)
 }
 
 /* Names with their values in the colours of the curves, of each at the time of
- * its picture (a pane that ended stays where it was); or with `draw` false
- * only measured; returns the pixels that they are high. */
-static int write_legend(const Plot *card, int curves, const Curve *curve,
-                        double size, bool draw)
+ * its picture (a pane that ended stays where it was).  Returns the curves'
+ * room.
+ */
+static Plot draw_legend(const Plot *card, int curves, const Curve *curve)
 {
+    Plot rest = *card;
     int at[2] = {0, 0}, used = 0;
+    double size = curves > 4 ? CROWDED : LEGEND;
     for (int c = 0; c < curves; c++) {
         TextLine line = {.colour = curve[c].colour};
         const Simulation *simulation = curve[c].simulation;
@@ -181,23 +177,9 @@ static int write_legend(const Plot *card, int curves, const Curve *curve,
             energies_value(simulation, curve[c].history, curve[c].series, time);
         snprintf(line.words, sizeof line.words, "%s %s J",
                  curve[c].name ? curve[c].name : "", number_of(value).text);
-        used = words_flow(card, at, size, 1.05 * size, &line, draw);
+        used = words_flow(card, at, size, 1.05 * size, &line, true);
     }
-    return used;
-}
-
-/* In letters that leave the curves most of the card.  Returns their room. */
-static Plot draw_legend(const Plot *card, int curves, const Curve *curve)
-{
-    Plot rest = *card;
-    double least = card->paper->least, size = fmax(0.85, least);
-    double most = LEGEND_PART * card->box.height;
-    while (size > fmax(0.5, least) &&
-           write_legend(card, curves, curve, size, false) > most)
-        size -= 0.05;
-    int used = write_legend(card, curves, curve, size, true);
-    rest.box.y += used;
-    rest.box.height -= used;
+    box_cut_off(&rest.box, false, used);
     return rest;
 }
 

@@ -90,18 +90,17 @@ static Plot draw_words(const Plot *card)
 {
     Paper *paper = card->paper;
     Plot rest = *card;
-    Box inside = card->box;
-    int rows = inside.width / paper->em < WORDS_WIDE ? 2 : 1;
+    int rows = card->box.width / paper->em < WORDS_WIDE ? 2 : 1;
     int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
     TextLine line = text_of(&show_pane(card->show)->facts, text_trials);
     int air = paper_pixels(paper, 0.4); /* of what is raised */
-    Box before = canvas_clip(&paper->canvas, (Box){inside.x, inside.y - air,
-                                                   inside.width, high + air});
+    Box words = box_cut_off(&rest.box, false, high);
+    words.y -= air;
+    words.height += air;
+    Box before = canvas_clip(&paper->canvas, words);
     while (text_next(&line))
         words_flow(card, at, WORD_SIZE, 1, &line, true);
     canvas_clip(&paper->canvas, before);
-    rest.box.y += high;
-    rest.box.height -= high;
     return rest;
 }
 

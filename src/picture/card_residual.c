@@ -1,10 +1,8 @@
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/scene.h"
 
 /* The smallest and the largest residual, extended. */
 static void extend_range(const NewtonRecord *records, int count,
@@ -36,27 +34,6 @@ static void draw_updates(const Plot *plot, const NewtonRecord *records,
     }
 }
 
-/* Its line; and below, where the curve does not come from, what that means in
- * metres; h 0: nothing. */
-static void draw_tolerance(const Plot *plot, double tolerance, double h)
-{
-    Paper *paper = plot->paper;
-    const double left[2] = {plot->x.low, tolerance};
-    const double right[2] = {plot->x.high, tolerance};
-    char words[80] = "\u03b5";
-    double p[2], em = paper->em;
-    plot_place(plot, left, p);
-    plot_dashes(plot, left, right, 1.4, NULL, COLOUR_TEXT);
-    bool below = p[1] + 1.3 * em <= plot->box.y + plot->box.height;
-    if (below && h > 0)
-        snprintf(words, sizeof words, "\u03b5: h \u03b5 = %s m",
-                 number_of(h * tolerance).text);
-    if (paper_width(paper, FACE_BOLD, 0.85, words) > plot->box.width)
-        snprintf(words, sizeof words, "\u03b5");
-    paper_write(paper, FACE_BOLD, 0.85, COLOUR_TEXT, p[0] + 0.3 * em,
-                p[1] + (below ? 0.25 : -1.25) * em, ALIGN_LEFT, "%s", words);
-}
-
 /* The update whose p is known is the last record of the trace, or it is still
  * to come there. */
 void residual_draw(const Plot *card)
@@ -85,8 +62,10 @@ void residual_draw(const Plot *card)
     Axis y = {pow(10, floor(log10(range[0]))), pow(10, ceil(log10(range[1]))),
               true, false, star ? "residual, m/s" : NULL};
     Plot plot = plot_create(card, x, y);
-    bool time = card->simulation->scene->needs & NEEDS_TIME;
-    draw_tolerance(&plot, trace->tolerance, time && !star ? trace->h : 0);
+    const double left[2] = {x.low, trace->tolerance};
+    const double right[2] = {x.high, trace->tolerance};
     draw_updates(&plot, trace->record, trace->updates, from);
     draw_updates(&plot, &now, pending, from);
+    plot_dashes(&plot, left, right, 1.4, NULL, COLOUR_TEXT);
+    plot_words(&plot, 1, left, COLOUR_TEXT, "\u03b5");
 }

@@ -93,8 +93,7 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 static void draw_block(const Plot *card, int used)
 {
     Plot below = *card;
-    below.box.y += used;
-    below.box.height -= used;
+    box_cut_off(&below.box, false, used);
     if (below.box.height > 7 * card->paper->em)
         text_in_card(&below, &show_pane(card->show)->facts, text_newest);
 }

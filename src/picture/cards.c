@@ -81,27 +81,20 @@ void cards_hint(const Plot *card, const char *text)
               ALIGN_CENTRE, line.words);
 }
 
-/* At the right end of the title bar of a box: a plus, or a cross. */
-static void draw_cross(Paper *paper, Box box, bool plus)
-{
-    int bar = paper_pixels(paper, TITLE);
-    paper_fit(paper, FACE_REGULAR, 1.2, COLOUR_GREY,
-              (Box){box.x + box.width - bar, box.y, bar, bar}, ALIGN_CENTRE,
-              plus ? "+" : "\u00d7");
-}
-
 /* Frame, title and cross; returns what is inside. */
-static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
-                      bool closed)
+static Box draw_frame(Paper *paper, Box box, const char *words,
+                      const Show *show, bool closed)
 {
-    TextLine line = text_first(&show_pane(show)->facts, card->title);
     int margin = paper_pixels(paper, 0.8), bar = paper_pixels(paper, TITLE);
     Box title = {box.x + margin, box.y, box.width - bar - margin, bar};
     canvas_card(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
     paper_fit(paper, FACE_BOLD, 0.96, closed ? COLOUR_FAINT : COLOUR_TEXT,
-              title, ALIGN_LEFT, line.words);
+              title, ALIGN_LEFT, words);
+    title.x = box.x + box.width - bar;
+    title.width = bar;
     if (!show->print)
-        draw_cross(paper, box, closed);
+        paper_fit(paper, FACE_REGULAR, 1.2, COLOUR_GREY, title, ALIGN_CENTRE,
+                  closed ? "+" : "\u00d7");
     return cards_inside(box, paper->em);
 }
 
@@ -127,10 +120,7 @@ static HelpGrid help_grid(const Show *show, Box inside, double em)
 /* What is inside the frame of a page. */
 static Box page_inside(Box column, double em)
 {
-    Box box = box_inset(column, (int)lround(0.9 * em));
-    int margin = (int)lround(0.9 * em), bar = (int)lround(2.4 * em);
-    return (Box){box.x + margin, box.y + bar, box.width - 2 * margin,
-                 box.height - bar - margin / 2};
+    return cards_inside(box_inset(column, (int)lround(0.9 * em)), em);
 }
 
 int show_help_row(const Show *show, const Layout *layout, double x, double y)
@@ -217,13 +207,9 @@ static void draw_code(Paper *paper, Box inside, const Page *page)
 static void draw_page(Paper *paper, Box column, const Show *show)
 {
     const Page *page = &show->page;
-    Box box = box_inset(column, paper_pixels(paper, 0.9));
-    Box inside = page_inside(column, paper->em);
-    canvas_card(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
-    draw_cross(paper, box, false);
-    paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, inside.x,
-                box.y + 0.55 * paper->em, ALIGN_LEFT, "%s",
-                page->title ? page->title : "Keys and mouse");
+    Box inside =
+        draw_frame(paper, box_inset(column, paper_pixels(paper, 0.9)),
+                   page->title ? page->title : "Keys and mouse", show, false);
     Box before = canvas_clip(&paper->canvas, inside);
     if (page->kind == PAGE_CODE)
         draw_code(paper, page_draw_claim(paper, inside, show), page);
@@ -240,17 +226,19 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         draw_page(paper, layout->column, show);
     for (int i = 0; i < layout->cards; i++) {
         const Card *card = picture->cards[i];
+        TextLine title = text_first(&show_pane(show)->facts, card->title);
         Box box = layout->card[i];
         if (box.width < 1)
             continue; /* hidden */
         bool closed = box.height <= paper_pixels(paper, TITLE) + 1;
-        const Plot inside = {.paper = paper,
-                             .show = show,
-                             .simulation = simulation,
-                             .box = draw_frame(paper, box, card, show, closed),
-                             .pane = show->active,
-                             .text = true,
-                             .em = paper->em};
+        const Plot inside = {
+            .paper = paper,
+            .show = show,
+            .simulation = simulation,
+            .box = draw_frame(paper, box, title.words, show, closed),
+            .pane = show->active,
+            .text = true,
+            .em = paper->em};
         if (closed || inside.box.width < 1 || inside.box.height < 1)
             continue;
         Box before = canvas_clip(&paper->canvas, box_inset(box, 1));

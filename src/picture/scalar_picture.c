@@ -114,24 +114,30 @@ static void draw_iterates(const Plot *plot, const Update *update,
     }
 }
 
-/* E or its slope; of its model, if that is to be seen, the minimum, or the zero
- * of the tangent, and from there the way to the curve, where the full step
- * leads. */
+/* The model of E or its tangent, its minimum or zero, and from there the way to
+ * the curve, where the full step leads. */
+static void draw_model(const Plot *plot, const Update *update, bool slopes,
+                       double width, double radius, Colour colour)
+{
+    double (*curve)(const void *, double) = slopes ? slope_at : value_at;
+    double (*near)(const void *, double) = slopes ? tangent_at : model_at;
+    const double low[2] = {update->x1, near(update, update->x1)};
+    const double high[2] = {update->x1, curve(update, update->x1)};
+    plot_graph(plot, near, update, width, colour);
+    plot_line(plot, low, high, 1.2, colour);
+    plot_hollow(plot, low, radius, 0.6 * radius, COLOUR_P);
+}
+
+/* E or its slope, and its model, if that is to be seen. */
 static void draw_search(const Plot *plot, const Update *update, bool slopes,
                         bool model)
 {
     double (*curve)(const void *, double) = slopes ? slope_at : value_at;
-    double (*near)(const void *, double) = slopes ? tangent_at : model_at;
     double x1 = update->x1;
-    const double low[2] = {x1, near(update, x1)};
-    const double high[2] = {x1, curve(update, x1)};
     bool right = x1 > plot->x.high, left = x1 < plot->x.low;
     plot_graph(plot, curve, update, 2.4, COLOUR_X);
-    if (model) {
-        plot_graph(plot, near, update, 1.6, COLOUR_P);
-        plot_hollow(plot, low, 6, 3.6, COLOUR_P);
-        plot_line(plot, low, high, 1.2, COLOUR_P);
-    }
+    if (model)
+        draw_model(plot, update, slopes, 1.6, 6, COLOUR_P);
     const double edge[2] = {right ? plot->x.high : plot->x.low,
                             0.2 * plot->y.low};
     if (model && !slopes && isfinite(x1) && (left || right))
@@ -150,11 +156,7 @@ static void draw_earlier(const Plot *plot)
     const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
     for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
         Update update = update_at(simulation, i);
-        const double low[2] = {update.x1, model_at(&update, update.x1)};
-        const double high[2] = {update.x1, value_at(&update, update.x1)};
-        plot_graph(plot, model_at, &update, 1.4, pale);
-        plot_line(plot, low, high, 1.2, pale);
-        plot_hollow(plot, low, 4, 2.4, COLOUR_P);
+        draw_model(plot, &update, false, 1.4, 4, pale);
     }
 }
 
