@@ -22,7 +22,6 @@ typedef struct LawNow {
     Place at;
     Element element;
     SpringLaw spring;
-    double breaks;  /* the strain at which the spring does */
     double reach;   /* the unit of the axis */
     double x, felt; /* where it is on the axis, NaN: nowhere; how much */
     double pressed; /* N, the sum over all contacts, of friction */
@@ -114,9 +113,8 @@ static void find_spring(LawNow *now, int s)
     const Fracture *tear = fracture_of(system);
     double d[2];
     now->spring = plasticity_law(system, s);
-    now->breaks = tear ? fracture_strength(tear, s) : INFINITY;
     now->x = spring_strain(system->e + 2 * s, system->l2[s], now->at.x, d);
-    now->x = tear ? now->x / now->breaks : now->x;
+    now->x /= tear ? fracture_strength(tear, s) : 1;
     now->felt = spring_is_broken(system, s) ? -INFINITY
                 : tear                      ? now->x
                        : fabs(now->spring.ep) + 1e-3 * fabs(now->x);

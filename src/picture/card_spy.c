@@ -89,15 +89,6 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
     }
 }
 
-/* What the newest spring adds, if there is room below the patterns. */
-static void draw_block(const Plot *card, int used)
-{
-    Plot below = *card;
-    box_cut_off(&below.box, false, used);
-    if (below.box.height > 7 * card->paper->em)
-        text_in_card(&below, &show_pane(card->show)->facts, text_newest);
-}
-
 /* Beside each other: with the rows in the nodes' order, as the springs write
  * it, one a step, where a page wants it so; and in the order of elimination. */
 void spy_draw(const Plot *card)
@@ -125,6 +116,9 @@ void spy_draw(const Plot *card)
             draw_matrix(card, (Box){x, inside.y + line, side, side}, !k,
                         springs);
         }
-        draw_block(card, 2 * line + side);
+        Plot rest = *card; /* what the newest spring adds */
+        box_cut_off(&rest.box, false, 2 * line + side);
+        if (rest.box.height > 7 * paper->em)
+            text_in_card(&rest, &show_pane(card->show)->facts, text_newest);
     }
 }

@@ -143,24 +143,19 @@ static void draw_updates(const Plot *plot, const Descent *descent)
     }
 }
 
-/* A direction; then its name and slope beside its tip, or further on; uphill in
- * red. */
-static void draw_direction(const Plot *plot, bool named, const double p[2],
-                           Colour colour, const char *name, double slope)
+/* The name of a direction and its slope, beside its tip or further on. */
+static void name_direction(const Plot *plot, const double p[2], Colour colour,
+                           const char *name, double slope)
 {
     const double *from = plot->simulation->descent.point;
     double length = math_hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
     const double place[4] = {from[0] + p[0], from[1] + p[1],
                              from[0] + far * p[0], from[1] + far * p[1]};
-    colour = slope > 0 ? COLOUR_WARNING : colour;
-    if (!named)
-        plot_arrow(plot, from, p, 1, 2.2, colour);
     plot_place(plot, place, at);
-    if (!named || !name || !box_contains(plot->box, at[0], at[1]))
-        return;
-    plot_words(plot, 2, place, colour, "%s (slope %s)", name,
-               number_with(slope, 2).text);
+    if (box_contains(plot->box, at[0], at[1]))
+        plot_words(plot, 2, place, colour, "%s (slope %s)", name,
+                   number_with(slope, 2).text);
 }
 
 /* Minima and the saddle of the parts that are on: where Newton's method ends.
@@ -186,26 +181,33 @@ static void name_still(const Plot *plot)
 }
 
 /* That of the run; and, with both parts on the map, the one that it does not
- * take: projected where its own is not, as it is where its own is projected. */
+ * take: projected where its own is not, as it is where its own is projected.
+ * Uphill in red. */
 static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
     bool raw = simulation->options.filter == FILTER_NONE;
     bool alone = simulation->exhibit.parts != PART_BOTH;
-    const double *own = descent->direction;
+    const double *own = descent->direction, *from = descent->point;
     double p[2], slope;
     if (own[0] == 0 && own[1] == 0)
         return;
     slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE,
-                              descent->point, p);
-    for (int named = 0; named < 2; named++) {
-        if (both && !alone && math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
-            draw_direction(plot, named, p, raw ? COLOUR_PROJECT : COLOUR_GHOST,
-                           raw ? "with projection" : "without", slope);
-        if (both || !alone)
-            draw_direction(plot, named, own, COLOUR_P, NULL, descent->slope);
-    }
+                              from, p);
+    bool other =
+        both && !alone && math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9;
+    Colour colour = slope > 0 ? COLOUR_WARNING
+                    : raw     ? COLOUR_PROJECT
+                              : COLOUR_GHOST;
+    if (other)
+        plot_arrow(plot, from, p, 1, 2.2, colour);
+    if (both || !alone)
+        plot_arrow(plot, from, own, 1, 2.2,
+                   descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
+    if (other)
+        name_direction(plot, p, colour, raw ? "with projection" : "without",
+                       slope);
 }
 
 /* What the map is of. */
@@ -217,20 +219,9 @@ static void name_parts(unsigned parts, Facts *facts)
                                        : "elasticity");
 }
 
-/* The projected Hessian, and whether its direction is shown, too. */
-static void add_projected(const Simulation *simulation, const double *x,
-                          Facts *facts)
-{
-    static const char *const names[] = {"Pxx", "Pxy", "Pyy"};
-    Local E = descent_at(simulation, FILTER_CLAMP, x[0], x[1]);
-    fact_matrix(facts, names, E.H, 0);
-    fact_when(facts, "directions",
-              simulation->options.page && simulation->descent.count == 0 &&
-                  simulation->options.filter == FILTER_NONE);
-}
-
 void landscape_facts(const Simulation *simulation, Facts *facts)
 {
+    static const char *const projected[] = {"Pxx", "Pxy", "Pyy"};
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
     const double *x = descent->point;
@@ -246,8 +237,13 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "g", E.g);
     fact_point(facts, "solution", descent->direction);
     fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
-    if (parts == PART_BOTH)
-        add_projected(simulation, x, facts);
+    if (parts == PART_BOTH) { /* the projected Hessian, and its direction */
+        Local P = descent_at(simulation, FILTER_CLAMP, x[0], x[1]);
+        fact_matrix(facts, projected, P.H, 0);
+        fact_when(facts, "directions",
+                  simulation->options.page && descent->count == 0 &&
+                      simulation->options.filter == FILTER_NONE);
+    }
     fact_when(facts, "moves", descent->slope != 0);
     fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
     fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);
@@ -312,22 +308,16 @@ void landscape_draw(Plot *stage)
 /* ---- the dial ----------------------------------------------------------- */
 
 /* The path of the minimiser; a disc for every power of ten of h. */
-static void draw_walk(const Plot *plot, const Walk *walk)
-{
-    for (int i = 1; i < WALK_POINTS; i++)
-        plot_line(plot, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
-    for (int i = 10; i < WALK_POINTS; i += 10)
-        plot_disc(plot, walk->point[i], 4.5, COLOUR_X);
-}
-
 void dial_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
     const Walk *walk = &simulation->exhibit.walk;
     Plot plot = draw_map(stage);
-    if (!show->veiled)
-        draw_walk(&plot, walk);
+    for (int i = 1; i < WALK_POINTS && !show->veiled; i++)
+        plot_line(&plot, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
+    for (int i = 10; i < WALK_POINTS && !show->veiled; i += 10)
+        plot_disc(&plot, walk->point[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
     for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10)

@@ -374,6 +374,12 @@ void mass_draw(Plot *stage)
 
 /* ---- the formula with its numbers --------------------------------------- */
 
+/* What symplectic Euler keeps: |x|^2 + |v|^2 - h x.v. */
+static double kept_energy(const double *x, const double *v, double h)
+{
+    return 2 * mass_energy(x, v) - h * (x[0] * v[0] + x[1] * v[1]);
+}
+
 void mass_facts(const Simulation *simulation, Facts *facts)
 {
     MassStep step;
@@ -409,13 +415,8 @@ void mass_facts(const Simulation *simulation, Facts *facts)
     if (!step.by_old_v && !backward) {
         fact(facts, "h limit", 2);
         fact_when(facts, "ellipse", h < 2);
-        fact(facts, "kept",
-             2 * mass_energy(step.x, step.v) -
-                 h * (step.x[0] * step.v[0] + step.x[1] * step.v[1]));
-        fact(facts, "kept later",
-             2 * mass_energy(step.new_x, step.new_v) -
-                 h * (step.new_x[0] * step.new_v[0] +
-                      step.new_x[1] * step.new_v[1]));
+        fact(facts, "kept", kept_energy(step.x, step.v, h));
+        fact(facts, "kept later", kept_energy(step.new_x, step.new_v, h));
     }
     exact_step(&step, h, exact);
     fact(facts, "miss",

@@ -141,32 +141,21 @@ static void draw_axes(const Plot *plot)
     }
 }
 
-/* Pixels left of the plot: the widest number of the axis beyond the usual
- * ones. */
-static int number_room(Paper *paper, const Axis *axis, int height)
-{
-    double ticks[PLOT_MOST_LINES];
-    int most = paper_pixels(paper, NUMBER_ROOM);
-    int count = axis_ticks(axis, true, height / paper->em, ticks);
-    for (int i = 0; i < count; i++) {
-        int width = tick_width(paper, tick_number(axis, ticks[i]).text) +
-                    paper_pixels(paper, 0.4);
-        most = width > most ? width : most;
-    }
-    return most;
-}
-
-/* So many ems of room above and below a plot, and left of it for its numbers.
- */
+/* So many ems of room above and below a plot, and left of it for the widest of
+ * its numbers. */
 static Box inner_box(const Plot *outer, const Axis *y, double above,
                      double below)
 {
     Paper *paper = outer->paper;
     Box box = outer->box;
-    int left = number_room(paper, y, box.height);
-    box.x += left;
+    double ticks[PLOT_MOST_LINES], left = paper_pixels(paper, NUMBER_ROOM);
+    int count = axis_ticks(y, true, box.height / paper->em, ticks);
+    for (int i = 0; i < count; i++)
+        left = fmax(left, tick_width(paper, tick_number(y, ticks[i]).text) +
+                              paper_pixels(paper, 0.4));
+    box.x += (int)left;
     box.y += paper_pixels(paper, above);
-    box.width -= left + paper_pixels(paper, 0.6);
+    box.width -= (int)left + paper_pixels(paper, 0.6);
     box.height -= paper_pixels(paper, above + below);
     box.width = box.width < 1 ? 1 : box.width;
     box.height = box.height < 1 ? 1 : box.height;
