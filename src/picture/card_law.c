@@ -216,6 +216,19 @@ static double force_of(const Law *law, const LawNow *now)
            (2 * way);
 }
 
+/* Where a spring began to flow, and where it stopped; false: it has flowed to
+ * and fro, or not at all. */
+static bool flowed_one_way(const LawNow *now, double from[2], double to[2])
+{
+    const Plasticity *flow = plasticity_of(now->at.system);
+    double ep = now->spring.ep, most = flow ? now->spring.yield : 0;
+    double away = flow ? most - flow->yield - flow->hardening * fabs(ep) : 0;
+    from[0] = from[1] = flow ? copysign(flow->yield, ep) : 0;
+    to[1] = copysign(most, ep);
+    to[0] = ep + to[1];
+    return ep != 0 && fabs(away) <= 1e-9 * most;
+}
+
 void law_facts(const Simulation *simulation, Facts *facts)
 {
     LawNow now;
@@ -227,7 +240,9 @@ void law_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "law", true);
     fact_when(facts, "unflowed", still);
     fact_when(facts, "bodies apart", self);
+    double ends[2][2];
     fact_when(facts, law->name, is_there && !still);
+    fact_when(facts, "one way", flowed_one_way(&now, ends[0], ends[1]));
     if (has_gap(law)) {
         const System *system = now.at.system;
         fact(facts, "c",
@@ -247,8 +262,13 @@ void law_facts(const Simulation *simulation, Facts *facts)
     double sum = 0;
     for (int i = last * nodes; i < mesh->nodes; i++)
         sum += simulation->run[0].x[2 * i];
-    if (law->kind == &self_friction_energy)
-        fact(facts, "gone", sum / nodes - simulation->options.body[last][0]);
+    const Options *options = &simulation->options;
+    double v = options->body[last][3], gone = sum / nodes;
+    if (law->kind != &self_friction_energy)
+        return;
+    gone -= options->body[last][0];
+    fact(facts, "gone", fabs(gone) < 1e-9 ? 0 : gone);
+    fact(facts, "rigid", v * v / (2 * options->friction * options->gravity));
 }
 
 /* All springs, small: each is on its own law. */
@@ -322,6 +342,12 @@ void law_draw(const Plot *card)
                   (double[2]){high, y + (x - high) * force_of(law, now)}, 1.4,
                   COLOUR_FORCE);
     if (both && rest[0] != 0) {
+        double from[2], to[2];
+        if (flowed_one_way(now, from, to)) {
+            plot_line(&plot, (double[2]){0, 0}, from, 2.4, COLOUR_PLASTIC);
+            plot_line(&plot, from, to, 2.4, COLOUR_PLASTIC);
+            plot_line(&plot, to, (double[2]){x, y}, 2.4, COLOUR_PLASTIC);
+        }
         plot_ring(&plot, rest, 4, 2, COLOUR_PLASTIC);
         plot_words(&plot, 1, rest, COLOUR_PLASTIC, "s_{p}");
     }

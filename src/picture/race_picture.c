@@ -96,8 +96,9 @@ void race_facts(const Simulation *simulation, Facts *facts)
                                             {"implicit", "implicit ms"}};
     for (int i = 0; i < 2; i++) {
         const RacePoint *best = find_quickest(&simulation->exhibit.race, i > 0);
-        fact_words(facts, names[i][0], best ? best->method->label : "none");
-        fact(facts, names[i][1], best ? 1e3 * best->seconds : INFINITY);
+        fact_words(facts, names[i][0], best ? best->method->label : NULL);
+        fact(facts, names[i][1], best ? 1e3 * best->seconds : NAN);
+        fact_when(facts, i ? "" : "no explicit", !best);
     }
     fact(facts, "methods", RACE_METHODS);
     fact_when(facts, "failed", simulation->status);
@@ -133,7 +134,7 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
         const RacePoint *half = point + RACE_METHODS;
         if (race->count <= half - race->point)
             break;
-        snprintf(cell[1 + k], CELL, "\u03b5");
+        snprintf(cell[1 + k], CELL, half->error < FINEST ? "\u03b5" : "\u2013");
         put_cell(cell[1 + k], CELL, "\u00f7 ",
                  half->error < FINEST ? NAN : point->error / half->error, 2,
                  "");

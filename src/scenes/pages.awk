@@ -4,8 +4,8 @@
 # The lines of one word, put together in text, as fields of the row.
 function put_word(    part)
 {
-    if (word == "formula") # one below the other
-        formula = formula (formula ? " \"\\n\" " : "") quoted(text)
+    if (word == "formula" || word == "look") # one below the other
+        below[word] = below[word] (below[word] ? " \"\\n\" " : "") quoted(text)
     else if (word in texts)
         print "." texts[word] " = " quoted(text) ","
     else if (word in numbers && text ~ /^[0-9.]+$/)
@@ -27,9 +27,9 @@ function end_page(    i)
     for (i in needed)
         if (page && !(needed[i] in had))
             fail(page, "the page has no " needed[i])
-    if (formula)
-        print ".formula = " formula ","
-    formula = ""
+    for (i in below)
+        print "." i " = " below[i] ","
+    split("", below)
     if (page)
         print "},"
     split("", had)
@@ -41,7 +41,6 @@ BEGIN {
     texts["run"] = "line"
     texts["open"] = "open"
     texts["cards"] = "cards"
-    texts["look"] = "look"
     texts["try"] = "touch"
     texts["claim"] = "claim"
     texts["ask"] = "ask"

@@ -454,7 +454,8 @@ static void tell_law(const Simulation *simulation)
         Real gone = 0; /* the upper block, whose nodes come last */
         for (int i = system->nodes; i < 2 * system->nodes; i += 2)
             gone += ((Real)x[i] - o->body[1][0]) / (system->nodes / 2);
-        near("gone", gone, 1e-12L);
+        near("gone", gone, 1e-9L);
+        near("rigid", 1 / (2 * 9.81L * o->friction), 1e-12L);
         s = fminl(at / o->slip_speed, 1);
         value = s * (2 - s);
     } else if (strcmp(law, "triangle") == 0) {
