@@ -139,11 +139,12 @@ TEST(broken_promises_are_noticed)
         const char *why;
     } rows[] = {
         {"--segments 2", NULL, go_back_a_little, "E rises"},
+        {"--segments 2 --integrator avf", NULL, go_back_a_little, "E rises"},
         {"--segments 2", be_content, be_strict_again, "the residual is"},
         {"--segments 12", be_content, be_strict_again, "the residual is"},
         {"--segments 2 --ground 0,1,0,-0.6", NULL, fall_through, "gap is -0.1"},
     };
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         Watch watch;
         TimeIntegrator *run =
             &simulate("%s --tolerance 1e-6", rows[i].line)->run[0];
