@@ -63,10 +63,9 @@ static Jet coordinate(Spot *spot, int c, bool of_u)
         x = at->x[c];
     if (spot->p)
         x += t * spot->alpha * spot->p[c];
-    Real p = spot->from_x_n ? jittered(spot, x - at->x_n[c])
-             : spot->p      ? t * spot->p[c]
-                            : 0;
-    return (Jet){jittered(spot, x), p, spot->q ? t * spot->q[c] : 0, 0};
+    x = jittered(spot, x);
+    Real p = spot->from_x_n ? x - at->x_n[c] : spot->p ? t * spot->p[c] : 0;
+    return (Jet){x, p, spot->q ? t * spot->q[c] : 0, 0};
 }
 
 static Jet between(Spot *spot, int i, int j, int axis, bool of_u)
