@@ -311,6 +311,8 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
             plot_words(plot, 2, place, COLOUR_P, "%s%s", words,
                        now[i].x > plot->x.high ? " \u2192" : "");
     }
+    if (runs == 1 && now->x > plot->x.high)
+        plot_words(plot, 1, at[0], COLOUR_P, "\u2192");
 }
 
 /* The curve for the element of the first run; a tangent that is the force of a

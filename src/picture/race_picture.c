@@ -21,9 +21,9 @@ void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.parts;
     bounds[0] = over_h ? -4.5 : -6.3;
-    bounds[1] = over_h ? -12 : -10;
+    bounds[1] = over_h ? -11 : -10;
     bounds[2] = over_h ? -1.9 : 0.3;
-    bounds[3] = over_h ? 5 : 3; /* below the switch */
+    bounds[3] = over_h ? 6 : 3; /* below the switch */
 }
 
 /* The points of a method joined, hollow where it explodes later.  Returns the
@@ -49,6 +49,16 @@ static const RacePoint *draw_method(Plot *plot, int method)
     return last;
 }
 
+/* How steep errors of order 1, 2 and 4 are. */
+static void draw_orders(const Plot *plot)
+{
+    for (int order = 1; order <= 4; order *= 2) {
+        const double from[2] = {5e-5, 0.1}, wide = 8;
+        const double to[2] = {from[0] * wide, from[1] * pow(wide, order)};
+        plot_dashes(plot, from, to, 1.2, NULL, COLOUR_GREY);
+    }
+}
+
 /* Over run time the names of the methods, each at its last point; over h they
  * would lie on each other, and the table has their colours. */
 void race_draw(Plot *stage)
@@ -68,6 +78,8 @@ void race_draw(Plot *stage)
     }
     for (int i = 0; i < RACE_METHODS; i++)
         last[i] = draw_method(&plot, i);
+    if (over_h)
+        draw_orders(&plot);
     for (int i = RACE_METHODS - 1; i >= 0 && wide; i--) {
         double x = last[i] ? place_of(simulation, last[i]) : NAN;
         double y = last[i] ? last[i]->error : NAN;

@@ -1212,7 +1212,7 @@ static Simulation *whole_race(const char *name)
 
 TEST(claim_order)
 {
-    says("order", "0.064 4 2 4 2 16 4 10 8 4 2 10 2 4 16 4");
+    says("order", "0.064 4 1 2 4 2 4 2 16 4 10 8 4 2 10 2 4 16 4");
     static const double factor[RACE_METHODS] = {2, 2, 4, 2, 4, 4, 4, 4, 16};
     const Race *race = &whole_race("order")->exhibit.race;
     for (int i = 0; i < RACE_METHODS; i++) {
