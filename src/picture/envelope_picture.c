@@ -99,8 +99,7 @@ void envelope_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "passing", h * simulation->options.tolerance);
     fact(facts, "steps", ENVELOPE_STEPS);
     fact(facts, "updates", cell->updates);
-    fact_words(facts, "refused cell",
-               cell->worst ? status_text(cell->worst) : NULL);
+    fact_when(facts, "refused cell", cell->worst);
     fact_when(facts, "undone cell", !cell->worst && cell->undone);
     fact_when(facts, "converged cell", !cell->worst && !cell->undone);
 }
