@@ -44,6 +44,7 @@ typedef struct LecturePage {
     bool writes;          /* the spring is lit whose number is the step's */
     bool kinds;           /* each kind has its colour, and is a switch */
     bool nears;           /* N brings the end of the spring nearer */
+    bool stops;           /* it plays up to its picture */
     bool cuts;            /* before the guess a solid; then it shows kinds */
 } LecturePage;
 

@@ -244,6 +244,8 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
                   simulation->options.page && descent->count == 0 &&
                       simulation->options.filter == FILTER_NONE);
     }
+    double det = E.H[0] * E.H[2] - E.H[1] * E.H[1];
+    fact_when(facts, E.H[0] > 0 && det > 0 ? "convex" : "shaded", true);
     fact_when(facts, "moves", descent->slope != 0);
     fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
     fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);

@@ -513,7 +513,7 @@ void square_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "masses", nodes);
     fact(facts, "mass", mass);
     fact(facts, "node mass", system->m[0]);
-    fact(facts, "middle", (nodes - 1) / 2);
+    fact(facts, "middle", n % 2 ? NAN : (nodes - 1) / 2);
     fact(facts, "places", 4 * (nodes + 2.0 * system->springs));
     fact(facts, "short", shorter);
     fact(facts, "segments", n);
@@ -535,6 +535,9 @@ void square_facts(const Simulation *simulation, Facts *facts)
         double omega = simulation_fastest(simulation, start, mode);
         fact(facts, "fastest", omega);
         fact(facts, "h limit", 2 / omega);
+        double turn = omega * options->timestep, t = 0.5 * turn * turn - 1;
+        fact(facts, t > 1 ? "h omega" : "short h omega", turn);
+        fact(facts, "growth", t > 1 ? t + sqrt(t * t - 1) : NAN);
     }
     if (page->forces && nodes <= NUMBERED) {
         double a[2 * NUMBERED] = {0};

@@ -283,7 +283,7 @@ static void judge(Player *player)
         player_note(player, "nothing deforms any more: free as it is, it "
                             "drifts on; pull a node, right click pins one, R "
                             "begins again");
-    if (page && page->law && page == player->told &&
+    if (page && (page->law || page->stops) && page == player->told &&
         past->step == page->picture) /* what the page is about */
         player->mode = MODE_PAUSE;
 }

@@ -54,7 +54,7 @@ BEGIN {
     numbers["minutes"]
     switches["numbers"] switches["predict"] switches["forces"]
     switches["waits"] switches["modes"] switches["writes"] switches["kinds"] switches["cuts"]
-    switches["nears"]
+    switches["nears"] switches["stops"]
     print "const LecturePage lecture_pages[] = {"
 }
 

@@ -557,6 +557,11 @@ static void tell_page(const Simulation *simulation)
         top = fmaxl(top, H[i * size + i]);
     near("fastest", sqrtl(top), 1e-4L * sqrtl(top));
     near("h limit", 2 / sqrtl(top), 2e-4L / sqrtl(top));
+    Real half = sqrtl(top) * (Real)o->timestep / 2;
+    near("h omega", 2 * half, 2e-4L * half);
+    near("short h omega", 2 * half, 2e-4L * half);
+    Real grows = expl(2 * acoshl(half)); /* its slope, times the slack above */
+    near("growth", grows, 2e-4L * grows * half / sqrtl(half * half - 1));
 }
 
 /* ---- one mass, one spring ------------------------------------------------ */
