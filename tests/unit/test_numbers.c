@@ -497,6 +497,17 @@ static void tell_block(const Simulation *simulation, int spring)
         is(rows[i], 2 * e[i / 2] + i % 2);
 }
 
+static void tell_fastest(Real omega, Real h)
+{
+    Real half = omega * h / 2, grows = expl(2 * acoshl(half));
+    near("fastest", omega, 1e-4L * omega);
+    near("h limit", 2 / omega, 2e-4L / omega);
+    near("h omega", 2 * half, 2e-4L * half);
+    near("short h omega", 2 * half, 2e-4L * half);
+    /* its slope, times the slack above */
+    near("growth", grows, 2e-4L * grows * half / sqrtl(half * half - 1));
+}
+
 /* Its mesh, its fastest oscillation, and the force on its last node. */
 static void tell_page(const Simulation *simulation)
 {
@@ -555,13 +566,7 @@ static void tell_page(const Simulation *simulation)
     exact_eigen(size, H, v);
     for (int i = 0; i < size; i++)
         top = fmaxl(top, H[i * size + i]);
-    near("fastest", sqrtl(top), 1e-4L * sqrtl(top));
-    near("h limit", 2 / sqrtl(top), 2e-4L / sqrtl(top));
-    Real half = sqrtl(top) * (Real)o->timestep / 2;
-    near("h omega", 2 * half, 2e-4L * half);
-    near("short h omega", 2 * half, 2e-4L * half);
-    Real grows = expl(2 * acoshl(half)); /* its slope, times the slack above */
-    near("growth", grows, 2e-4L * grows * half / sqrtl(half * half - 1));
+    tell_fastest(sqrtl(top), o->timestep);
 }
 
 /* ---- one mass, one spring ------------------------------------------------ */
