@@ -168,7 +168,7 @@ static Plot draw_legend(const Plot *card, int curves, const Curve *curve)
 {
     Plot rest = *card;
     int at[2] = {0, 0}, used = 0;
-    double size = curves > 4 ? CROWDED : LEGEND;
+    double size = fmax(curves > 4 ? CROWDED : LEGEND, card->paper->least);
     for (int c = 0; c < curves; c++) {
         TextLine line = {.colour = curve[c].colour};
         const Simulation *simulation = curve[c].simulation;
