@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -33,30 +34,34 @@ void values_draw(const Plot *card)
         return;
     }
     int made = updates_made(trace);
-    double at[2] = {0, value_at(system, trace, pane_x(pane))}, before[2];
+    double start = value_at(system, trace, pane_x(pane));
     double aim = value_at(system, trace, trace->x_tilde);
     for (int i = 0; i < made; i++)
-        at[1] -= trace->record[i].change;
+        start -= trace->record[i].change;
     double right = fmax(made, 3) + 0.7;
     Plot plot = plot_create(
         card, (Axis){-0.4, right, false, true, "update"},
-        (Axis){0, 1.3 * fmax(at[1], aim), false, false, "E, J s\u00b2"});
+        (Axis){0, 1.3 * fmax(start, aim), false, false, "E, J s\u00b2"});
     const double from[2] = {-0.4, aim}, to[2] = {right, aim};
     const double told[2] = {0.5 * right, aim};
     plot_dashes(&plot, from, to, 1.6, NULL, COLOUR_X_TILDE);
+    for (int words = 0; words < 2; words++) { /* off all that is drawn */
+        double at[2] = {0, start}, before[2];
+        for (int i = 0; i <= made; i++) {
+            memcpy(before, at, sizeof at);
+            at[0] = i;
+            at[1] += i > 0 ? trace->record[i - 1].change : 0;
+            if (words) {
+                plot_words(&plot, 1, at, COLOUR_X, "%s",
+                           number_with(at[1], 4).text);
+                continue;
+            }
+            plot_line(&plot, before, at, 1.6, COLOUR_X);
+            plot_disc(&plot, at, 4.5, COLOUR_X);
+        }
+    }
     plot_words(&plot, 1, told, COLOUR_X_TILDE, "at {xt}: %s",
                number_with(aim, 4).text);
-    for (int i = 0; i <= made; i++) {
-        if (i > 0) {
-            at[0] = i;
-            at[1] += trace->record[i - 1].change;
-            plot_line(&plot, before, at, 1.6, COLOUR_X);
-        }
-        plot_disc(&plot, at, 4.5, COLOUR_X);
-        plot_words(&plot, 1, at, COLOUR_X, "%s", number_with(at[1], 4).text);
-        before[0] = at[0];
-        before[1] = at[1];
-    }
 }
 
 /* A row of the table, 0: its heads; with what is known at this line. */
