@@ -98,7 +98,8 @@ Status table_cut(Table *table, long last)
         return STATUS_OK;
     if (table->rows || table->output.temporary) {
         long end = find_end(table, file, last);
-        if (fseek(file, end, SEEK_SET) || ftruncate(fileno(file), end))
+        if (fseek(file, end, SEEK_SET) || fflush(file) || /* what it has read */
+            ftruncate(fileno(file), end))
             return STATUS_FILE_FAILED;
     }
     return table_check(table);

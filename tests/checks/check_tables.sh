@@ -114,6 +114,20 @@ verdict other_tables_are_refused "$(
     refused '--cells on' 'a cell begins turned over'
 )"
 
+# Rows are taken back twice, and in between steps without updates write none:
+# those of steps 1 and 2 are left.
+verdict rows_are_taken_back "$(
+    printf '%s\n' '6 goto 2' '2 set integrator forward-euler' '2 play' \
+        '7 goto 5' '5 set timestep 0.001' >script
+    run --segments 1 --steps 5 --script script --log both.csv
+    run --segments 1 --steps 2 --log first.csv
+    cut -d, -f1-11 first.csv >first
+    cut -d, -f1-11 both.csv | cmp - first
+    run --segments 1 --steps 5 --script script --log both.npz
+    run --segments 1 --steps 2 --log first.npz
+    [ $(wc -c <both.npz) = $(wc -c <first.npz) ] || echo 'arrays have more'
+)"
+
 # ---- what others read ----------------------------------------------------------
 # A run with CSV and the same one with arrays and steps for ParaView: each number
 # is the same to the last bit, the time that an iteration took apart.
