@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/inertia_energy.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
@@ -16,11 +17,8 @@ static int updates_made(const Trace *trace)
 static double value_at(const System *system, const Trace *trace,
                        const double *x)
 {
-    double E = trace->h * trace->h * system_potential(system, x);
-    for (int i = 0; i < 2 * system->nodes; i++)
-        E += 0.5 * system->m[i / 2] * (x[i] - trace->x_tilde[i]) *
-             (x[i] - trace->x_tilde[i]);
-    return E;
+    return inertia_energy_value(system->nodes, x, trace->x_tilde, system->m) +
+           trace->h * trace->h * system_potential(system, x);
 }
 
 /* From the start of the step on, a point an update; and how high x_tilde is. */

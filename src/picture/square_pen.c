@@ -45,11 +45,12 @@ static double strain_range(const Simulation *simulation, const double *ep)
 static unsigned fixed_bodies(const Simulation *simulation)
 {
     const SquareMesh *mesh = &simulation->mesh;
-    int each = mesh->nodes / mesh->bodies;
     unsigned fixed = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0;
-    for (int i = 0; i < mesh->nodes; i++)
+    for (int i = 0; fixed && i < mesh->nodes; i++) {
+        int node = i;
         if (!simulation->system.pinned[i])
-            fixed &= ~(1u << i / each);
+            fixed &= ~(1u << square_mesh_body(mesh, &node));
+    }
     return fixed;
 }
 
@@ -57,7 +58,7 @@ static bool is_fixed(const SpringPen *pen, int node)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     return pen->fixed && node < mesh->nodes &&
-           pen->fixed >> node / (mesh->nodes / mesh->bodies) & 1;
+           pen->fixed >> square_mesh_body(mesh, &node) & 1;
 }
 
 SpringPen square_pen(Plot *stage, int run)

@@ -189,13 +189,16 @@ static int draw_ground(const SpringPen *pen)
  * tolerance at which bodies would hang in the air or freeze. */
 static void draw_warnings(const SpringPen *pen, int folded)
 {
-    int nodes = pen->system->nodes, lost = 0, seen = 0;
+    int nodes = pen->system->nodes, lost = 0;
+    bool seen = !pen->show->lecture || pen->simulation->runs > 1;
     double needed, at[2];
     for (int i = 0; i < nodes; i++) {
         lost += !isfinite(pen->x[2 * (size_t)i]) ||
                 !isfinite(pen->x[2 * (size_t)i + 1]);
+        if (seen)
+            continue;
         plot_place(pen->stage, pen->x + 2 * (size_t)i, at);
-        seen += box_contains(pen->stage->box, at[0], at[1]);
+        seen = box_contains(pen->stage->box, at[0], at[1]);
     }
     if (lost == nodes)
         plot_legend(pen->stage, COLOUR_WARNING,
@@ -203,7 +206,7 @@ static void draw_warnings(const SpringPen *pen, int folded)
     else if (lost > 0)
         plot_legend(pen->stage, COLOUR_WARNING,
                     "%d of %d nodes are beyond all numbers", lost, nodes);
-    else if (seen == 0 && pen->show->lecture && pen->simulation->runs == 1)
+    else if (!seen)
         plot_legend(pen->stage, COLOUR_WARNING,
                     "all nodes are beyond the picture");
     if (folded > 0)

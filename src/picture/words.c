@@ -61,8 +61,7 @@ Number number_of(double value)
     return number_with(value, 3);
 }
 
-/* ---- in a row, at the edges -----------------------------------------------
- */
+/* ---- in a row, at the edges ---------------------------------------------- */
 
 /* 1, 2 or 5 times a power of ten metres. */
 void plot_scale(const Plot *plot)

@@ -288,8 +288,7 @@ static void judge(Player *player)
         player->mode = MODE_PAUSE;
 }
 
-/* ---- inside a step -----------------------------------------------
- */
+/* ---- inside a step ------------------------------------------------------- */
 
 static void stand_at(Player *player, int pane, int place)
 {
