@@ -33,7 +33,4 @@ typedef struct Damping {
  * over the step.  data: Damping; its number is eta. */
 extern const TermKind damping;
 
-/* The system's damping, or NULL. */
-Damping *damping_of(const System *system);
-
 #endif

@@ -32,9 +32,6 @@ typedef struct Fracture {
  * in the list. */
 extern const TermKind fracture;
 
-/* The system's, or NULL. */
-Fracture *fracture_of(const System *system);
-
 /* The strain at which spring s breaks. */
 double fracture_strength(const Fracture *fracture, int s);
 

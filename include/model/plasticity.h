@@ -46,9 +46,7 @@ typedef struct Plasticity {
  * l2 H kappa^2/2; what flowing costs, k l2 Y gamma, is booked as lost. */
 extern const TermKind plastic_energy;
 
-/* The system's plastic state, or NULL; the law of spring s without damping,
- * elastic where nothing flows. */
-Plasticity *plasticity_of(const System *system);
+/* The law of spring s without damping, elastic where nothing flows. */
 SpringLaw plasticity_law(const System *system, int s);
 
 #endif

@@ -28,9 +28,6 @@ typedef struct Pull {
  * Returns OK, OUT_OF_MEMORY. */
 Status pull_set(System *system, const TermKind *kind, const Pull *pull);
 
-/* The hand of a system, or NULL; its numbers may be changed. */
-Pull *hand_energy_of(const System *system);
-
 /* Before a step of h s from x, v [2] of its node with the mass m, kg: its k and
  * target.  The node then goes a part of the way, half of it at most, and in
  * short steps so much that the distance falls by e in 0.06 s; but not beyond

@@ -32,46 +32,30 @@ void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
 
 enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 
-static bool is_solid(const Boundary *boundary, const System *system, int t)
-{
-    int node[3], side[3];
-    square_mesh_triangle(&boundary->shape, t, node, side);
-    return !spring_is_broken(system, side[0]) &&
-           !spring_is_broken(system, side[1]) &&
-           !spring_is_broken(system, side[2]);
-}
-
-static void take_triangle(Boundary *boundary, int t)
-{
-    int node[3], side[3];
-    square_mesh_triangle(&boundary->shape, t, node, side);
-    for (int k = 0; k < 3; k++) {
-        boundary->role[node[k]] |= IN_A_TRIANGLE;
-        boundary->sides[side[k]]++;
-    }
-}
-
 /* Triangle 4 c + k is corner k of cell c: opposite corners share a diagonal.
  * None that is alone, or overlaps another, ever takes the place of another. */
-static void take_cell(Boundary *boundary, const System *system, int c)
-{
-    int solid = 0;
-    for (int k = 0; k < 4; k++)
-        solid |= is_solid(boundary, system, 4 * c + k) << k;
-    bool other = (solid & 5) != 5 && (solid & 10) == 10;
-    for (int k = other; k < 4; k += 2)
-        if (solid >> k & 1)
-            take_triangle(boundary, 4 * c + k);
-}
-
 static void find_boundary(Boundary *boundary, const System *system)
 {
     const SquareMesh *shape = &boundary->shape;
     memset(boundary->sides, 0, (size_t)shape->springs);
     memset(boundary->role, 0, (size_t)shape->nodes);
     boundary->points = boundary->edges = 0;
-    for (int c = 0; c < shape->cells; c++)
-        take_cell(boundary, system, c);
+    for (int c = 0; c < shape->cells; c++) {
+        int node[4][3], side[4][3], solid = 0;
+        for (int k = 0; k < 4; k++) {
+            square_mesh_triangle(shape, 4 * c + k, node[k], side[k]);
+            bool broken = spring_is_broken(system, side[k][0]) ||
+                          spring_is_broken(system, side[k][1]) ||
+                          spring_is_broken(system, side[k][2]);
+            solid |= !broken << k;
+        }
+        bool other = (solid & 5) != 5 && (solid & 10) == 10;
+        for (int k = other; k < 4; k += 2)
+            for (int i = 0; i < 3 && solid >> k & 1; i++) {
+                boundary->role[node[k][i]] |= IN_A_TRIANGLE;
+                boundary->sides[side[k][i]]++;
+            }
+    }
     for (int s = 0; s < shape->springs; s++) {
         if (boundary->sides[s] != 1)
             continue;
@@ -96,22 +80,6 @@ static void widen(Box2 *box, int k, double from, double to)
 
 static const Box2 nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
 
-/* What a node passes, without the motion that all have in common. */
-static void take_way(Boundary *boundary, int node)
-{
-    const double *p = boundary->moves ? boundary->p : NULL;
-    const double *mean = boundary->mean;
-    Box2 *box = &boundary->way[node];
-    *box = nothing;
-    for (int c = 0; c < 2; c++) {
-        double x = boundary->x[2 * node + c], margin = boundary->margin;
-        double way = p ? boundary->alpha * (p[2 * node + c] - mean[c]) : 0;
-        widen(box, boundary->upright ? 1 - c : c,
-              x - margin + (way < 0 ? way : 0),
-              x + margin + (way > 0 ? way : 0));
-    }
-}
-
 /* Equal ones by number: the order is one of x alone. */
 static int by_left_side(const void *one, const void *other)
 {
@@ -121,22 +89,33 @@ static int by_left_side(const void *one, const void *other)
     return a->edge - b->edge;
 }
 
+/* What points and edges pass, without the motion that all have in common. */
 static void make_boxes(Boundary *boundary, const System *system)
 {
     const double *x = boundary->x, *p = boundary->moves ? boundary->p : NULL;
-    boundary->widest = boundary->mean[0] = boundary->mean[1] = 0;
+    double *mean = boundary->mean;
+    boundary->widest = mean[0] = mean[1] = 0;
     Box2 all = nothing;
     for (int i = 0; i < boundary->points; i++) {
         int node = boundary->point[i];
         for (int c = 0; c < 2; c++) {
             widen(&all, c, x[2 * node + c], x[2 * node + c]);
             if (p)
-                boundary->mean[c] += p[2 * node + c] / boundary->points;
+                mean[c] += p[2 * node + c] / boundary->points;
         }
     }
     boundary->upright = all.high[1] - all.low[1] > all.high[0] - all.low[0];
-    for (int i = 0; i < boundary->points; i++)
-        take_way(boundary, boundary->point[i]);
+    for (int i = 0; i < boundary->points; i++) {
+        int node = boundary->point[i];
+        Box2 *box = &boundary->way[node];
+        *box = nothing;
+        for (int c = 0; c < 2; c++) {
+            double way = p ? boundary->alpha * (p[2 * node + c] - mean[c]) : 0;
+            widen(box, boundary->upright ? 1 - c : c,
+                  x[2 * node + c] - boundary->margin + (way < 0 ? way : 0),
+                  x[2 * node + c] + boundary->margin + (way > 0 ? way : 0));
+        }
+    }
     for (int k = 0; k < boundary->edges; k++) {
         Box2 *box = &boundary->box[k];
         int s = box->edge;
@@ -186,25 +165,11 @@ static int next_box(const Boundary *boundary, const System *system, int i,
     return -1;
 }
 
-/* Goes through all points once; false: there is no room. */
-static bool list_near(Boundary *boundary, const System *system)
-{
-    int room = NEAR_A_NODE * boundary->shape.nodes, count = 0, place = 0, edge;
-    for (int i = 0; i < boundary->points; i++) {
-        while ((edge = next_box(boundary, system, i, &place)) >= 0) {
-            if (count == room)
-                return false;
-            boundary->near[count++] = edge;
-        }
-        boundary->last[i] = count;
-    }
-    return true;
-}
-
 void boundary_sort(Boundary *boundary, const System *system, const double *x,
                    const double *p, double alpha, double margin)
 {
     size_t bytes = 2 * (size_t)boundary->shape.nodes * sizeof *x;
+    int room = NEAR_A_NODE * boundary->shape.nodes, count = 0, place = 0, edge;
     if (boundary->version != system->version)
         find_boundary(boundary, system);
     if (boundary->known && boundary->moves == (p != NULL) &&
@@ -220,7 +185,14 @@ void boundary_sort(Boundary *boundary, const System *system, const double *x,
     if (p)
         memcpy(boundary->p, p, bytes);
     make_boxes(boundary, system);
-    boundary->listed = list_near(boundary, system);
+    boundary->listed = true;
+    for (int i = 0; i < boundary->points && boundary->listed; i++) {
+        while ((edge = next_box(boundary, system, i, &place)) >= 0 &&
+               count < room)
+            boundary->near[count++] = edge;
+        boundary->last[i] = count;
+        boundary->listed = edge < 0;
+    }
 }
 
 int boundary_next(const Boundary *boundary, const System *system, int i,

@@ -5,11 +5,6 @@
 
 #include "model/mass_spring_energy.h"
 
-Damping *damping_of(const System *system)
-{
-    return system_data(system, &damping);
-}
-
 /* The springs of the step from x_n.  A broken one stays broken. */
 static Status begin(const TermStep *step)
 {

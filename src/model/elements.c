@@ -58,28 +58,22 @@ void elements_gradient(const Place *at, double *g)
     }
 }
 
-/* Entries of a block of so many nodes in one triangle of the Hessian. */
-static int entries_of(int nodes)
-{
-    return nodes * (2 * nodes + 1);
-}
-
 /* The parts of a block, by nodes: those on the diagonal come first. */
 enum { PARTS = 6 };
 static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
                                    {0, 1}, {0, 2}, {1, 2}};
 
-/* Entries of all blocks have room for the most nodes. */
-static int nodes_of_a_block(const Place *at)
+/* Of a block in one triangle of the Hessian; all have room for the most nodes.
+ */
+static int entries_of_a_block(const Place *at)
 {
-    int node[3];
-    return kind_of(at)->nodes(at, 0, node);
+    int node[3], nodes = kind_of(at)->nodes(at, 0, node);
+    return nodes * (2 * nodes + 1);
 }
 
 long long elements_entries(const Place *at)
 {
-    return (long long)entries_of(nodes_of_a_block(at)) *
-           kind_of(at)->blocks(at);
+    return (long long)entries_of_a_block(at) * kind_of(at)->blocks(at);
 }
 
 void elements_pattern(const Place *at, Triplets *triplets)
@@ -95,7 +89,8 @@ void elements_pattern(const Place *at, Triplets *triplets)
 }
 
 /* Entry (r, c) of the part of nodes k and l is factor sum w_k w_l H_(r,c) over
- * the pairs of vectors. */
+ * the pairs of vectors.  The compiler makes a function of its own for each
+ * number of vectors. */
 static inline void add_block(const Element *element, int vectors,
                              double H[4][4], const int *slot, double *out)
 {
@@ -118,40 +113,25 @@ static inline void add_block(const Element *element, int vectors,
     }
 }
 
-/* The compiler makes a function of its own for each number of vectors. */
-static void add_to_matrix(const Element *element, double H[4][4],
-                          const int *slot, double *out)
-{
-    if (element->vectors == 1)
-        add_block(element, 1, H, slot, out);
-    else
-        add_block(element, 2, H, slot, out);
-}
-
-static void add_product(const Element *element, double H[4][4], const double *q,
-                        double *out)
-{
-    double v[4], Hv[4] = {0};
-    int size = 2 * element->vectors;
-    element_vectors(element, q, v);
-    for (int r = 0; r < size; r++)
-        for (int c = 0; c < size; c++)
-            Hv[r] += H[r][c] * v[c];
-    element_add(element, element->factor, Hv, out);
-}
-
 int elements_hessian(const Place *at, Filter filter, const int *slot,
                      const double *q, double *out)
 {
-    int projected = 0, entries = entries_of(nodes_of_a_block(at));
-    double H[4][4];
+    int projected = 0, entries = entries_of_a_block(at);
+    double H[4][4], v[4];
     for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
         const Element *element = &walk.element;
         projected += walk.kind->hessian(at, element, filter, H);
-        if (q)
-            add_product(element, H, q, out);
+        if (q) {
+            double Hv[4] = {0};
+            element_vectors(element, q, v);
+            for (int r = 0; r < 2 * element->vectors; r++)
+                for (int c = 0; c < 2 * element->vectors; c++)
+                    Hv[r] += H[r][c] * v[c];
+            element_add(element, element->factor, Hv, out);
+        } else if (element->vectors == 1)
+            add_block(element, 1, H, slot + entries * element->block, out);
         else
-            add_to_matrix(element, H, slot + entries * element->block, out);
+            add_block(element, 2, H, slot + entries * element->block, out);
     }
     return projected;
 }

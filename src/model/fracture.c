@@ -10,24 +10,16 @@
 /* Part by which the strengths of springs differ. */
 static const double SCATTER = 0.1;
 
-Fracture *fracture_of(const System *system)
-{
-    return system_data(system, &fracture);
-}
-
-/* A number from -1 to 1 for each spring: SplitMix64 (Steele et al. 2014). */
-static double scatter_of(int s)
+/* With a number from -1 to 1 for each spring: SplitMix64 (Steele et al. 2014).
+ */
+double fracture_strength(const Fracture *fracture, int s)
 {
     uint64_t z = ((uint64_t)s + 1) * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     z ^= z >> 31;
-    return (double)(z >> 11) * 0x1p-52 - 1;
-}
-
-double fracture_strength(const Fracture *fracture, int s)
-{
-    return fracture->strength * (1 + SCATTER * scatter_of(s));
+    double scatter = (double)(z >> 11) * 0x1p-52 - 1;
+    return fracture->strength * (1 + SCATTER * scatter);
 }
 
 /* The most loaded candidates first; equal loads by number. */

@@ -25,32 +25,24 @@ static void gradient(const Place *at, double *g)
     }
 }
 
-/* That of a spring at both places. */
-static bool sum_hessian(const Place *at, int s, Filter filter, double H[3])
-{
-    const int *e = at->system->e + 2 * s;
-    double d[2], l2 = at->l2[s], k = at->k[s], too[3];
-    spring_strain(e, l2, at->x, d);
-    spring_hessian(d, l2, at->w * k, FILTER_NONE, H);
-    spring_strain(e, l2, at->x_too, d);
-    spring_hessian(d, l2, at->w_too * k, FILTER_NONE, too);
-    for (int c = 0; c < 3; c++)
-        H[c] += too[c];
-    return filter_2x2(filter, H) && k > 0;
-}
-
 static int hessian(const Place *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
     const System *system = at->system;
+    Filter own = at->x_too ? FILTER_NONE : filter;
     int projected = 0;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
-        double d[2], H[3];
-        spring_strain(e, at->l2[s], at->x, d);
-        projected += at->x_too ? sum_hessian(at, s, filter, H)
-                               : spring_hessian(d, at->l2[s], at->w * at->k[s],
-                                                filter, H);
+        double d[2], H[3], too[3], l2 = at->l2[s], k = at->k[s];
+        spring_strain(e, l2, at->x, d);
+        projected += spring_hessian(d, l2, at->w * k, own, H);
+        if (at->x_too) { /* the sum of both is projected */
+            spring_strain(e, l2, at->x_too, d);
+            spring_hessian(d, l2, at->w_too * k, FILTER_NONE, too);
+            for (int c = 0; c < 3; c++)
+                H[c] += too[c];
+            projected += filter_2x2(filter, H) && k > 0;
+        }
         mass_spring_add(H, e, s, slot, q, out);
     }
     return projected;

@@ -41,15 +41,10 @@ static double square_of(const double f[4])
     return f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3];
 }
 
-/* dW/dJ and d^2W/dJ^2 over A0, of the terms with J. */
+/* dW/dJ over A0, of the terms with J. */
 static double slope_in_J(const NeoHookean *data, double J)
 {
     return (data->lambda * math_log(J) - data->mu) / J;
-}
-
-static double curvature_in_J(const NeoHookean *data, double J)
-{
-    return (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
 }
 
 static double value(const Place *at, const Element *element)
@@ -77,11 +72,11 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
                     double H[4][4])
 {
     const NeoHookean *data = at->term->data;
-    double J = element->s;
-    const AreaCurvature curvature = {.all = data->area * data->mu,
+    double J = element->s, mu = data->mu;
+    double bend = (data->lambda * (1 - math_log(J)) + mu) / (J * J);
+    const AreaCurvature curvature = {.all = data->area * mu,
                                      .slope = data->area * slope_in_J(data, J),
-                                     .second =
-                                         data->area * curvature_in_J(data, J),
+                                     .second = data->area * bend,
                                      .unit = 1};
     return area_hessian(element->v, &curvature, filter, H);
 }
@@ -143,24 +138,10 @@ static void weigh(const SquareMesh *mesh, const int node[3],
 
 /* Cuts each cell into two triangles.  Their sides stay as springs, which are
  * only drawn; the other diagonal gets k = 0. */
-static void cut_cells(const SquareMesh *mesh, System *system, NeoHookean *data)
+static Status set(System *system, const SquareMesh *mesh, const double *number)
 {
     static const int corner[2][2][3] = {{{0, 1, 2}, {0, 2, 3}},
                                         {{0, 1, 3}, {1, 2, 3}}};
-    for (int c = 0; c < mesh->cells; c++) {
-        int node[4], spring[6], odd = square_mesh_is_half(mesh, 4 * c);
-        square_mesh_cell(mesh, c, node, spring);
-        system->k[spring[odd ? 4 : 5]] = 0;
-        for (int t = 0; t < 2; t++) {
-            for (int k = 0; k < 3; k++)
-                data->node[2 * c + t][k] = node[corner[odd][t][k]];
-            weigh(mesh, data->node[2 * c + t], data->weight[2 * c + t]);
-        }
-    }
-}
-
-static Status set(System *system, const SquareMesh *mesh, const double *number)
-{
     size_t triangles = 2 * (size_t)mesh->cells;
     double young = number[1], nu = number[2];
     if (number[0] == 0)
@@ -178,7 +159,16 @@ static Status set(System *system, const SquareMesh *mesh, const double *number)
     data->area = 0.5 * mesh->spacing * mesh->spacing;
     data->weight = (double(*)[2][3])(data + 1);
     data->node = (int(*)[3])(data->weight + triangles);
-    cut_cells(mesh, system, data);
+    for (int c = 0; c < mesh->cells; c++) {
+        int node[4], spring[6], odd = square_mesh_is_half(mesh, 4 * c);
+        square_mesh_cell(mesh, c, node, spring);
+        system->k[spring[odd ? 4 : 5]] = 0;
+        for (int t = 2 * c; t < 2 * c + 2; t++) {
+            for (int k = 0; k < 3; k++)
+                data->node[t][k] = node[corner[odd][t % 2][k]];
+            weigh(mesh, data->node[t], data->weight[t]);
+        }
+    }
     system_remove_term(system, &mass_spring_energy);
     return STATUS_OK;
 }

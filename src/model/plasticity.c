@@ -46,46 +46,7 @@ double spring_law_curvature(SpringLaw law, double e)
     return law.theta + (beyond(law, e) > 0 ? law.hard : 1);
 }
 
-/* V(e + t) - V(e) - V'(e) t >= 0: the integral of (t - s) V''(e + s) over s = 0
- * ... t, mirrored so that t >= 0.  V'' is hard + theta everywhere, and flow
- * more where the spring is elastic.  Nothing is subtracted but ends of the way.
- */
-static double spring_law_remainder(SpringLaw law, double e, double t)
-{
-    double start = copysign(1, t) * e, way = fabs(t);
-    double from = larger(-law.yield - start, 0);
-    double to = smaller(law.yield - start, way);
-    double within = from > 0 && to < way ? 2 * law.yield : to - from;
-    double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
-    return 0.5 * (law.hard + law.theta) * t * t + law.flow * elastic;
-}
-
-/* d is an eigenvector, with (2k/l2) (2 tau' q + l2 tau); across it is
- * (2k/l2) l2 tau. */
-static bool spring_law_hessian(SpringLaw law, const double d[2], double l2,
-                               double k, double e, Filter filter, double H[3])
-{
-    double factor = 2 * k / l2, q = d[0] * d[0] + d[1] * d[1];
-    double across = l2 * spring_law_slope(law, e);
-    double along = 2 * spring_law_curvature(law, e) * q + across;
-    bool changed = (along < 0 || across < 0) && filter_projects(filter);
-    if (changed) {
-        along = projected_eigenvalue(filter, along);
-        across = projected_eigenvalue(filter, across);
-    }
-    double difference = q > 0 ? (along - across) / q : 0;
-    H[0] = factor * (across + difference * d[0] * d[0]);
-    H[1] = factor * difference * d[0] * d[1];
-    H[2] = factor * (across + difference * d[1] * d[1]);
-    return changed && k > 0;
-}
-
 /* ---- the term -------------------------------------------------------- */
-
-Plasticity *plasticity_of(const System *system)
-{
-    return system_data(system, &plastic_energy);
-}
 
 /* Of spring s, without damping. */
 static inline SpringLaw law_of(const Plasticity *data, int s)
@@ -99,7 +60,7 @@ static inline SpringLaw law_of(const Plasticity *data, int s)
 
 SpringLaw plasticity_law(const System *system, int s)
 {
-    const Plasticity *data = plasticity_of(system);
+    const Plasticity *data = system_data(system, &plastic_energy);
     return data ? law_of(data, s) : (SpringLaw){.yield = INFINITY, .hard = 1};
 }
 
@@ -151,16 +112,28 @@ static void gradient(const Place *at, double *g)
     }
 }
 
+/* d is an eigenvector, with (2k/l2) (2 tau' |d|^2 + l2 tau); across it is
+ * (2k/l2) l2 tau. */
 static int hessian(const Place *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
     int projected = 0;
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
-        double H[3];
-        projected +=
-            spring_law_hessian(spring.law, spring.d, spring.l2,
-                               at->w * spring.k, spring.strain, filter, H);
+        const double *d = spring.d, d2 = d[0] * d[0] + d[1] * d[1];
+        double k = at->w * spring.k, factor = 2 * k / spring.l2;
+        double across = spring.l2 * spring_law_slope(spring.law, spring.strain);
+        double along =
+            2 * spring_law_curvature(spring.law, spring.strain) * d2 + across;
+        if ((along < 0 || across < 0) && filter_projects(filter)) {
+            along = projected_eigenvalue(filter, along);
+            across = projected_eigenvalue(filter, across);
+            projected += k > 0;
+        }
+        double difference = d2 > 0 ? (along - across) / d2 : 0;
+        const double H[3] = {factor * (across + difference * d[0] * d[0]),
+                             factor * difference * d[0] * d[1],
+                             factor * (across + difference * d[1] * d[1])};
         mass_spring_add(H, spring.e, s, slot, q, out);
     }
     return projected;
@@ -188,15 +161,25 @@ static void along(const Place *at, const double *p, double q[3])
     }
 }
 
+/* V(e + t) - V(e) - V'(e) t >= 0: the integral of (t - s) V''(e + s) over s = 0
+ * ... t, mirrored so that t >= 0.  V'' is hard + theta everywhere, and flow
+ * more where the spring is elastic.  Nothing is subtracted but ends of the way.
+ */
 static double remainder_along(const Place *at, const double *p, double alpha)
 {
     double sum = 0, B, C;
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
+        SpringLaw law = spring.law;
         strain_along(&spring, p, &B, &C);
+        double t = alpha * (B + alpha * C), way = fabs(t);
+        double start = copysign(1, t) * spring.strain;
+        double from = larger(-law.yield - start, 0);
+        double to = smaller(law.yield - start, way);
+        double within = from > 0 && to < way ? 2 * law.yield : to - from;
+        double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
         sum += spring.k * spring.l2 *
-               spring_law_remainder(spring.law, spring.strain,
-                                    alpha * (B + alpha * C));
+               (0.5 * (law.hard + law.theta) * t * t + law.flow * elastic);
     }
     return at->w * sum;
 }

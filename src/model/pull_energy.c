@@ -83,11 +83,6 @@ Status pull_set(System *system, const TermKind *kind, const Pull *pull)
     return STATUS_OK;
 }
 
-Pull *hand_energy_of(const System *system)
-{
-    return system_data(system, &hand_energy);
-}
-
 void hand_follow(Pull *hand, const double *x, const double *v, double m,
                  double h, const double *free)
 {

@@ -113,28 +113,18 @@ static bool is_positive(double value)
     return isnormal(value) && value > 0;
 }
 
-/* Two different nodes, rest length and stiffness that can be divided by. */
-static bool spring_is_valid(const System *system, int s)
-{
-    int i = system->e[2 * s], j = system->e[2 * s + 1];
-    return i >= 0 && i < system->nodes && j >= 0 && j < system->nodes &&
-           i != j && is_positive(system->l2[s]) &&
-           (system->k[s] == 0 || (is_positive(system->k[s]) &&
-                                  is_positive(system->k[s] / system->l2[s])));
-}
-
 Place place_at(const System *system, const double *x_n, const double *u,
                const double *x)
 {
-    const Damping *damping = u ? damping_of(system) : NULL;
+    const Damping *damped = u ? system_data(system, &damping) : NULL;
     return (Place){.system = system,
                    .w = 1,
                    .x_n = x_n,
                    .u = u,
                    .x = x,
-                   .damping = damping,
-                   .k = damping ? damping->k : system->k,
-                   .l2 = damping ? damping->l2 : system->l2};
+                   .damping = damped,
+                   .k = damped ? damped->k : system->k,
+                   .l2 = damped ? damped->l2 : system->l2};
 }
 
 const TermKind *next_energy(Place *at)
@@ -156,8 +146,13 @@ Status system_check(const System *system, const double *x)
                  all_finite(x, 2 * (size_t)system->nodes);
     for (int i = 0; valid && i < system->nodes; i++)
         valid = is_positive(system->m[i]);
-    for (int s = 0; valid && s < system->springs; s++)
-        valid = spring_is_valid(system, s);
+    for (int s = 0; valid && s < system->springs; s++) {
+        int i = system->e[2 * s], j = system->e[2 * s + 1];
+        double l2 = system->l2[s], k = system->k[s];
+        valid = i >= 0 && i < system->nodes && j >= 0 && j < system->nodes &&
+                i != j && is_positive(l2) &&
+                (k == 0 || (is_positive(k) && is_positive(k / l2)));
+    }
     for (const TermKind *kind; valid && (kind = next_energy(&at));)
         valid = !kind->allowed || kind->allowed(&at);
     system_bounds(system, &stiffest, &force);

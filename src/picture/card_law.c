@@ -109,8 +109,8 @@ static const Law laws[] = {
 static void find_spring(LawNow *now, int s)
 {
     const System *system = now->at.system;
-    const Plasticity *flow = plasticity_of(system);
-    const Fracture *tear = fracture_of(system);
+    const Plasticity *flow = system_data(system, &plastic_energy);
+    const Fracture *tear = system_data(system, &fracture);
     double d[2];
     now->spring = plasticity_law(system, s);
     now->x = spring_strain(system->e + 2 * s, system->l2[s], now->at.x, d);
@@ -220,7 +220,7 @@ static double force_of(const Law *law, const LawNow *now)
  * and fro, or not at all. */
 static bool flowed_one_way(const LawNow *now, double from[2], double to[2])
 {
-    const Plasticity *flow = plasticity_of(now->at.system);
+    const Plasticity *flow = system_data(now->at.system, &plastic_energy);
     double ep = now->spring.ep, most = flow ? now->spring.yield : 0;
     double away = flow ? most - flow->yield - flow->hardening * fabs(ep) : 0;
     from[0] = from[1] = flow ? copysign(flow->yield, ep) : 0;

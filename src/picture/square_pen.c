@@ -68,7 +68,7 @@ SpringPen square_pen(Plot *stage, int run)
     const Simulation *simulation = pane->simulation;
     const Trace *trace = pane->trace;
     const System *system = simulation->run[run].system;
-    const Plasticity *plasticity = plasticity_of(system);
+    const Plasticity *plasticity = system_data(system, &plastic_energy);
     SpringPen pen = {.stage = stage,
                      .show = show,
                      .pane = pane,

@@ -173,7 +173,8 @@ static int draw_ground(const SpringPen *pen)
         if (pen->stage->pane == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
-    int folded = square_cells(pen, pen->contact || fracture_of(pen->system));
+    int folded =
+        square_cells(pen, pen->contact || system_data(pen->system, &fracture));
     if (pane->ghost) {
         square_ghost(pen, pane->ghost, COLOUR_GHOST);
         plot_legend(pen->stage, COLOUR_GHOST, "%s", pane->ghost_label);
@@ -449,7 +450,7 @@ void square_draw(Plot *stage)
         draw_solid(pen);
     else if (kinds)
         draw_kinds(pen);
-    else if (pen->spacing >= LEAST_CELL || fracture_of(system))
+    else if (pen->spacing >= LEAST_CELL || system_data(system, &fracture))
         square_springs(pen);
     else
         square_faces(pen);

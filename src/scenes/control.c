@@ -20,7 +20,7 @@ static Control *make_control(int nodes)
 Control *control_of(const Simulation *simulation)
 {
     const System *system = &simulation->system;
-    const Pull *hand = hand_energy_of(system);
+    const Pull *hand = system_data(system, &hand_energy);
     Control *control = make_control(system->nodes);
     if (!control)
         return NULL;

@@ -32,8 +32,8 @@ static void pass(Cursor *cursor, void *piece, size_t size)
 static void pass_system(Cursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
-    Plasticity *plasticity = plasticity_of(system);
-    Fracture *breaks = fracture_of(system);
+    Plasticity *plasticity = system_data(system, &plastic_energy);
+    Fracture *breaks = system_data(system, &fracture);
     Contact *contact = contact_of(system);
     PASS(system->lost);
     if (plasticity) {

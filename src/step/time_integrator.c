@@ -72,7 +72,7 @@ void time_integrator_free(TimeIntegrator *run)
 static void begin_hand(TimeIntegrator *run)
 {
     System *system = run->system;
-    Pull *hand = hand_energy_of(system);
+    Pull *hand = system_data(system, &hand_energy);
     double *free = NULL;
     if (!hand)
         return;
@@ -98,7 +98,7 @@ static Status end_step(TimeIntegrator *run, Status failure)
     }
     if (failure)
         return run->status = failure;
-    const Pull *hand = hand_energy_of(run->system);
+    const Pull *hand = system_data(run->system, &hand_energy);
     if (hand)
         run->work += hand_work(hand, run->x + 2 * hand->node,
                                run->new_x + 2 * hand->node);

@@ -94,8 +94,9 @@ static Real edge_of_flow(Spot *spot, Real E)
 static void spring(Spot *spot, Jet *sum, const void *data, int s)
 {
     const System *system = spot->at->system;
-    const Plasticity *flow = data == plasticity_of(system) ? data : NULL;
-    const Damping *damped = spot->at->u ? damping_of(system) : NULL;
+    const Plasticity *flow =
+        data == system_data(system, &plastic_energy) ? data : NULL;
+    const Damping *damped = spot->at->u ? system_data(system, &damping) : NULL;
     Real theta = damped ? damped->eta / spot->h : 0;
     Jet E = {.f = -1}, V;
     for (int axis = 0; axis < 2; axis++) {

@@ -90,9 +90,10 @@ TEST(the_hand_wins)
         CHECK_AT_MOST(furthest, 1.001 * cell); /* 4e-5 more: the tolerance */
         double stiffest = 0, force = 0;
         system_bounds(&simulation->system, &stiffest, &force);
-        CHECK(stiffest >= hand_energy_of(&simulation->system)->k);
+        const Pull *hand = system_data(&simulation->system, &hand_energy);
+        CHECK(stiffest >= hand->k);
         edit(COMMAND_RELEASE, 0, 0, 0);
-        CHECK(!hand_energy_of(&simulation->system));
+        CHECK(!system_data(&simulation->system, &hand_energy));
         past_free(&past);
     }
 }

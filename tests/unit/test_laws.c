@@ -114,7 +114,7 @@ TEST(broken_springs_do_nothing)
     const double apart[4] = {-0.5, 0, 0.5, 0}, v[4] = {-30, 0, 30, 0};
     few_masses(2, 1);
     CHECK_STATUS(plastic_energy.set(&few, NULL, (double[]){0.1, 0}), STATUS_OK);
-    const Plasticity *flow = plasticity_of(&few);
+    const Plasticity *flow = system_data(&few, &plastic_energy);
     plastic_energy.end(&(TermStep){&few, few.term, x, x, 1});
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14); /* it does while it is whole */
     few.k[0] = 0;
@@ -404,7 +404,8 @@ TEST(breaking_books_its_energy)
                    potential_of(&whole, x) - potential_of(system, x),
                    1e-10 * (1 + energy_now(scene, 0, "elastic")));
     }
-    CHECK(broken > 30 && broken == fracture_of(system)->broken);
+    const Fracture *breaks = system_data(system, &fracture);
+    CHECK(broken > 30 && broken == breaks->broken);
 }
 
 /* ---- laws of a scene --------------------------------------------------- */

@@ -407,8 +407,10 @@ static Real most_loaded(const System *system, const double *x,
         Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
                         (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
         Real strain = d * d / system->l2[i] - 1, ep = flow ? flow->ep[i] : 0;
-        Real load = flow ? fabsl(ep) + 1e-3L * fabsl(strain)
-                         : strain / fracture_strength(fracture_of(system), i);
+        Real load =
+            flow
+                ? fabsl(ep) + 1e-3L * fabsl(strain)
+                : strain / fracture_strength(system_data(system, &fracture), i);
         if (system->k[i] == 0 || load <= most)
             continue;
         most = load;
@@ -426,7 +428,7 @@ static void tell_law(const Simulation *simulation)
     const Options *o = &simulation->options;
     const char *law = o->page->law ? o->page->law : "";
     const double *x = simulation->run[0].x;
-    const Plasticity *flow = plasticity_of(system);
+    const Plasticity *flow = system_data(system, &plastic_energy);
     Real at = INFINITY, value = 0, slip = 0, s, rest = 0;
     Real reach = o->barrier[0] > 0 ? o->barrier[0] : o->side / 100;
     Real kappa = o->barrier[1] > 0 ? o->barrier[1] : 4 * o->stiffness;
@@ -1075,7 +1077,7 @@ static void tell_contact(const Pane *pane)
 /* The strains at the ends of the colours, in percent. */
 static void tell_colours(const Simulation *simulation)
 {
-    const Plasticity *flow = plasticity_of(&simulation->system);
+    const Plasticity *flow = system_data(&simulation->system, &plastic_energy);
     Real most = fabsl(fabsl(simulation->options.stretch) - 1), own = 0.1L;
     Real range = simulation->scene->strain;
     if (!(range > 0))

@@ -1017,7 +1017,8 @@ TEST(claim_inelastic)
         for (int i = 0; i < 2 * simulation->system.nodes; i += 2)
             nearest = fmin(nearest, hypot(x[i], x[i + 1] + 0.75) - 0.35);
     }
-    const Plasticity *plasticity = plasticity_of(&simulation->system);
+    const Plasticity *plasticity =
+        system_data(&simulation->system, &plastic_energy);
     assert_non_null(plasticity);
     CHECK(plasticity->yield == 0.04 && plasticity->hardening == 0.1);
     for (int s = 0; s < simulation->system.springs; s++)
@@ -1137,9 +1138,8 @@ TEST(claim_rub)
 
 TEST(claim_gap)
 {
-    says("gap",
-         "0.5 0.3 20 000 0.1 462 20 36 259 978 36 462 20 259 978 100 "
-         "200000");
+    says("gap", "0.5 0.3 20 000 0.1 462 20 36 259 978 36 462 20 259 978 100 "
+                "200000");
     for (int i = 0; i < 2; i++) {
         double x[2];
         middle_of(bodies_after("gap", i ? "--young 200000" : "", 100), 0, x);
@@ -1172,7 +1172,7 @@ TEST(claim_fracture)
     says("fracture", "1 20 45 45 100 100");
     Simulation *simulation = open_page("fracture", "");
     double start = simulation_energies(simulation, 0).total;
-    const Fracture *broken = fracture_of(&simulation->system);
+    const Fracture *broken = system_data(&simulation->system, &fracture);
     assert_non_null(broken);
     make_steps(simulation, 20);
     CHECK(broken->broken == 0);

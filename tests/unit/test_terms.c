@@ -216,9 +216,10 @@ static void add_terms(const Row *row, Random *random, System *system)
         set_pulls(random, row->pull, system);
     if (row->yield > 0) {
         CHECK_STATUS(plastic_energy.set(system, NULL, &row->yield), STATUS_OK);
+        Plasticity *flow = system_data(system, &plastic_energy);
         for (int s = 0; s < system->springs; s++) {
-            plasticity_of(system)->ep[s] = random_uniform(random, -0.3, 0.3);
-            plasticity_of(system)->kappa[s] = random_uniform(random, 0, 0.5);
+            flow->ep[s] = random_uniform(random, -0.3, 0.3);
+            flow->kappa[s] = random_uniform(random, 0, 0.5);
         }
     }
     if (row->damping > 0)
@@ -361,7 +362,7 @@ static void derivatives(Case *c, const TermKind *kind)
     noise.pq += entries_noise(c, kind);
     times_hessian(c, kind, FILTER_NONE, c->q, Hq);
     times_hessian(c, kind, FILTER_NONE, c->p, Hp);
-    if (!(damping_of(&c->system) && kind->internal))
+    if (!(system_data(&c->system, &damping) && kind->internal))
         near("value", c->at.w * kind->value(&c->at), formula.f, noise.f);
     near("gradient", dot(c, g, c->p), formula.p, noise.p);
     near("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
@@ -555,7 +556,7 @@ static void whole_step(Case *c, Random *random)
     near("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
     near("E's Hessian", dot(c, Hq, c->p), part.pq,
          noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
-    if (!damping_of(&c->system))
+    if (!system_data(&c->system, &damping))
         near("E", incremental_potential_value(&E, c->u, c->x), part.f,
              noise.f + 1e-13L * size.f);
     const Along along = incremental_potential_along(&iterate);
