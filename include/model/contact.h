@@ -53,9 +53,6 @@ typedef struct Gap {
     double r;    /* m, |x_i - x_b|; a wall: infinite */
 } Gap;
 
-/* The velocity at time t, s; v [2] m/s, out. */
-void motion_velocity(const Motion *motion, double t, double v[2]);
-
 /* The point that the obstacle's gaps are measured from, in positions x [2n] m:
  * o, or the free node. */
 const double *obstacle_point(const Obstacle *obstacle, const double *x);

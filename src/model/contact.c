@@ -7,16 +7,6 @@
 #include "model/barrier.h"
 #include "model/elements.h"
 
-void motion_velocity(const Motion *motion, double t, double v[2])
-{
-    v[0] = v[1] = 0;
-    for (int i = motion->phases - 1; i >= 0; i--)
-        if (t < motion->until[i]) {
-            v[0] = motion->v[i][0];
-            v[1] = motion->v[i][1];
-        }
-}
-
 const double *obstacle_point(const Obstacle *obstacle, const double *x)
 {
     return obstacle->node < 0 ? obstacle->o : x + 2 * obstacle->node;

@@ -15,25 +15,6 @@ struct Cholesky {
     double *b, *r;        /* [n] right-hand side; residual or workspace */
 };
 
-/* Supernodes are merged if that adds few zeros; these limits were measured on
- * square meshes. */
-static void set_parameters(cholmod_common *common, CholeskyKind kind)
-{
-    common->print = 0;
-    common->nmethods = 1;
-    common->method[0].ordering = CHOLMOD_NATURAL;
-    common->postorder = false;
-    common->supernodal =
-        kind == CHOLESKY_DEFINITE ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
-    common->quick_return_if_not_posdef = 1;
-    common->nrelax[0] = 8;
-    common->nrelax[1] = 20;
-    common->nrelax[2] = 40;
-    common->zrelax[0] = 0.5;
-    common->zrelax[1] = 0.1;
-    common->zrelax[2] = 0.02;
-}
-
 /* CHOLMOD's name for what went wrong, as ours. */
 static Status cholmod_failure(const cholmod_common *common)
 {
@@ -69,13 +50,28 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, Cholesky **out)
     Cholesky *cholesky = calloc(1, sizeof *cholesky);
     if (!cholesky)
         return STATUS_OUT_OF_MEMORY;
-    cholmod_start(&cholesky->common);
-    set_parameters(&cholesky->common, kind);
+    cholmod_common *common = &cholesky->common;
+    cholmod_start(common);
+    common->print = 0;
+    common->nmethods = 1;
+    common->method[0].ordering = CHOLMOD_NATURAL;
+    common->postorder = false;
+    common->supernodal =
+        kind == CHOLESKY_DEFINITE ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
+    common->quick_return_if_not_posdef = 1;
+    /* Supernodes are merged if that adds few zeros; these limits were measured
+     * on square meshes. */
+    common->nrelax[0] = 8;
+    common->nrelax[1] = 20;
+    common->nrelax[2] = 40;
+    common->zrelax[0] = 0.5;
+    common->zrelax[1] = 0.1;
+    common->zrelax[2] = 0.02;
     cholesky->kind = kind;
     cholesky->matrix = A;
     cholmod_sparse view = sparse_view(A);
-    cholesky->L = cholmod_analyze(&view, &cholesky->common);
-    Status status = cholmod_failure(&cholesky->common);
+    cholesky->L = cholmod_analyze(&view, common);
+    Status status = cholmod_failure(common);
     cholesky->b = malloc(2 * (size_t)A->size * sizeof *cholesky->b);
     if (!status && (!cholesky->L || !cholesky->b))
         status = STATUS_OUT_OF_MEMORY;
@@ -160,52 +156,38 @@ static void solve_by_columns(const cholmod_factor *L, double *y)
     }
 }
 
-/* x = A^-1 b by the factor. */
-static Status solve_once(Cholesky *cholesky, const double *b, double *x)
-{
-    const cholmod_factor *L = cholesky->L;
-    memmove(x, b, L->n * sizeof *x);
-    if (cholesky->kind == CHOLESKY_INDEFINITE)
-        solve_by_columns(L, x);
-    else
-        solve_by_panels(L, x, cholesky->r);
-    return all_finite(x, L->n) ? STATUS_OK : STATUS_NOT_FINITE;
-}
-
 /* Without pivoting an indefinite factor can be inaccurate, and pivots next to
  * zero were moved away from it.  Iterative refinement with the matrix itself,
  * x += (L D L^T)^-1 (b - A x), gives the accuracy back. */
-static Status solve_refined(Cholesky *cholesky, double *x)
+Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 {
     enum { MAX_SOLVES = 21 };
     size_t n = cholesky->L->n;
-    double *b = cholesky->b, *r = cholesky->r;
+    double *own = cholesky->b, *r = cholesky->r;
+    if (cholesky->kind == CHOLESKY_DEFINITE) {
+        memmove(x, b, n * sizeof *x);
+        solve_by_panels(cholesky->L, x, r);
+        return all_finite(x, n) ? STATUS_OK : STATUS_NOT_FINITE;
+    }
     double size = largest_of(b, n), residual = INFINITY, last;
+    memcpy(own, b, n * sizeof *own); /* x may be b */
     memcpy(r, b, n * sizeof *r);
     memset(x, 0, n * sizeof *x);
     for (int i = 0; i < MAX_SOLVES; i++) {
-        Status status = solve_once(cholesky, r, r);
-        if (status)
-            return status;
+        solve_by_columns(cholesky->L, r);
+        if (!all_finite(r, n))
+            return STATUS_NOT_FINITE;
         for (size_t j = 0; j < n; j++)
             x[j] += r[j];
         sparse_multiply(cholesky->matrix, x, r);
         for (size_t j = 0; j < n; j++)
-            r[j] = b[j] - r[j];
+            r[j] = own[j] - r[j];
         last = residual;
         residual = largest_of(r, n);
         if (residual <= 1e-15 * size || !(residual < 0.5 * last))
             break;
     }
     return residual <= 1e-8 * size ? STATUS_OK : STATUS_SINGULAR;
-}
-
-Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
-{
-    if (cholesky->kind == CHOLESKY_DEFINITE)
-        return solve_once(cholesky, b, x);
-    memcpy(cholesky->b, b, cholesky->L->n * sizeof *b);
-    return solve_refined(cholesky, x);
 }
 
 double cholesky_factor_entries(const Cholesky *cholesky)

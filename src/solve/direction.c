@@ -282,29 +282,6 @@ static Status newton_test(const Newton *newton, double error)
     return residual <= newton->tolerance ? STATUS_OK : STATUS_RUNNING;
 }
 
-/* p and its residual with the present factor.  Where springs outweigh the
- * masses so much that a factor is not exact, the test is passed only by a
- * direction that is known well enough: with the bound of what H p = -g lacks.
- * (What rounding has done to g itself is not in this: no direction knows it.)
- * Returns RUNNING, OK (the test is passed), or a failure. */
-static Status solve_and_test(Newton *newton)
-{
-    double error;
-    Status status = newton_solve(newton);
-    if (status)
-        return status;
-    newton->residual = newton_residual(newton);
-    if (!isfinite(newton->residual))
-        return STATUS_NOT_FINITE;
-    status = newton_test(newton, 0);
-    bool exact = !newton->rounding.blurred && newton->search.shift == 0;
-    newton->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
-    if (status || exact)
-        return status;
-    status = judge(newton, &error);
-    return status ? status : newton_test(newton, error);
-}
-
 /* The test by conjugate gradients, with the masses as their preconditioner:
  * r.z is then the square of what p can lack (judge), and they end where that
  * decides the test.  Returns OK (it is passed), RUNNING (or not known). */
@@ -367,7 +344,23 @@ static Status direction_at(Newton *newton)
         test_at_rest(newton) == STATUS_OK)
         return STATUS_OK;
     Status status = newton_factor(newton);
-    return status ? status : solve_and_test(newton);
+    if (!status)
+        status = newton_solve(newton);
+    if (status)
+        return status;
+    newton->residual = newton_residual(newton);
+    if (!isfinite(newton->residual))
+        return STATUS_NOT_FINITE;
+    /* Where springs outweigh the masses so much that a factor is not exact, the
+     * test is passed only by a direction that is known well enough: with the
+     * bound of what H p = -g lacks.  (What rounding has done to g itself is not
+     * in this: no direction knows it.) */
+    bool exact = !newton->rounding.blurred && newton->search.shift == 0;
+    double error = 0;
+    newton->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
+    if (!exact && newton_test(newton, 0) == STATUS_OK)
+        status = judge(newton, &error);
+    return status ? status : newton_test(newton, error);
 }
 
 /* ---- ends that are no minima ---- */
@@ -405,57 +398,44 @@ Status direction_judges_end(Newton *newton)
                               newton->settings.minimum ? 1 : 1 + MASSES_DOWN);
 }
 
-/* Looks for negative curvature: conjugate gradients on the Hessian as it is,
+/* The gradient is known: p along negative curvature of the Hessian as it is, if
+ * that is found; else as anywhere.  It is looked for by conjugate gradients
  * from random numbers of -1 ... 1, the same ones always, preconditioned with
- * the last factor.
- *   found  out; p is then a direction with p.H p < 0 and p.g <= 0
- * Returns OK, NOT_FINITE. */
-static Status find_curvature(Newton *newton, bool *found)
+ * the factor.  Returns RUNNING or a failure. */
+static Status leave_saddle(Newton *newton)
 {
+    const System *system = newton->system;
     const SearchDirection *search = &newton->search;
-    const Iterate *at = &newton->at;
-    int n = 2 * newton->system->nodes;
+    const int n = 2 * system->nodes;
+    double *p = newton->at.p, *d = search->d, largest = 0, l2 = INFINITY;
     ConjugateGradients state = {FILTER_NONE, .enough = NO_CURVATURE};
-    Status status = STATUS_OK;
+    Status status = newton_factor(newton);
     uint64_t random = 1;
     for (int i = 0; i < n; i++) {
         random = random * 6364136223846793005u + 1442695040888963407u;
         search->r[i] = (double)(int64_t)random / 9223372036854775808.0;
     }
-    system_clear_pinned(newton->system, search->r);
-    for (int k = 0; k < CURVATURE_MAX_ITERATIONS && !status; k++) {
+    system_clear_pinned(system, search->r);
+    int most = newton->saddles < MAX_SADDLES ? CURVATURE_MAX_ITERATIONS : 0;
+    for (int k = 0; k < most && !status; k++) {
         status = apply_factor(newton, search->r, search->z);
         if (!status && !conjugate_step(newton, &state))
             break;
     }
-    *found = !status && state.curvature < 0;
-    double sign = dot(n, search->d, at->g) > 0 ? -1 : 1;
-    for (int i = 0; i < n && *found; i++)
-        at->p[i] = sign * search->d[i];
-    return status;
-}
-
-/* The gradient is known: p along negative curvature of the Hessian as it is, if
- * that is found; else as anywhere.  Returns RUNNING or a failure. */
-static Status leave_saddle(Newton *newton)
-{
-    const System *system = newton->system;
-    double *p = newton->at.p, largest = 0, l2 = INFINITY;
-    bool found = false;
-    Status status = newton_factor(newton);
-    if (!status && newton->saddles < MAX_SADDLES)
-        status = find_curvature(newton, &found);
+    bool found = state.curvature < 0;
     if (!status && !found)
         status = newton_solve(newton);
     if (status || !found)
         return status ? status : STATUS_RUNNING;
-    for (int i = 0; i < 2 * system->nodes; i++)
-        largest = fmax(largest, fabs(p[i]));
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, fabs(d[i]));
     for (int s = 0; s < system->springs; s++)
         l2 = fmin(l2, system->l2[s]);
     double scale = FIRST_TRIAL * (system->springs ? sqrt(l2) : 1) / largest;
-    for (int i = 0; i < 2 * system->nodes; i++)
-        p[i] *= scale;
+    if (dot(n, d, newton->at.g) > 0) /* p goes downhill */
+        scale = -scale;
+    for (int i = 0; i < n; i++)
+        p[i] = scale * d[i];
     newton->saddles++;
     newton->counters.saddles++;
     return STATUS_RUNNING;

@@ -88,10 +88,13 @@ double unit_of(double a)
     return a > 0 && isfinite(a) ? ldexp(1, -ilogb(a)) : 1;
 }
 
-static void read_nodes(Grid *grid, const System *system, const double *m)
+void grid_read_system(Grid *grid, const Iterate *at, const double *m)
 {
+    const System *system = at->E.system;
+    const Place place = place_at(system, at->E.x_n, at->u, at->x);
     const Rows *rows = &grid->rows;
-    double *const arrays[] = {grid->m, grid->per_m};
+    double *const masses[] = {grid->m, grid->per_m};
+    double unit, *springs[2 * KINDS];
     grid->lightest = INFINITY;
     for (int k = 0; k < rows->nodes * rows->nodes; k++)
         if (!system->pinned[k])
@@ -104,46 +107,27 @@ static void read_nodes(Grid *grid, const System *system, const double *m)
             grid->m[q] = grid->mass * m[2 * node];
             grid->per_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
         }
-    share_rows(rows, arrays, 2, grid->node_shift);
-}
-
-/* Of nodes a < b: which kind starts at a. */
-static int kind_of(int nodes, int a, int b)
-{
-    if (a / nodes == b / nodes)
-        return UP;
-    return b - a == nodes ? RIGHT : b - a > nodes ? DIAGONAL : ANTIDIAGONAL;
-}
-
-static void read_springs(Grid *grid, const System *system, const Place *place,
-                         double weight)
-{
-    const Rows *rows = &grid->rows;
-    double unit, *arrays[2 * KINDS];
+    share_rows(rows, masses, 2, grid->node_shift);
     for (int kind = 0; kind < KINDS; kind++) {
-        arrays[kind] = grid->c[kind];
-        arrays[KINDS + kind] = grid->l2[kind];
+        springs[kind] = grid->c[kind];
+        springs[KINDS + kind] = grid->l2[kind];
     }
-    grid->length = unit_of(sqrt(place->l2[system->springs - 1]));
+    grid->length = unit_of(sqrt(place.l2[system->springs - 1]));
     unit = grid->length * grid->length;
     grid->energy = grid->mass * unit;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         int a = e[0] < e[1] ? e[0] : e[1], b = e[0] < e[1] ? e[1] : e[0];
-        int kind = kind_of(rows->nodes, a, b);
-        int q = place_of(rows, a / rows->nodes, a % rows->nodes);
-        double c = 2 * weight * place->k[s] / place->l2[s];
+        int i = a / rows->nodes, q = place_of(rows, i, a % rows->nodes);
+        int kind = i == b / rows->nodes   ? UP /* of those that start at a */
+                   : b - a == rows->nodes ? RIGHT
+                   : b - a > rows->nodes  ? DIAGONAL
+                                          : ANTIDIAGONAL;
+        double c = 2 * at->E.weight * place.k[s] / place.l2[s];
         grid->c[kind][q] = grid->mass / unit * c;
-        grid->l2[kind][q] = unit * place->l2[s];
+        grid->l2[kind][q] = unit * place.l2[s];
     }
-    share_rows(rows, arrays, 2 * KINDS, grid->spring_shift + 1);
-}
-
-void grid_read_system(Grid *grid, const Iterate *at, const double *m)
-{
-    Place place = place_at(at->E.system, at->E.x_n, at->u, at->x);
-    read_nodes(grid, at->E.system, m);
-    read_springs(grid, at->E.system, &place, at->E.weight);
+    share_rows(rows, springs, 2 * KINDS, grid->spring_shift + 1);
 }
 
 void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)

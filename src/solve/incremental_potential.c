@@ -94,33 +94,19 @@ void incremental_potential_gradient(const IncrementalPotential *E,
     system_clear_pinned(system, g);
 }
 
-/* Slots of the terms' entries in rows or columns of pinned nodes.  A column
- * begins with its diagonal, which is 1 here, for a while, where it is pinned.
- */
-static void drop_pinned(const System *system, const Triplets *triplets,
-                        const Sparse *A, int *slot)
-{
-    int masses = 2 * system->nodes;
-    for (int t = 0; t < masses; t++)
-        A->value[slot[t]] = system->pinned[t / 2];
-    for (int t = masses; t < triplets->count; t++)
-        if (A->value[A->start[triplets->row[t]]] != 0 ||
-            A->value[A->start[triplets->column[t]]] != 0)
-            slot[t] = A->entries;
-}
-
 /* The masses on the diagonal, then the terms one after the other. */
 Status incremental_potential_pattern(const System *system, Sparse *A,
                                      int **slot)
 {
     Place at = place_at(system, NULL, NULL, NULL);
     Triplets triplets;
-    long long count = 2LL * system->nodes;
+    int masses = 2 * system->nodes;
+    long long count = masses;
     *A = (Sparse){0};
     *slot = NULL;
     for (const TermKind *kind; (kind = next_energy(&at));)
         count += kind->entries ? kind->entries(&at) : 0;
-    Status status = triplets_create(2 * system->nodes, count, &triplets);
+    Status status = triplets_create(masses, count, &triplets);
     for (int i = 0; i < system->nodes && !status; i++)
         term_add_diagonal(system, i, &triplets);
     for (const TermKind *kind; !status && (kind = next_energy(&at));)
@@ -131,8 +117,14 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
         status =
             *slot ? sparse_create(&triplets, A, *slot) : STATUS_OUT_OF_MEMORY;
     }
-    if (!status)
-        drop_pinned(system, &triplets, A, *slot);
+    /* The terms' entries in rows or columns of pinned nodes are dropped.  A
+     * column begins with its diagonal, which is 1 here where it is pinned. */
+    for (int t = 0; t < triplets.count && !status; t++)
+        if (t < masses)
+            A->value[(*slot)[t]] = system->pinned[t / 2];
+        else if (A->value[A->start[triplets.row[t]]] != 0 ||
+                 A->value[A->start[triplets.column[t]]] != 0)
+            (*slot)[t] = A->entries;
     triplets_free(&triplets);
     return status;
 }

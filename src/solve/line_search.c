@@ -15,19 +15,6 @@ Status line_search_backtrack(EnergyDifference difference, const void *function,
     return STATUS_LINE_SEARCH_LIMIT;
 }
 
-/* u_trial = u + alpha p, and x_trial there.  Returns whether the terms allow
- * it; rounding may say no where the reach of p said yes. */
-static bool try_step(Newton *newton, double alpha)
-{
-    const Iterate *at = &newton->at;
-    double *u = newton->u_trial, *x = newton->x_trial;
-    for (int i = 0; i < 2 * newton->system->nodes; i++) {
-        u[i] = at->u[i] + alpha * at->p[i];
-        x[i] = at->E.x_n[i] + u[i];
-    }
-    return incremental_potential_allowed(&at->E, u, x);
-}
-
 typedef struct Step {
     Newton *newton;
     Along along;
@@ -40,13 +27,21 @@ static double step_difference(const void *function, double alpha)
 {
     const Step *step = function;
     Newton *newton = step->newton;
+    const Iterate *at = &newton->at;
+    double *u = newton->u_trial, *x = newton->x_trial;
     bool searches = newton->settings.search == LINE_SEARCH_BACKTRACK;
     double change = along_difference(&step->along, alpha);
     newton->record.change = change;
     newton->record.trials += searches;
     if (searches && !(change <= 0))
         return change;
-    bool allowed = try_step(newton, alpha) && rounding_confirms(newton);
+    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+        u[i] = at->u[i] + alpha * at->p[i];
+        x[i] = at->E.x_n[i] + u[i];
+    }
+    /* Rounding may say no where the reach of p said yes. */
+    bool allowed = incremental_potential_allowed(&at->E, u, x) &&
+                   rounding_confirms(newton);
     return !allowed ? NAN : searches ? change : 0;
 }
 

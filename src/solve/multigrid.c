@@ -82,27 +82,20 @@ void multigrid_free(Multigrid *mg)
 
 /* ---- who makes a minimisation ---- */
 
-/* Whether only springs, with or without damping, have an energy, and what draws
- * nodes to points. */
-static bool has_springs_alone(const System *system)
-{
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = system->term[t].kind;
-        if (kind != &mass_spring_energy && kind->value && !kind->diagonal)
-            return false;
-    }
-    return system_find_term(system, &mass_spring_energy);
-}
-
-/* Why multigrid does not take it, or NULL. */
+/* Why multigrid does not take it, or NULL: only springs, with or without
+ * damping, may have an energy, and what draws nodes to points. */
 static const char *refusal(const Newton *newton)
 {
     const NewtonSettings *settings = &newton->settings;
+    Place at = place_at(newton->system, NULL, NULL, NULL);
+    bool alone = system_find_term(at.system, &mass_spring_energy);
+    for (const TermKind *kind; alone && (kind = next_energy(&at));)
+        alone = kind == &mass_spring_energy || kind->diagonal;
     if (newton->system->segments == 0)
         return "there is no square grid";
     if (settings->averaged)
         return "the energy is averaged over the step";
-    if (!has_springs_alone(newton->system))
+    if (!alone)
         return "there are energies beside the springs'";
     if (settings->filter != FILTER_CLAMP)
         return "the projection is not clamp";
@@ -127,28 +120,6 @@ bool multigrid_takes(Newton *newton)
 
 /* ---- the test ---- */
 
-/* Whether p = -H^-1 g, and its residual, got so exact that the test is decided
- * by a remainder in double precision. */
-static bool decide_test(Newton *newton)
-{
-    Multigrid *mg = newton->multigrid;
-    const double h = newton->settings.h * mg->grid.length;
-    double length = h * newton->tolerance, last, now = INFINITY;
-    VEnd end = {TESTED, length, MAX_CYCLES};
-    v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p);
-    end = (VEnd){REFINED, 0, MAX_CYCLES};
-    do {
-        double largest;
-        last = now;
-        now = grid_remainder(&mg->grid, mg->g, mg->p, mg->rest, &largest);
-        newton->residual = largest / h;
-        if (v_decides(&mg->grid, largest, now, length))
-            return true;
-        v_solve(&mg->cycle, 1, mg->rest, now, end, true, mg->p);
-    } while (now < 0.25 * last);
-    return false;
-}
-
 /* g at x, and the bound of the residual. */
 static void evaluate(Newton *newton)
 {
@@ -161,11 +132,15 @@ static void evaluate(Newton *newton)
     newton->kind = RESIDUAL_BOUND;
 }
 
-/* The test of Algorithm 3 at x.  Returns OK, RUNNING, NOT_FINITE. */
+/* The test of Algorithm 3 at x: p = -H^-1 g, and its residual, are made so
+ * exact that a remainder in double precision decides it.  Returns OK, RUNNING,
+ * NOT_FINITE. */
 static Status pass_test(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     const double tolerance = newton->tolerance;
+    const double h = newton->settings.h * mg->grid.length;
+    double length = h * tolerance, last, now = INFINITY, largest;
     double worth = WORTH_A_TEST * tolerance * mg->grid.segments;
     if (!isfinite(mg->square))
         return STATUS_NOT_FINITE;
@@ -173,9 +148,19 @@ static Status pass_test(Newton *newton)
         return STATUS_OK;
     if (!(mg->bound <= fmin(worth, mg->test_below)))
         return STATUS_RUNNING;
-    mg->directed = decide_test(newton);
+    VEnd end = {TESTED, length, MAX_CYCLES};
+    v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p);
+    end = (VEnd){REFINED, 0, MAX_CYCLES};
+    do {
+        last = now;
+        now = grid_remainder(&mg->grid, mg->g, mg->p, mg->rest, &largest);
+        mg->directed = v_decides(&mg->grid, largest, now, length);
+        if (!mg->directed)
+            v_solve(&mg->cycle, 1, mg->rest, now, end, true, mg->p);
+    } while (!mg->directed && now < 0.25 * last);
     mg->test_below = mg->bound / 2;
     newton->kind = RESIDUAL_ESTIMATE;
+    newton->residual = largest / h;
     return mg->directed && newton->residual <= tolerance ? STATUS_OK
                                                          : STATUS_RUNNING;
 }
@@ -254,16 +239,23 @@ static double lowest(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
-/* Goes along p to where E is lowest, and tells the record.  Returns OK,
- * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE. */
-static Status search_step(Newton *newton)
+/* Direction, step to where E is lowest along it, tiles where it stalls, and the
+ * test of where that led. */
+static Status iterate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
+    const double bound = mg->bound, unit = mg->grid.energy;
     Quartic along;
+    VEnd end = {ENOUGH, 0, MAX_CYCLES};
+    record->kind = RESIDUAL_ESTIMATE;
+    if (!mg->directed)
+        record->residual =
+            v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p) /
+            (newton->settings.h * mg->grid.length);
     grid_along(&mg->grid, mg->g, mg->p, along.q);
     for (int i = 0; i < 4; i++)
-        along.q[i] /= mg->grid.energy;
+        along.q[i] /= unit;
     record->slope = along.q[0];
     record->alpha = record->change = record->trials = 0;
     if (!isfinite(record->slope))
@@ -275,54 +267,18 @@ static Status search_step(Newton *newton)
         return STATUS_LINE_SEARCH_LIMIT;
     record->change = quartic_value(&along, record->alpha);
     grid_move(&mg->grid, record->alpha, mg->p);
-    return STATUS_OK;
-}
-
-/* Direction, step, tiles where it stalls, and the test of where that led. */
-static Status iterate(Newton *newton)
-{
-    Multigrid *mg = newton->multigrid;
-    NewtonRecord *record = &newton->record;
-    const double bound = mg->bound;
-    VEnd end = {ENOUGH, 0, MAX_CYCLES};
-    record->kind = RESIDUAL_ESTIMATE;
-    if (!mg->directed)
-        record->residual =
-            v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p) /
-            (newton->settings.h * mg->grid.length);
-    Status status = search_step(newton);
-    if (status)
-        return status;
     mg->stalls = mg->stalls || (mg->directions >= DIRECTIONS &&
                                 bound > STALLS * mg->last_bound);
     mg->last_bound = bound;
     mg->directions++;
     newton->counters.iterations++;
     int tiles = mg->tiles.high * mg->tiles.wide;
-    double unit = mg->grid.energy;
     if (mg->stalls)
         record->change +=
             tiles_relax(&mg->tiles, PACE * record->change * unit / tiles) /
             unit;
     evaluate(newton);
     return pass_test(newton);
-}
-
-/* Whether multigrid has come to its end without the test being passed.
- *   last  no more iterations are allowed */
-static bool is_stuck(Newton *newton, Status status, bool last)
-{
-    Multigrid *mg = newton->multigrid;
-    const NewtonRecord *record = &newton->record;
-    mg->largest = fmin(mg->largest, record->change);
-    bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest;
-    bool many = record->iteration >= HANDED_ITERATIONS;
-    if (last || small || many || status != STATUS_RUNNING ||
-        newton->settings.observer)
-        grid_write_state(&mg->grid, &newton->at); /* else nobody looks at it */
-    if (status != STATUS_RUNNING)
-        return status != STATUS_OK;
-    return many || (small && rounding_hides(newton, record->change));
 }
 
 Status multigrid_iterate(Newton *newton, NewtonRecord *done)
@@ -332,8 +288,17 @@ Status multigrid_iterate(Newton *newton, NewtonRecord *done)
     newton->counters.cycles = mg->cycle.cycles;
     newton->counters.local = mg->tiles.sweeps;
     *done = newton->record;
+    mg->largest = fmin(mg->largest, done->change);
     bool last = done->iteration + 1 >= newton_most_iterations(newton);
-    bool stuck = is_stuck(newton, status, last);
+    bool small = fabs(done->change) <= SMALL_CHANGE * -mg->largest;
+    bool many = done->iteration >= HANDED_ITERATIONS;
+    bool stuck = status != STATUS_OK;
+    if (last || small || many || status != STATUS_RUNNING ||
+        newton->settings.observer)
+        grid_write_state(&mg->grid, &newton->at); /* else nobody looks at it */
+    if (status ==
+        STATUS_RUNNING) /* or it has come to its end without the test */
+        stuck = many || (small && rounding_hides(newton, done->change));
     status = status == STATUS_OK ? direction_judges_end(newton) : status;
     if (stuck || status == STATUS_NOT_A_MINIMUM)
         status = take_back(newton, status);

@@ -84,10 +84,19 @@ int newton_most_iterations(const Newton *newton)
                : newton->settings.max_iterations;
 }
 
-/* What ends the loop besides the test: rounding, and the number of iterations.
- * Without a line search an end above the start is no success. */
-static Status newton_limits(Newton *newton, Status status)
+/* Step length, update, next direction and its test.  What ends the loop besides
+ * that is rounding, and the number of iterations.  Without a line search an end
+ * above the start is no success.
+ *   done  out, what the record tells of the first two */
+static Status iterate(Newton *newton, NewtonRecord *done)
 {
+    Status status = step_length(newton);
+    if (!status)
+        status = newton_update(newton);
+    *done = newton->record;
+    if (!status)
+        status =
+            newton->lent ? multigrid_start(newton) : direction_next(newton);
     if (status == STATUS_RUNNING)
         status = rounding_stagnation(newton);
     if (status == STATUS_RUNNING &&
@@ -102,20 +111,6 @@ static Status newton_limits(Newton *newton, Status status)
         !rounding_is_low(newton, newton->at.u, newton->at.x))
         status = STATUS_DIVERGED;
     return status;
-}
-
-/* Step length, update, next direction and its test.
- *   done  out, what the record tells of the first two */
-static Status iterate(Newton *newton, NewtonRecord *done)
-{
-    Status status = step_length(newton);
-    if (!status)
-        status = newton_update(newton);
-    *done = newton->record;
-    if (!status)
-        status =
-            newton->lent ? multigrid_start(newton) : direction_next(newton);
-    return newton_limits(newton, status);
 }
 
 Status newton_iterate(Newton *newton)

@@ -233,15 +233,6 @@ static const double *panel_column(const Panel *panel, int j)
     return panel->value + (size_t)j * (size_t)panel->rows;
 }
 
-/* Solves for w[j] and takes its share from the rows below. */
-static void forward_one(const Panel *panel, int j, double *w)
-{
-    const double *a = panel_column(panel, j);
-    w[j] /= a[j];
-    for (int i = j + 1; i < panel->rows; i++)
-        w[i] -= a[i] * w[j];
-}
-
 /* Four columns, and the inverses of their pivots, which do not wait for one
  * another. */
 static inline void take_group(const Panel *panel, int j, const double *a[GROUP],
@@ -253,7 +244,7 @@ static inline void take_group(const Panel *panel, int j, const double *a[GROUP],
     }
 }
 
-/* The same for w[j] ... w[j + 3]. */
+/* Solves for w[j] ... w[j + 3] and takes their share from the rows below. */
 static void forward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP];
@@ -276,16 +267,7 @@ static void forward_group(const Panel *panel, int j, double *w)
                 (a[2][i] * v[2] + a[3][i] * v[3]);
 }
 
-/* Solves for w[j], the rows below being known. */
-static void backward_one(const Panel *panel, int j, double *w)
-{
-    const double *a = panel_column(panel, j);
-    double sum = w[j];
-    for (int i = j + 1; i < panel->rows; i++)
-        sum -= a[i] * w[i];
-    w[j] = sum / a[j];
-}
-
+/* Solves for w[j] ... w[j + 3], the rows below being known. */
 static void backward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP];
@@ -316,15 +298,23 @@ void panel_forward(const Panel *panel, double *w)
     int j = 0;
     for (; j + GROUP <= panel->columns; j += GROUP)
         forward_group(panel, j, w);
-    for (; j < panel->columns; j++)
-        forward_one(panel, j, w);
+    for (; j < panel->columns; j++) {
+        const double *a = panel_column(panel, j);
+        w[j] /= a[j];
+        for (int i = j + 1; i < panel->rows; i++)
+            w[i] -= a[i] * w[j];
+    }
 }
 
 void panel_backward(const Panel *panel, double *w)
 {
     int j = panel->columns;
-    while (j % GROUP > 0)
-        backward_one(panel, --j, w);
+    while (j % GROUP > 0) {
+        const double *a = panel_column(panel, --j);
+        for (int i = j + 1; i < panel->rows; i++)
+            w[j] -= a[i] * w[i];
+        w[j] /= a[j];
+    }
     while (j > 0)
         backward_group(panel, j -= GROUP, w);
 }

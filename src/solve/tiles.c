@@ -154,35 +154,30 @@ FAST static void relax_chosen(const Tiles *tiles, int count)
         tiles->change[tiles->chosen[t]] = relax_tile(tiles, tiles->chosen[t]);
 }
 
-/* Tells the tiles around what this one has done. */
-static void spread_activity(const Tiles *tiles, int tile)
-{
-    int i = tile / tiles->wide, j = tile % tiles->wide;
-    for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < tiles->high; a++)
-        for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < tiles->wide; b++)
-            tiles->activity[a * tiles->wide + b] +=
-                SPREAD * tiles->change[tile];
-    tiles->activity[tile] = tiles->change[tile];
-}
-
 /* Sweeps of the tiles with at least this activity.  Tiles of a colour have no
  * neighbours among each other, so it does not matter who relaxes first.
  *   visits  out, how many they were
  * Returns the change of E. */
 static double relax_active(Tiles *tiles, double activity, int *visits)
 {
+    const int high = tiles->high, wide = tiles->wide;
     double change = 0;
     *visits = 0;
     for (int colour = 0; colour < 4; colour++) {
         int count = 0;
-        for (int i = colour / 2; i < tiles->high; i += 2)
-            for (int j = colour % 2; j < tiles->wide; j += 2)
-                if (tiles->activity[i * tiles->wide + j] <= activity)
-                    tiles->chosen[count++] = i * tiles->wide + j;
+        for (int i = colour / 2; i < high; i += 2)
+            for (int j = colour % 2; j < wide; j += 2)
+                if (tiles->activity[i * wide + j] <= activity)
+                    tiles->chosen[count++] = i * wide + j;
         relax_chosen(tiles, count);
-        for (int t = 0; t < count; t++) {
-            spread_activity(tiles, tiles->chosen[t]);
-            change += tiles->change[tiles->chosen[t]];
+        for (int t = 0; t < count; t++) { /* the tiles around hear of it */
+            int tile = tiles->chosen[t], i = tile / wide, j = tile % wide;
+            for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < high; a++)
+                for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < wide; b++)
+                    tiles->activity[a * wide + b] +=
+                        SPREAD * tiles->change[tile];
+            tiles->activity[tile] = tiles->change[tile];
+            change += tiles->change[tile];
         }
         *visits += count;
     }

@@ -189,24 +189,20 @@ INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
     }
 }
 
-FAST static void set_up_level(const VCycle *cycle, const Level *l)
+FAST static void set_up(VCycle *cycle)
 {
-    const int nodes = l->rows.nodes, rows = rows_for_both(l);
-    for (int row = 0; row < rows + 2; row++) {
-        if (l == cycle->level && has_row(nodes, row))
-            tensor_row(cycle, row);
-        if (has_row(nodes, row - 1))
-            invert_row(l, row - 1);
-        int i = row - 2;
-        if (l->coarse && i % 2 == 0 && has_row(rows, i))
-            coarsen_row(l, l->coarse, i / 2);
+    for (const Level *l = cycle->level; l && !cycle->set_up; l = l->coarse) {
+        const int nodes = l->rows.nodes, rows = rows_for_both(l);
+        for (int row = 0; row < rows + 2; row++) {
+            if (l == cycle->level && has_row(nodes, row))
+                tensor_row(cycle, row);
+            if (has_row(nodes, row - 1))
+                invert_row(l, row - 1);
+            int i = row - 2;
+            if (l->coarse && i % 2 == 0 && has_row(rows, i))
+                coarsen_row(l, l->coarse, i / 2);
+        }
     }
-}
-
-static void set_up(VCycle *cycle)
-{
-    for (int l = 0; l < cycle->levels && !cycle->set_up; l++)
-        set_up_level(cycle, &cycle->level[l]);
     cycle->set_up = true;
 }
 

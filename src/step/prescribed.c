@@ -27,6 +27,7 @@ bool prescribed_begin(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     bool any = run->system->pin_v != NULL;
+    double half_way = run->clock + 0.5 * run->h;
     run->moved = 0;
     run->left = 1;
     run->part = 0;
@@ -34,8 +35,11 @@ bool prescribed_begin(TimeIntegrator *run)
     run->before = run->newton ? run->newton->counters.iterations : 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
-        motion_velocity(&obstacle->motion, run->clock + 0.5 * run->h,
-                        obstacle->v);
+        const Motion *motion = &obstacle->motion;
+        obstacle->v[0] = obstacle->v[1] = 0;
+        for (int i = motion->phases - 1; i >= 0; i--)
+            if (half_way < motion->until[i])
+                memcpy(obstacle->v, motion->v[i], sizeof obstacle->v);
         any = any || moves(obstacle);
     }
     return any;
@@ -144,35 +148,27 @@ bool prescribed_goes_on(TimeIntegrator *run, Status *status)
 }
 
 /* Of the pins: their reaction, which is what E's gradient has in their places,
- * times their way. */
-static double pins_work(const TimeIntegrator *run, double weight, double *g)
-{
-    const System *system = run->system;
-    const Newton *newton = run->newton;
-    Place at = place_at(system, newton->at.E.x_n, newton->at.u, newton->at.x);
-    double sum = 0;
-    at.w = weight;
-    if (!system->pin_v)
-        return 0;
-    memset(g, 0, 2 * (size_t)system->nodes * sizeof *g);
-    inertia_energy_gradient(system->nodes, newton->at.u, newton->u_tilde,
-                            system->m, g);
-    for (const TermKind *kind; (kind = next_energy(&at));)
-        kind->gradient(&at, g);
-    for (int i = 0; i < 2 * system->nodes; i++)
-        if (system->pinned[i / 2])
-            sum += g[i] * newton->at.u[i] / weight;
-    return sum;
-}
-
-/* Of the obstacles: the forces on the nodes, normal and of friction, times the
- * obstacle's way. */
-static double obstacles_work(const TimeIntegrator *run)
+ * times their way.  Of the obstacles: the forces on the nodes, normal and of
+ * friction, times the obstacle's way. */
+double prescribed_work(const TimeIntegrator *run, double weight)
 {
     const System *system = run->system;
     const Contact *contact = contact_of(system);
-    const double *x = run->newton->at.x;
-    double way = run->moved * run->h, sum = 0;
+    const Newton *newton = run->newton;
+    const double *u = newton->at.u, *x = newton->at.x;
+    Place at = place_at(system, newton->at.E.x_n, u, x);
+    double *g = run->new_x, pins = 0, sum = 0;
+    at.w = weight;
+    if (system->pin_v) {
+        memset(g, 0, run->size * sizeof *g);
+        inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,
+                                g);
+        for (const TermKind *kind; (kind = next_energy(&at));)
+            kind->gradient(&at, g);
+        for (int i = 0; i < 2 * system->nodes; i++)
+            if (system->pinned[i / 2])
+                pins += g[i] * u[i] / weight;
+    }
     for (int k = 0; contact && k < contact->obstacles; k++) {
         const double *v = contact->obstacle[k].v;
         for (int i = 0; moves(&contact->obstacle[k]) && i < system->nodes;
@@ -184,10 +180,6 @@ static double obstacles_work(const TimeIntegrator *run)
                    (gap.n[0] * v[0] + gap.n[1] * v[1]);
         }
     }
-    return way * sum + friction_work_of_obstacles(system, run->newton->at.u);
-}
-
-double prescribed_work(const TimeIntegrator *run, double weight)
-{
-    return pins_work(run, weight, run->new_x) + obstacles_work(run);
+    return pins +
+           (run->moved * run->h * sum + friction_work_of_obstacles(system, u));
 }

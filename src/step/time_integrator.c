@@ -68,26 +68,6 @@ void time_integrator_free(TimeIntegrator *run)
     *run = (TimeIntegrator){0};
 }
 
-/* Where the hand pulls in this step. */
-static void begin_hand(TimeIntegrator *run)
-{
-    System *system = run->system;
-    Pull *hand = system_data(system, &hand_energy);
-    double *free = NULL;
-    if (!hand)
-        return;
-    size_t i = 2 * (size_t)hand->node;
-    if (!run->newton) {
-        hand->k = 0;
-        system_acceleration(system, run->x, run->new_x);
-        free = run->new_x + i;
-        run->memory_h = 0; /* it was another force */
-    }
-    hand_follow(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
-                free);
-    system_changed(system, false);
-}
-
 /* All stages are over, or one failed. */
 static Status end_step(TimeIntegrator *run, Status failure)
 {
@@ -168,7 +148,18 @@ Status time_integrator_begin(TimeIntegrator *run)
                 &(TermStep){system, &system->term[t], run->x, run->v, run->h});
     if (status)
         return end_step(run, status);
-    begin_hand(run);
+    Pull *hand = system_data(system, &hand_energy);
+    if (hand) { /* where it pulls in this step */
+        size_t i = 2 * (size_t)hand->node;
+        if (!run->newton) {
+            hand->k = 0;
+            system_acceleration(system, run->x, run->new_x);
+            run->memory_h = 0; /* it was another force */
+        }
+        hand_follow(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
+                    run->newton ? NULL : run->new_x + i);
+        system_changed(system, false);
+    }
     if (run->newton)
         return go_on(run, begin_stage(run));
     run->method->land(run);
