@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "picture/plot.h"
 #include "play/playing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
@@ -109,6 +110,28 @@ bool player_veils(const Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
     return page && page->ask && player->told != page && player->asks;
+}
+
+/* Two of a hundred are near enough for what was calculated on paper. */
+Status player_unveil(Player *player, const char *typed)
+{
+    const LecturePage *page = player_settings(player)->page;
+    const OptionRow any = {
+        .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
+    double truth = page->answer ? show_number(&player->show, page->answer) : 0;
+    double guess = truth;
+    if (typed && (!option_read(&any, typed, &guess) || !isfinite(guess)))
+        return player_refuse(player, "a number is wanted: 0.25 or 1/4");
+    bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
+    player->told = page;
+    Status status = player_obey_lines(player, page->tell);
+    if (page->answer)
+        player_note(player, "%s%sit is %s", typed ? typed : "",
+                    !typed  ? ""
+                    : right ? ": right, "
+                            : ": no, ",
+                    number_with(truth, 5).text);
+    return status;
 }
 
 /* The page that is asked for: by its name; the next one or the one before; the

@@ -11,7 +11,6 @@
 
 #include "base/mathematics.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
 #include "play/playing.h"
 #include "scenes/one_line.h"
 #include "scenes/scene.h"
@@ -140,42 +139,26 @@ static Status open_line(Player *player, const char *line)
     return ask(player, COMMAND_ADD, all[number - 1] - option_rows);
 }
 
-/* The number that was typed against the page's answer, which is shown from now
- * on.  Two of a hundred are near enough for what was calculated on paper. */
-static Status check_answer(Player *player)
-{
-    const LecturePage *page = player_settings(player)->page;
-    const OptionRow any = {
-        .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
-    double guess, truth = show_number(&player->show, page->answer);
-    if (!option_read(&any, player->typed, &guess) || !isfinite(guess))
-        return player_refuse(player, "a number is wanted: 0.25 or 1/4");
-    bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
-    player->told = page;
-    Status status = player_obey_lines(player, page->tell);
-    player_note(player, "%s: %s, it is %s", player->typed,
-                right ? "right" : "no", number_with(truth, 5).text);
-    player_deselect(player);
-    return status;
-}
-
 /* The page is opened, the answer is checked, or the number is set; what cannot
  * be read leaves the field as it is. */
 Status obey_enter(Player *player, const Command *command)
 {
     const OptionRow *row = player->lit;
     Command made = {.kind = COMMAND_SET, .joins = true};
-    if (!row && !lists(player))
-        return check_answer(player);
-    if (!row) {
-        Status status = open_line(player, player->typed);
+    Status status;
+    if (!row && lists(player)) {
+        status = open_line(player, player->typed);
         player->typing = player->typing && status;
         return status;
     }
-    made.number = row - option_rows;
-    if (row->count > 1 || !option_read(row, player->typed, &made.x))
-        memcpy(made.text, player->typed, sizeof player->typed);
-    Status status = player_obey(player, &made);
+    if (row) {
+        made.number = row - option_rows;
+        if (row->count > 1 || !option_read(row, player->typed, &made.x))
+            memcpy(made.text, player->typed, sizeof player->typed);
+        status = player_obey(player, &made);
+    } else {
+        status = player_unveil(player, player->typed);
+    }
     if (!status)
         player_deselect(player);
     return status;
@@ -465,7 +448,7 @@ static Status pressed(Player *player, const Input *input)
 
 /* The nodes in a box go together; a click with Shift lets them go.  A click on
  * a name takes the next one; on a node it does nothing by itself. */
-static Status released(Player *player)
+Status player_release(Player *player)
 {
     Mouse *mouse = &player->mouse;
     Command box = {.kind = COMMAND_BOX, .joins = true};
@@ -474,6 +457,7 @@ static Status released(Player *player)
     CommandKind drag = mouse->drag;
     int node = mouse->index;
     mouse->drag = COMMAND_NONE;
+    mouse->leaves = false;
     player->show.held.on = player->show.held.boxes = false;
     if (drag == COMMAND_BOX) {
         snprintf(box.text, sizeof box.text, "%.6g,%.6g,%.6g,%.6g", at[0], at[1],
@@ -521,12 +505,14 @@ static Status mouse_used(Player *player, const Input *input)
     mouse->placed = true;
     if (input->kind == INPUT_PRESS)
         return pressed(player, input);
-    if (input->kind == INPUT_RELEASE)
-        return released(player);
+    if (input->kind == INPUT_RELEASE) {
+        mouse->leaves = player->later.kind == COMMAND_DRAG;
+        return mouse->leaves ? STATUS_OK : player_release(player);
+    }
     if (input->kind == INPUT_WHEEL)
         return wheeled(player, input->amount);
     if (mouse->drag != COMMAND_NONE)
-        return follow(player);
+        return mouse->leaves ? STATUS_OK : follow(player);
     return rests ? STATUS_OK : hover(player); /* the window came to the mouse */
 }
 
@@ -539,7 +525,7 @@ Status player_input(Player *player, const Input *input)
     Status status = STATUS_OK;
     player->gesture = mouse->gesture;
     if (input->kind == INPUT_PRESS && mouse->drag != COMMAND_NONE)
-        status = released(player); /* by another button */
+        status = player_release(player); /* by another button */
     if (status)
         return status;
     bool key = input->kind == INPUT_KEY && !input->repeats &&

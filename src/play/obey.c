@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "picture/picture.h"
-#include "picture/plot.h"
 #include "play/playing.h"
 #include "scenes/one_line.h"
 #include "scenes/scene.h"
@@ -19,6 +18,15 @@ Status player_refuse(Player *player, const char *why, ...)
     va_end(arguments);
     one_line(player->message, player->message, sizeof player->message);
     return STATUS_INVALID_INPUT;
+}
+
+Status player_tell(Player *player, Status status)
+{
+    if (status != STATUS_INVALID_INPUT)
+        return status;
+    player_note(player, "%s", player->message);
+    player->message[0] = '\0';
+    return STATUS_OK;
 }
 
 Status player_ask(Player *player, CommandKind kind, long number, double x,
@@ -140,14 +148,30 @@ static bool unveils(Player *player, const Command *command, Status *status)
     if (!player_veils(player) ||
         (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
         return false;
-    player->told = page;
-    double truth = page->answer ? show_number(&player->show, page->answer) : 0;
-    *status = player_obey_lines(player, page->tell);
-    if (page->answer)
-        player_note(player, "it is %s", number_with(truth, 5).text);
+    *status = player_unveil(player, NULL);
     bool guessed = player_simulation(player)->prediction.made;
     return page->answer || page->waits || page->tell ||
            (page->predict && !guessed);
+}
+
+/* The step that is made is not wanted any more; what a drag does is not to be
+ * done behind it, but now. */
+static Status give_up(Player *player)
+{
+    const Command later = player->later;
+    int gesture = player->gesture;
+    bool leaves = player->mouse.leaves;
+    Status status = STATUS_OK;
+    past_aim(&player->past, player->past.step, false);
+    player->then = THEN_NOTHING;
+    player->later.kind = COMMAND_NONE;
+    player->mouse.leaves = false;
+    if (later.kind)
+        status = player_tell(player, player_obey(player, &later));
+    if (!status && leaves)
+        status = player_tell(player, player_release(player));
+    player->gesture = gesture;
+    return status;
 }
 
 Status player_obey(Player *player, const Command *asked)
@@ -156,7 +180,6 @@ Status player_obey(Player *player, const Command *asked)
     Command command = meant_by(player, asked);
     long step = past->step, newest = past_newest(past);
     int now = past->now;
-    size_t at = player->journal.count;
     const CommandRow *row = command_row(command.kind);
     unsigned flags = row->flags;
     begin_gesture(player, &command);
@@ -167,7 +190,8 @@ Status player_obey(Player *player, const Command *asked)
         player->note[0] = '\0';
     if (past->works && command.kind == COMMAND_NEXT)
         return STATUS_OK; /* it is on its way */
-    if (past->making && command.kind == COMMAND_DRAG) {
+    if (past->making && flags & LATEST &&
+        (player->mouse.drag || command.kind == COMMAND_DRAG)) {
         player->later = command; /* a mouse that moves holds up no step */
         return STATUS_OK;
     }
@@ -175,15 +199,14 @@ Status player_obey(Player *player, const Command *asked)
     if (unveils(player, &command, &status))
         return status; /* the step is the next press */
     if (past->works && !(flags & SCREEN)) {
-        past_aim(past, step, false);
-        player->then = THEN_NOTHING;
-        player->later.kind = COMMAND_NONE;
+        status = give_up(player);
         if (command.kind == COMMAND_ESCAPE) {
             player_note(player, "given up: the last whole step stands");
             return player_work(player);
         }
     }
-    status = check_number(player, &command);
+    status = status ? status : check_number(player, &command);
+    size_t at = player->journal.count;
     bool noted = !status && flags & KEPT; /* before what it does in turn */
     if (noted && script_add(&player->journal, step, &command, player->gesture))
         return STATUS_OUT_OF_MEMORY;

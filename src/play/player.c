@@ -154,12 +154,7 @@ static Status obey_inputs(Player *player)
         Input input = window_input();
         if (input.kind == INPUT_NONE)
             break;
-        status = player_input(player, &input);
-        if (status == STATUS_INVALID_INPUT) {
-            player_note(player, "%s", player->message);
-            player->message[0] = '\0';
-            status = STATUS_OK;
-        }
+        status = player_tell(player, player_input(player, &input));
     }
     return status;
 }

@@ -19,6 +19,9 @@ static const double SLICE = 0.05;
 /* Says why a command makes no sense here.  Returns INVALID_INPUT. */
 Status player_refuse(Player *player, const char *why, ...);
 
+/* INVALID_INPUT becomes a line below the picture; returns any other status. */
+Status player_tell(Player *player, Status status);
+
 /* A command that belongs to the one that is obeyed, or to what the hand does:
  * they are undone at once.  Of an option: its row, and the value. */
 Status player_ask(Player *player, CommandKind kind, long number, double x,
@@ -106,8 +109,10 @@ Status player_own_options(Player *player, const char *scene,
                           const LecturePage *page, Options *options,
                           int *count);
 
-/* Whether the page in the window waits for a guess. */
+/* Whether the page in the window waits for a guess; what it asks for is shown
+ * from now on, beside the number that was typed, or NULL. */
 bool player_veils(const Player *player);
+Status player_unveil(Player *player, const char *typed);
 
 /* Commands with a ; between them, which are undone at once; NULL: none. */
 Status player_obey_lines(Player *player, const char *lines);
@@ -131,6 +136,9 @@ void player_close_sheet(Player *player);
 
 /* Without a number that is lit or typed. */
 void player_deselect(Player *player);
+
+/* What the mouse holds it lets go. */
+Status player_release(Player *player);
 
 /* ---- fill.c -------------------------------------------------------------- */
 

@@ -477,9 +477,15 @@ Status player_work(Player *player)
     if (past->works)
         return STATUS_OK;
     const Command later = player->later;
+    Status status = STATUS_OK;
     player->began = 0;
     player->later.kind = COMMAND_NONE;
-    return later.kind ? player_obey(player, &later) : STATUS_OK;
+    if (later.kind)
+        status = player_tell(player, player_obey(player, &later));
+    if (!status && player->mouse.leaves && /* a step was made with it */
+        (!later.kind || player_stands(player)))
+        status = player_tell(player, player_release(player));
+    return status;
 }
 
 /* A node that was held when this step was shown, long ago; it is undone by

@@ -186,6 +186,15 @@ static void run_until(long step)
     player_run(&player);
 }
 
+/* As in a window where a step takes longer than a frame. */
+static void begin_step(void)
+{
+    Past *past = &player.past;
+    tell(player_show(&player, past->step + 1, THEN_NOTHING));
+    while (!past->machine[0].iterating)
+        CHECK_STATUS(past_iterate(past), STATUS_RUNNING);
+}
+
 /* How many files there are; and without them. */
 static int count_files(bool away)
 {
@@ -369,6 +378,10 @@ static void session_line(const char *line)
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
             tell(player_step(&player));
+    else if (strcmp(verb, "half") == 0)
+        begin_step();
+    else if (strcmp(verb, "whole") == 0)
+        tell(player_work(&player));
     else if (strcmp(verb, "asks") == 0)
         player.asks = player.changed = true;
     else if (strcmp(verb, "replays") == 0)
