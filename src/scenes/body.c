@@ -123,20 +123,6 @@ _Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS + 2 <=
                    CONTACT_MAX_OBSTACLES,
                "there is room for the ceiling and the scene's own");
 
-/* It makes whole steps until it is where it stops, or below. */
-static Obstacle ceiling_of(const Options *options)
-{
-    const double *ceiling = options->ceiling;
-    double step = options->timestep * -ceiling[1];
-    double steps = ceil((ceiling[0] - ceiling[2]) / step - 1e-9);
-    return (Obstacle){
-        .kind = OBSTACLE_WALL,
-        .n = {0, -1},
-        .o = {0, ceiling[0]},
-        .node = -1,
-        .motion = {1, {steps * options->timestep}, {{0, ceiling[1]}}}};
-}
-
 /* The obstacles of the options, normals made units, and after them the scene's
  * own; returns how many. */
 static int list_obstacles(const Options *options,
@@ -161,8 +147,18 @@ static int list_obstacles(const Options *options,
                                    .friction = options->friction,
                                    .node = -1};
     }
-    if (options->ceiling[1] != 0)
-        list[count++] = ceiling_of(options);
+    if (options->ceiling[1] != 0) {
+        const double *ceiling = options->ceiling;
+        /* It makes whole steps until it is where it stops, or below. */
+        double step = options->timestep * -ceiling[1];
+        double steps = ceil((ceiling[0] - ceiling[2]) / step - 1e-9);
+        list[count++] = (Obstacle){
+            .kind = OBSTACLE_WALL,
+            .n = {0, -1},
+            .o = {0, ceiling[0]},
+            .node = -1,
+            .motion = {1, {steps * options->timestep}, {{0, ceiling[1]}}}};
+    }
     if (options->scene->own)
         list[count++] = options->scene->own(options);
     return count;
@@ -350,21 +346,6 @@ const char *body_needs_end_of_step(const Options *options)
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
-/* Why what is at this element of a term cannot begin there. */
-static Status refuse_place(const TermKind *kind, const Element *element,
-                           Refusal told)
-{
-    if (kind == &contact_energy)
-        return refuse(told,
-                      "obstacle %d: node %d would begin at a distance of %g m; "
-                      "it must be above 0",
-                      element->from, element->node[0], element->s);
-    return refuse(told,
-                  "at node %d a cell begins turned over (%.3g of its area); it "
-                  "must not",
-                  element->node[0], element->s);
-}
-
 /* Whether no node is on or in an obstacle, no cell or triangle turned over.
  *   x  [2n] m */
 static Status check_places(const System *system, const double *x, Refusal told)
@@ -373,10 +354,21 @@ static Status check_places(const System *system, const double *x, Refusal told)
     for (const TermKind *kind; (kind = next_energy(&at));) {
         if (!kind->element || !kind->element->reach)
             continue;
-        for (ElementWalk walk = elements_from(&at, NULL, 0);
-             elements_next(&walk);)
-            if (!(walk.element.s > 0))
-                return refuse_place(kind, &walk.element, told);
+        ElementWalk walk = elements_from(&at, NULL, 0);
+        const Element *element = &walk.element;
+        while (elements_next(&walk)) {
+            if (element->s > 0)
+                continue;
+            return kind == &contact_energy
+                       ? refuse(told,
+                                "obstacle %d: node %d would begin at a "
+                                "distance of %g m; it must be above 0",
+                                element->from, element->node[0], element->s)
+                       : refuse(told,
+                                "at node %d a cell begins turned over (%.3g of "
+                                "its area); it must not",
+                                element->node[0], element->s);
+        }
     }
     return STATUS_OK;
 }

@@ -82,44 +82,37 @@ static void book_change(Simulation *simulation, const double *had)
             had[r] - simulation_energies(simulation, r).dissipated;
 }
 
-/* The run goes on with another method. */
-static Status change_method(Simulation *simulation, int r)
-{
-    TimeIntegrator *run = &simulation->run[r], old = *run;
-    Status status =
-        simulation_start(simulation, r, options_method(&simulation->options),
-                         old.system, old.x, old.v);
-    run->steps = old.steps;
-    run->status = old.status;
-    run->clock = old.clock;
-    run->moved = old.moved;
-    run->work = old.work;
-    if (old.newton)
-        newton_counters_add(&old.newton->counters, &simulation->counted);
-    time_integrator_free(&old);
-    return status;
-}
-
-/* What the options say, to what goes by them in a run. */
+/* What the options say, to what goes by them in a run, which may go on with
+ * another method. */
 static Status change_run(Simulation *simulation, int r, const Options *before)
 {
     const Options *options = &simulation->options;
-    TimeIntegrator *run = &simulation->run[r];
-    bool stiffer = options->stiffness != before->stiffness;
+    TimeIntegrator *run = &simulation->run[r], old = *run;
     Status status = STATUS_OK;
     if (simulation->scene->needs & NEEDS_BODY)
         status = body_follow(simulation, r);
-    if (!status && options->integrator != before->integrator)
-        return change_method(simulation, r);
-    if (stiffer)
+    if (!status && options->integrator != before->integrator) {
+        status = simulation_start(simulation, r, options_method(options),
+                                  old.system, old.x, old.v);
+        run->steps = old.steps;
+        run->status = old.status;
+        run->clock = old.clock;
+        run->moved = old.moved;
+        run->work = old.work;
+        if (old.newton)
+            newton_counters_add(&old.newton->counters, &simulation->counted);
+        time_integrator_free(&old);
+        return status;
+    }
+    if (options->stiffness != before->stiffness)
         run->memory_h = 0;
     run->h = options->timestep;
     if (run->newton) {
-        NewtonSettings *own = &run->newton->settings, old = *own;
+        NewtonSettings *own = &run->newton->settings, had = *own;
         *own = newton_settings_of(options);
-        own->averaged = old.averaged;
-        own->observer = old.observer;
-        own->user = old.user;
+        own->averaged = had.averaged;
+        own->observer = had.observer;
+        own->user = had.user;
     }
     return status;
 }
@@ -147,10 +140,39 @@ static void stop_node(TimeIntegrator *run, int node)
     run->memory_h = 0;
 }
 
-/* A node whose pin comes or goes stands still. */
-static void use_pins(Simulation *simulation, const Control *control)
+/* Far stiffer than a spring, so that the node goes to the mouse, and the
+ * springs give way.  Triangles have a stiffness of their own. */
+static Status use_hand(Simulation *simulation, const Control *control)
+{
+    static const double TIMES = 1000;
+    System *system = &simulation->system;
+    Place at = place_at(system, NULL, NULL, NULL);
+    Pull wanted = {.node = control->hand, .cell = INFINITY};
+    double k = 0, force = 0;
+    if (wanted.node < 0) {
+        system_remove_term(system, &hand_energy);
+        return STATUS_OK;
+    }
+    memcpy(wanted.mouse, control->at, sizeof wanted.mouse);
+    memcpy(wanted.target, simulation->run[0].x + 2 * wanted.node,
+           sizeof wanted.target);
+    mass_spring_bounds(&at, &k, &force);
+    if (solid_of(system))
+        k = simulation->options.young;
+    wanted.strength = k > 0 ? TIMES * k : 1e5 * system->m[wanted.node];
+    if (simulation->mesh.nodes > 0)
+        wanted.cell = simulation->mesh.spacing;
+    wanted.side = simulation->mesh.side;
+    return pull_set(system, &hand_energy, &wanted);
+}
+
+Status simulation_use(Simulation *simulation, const Control *control)
 {
     System *system = &simulation->system;
+    double had[SIMULATION_MAX_RUNS];
+    dissipated_so_far(simulation, had);
+    Status status = use_options(simulation, &control->options);
+    /* A node whose pin comes or goes stands still. */
     for (int i = 0; i < system->nodes; i++) {
         if (system->pinned[i] == control->pinned[i])
             continue;
@@ -160,46 +182,6 @@ static void use_pins(Simulation *simulation, const Control *control)
                 stop_node(&simulation->run[r], i);
     }
     memcpy(system->pinned, control->pinned, (size_t)system->nodes);
-}
-
-/* Far stiffer than a spring, so that the node goes to the mouse, and the
- * springs give way.  Triangles have a stiffness of their own. */
-static double hand_strength(const Simulation *simulation, int node)
-{
-    static const double TIMES = 1000;
-    const Options *options = &simulation->options;
-    Place at = place_at(&simulation->system, NULL, NULL, NULL);
-    double k = 0, force = 0;
-    mass_spring_bounds(&at, &k, &force);
-    if (solid_of(&simulation->system))
-        k = options->young;
-    return k > 0 ? TIMES * k : 1e5 * simulation->system.m[node];
-}
-
-static Status use_hand(Simulation *simulation, const Control *control)
-{
-    System *system = &simulation->system;
-    Pull wanted = {.node = control->hand, .cell = INFINITY};
-    if (wanted.node < 0) {
-        system_remove_term(system, &hand_energy);
-        return STATUS_OK;
-    }
-    memcpy(wanted.mouse, control->at, sizeof wanted.mouse);
-    memcpy(wanted.target, simulation->run[0].x + 2 * wanted.node,
-           sizeof wanted.target);
-    wanted.strength = hand_strength(simulation, wanted.node);
-    if (simulation->mesh.nodes > 0)
-        wanted.cell = simulation->mesh.spacing;
-    wanted.side = simulation->mesh.side;
-    return pull_set(system, &hand_energy, &wanted);
-}
-
-Status simulation_use(Simulation *simulation, const Control *control)
-{
-    double had[SIMULATION_MAX_RUNS];
-    dissipated_so_far(simulation, had);
-    Status status = use_options(simulation, &control->options);
-    use_pins(simulation, control);
     if (!status)
         status = use_hand(simulation, control);
     if (!status)

@@ -227,38 +227,6 @@ void aim_descent(Simulation *simulation)
         descent->began = descent->value;
 }
 
-/* One update of x along p, with the line search if wanted. */
-static Status update_iterate(Simulation *simulation, NewtonRecord *record)
-{
-    const double *p = simulation->descent.direction;
-    double *x = simulation->run[0].x;
-    const Way way = {simulation,
-                     simulation->exhibit.parts,
-                     simulation->run[0].h,
-                     simulation->descent.point,
-                     p,
-                     simulation->descent.value};
-    Status status = STATUS_RUNNING;
-    if (simulation->options.line_search == LINE_SEARCH_BACKTRACK) {
-        Status found = line_search_backtrack(descent_difference, &way,
-                                             &record->alpha, &record->trials);
-        /* Uphill E grows by about slope (alpha - alpha^2/2): a step as short as
-         * that lowers it only in its rounding. */
-        bool rounding = record->slope > 0 && record->alpha < 1e-3;
-        if (found || rounding) {
-            status = record->slope > 0 ? STATUS_NOT_DESCENT
-                                       : STATUS_LINE_SEARCH_LIMIT;
-            record->alpha = 0;
-        }
-    }
-    record->change = descent_difference(&way, record->alpha);
-    for (int i = 0; i < 2; i++)
-        x[i] += record->alpha * p[i];
-    status = show_iterate(simulation, status);
-    memcpy(record->to, x, sizeof record->to);
-    return status;
-}
-
 Status step_descent(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
@@ -271,7 +239,32 @@ Status step_descent(Simulation *simulation)
                            .factorised = true,
                            .projected = present(simulation).projected,
                            .from = {descent->point[0], descent->point[1]}};
-    record.status = update_iterate(simulation, &record);
+    const double *p = descent->direction;
+    double *x = simulation->run[0].x;
+    const Way way = {simulation,
+                     simulation->exhibit.parts,
+                     simulation->run[0].h,
+                     descent->point,
+                     p,
+                     descent->value};
+    Status status = STATUS_RUNNING;
+    if (simulation->options.line_search == LINE_SEARCH_BACKTRACK) {
+        Status found = line_search_backtrack(descent_difference, &way,
+                                             &record.alpha, &record.trials);
+        /* Uphill E grows by about slope (alpha - alpha^2/2): a step as short as
+         * that lowers it only in its rounding. */
+        bool rounding = record.slope > 0 && record.alpha < 1e-3;
+        if (found || rounding) {
+            status = record.slope > 0 ? STATUS_NOT_DESCENT
+                                      : STATUS_LINE_SEARCH_LIMIT;
+            record.alpha = 0;
+        }
+    }
+    record.change = descent_difference(&way, record.alpha);
+    for (int i = 0; i < 2; i++)
+        x[i] += record.alpha * p[i];
+    record.status = show_iterate(simulation, status);
+    memcpy(record.to, x, sizeof record.to);
     if (descent->count < DESCENT_MAX)
         descent->record[descent->count++] = record;
     if (simulation->observer &&

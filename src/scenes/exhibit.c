@@ -87,31 +87,26 @@ int exhibit_switches(const Simulation *simulation,
     return count;
 }
 
-/* What its springs had stored is the work of whoever takes them away. */
-static void flip_kind(Simulation *simulation, int kind)
-{
-    System *system = &simulation->system;
-    double before = simulation_energies(simulation, 0).total;
-    simulation->exhibit.parts ^= 1U << kind;
-    for (int s = 0; s < system->springs; s++)
-        if (exhibit_kind(simulation, s) == kind)
-            system->k[s] = simulation->exhibit.parts >> kind & 1
-                               ? 0
-                               : simulation->options.stiffness;
-    system_changed(system, false);
-    simulation->work[0] += simulation_energies(simulation, 0).total - before;
-}
-
-/* Of two parts one stays.  What was minimised before is another function: its
+/* What springs of a kind had stored is the work of whoever takes them away.  Of
+ * two parts one stays.  What was minimised before is another function: its
  * updates are no longer shown. */
 void exhibit_flip(Simulation *simulation, int number)
 {
     const Scene *scene = simulation->scene;
+    System *system = &simulation->system;
+    unsigned parts = simulation->exhibit.parts ^ (1U << number);
     if (exhibit_has_kinds(simulation)) {
-        flip_kind(simulation, number);
+        double k = parts >> number & 1 ? 0 : simulation->options.stiffness;
+        double before = simulation_energies(simulation, 0).total;
+        simulation->exhibit.parts = parts;
+        for (int s = 0; s < system->springs; s++)
+            if (exhibit_kind(simulation, s) == number)
+                system->k[s] = k;
+        system_changed(system, false);
+        simulation->work[0] +=
+            simulation_energies(simulation, 0).total - before;
         return;
     }
-    unsigned parts = simulation->exhibit.parts ^ (1U << number);
     bool none = parts == 0 && scene->parts[1];
     simulation->exhibit.parts = none ? PART_BOTH ^ (1U << number) : parts;
     simulation->descent.count = 0;

@@ -11,16 +11,6 @@ const Listing *listing_find(const char *file)
     return NULL;
 }
 
-/* Whether the line names the function outside of any body: in column 1 stands
- * a type, and the name is a whole word before a parenthesis. */
-static bool names_function(const char *line, const char *function)
-{
-    const char *at = strstr(line, function);
-    return at && isalpha((unsigned char)line[0]) &&
-           (at == line || at[-1] == ' ' || at[-1] == '*') &&
-           at[strlen(function)] == '(';
-}
-
 /* The line after the closing brace of what begins here; 0: a declaration, for
  * it ends before a brace. */
 static int find_end(const Listing *listing, int from)
@@ -38,13 +28,17 @@ static int find_end(const Listing *listing, int from)
     return 0;
 }
 
+/* It is named outside of any body: in column 1 stands a type, and the name is a
+ * whole word before a parenthesis. */
 bool listing_function(const Listing *listing, const char *function, int *from,
                       int *body, int *to)
 {
     for (int i = 0; i < listing->lines; i++) {
-        if (!names_function(listing->line[i], function))
-            continue;
-        *to = find_end(listing, i);
+        const char *line = listing->line[i], *at = strstr(line, function);
+        bool named = at && isalpha((unsigned char)line[0]) &&
+                     (at == line || at[-1] == ' ' || at[-1] == '*') &&
+                     at[strlen(function)] == '(';
+        *to = named ? find_end(listing, i) : 0;
         if (*to == 0)
             continue;
         *from = *body = i;

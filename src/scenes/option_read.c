@@ -344,21 +344,9 @@ static Word *given(Line *line, const OptionRow *row)
     return NULL;
 }
 
-/* The scene, by its name or its number in the list. */
-static Status find_scene(Line *line, const char *text)
-{
-    const Scene **scene = &line->options->scene;
-    if (*scene)
-        return refuse(line->told, "'%.60s': one scene at a time, please", text);
-    *scene = scene_find(text);
-    return *scene ? STATUS_OK
-                  : refuse(line->told,
-                           "there is no scene '%.60s'; see elasto --list%s",
-                           text, meant(text, "", NAMES_OF(scenes)).text);
-}
-
-/* The scene or the page, and what cannot be said in one line whatever they are:
- * of two files only one would be written. */
+/* The scene, by its name or its number in the list, or the page, and what
+ * cannot be said in one line whatever they are: of two files only one would be
+ * written. */
 static Status check_words(Line *line)
 {
     Options *options = line->options;
@@ -369,9 +357,15 @@ static Status check_words(Line *line)
             return refuse(line->told,
                           "--%s: '%.60s' and '%.60s': one at a time, please",
                           row->name, word->text, last->text);
-        if (!row ? find_scene(line, word->text)
-                 : row->kind == OPTION_PAGE && apply(line, row, word->text))
+        if (row && row->kind == OPTION_PAGE && apply(line, row, word->text))
             return STATUS_INVALID_INPUT;
+        if (!row && options->scene)
+            return refuse(line->told, "'%.60s': one scene at a time, please",
+                          word->text);
+        if (!row && !(options->scene = scene_find(word->text)))
+            return refuse(
+                line->told, "there is no scene '%.60s'; see elasto --list%s",
+                word->text, meant(word->text, "", NAMES_OF(scenes)).text);
     }
     if (options->scene && options->page)
         return refuse(line->told,
@@ -435,19 +429,6 @@ static Status pick_values(Line *line, int pane)
     return STATUS_OK;
 }
 
-static Status apply_word(const Line *line, const Word *word)
-{
-    if (!word->row)
-        return STATUS_OK;
-    if (line->options->page && word->row->needs)
-        return refuse(line->told,
-                      "--%s: the lecture's pages say that themselves",
-                      word->row->name);
-    if (check_scene(line, word->row))
-        return STATUS_INVALID_INPUT;
-    return apply(line, word->row, word->text);
-}
-
 /* What depends on several options: which nodes there are to be pinned, what
  * says something about what is not there, the projection, unless it was chosen,
  * and where the body begins. */
@@ -492,9 +473,16 @@ static Status apply_words(Line *line, int pane)
     *line->options = (Options){.panes = 1};
     if (check_words(line) || begin_options(line) || pick_values(line, pane))
         return STATUS_INVALID_INPUT;
-    for (int i = 0; i < line->words; i++)
-        if (apply_word(line, &line->word[i]))
+    for (int i = 0; i < line->words; i++) {
+        const OptionRow *row = line->word[i].row;
+        if (row && line->options->page && row->needs)
+            return refuse(line->told,
+                          "--%s: the lecture's pages say that themselves",
+                          row->name);
+        if (row &&
+            (check_scene(line, row) || apply(line, row, line->word[i].text)))
             return STATUS_INVALID_INPUT;
+    }
     return check_body(line);
 }
 
@@ -513,6 +501,32 @@ Status options_of_line(const char *text, Options *options, char *message,
     Line line = {options, {message, size}, 0, {{0}}};
     Status status = split_words(text, copy, sizeof copy, &line);
     return status ? status : apply_words(&line, 0);
+}
+
+/* ---- the lecture's pages ------------------------------------------------- */
+
+int lecture_count(void)
+{
+    return names_count(NAMES_OF(lecture_pages));
+}
+
+const LecturePage *lecture_find(const char *text)
+{
+    int place = name_or_number(NAMES_OF(lecture_pages), text);
+    return place < 0 ? NULL : &lecture_pages[place];
+}
+
+Status lecture_options(const LecturePage *page, Options *options, char *message,
+                       size_t size)
+{
+    Status status = options_of_line(page->line, options, message, size);
+    const char *pin = strstr(page->line, "--pin ");
+    if (pin) /* the line's last option: its text stays */
+        options->pin = pin + strlen("--pin ");
+    options->page = page;
+    options->flips = page->flips;
+    options->speed = page->speed;
+    return status;
 }
 
 /* ---- help --------------------------------------------------------------- */

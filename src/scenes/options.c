@@ -354,20 +354,6 @@ static double round_value(double pace)
     return mantissa[(int)(pace - 6 * decade)] * pow(10, decade);
 }
 
-/* A value so many paces on; whole paces from a value between two round ones
- * lead to round ones. */
-static double factor_paced(double value, double paces)
-{
-    double pace = 6 * log10(value);
-    if (paces != rint(paces))
-        return value * pow(10, paces / 6);
-    double below = floor(pace) - 1;
-    while (round_value(below + 1) <= value * (1 + 1e-9))
-        below++;
-    bool round = fabs(round_value(below) - value) <= 1e-9 * value;
-    return round_value(round || paces > 0 ? below + paces : below + 1 + paces);
-}
-
 double option_paced(const OptionRow *row, const Options *options, double paces)
 {
     static const double FIRST = 0.01; /* what goes by factors, up from 0 */
@@ -380,8 +366,18 @@ double option_paced(const OptionRow *row, const Options *options, double paces)
         int on = (int)rint(paces), to = (int)fmax(value, 0) + on;
         return on == 0 ? value : (to % count + count) % count;
     }
-    value = row->pace > 0 ? (rint(value / row->pace) + rint(paces)) * row->pace
-                          : factor_paced(value, paces);
+    if (row->pace > 0) {
+        value = (rint(value / row->pace) + rint(paces)) * row->pace;
+    } else if (paces != rint(paces)) {
+        value *= pow(10, paces / 6);
+    } else { /* from a value between two round ones to a round one */
+        double below = floor(6 * log10(value)) - 1;
+        while (round_value(below + 1) <= value * (1 + 1e-9))
+            below++;
+        bool round = fabs(round_value(below) - value) <= 1e-9 * value;
+        value =
+            round_value(round || paces > 0 ? below + paces : below + 1 + paces);
+    }
     value = fmax(value, row->low);
     snprintf(text, sizeof text, row->kind == OPTION_WHOLE ? "%.0f" : "%.3g",
              value);

@@ -299,3 +299,41 @@ double simulation_deforming(const Simulation *simulation)
     }
     return fastest;
 }
+
+/* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
+
+/* Paces of the power iteration, and numbers that it has room for. */
+enum { PACES = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
+
+double simulation_fastest(const Simulation *simulation, const double *x,
+                          double *mode)
+{
+    const System *system = &simulation->system;
+    Place at = place_at(system, NULL, NULL, x);
+    double omega2 = NAN;
+    int n = 2 * system->nodes;
+    if (n > ROOM)
+        return NAN;
+    for (int i = 0; i < n; i++) /* no symmetry: in it all modes have a part */
+        mode[i] = sin(1 + i + 0.1 * i * i);
+    for (int pace = 0; pace < PACES; pace++) {
+        double size = 0;
+        for (int i = 0; i < n; i++)
+            size += mode[i] * mode[i];
+        for (int i = 0; i < n; i++)
+            mode[i] /= sqrt(size);
+        double pulled[ROOM] = {0}; /* M^-1 H mode, 1/s^2 */
+        for (const TermKind *kind; (kind = next_energy(&at)) != NULL;)
+            if (kind->hessian)
+                kind->hessian(&at, FILTER_NONE, NULL, mode, pulled);
+        for (int i = 0; i < n; i++)
+            pulled[i] /= system->m[i / 2];
+        system_clear_pinned(system, pulled);
+        omega2 = 0;
+        for (int i = 0; i < n; i++)
+            omega2 += mode[i] * pulled[i];
+        for (int i = 0; i < n && pace + 1 < PACES; i++)
+            mode[i] = pulled[i];
+    }
+    return omega2 > 0 ? sqrt(omega2) : NAN;
+}
