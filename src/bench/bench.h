@@ -11,7 +11,6 @@
  * Returns OK, OUT_OF_MEMORY. */
 Status bench_work(bool quick);
 Status bench_steps(bool quick);
-Status bench_frames(bool quick);
 
 /* Processor time of this thread, s: what a busy machine changes least. */
 double bench_cpu(void);

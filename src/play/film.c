@@ -1,4 +1,4 @@
-#include "play/film.h"
+#include "play/recording.h"
 
 #include <stdio.h>
 #include <stdlib.h>

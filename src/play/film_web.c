@@ -1,7 +1,7 @@
-/* film_web.c - film.h in a page: its browser films the canvas while it is drawn
+/* film_web.c - films in a page: its browser films the canvas while it is drawn
  * and gives the film as a download.
  */
-#include "play/film.h"
+#include "play/recording.h"
 
 #include <emscripten.h>
 #include <stdlib.h>

@@ -38,19 +38,6 @@ static void write_base64(FILE *file, const char *bytes, size_t size)
     }
 }
 
-/* Goes to what the page's picture shows: what it opens with, and so many lines
- * or steps more. */
-static Status go_to_picture(Player *player, const LecturePage *page)
-{
-    const Command next = {.kind = COMMAND_NEXT};
-    Status status = player_open_page(player);
-    if (!status)
-        status = player_obey_lines(player, page->tell);
-    for (int i = 0; i < page->lines && !status; i++)
-        status = player_obey(player, &next);
-    return status || page->lines ? status : player_run(player);
-}
-
 /* Stage and cards, in few shades, so that the file is small. */
 static Status draw_picture(Player *player, FILE *file)
 {
@@ -80,11 +67,13 @@ static Status draw_picture(Player *player, FILE *file)
     return status;
 }
 
-/* Plays the page without a screen. */
+/* Plays the page without a screen up to what its picture shows: what it opens
+ * with, and so many lines or steps more. */
 static Status play_page(Options *options, const volatile sig_atomic_t *stop,
                         Player *player)
 {
     const LecturePage *page = options->page;
+    const Command next = {.kind = COMMAND_NEXT};
     options->headless = options->quiet = true;
     options->steps = page->picture;
     Status status = player_create(options, 1, "elasto", stop, player);
@@ -92,7 +81,13 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
     player->size[0] = PICTURE_WIDTH;
     player->size[1] = PICTURE_HEIGHT;
     if (!status)
-        status = go_to_picture(player, page);
+        status = player_open_page(player);
+    if (!status)
+        status = player_obey_lines(player, page->tell);
+    for (int i = 0; i < page->lines && !status; i++)
+        status = player_obey(player, &next);
+    if (!status && !page->lines)
+        status = player_run(player);
     if (status && status == player->past.machine[0].simulation.status)
         status = STATUS_OK; /* the end of the run is what the page shows */
     return *stop && !status ? STATUS_INTERRUPTED : status;

@@ -164,8 +164,6 @@ Status obey_enter(Player *player, const Command *command)
     return status;
 }
 
-/* ---- the row of numbers and the time line -------------------------------- */
-
 /* ---- the stage ----------------------------------------------------------- */
 
 /* A number follows the mouse, from its value where the drag began; the stretch

@@ -22,15 +22,6 @@ const char *output_reason(Status status)
 
 /* ---- opening ------------------------------------------------------------ */
 
-/* Whether the open file still has this name: another run may have taken it
- * away before the lock was ours. */
-static bool is_named(int file, const char *name)
-{
-    struct stat ours, there;
-    return fstat(file, &ours) == 0 && lstat(name, &there) == 0 &&
-           ours.st_ino == there.st_ino;
-}
-
 /* NAME.part as a stream that nobody else writes, with the permissions of the
  * file whose place it will take (info, or NULL: there is none). */
 static Status open_temporary(const char *name, Output *output,
@@ -50,9 +41,12 @@ static Status open_temporary(const char *name, Output *output,
                     O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0)
         return STATUS_FILE_FAILED;
+    struct stat ours, there; /* another run may have taken the name away before
+                                the lock was ours */
     bool alone =
         (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
-        is_named(file, output->temporary);
+        fstat(file, &ours) == 0 && lstat(output->temporary, &there) == 0 &&
+        ours.st_ino == there.st_ino;
     errno = alone ? errno : EBUSY;
     if (alone && ftruncate(file, 0) == 0 &&
         (!info || fchmod(file, info->st_mode & 0777) == 0))

@@ -252,22 +252,9 @@ static void leave_all(Past *past)
         leave_step(past, p);
 }
 
-/* The first entries of a pane, as the branch below has them; of the second one,
- * whose step is to be made again, the control. */
-static void copy_entries(Branch *branch, int pane)
-{
-    int below = branch[-1].panes, source = pane < below ? pane : below - 1;
-    for (int i = 0; i < branch->given; i++) {
-        Entry *to = &branch->entry[i * branch->panes + pane];
-        *to = *entry_in(branch - 1, source, branch->first + i);
-        control_keep(to->control);
-        to->state = NULL;
-    }
-    branch->source[pane] = source;
-}
-
 /* A branch on top of the present one, in the place of those that were undone,
- * with one entry.  NULL: no memory. */
+ * with one entry; those that are given are copied from the branch below, but
+ * for their states.  NULL: no memory. */
 static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->now + 1);
@@ -290,8 +277,16 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
         if (branch->fresh || p >= branch->panes ||
             past->machine[p].step > branch->first)
             leave_step(past, p);
-    for (int p = 0; p < branch->panes && !branch->fresh; p++)
-        copy_entries(branch, p);
+    for (int p = 0; p < branch->panes && !branch->fresh; p++) {
+        int below = branch[-1].panes, source = p < below ? p : below - 1;
+        for (int i = 0; i < branch->given; i++) {
+            Entry *to = &branch->entry[i * branch->panes + p];
+            *to = *entry_in(branch - 1, source, branch->first + i);
+            control_keep(to->control);
+            to->state = NULL;
+        }
+        branch->source[p] = source;
+    }
     if (past->branches > 0)
         branch[-1].shown = past->step;
     past->now = past->branches++;
@@ -540,11 +535,18 @@ static Status arrive(Past *past, int pane)
     return status ? fail(past, pane, status) : STATUS_RUNNING;
 }
 
-/* What is told of the step that was made. */
-static void sum_up(Machine *machine, Status status)
+/* A step of the simulation goes on, or is over. */
+static Status go_on(Past *past, int pane, Status status)
 {
+    Machine *machine = &past->machine[pane];
     const Simulation *simulation = &machine->simulation;
     Outcome *outcome = &machine->outcome;
+    if (status == STATUS_RUNNING)
+        return status;
+    machine->iterating = false;
+    if (past->keeps)
+        rounds_end(&machine->rounds, &simulation->options);
+    bool moved = simulation->steps > machine->before;
     outcome->status = status ? status : outcome->status;
     outcome->extent = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
@@ -552,20 +554,6 @@ static void sum_up(Machine *machine, Status status)
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
             outcome->change += simulation->run[r].newton->change;
-}
-
-/* A step of the simulation goes on, or is over. */
-static Status go_on(Past *past, int pane, Status status)
-{
-    Machine *machine = &past->machine[pane];
-    const Simulation *simulation = &machine->simulation;
-    if (status == STATUS_RUNNING)
-        return status;
-    machine->iterating = false;
-    if (past->keeps)
-        rounds_end(&machine->rounds, &simulation->options);
-    bool moved = simulation->steps > machine->before;
-    sum_up(machine, status);
     if (status && !moved && (lacks(status) || !simulation->done))
         return fail(past, pane, status);
     machine->known = past->keeps;
@@ -751,21 +739,6 @@ static Status settle(Past *past)
     return past_finish(past);
 }
 
-/* A simulation at step 0. */
-static Status begin_machine(Machine *machine, const Options *options)
-{
-    Status status = make_simulation(machine, options);
-    Control *control = status ? NULL : control_of(&machine->simulation);
-    if (!control)
-        return status ? status : STATUS_OUT_OF_MEMORY;
-    control->options = *options;
-    machine->start = control;
-    machine->control = control_keep(control);
-    machine->outcome = (Outcome){.status = machine->simulation.status};
-    rounds_clear(&machine->rounds);
-    return STATUS_OK;
-}
-
 Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit)
 {
@@ -773,8 +746,20 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     Status status = STATUS_OK;
     stop_work(past);
     leave_all(past);
-    for (int p = 0; p < panes && !status; p++)
-        status = begin_machine(&past->machine[p], &options[p]);
+    for (int p = 0; p < panes && !status; p++) {
+        Machine *machine = &past->machine[p];
+        status = make_simulation(machine, &options[p]);
+        Control *control = status ? NULL : control_of(&machine->simulation);
+        if (!control) {
+            status = status ? status : STATUS_OUT_OF_MEMORY;
+            break;
+        }
+        control->options = options[p];
+        machine->start = control;
+        machine->control = control_keep(control);
+        machine->outcome = (Outcome){.status = machine->simulation.status};
+        rounds_clear(&machine->rounds);
+    }
     if (status && past->now >= 0)
         past_aim(past, past->step, false);
     if (status)
@@ -905,19 +890,14 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     return status || again ? status : settle(past);
 }
 
-/* Whether the branch above it is of the same gesture. */
-static bool is_continued(const Branch *branch)
-{
-    return branch->gesture && branch->gesture == branch[1].gesture;
-}
-
 const Command *past_undo(Past *past, int way)
 {
     int from = past->now, to = from + way;
     int last = way < 0 ? 0 : past->branches - 1;
     if (to < 0 || to >= past->branches)
         return NULL;
-    while (to != last && is_continued(&past->branch[to]))
+    while (to != last && past->branch[to].gesture && /* the same one above */
+           past->branch[to].gesture == past->branch[to + 1].gesture)
         to += way;
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     for (int b = low + 1; b <= high; b++) {

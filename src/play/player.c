@@ -73,21 +73,10 @@ bool player_ended(const Player *player)
 
 /* ---- drawing ------------------------------------------------------------- */
 
-/* Once: pictures without words are pictures, too. */
-static void tell_of_font(const Paper *paper)
-{
-    static bool told;
-    const char *given = getenv("ELASTO_FONT");
-    bool wanted = !given || given[0] != '\0'; /* empty: no words, please */
-    if (paper->text || !wanted || told)
-        return;
-    told = true;
-    fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have no "
-                    "words (ELASTO_FONT=FILE.ttf names another font)\n");
-}
-
 Paper *player_paper(Player *player)
 {
+    static bool told;
+    const char *font = getenv("ELASTO_FONT"); /* empty: no words, please */
     Paper *paper = &player->paper;
     const Canvas *canvas = &paper->canvas;
     int size[2] = {player->size[0], player->size[1]};
@@ -105,7 +94,11 @@ Paper *player_paper(Player *player)
         return NULL;
     }
     player->show.text = paper->text;
-    tell_of_font(paper);
+    if (!paper->text && !told && (!font || font[0])) {
+        fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
+                        "no words (ELASTO_FONT=FILE.ttf names another font)\n");
+        told = true; /* pictures without words are pictures, too */
+    }
     return paper;
 }
 
@@ -145,19 +138,6 @@ Status player_draw(Player *player)
 }
 
 /* ---- the loop ------------------------------------------------------------ */
-
-/* Keys, mouse, and what else the window says. */
-static Status obey_inputs(Player *player)
-{
-    Status status = STATUS_OK;
-    while (player->window && !status && !player->quit) {
-        Input input = window_input();
-        if (input.kind == INPUT_NONE)
-            break;
-        status = player_tell(player, player_input(player, &input));
-    }
-    return status;
-}
 
 /* All lines of the script that are due. */
 static Status obey_script(Player *player)
@@ -217,7 +197,13 @@ Status player_frame(Player *player)
     double period =
         ldexp(1.0 / FRAME_RATE, player->speed < 0 ? -player->speed : 0);
     double start = clock_now();
-    Status status = obey_inputs(player);
+    Status status = STATUS_OK;
+    while (player->window && !status && !player->quit) {
+        Input input = window_input();
+        if (input.kind == INPUT_NONE)
+            break;
+        status = player_tell(player, player_input(player, &input));
+    }
     if (!status && !player->past.works)
         status = obey_script(player);
     double now = player->window ? clock_now() : 0; /* else nobody waits */

@@ -123,8 +123,6 @@ Status player_obey_lines(Player *player, const char *lines);
  * frame through time, and iterations one at a time. */
 int player_first_speed(const Options *options);
 
-/* ---- sheet.c ------------------------------------------------------------- */
-
 /* The scenes on the sheet go on for a slice of time, where it is open. */
 void player_live(Player *player);
 

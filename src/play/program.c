@@ -159,39 +159,32 @@ static void print_newton(FILE *file, const Simulation *simulation)
             print(file, rows[i].name, "%lld", rows[i].count);
 }
 
-/* How far a pane came, what it took, and where that led its first run. */
-static void print_pane(FILE *file, const Machine *machine)
-{
-    const Simulation *simulation = &machine->simulation;
-    bool in_time = simulation->scene->needs & NEEDS_TIME;
-    print(file, "steps", "%ld", simulation->steps);
-    if (in_time)
-        print(file, "simulated time", "%g s", simulation_time(simulation));
-    print_newton(file, simulation);
-    if (in_time) {
-        print(file, "energy at start", "%.9g J", simulation->start[0]);
-        print(file, "energy at end", "%.9g J",
-              simulation_energies(simulation, 0).total);
-    }
-    fprintf(file, "steps not converged %ld", simulation->unconverged);
-    for (int i = 0; i < STATUS_COUNT; i++)
-        if (simulation->reasons[i] > 0)
-            fprintf(file, "\n  %-17s %d", status_name((Status)i),
-                    simulation->reasons[i]);
-    fputc('\n', file);
-}
-
-/* One quantity a line; of several panes those of each, one after the other. */
+/* One quantity a line: how far a pane came, what it took, and where that led
+ * its first run; of several panes those of each, one after the other. */
 static void print_summary(FILE *file, const Player *player)
 {
     const Recording *recording = &player->recording;
     int panes = past_panes(&player->past);
-    for (int i = 0; i < panes; i++) {
+    for (int p = 0; p < panes; p++) {
+        const Simulation *simulation = &player->past.machine[p].simulation;
+        bool in_time = simulation->scene->needs & NEEDS_TIME;
         if (panes > 1)
-            fprintf(file, "pane %-14d %s\n", i + 1, player->side[i].label);
-        print_pane(file, &player->past.machine[i]);
-        if (panes > 1)
-            fputc('\n', file);
+            fprintf(file, "pane %-14d %s\n", p + 1, player->side[p].label);
+        print(file, "steps", "%ld", simulation->steps);
+        if (in_time)
+            print(file, "simulated time", "%g s", simulation_time(simulation));
+        print_newton(file, simulation);
+        if (in_time) {
+            print(file, "energy at start", "%.9g J", simulation->start[0]);
+            print(file, "energy at end", "%.9g J",
+                  simulation_energies(simulation, 0).total);
+        }
+        fprintf(file, "steps not converged %ld", simulation->unconverged);
+        for (int i = 0; i < STATUS_COUNT; i++)
+            if (simulation->reasons[i] > 0)
+                fprintf(file, "\n  %-17s %d", status_name((Status)i),
+                        simulation->reasons[i]);
+        fputs(panes > 1 ? "\n\n" : "\n", file);
     }
     print(file, "wall time", "%.3f s", clock_now() - player->started);
     if (recording->folder)
@@ -301,8 +294,8 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
         return check_output();
     }
     for (int i = 0; i < options->panes; i++) {
-        Status status = options_parse(argc, argv, i, &options[i], message,
-                                      sizeof message);
+        Status status =
+            options_parse(argc, argv, i, &options[i], message, sizeof message);
         if (status == STATUS_INVALID_INPUT)
             return tell(EXIT_MISUSED, "%s", message);
         if (status)

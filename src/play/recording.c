@@ -1,7 +1,9 @@
 #include "play/recording.h"
 
 #include <errno.h>
+#include <png.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -123,21 +125,42 @@ static const struct {
     {offsetof(Options, vtk), "step:whole,time", NULL, add_step},
 };
 
-/* Those of a table: the ledger has all that a scene may have, and of several
- * panes a row says which. */
-static void set_columns(Table *table, int t, int panes)
+/* ---- pictures ---------------------------------------------------------------
+ */
+
+/* libpng's simplified writer wants red, green and blue of each pixel; it leaves
+ * errno of a failed write alone. */
+Status png_write(FILE *file, const Canvas *canvas, bool small)
 {
-    table->text = log_text;
-    table_columns(table, kinds[t].columns);
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (t == RECORDING_ENERGIES && row->term) {
-            table_columns(table, row->term->energy);
-            table_columns(table, row->term->loss);
-        }
-    if (t == RECORDING_ENERGIES)
-        table_columns(table, "work,dissipated,run:place");
-    else if (panes > 1)
-        table_columns(table, kinds[t].pane);
+    size_t count = (size_t)canvas->width * (size_t)canvas->height;
+    png_image image = {.version = PNG_IMAGE_VERSION,
+                       .width = (png_uint_32)canvas->width,
+                       .height = (png_uint_32)canvas->height,
+                       .format = PNG_FORMAT_RGB,
+                       .flags = small ? 0 : PNG_IMAGE_FLAG_FAST};
+    uint8_t *bytes = malloc(3 * count);
+    if (!bytes)
+        return STATUS_OUT_OF_MEMORY;
+    for (size_t i = 0; i < 3 * count; i++)
+        bytes[i] = (uint8_t)(canvas->pixels[i / 3] >> (16 - i % 3 * 8));
+    errno = 0;
+    bool whole = png_image_write_to_stdio(&image, file, 0, bytes, 0, NULL);
+    int reason = errno;
+    png_image_free(&image);
+    free(bytes);
+    errno = reason ? reason : EIO;
+    return whole             ? STATUS_OK
+           : errno == ENOMEM ? STATUS_OUT_OF_MEMORY
+                             : STATUS_FILE_FAILED;
+}
+
+Status png_file_write(const char *name, const Canvas *canvas)
+{
+    Output output;
+    Status status = output_open(name, &output);
+    return status
+               ? status
+               : output_close(&output, png_write(output.file, canvas, false));
 }
 
 /* ---- films, and all together --------------------------------------------- */
@@ -161,9 +184,12 @@ Status recording_end_film(Recording *recording)
     return note(recording, status, name);
 }
 
-/* Opens a table, if there is one; of a folder's steps it is their list. */
+/* Opens a table, if there is one; of a folder's steps it is their list.  The
+ * ledger has all that a scene may have, and of several panes a row says which.
+ */
 static Status open_table(const Options *options, Recording *recording, int t)
 {
+    Table *table = &recording->table[t];
     const char *name = *(char *const *)((const char *)options + kinds[t].file);
     char list[RECORDING_NAME_SIZE];
     if (!name)
@@ -173,8 +199,18 @@ static Status open_table(const Options *options, Recording *recording, int t)
         name = list;
     recording->standard = recording->standard || output_is_standard(name);
     recording->tables = true;
-    set_columns(&recording->table[t], t, recording->panes);
-    return note(recording, table_open(name, &recording->table[t]), name);
+    table->text = log_text;
+    table_columns(table, kinds[t].columns);
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (t == RECORDING_ENERGIES && row->term) {
+            table_columns(table, row->term->energy);
+            table_columns(table, row->term->loss);
+        }
+    if (t == RECORDING_ENERGIES)
+        table_columns(table, "work,dissipated,run:place");
+    else if (recording->panes > 1)
+        table_columns(table, kinds[t].pane);
+    return note(recording, table_open(name, table), name);
 }
 
 Status recording_open(const Options *options, int panes, Recording *recording)

@@ -90,27 +90,6 @@ Status player_write_rest(Player *player)
 
 /* ---- beginning ----------------------------------------------------------- */
 
-/* Another scene has a camera and cards of its own. */
-static void enter_scene(Player *player)
-{
-    const Options *options = player_settings(player);
-    char title[128];
-    if (options->scene == player->scene)
-        return;
-    player->scene = options->scene;
-    player->speed = player_first_speed(options);
-    player->show.lens = LENS_FITS;
-    player->closed = 0;
-    player->large = -1;
-    player_deselect(player);
-    player->show.hover = (Pick){.kind = PICK_NONE};
-    player->mouse.drag = COMMAND_NONE;
-    snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
-             options->scene->name);
-    if (player->window)
-        window_set_title(title);
-}
-
 /* All of the step is shown, no line of it. */
 static void leave_lines(Player *player)
 {
@@ -131,10 +110,11 @@ void player_leave_step(Player *player)
 }
 
 /* The past is another one behind some step; where time stands still that is
- * drawn anew, too. */
+ * drawn anew, too.  Another scene has a camera and cards of its own. */
 static Status follow(Player *player)
 {
     Past *past = &player->past;
+    char title[128];
     long same = past->same;
     past->same = LONG_MAX;
     player->changed = true;
@@ -143,7 +123,21 @@ static Status follow(Player *player)
     player->still = player->rigid = 0;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
-    enter_scene(player);
+    const Options *options = player_settings(player);
+    if (options->scene != player->scene) {
+        player->scene = options->scene;
+        player->speed = player_first_speed(options);
+        player->show.lens = LENS_FITS;
+        player->closed = 0;
+        player->large = -1;
+        player_deselect(player);
+        player->show.hover = (Pick){.kind = PICK_NONE};
+        player->mouse.drag = COMMAND_NONE;
+        snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
+                 options->scene->name);
+        if (player->window)
+            window_set_title(title);
+    }
     if (player->written <= same)
         return STATUS_OK;
     player->written = same;
@@ -290,12 +284,6 @@ static void judge(Player *player)
 
 /* ---- inside a step ------------------------------------------------------- */
 
-static void stand_at(Player *player, int pane, int place)
-{
-    player->mode = MODE_PAUSE;
-    player->side[pane].place = place;
-}
-
 /* Into the step that is shown, where any pane has lines: to the first of them,
  * to the last, or to where E rose beyond all proportion. */
 static void enter(Player *player, Then then)
@@ -310,7 +298,8 @@ static void enter(Player *player, Then then)
                                          : rounds_peak(rounds);
         if (place < 0)
             continue;
-        stand_at(player, p, place);
+        player->mode = MODE_PAUSE;
+        player->side[p].place = place;
         const double *x = rounds_trace(rounds, place, &trace);
         if (then != THEN_PEAK)
             continue;
@@ -362,9 +351,11 @@ static void tell_retake(Player *player)
     const Rounds *rounds = &player_machine(player)->rounds;
     const Station *at = &player->retaken;
     char has[160];
-    if (at->round >= 0 && rounds->places > 2)
-        stand_at(player, player->active,
-                 rounds_find(rounds, at->round, at->line));
+    if (at->round >= 0 && rounds->places > 2) {
+        player->mode = MODE_PAUSE;
+        player->side[player->active].place =
+            rounds_find(rounds, at->round, at->line);
+    }
     tell_outcome(player, &option_rows[past->branch[past->now].edit.number], has,
                  sizeof has);
     player_note(player, "%s; %s", player->side[player->active].ghost_label,
@@ -488,34 +479,25 @@ Status player_work(Player *player)
     return status;
 }
 
-/* A node that was held when this step was shown, long ago; it is undone by
- * itself. */
-static Status let_go(Player *player)
-{
-    const Command release = {.kind = COMMAND_RELEASE};
-    int gesture = player->gesture, panes = past_panes(&player->past);
-    if (past_control(&player->past, 0)->hand < 0 || player->holds)
-        return STATUS_OK;
-    player->gesture = ++player->gestures;
-    Status status = player_change(player, &release, 0, panes, false);
-    player->gesture = gesture;
-    return status;
-}
-
 Status player_show(Player *player, long step, Then then)
 {
-    Status status = STATUS_OK;
-    if (step > past_newest(&player->past)) {
-        status = record_step(player);
-        if (!status)
-            status = let_go(player); /* as a script does by itself */
-    } else {
-        player->holds = false;
+    Past *past = &player->past;
+    const Command release = {.kind = COMMAND_RELEASE};
+    int gesture = player->gesture;
+    bool new = step > past_newest(past);
+    Status status = new ? record_step(player) : STATUS_OK;
+    player->holds = player->holds && new;
+    if (!status && new &&past_control(past, 0)->hand >= 0 && !player->holds) {
+        /* It was held when this step was shown, long ago; that it is let go is
+         * undone by itself. */
+        player->gesture = ++player->gestures;
+        status = player_change(player, &release, 0, past_panes(past), false);
+        player->gesture = gesture;
     }
     if (status)
         return status;
     player_leave_step(player);
-    past_aim(&player->past, step, then == THEN_ENTER || then == THEN_LEAVE);
+    past_aim(past, step, then == THEN_ENTER || then == THEN_LEAVE);
     player->then = then;
     return STATUS_OK;
 }

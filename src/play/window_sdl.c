@@ -172,23 +172,17 @@ Status window_show(const Canvas *canvas)
 
 /* ---- keys --------------------------------------------------------------- */
 
-/* The letter at this place of a keyboard that types none of ours. */
-static SDL_Keycode latin_key(const SDL_Keysym *key)
-{
-    if (key->sym < 128 || (key->sym & SDLK_SCANCODE_MASK) ||
-        key->scancode < SDL_SCANCODE_A || key->scancode > SDL_SCANCODE_Z)
-        return key->sym;
-    return SDLK_a + (SDL_Keycode)(key->scancode - SDL_SCANCODE_A);
-}
-
 /* "Ctrl+", "Shift+", "Tab+" in front of the key's own name.  Signs and digits
  * come as texts, wherever a keyboard has them; Tab is told when it comes up
  * again, for Tab+M is another key.  When the window loses the keys SDL lets go
  * of all of them. */
 static void read_key(const SDL_KeyboardEvent *event, Input *input)
 {
-    SDL_Keycode key = latin_key(&event->keysym);
+    SDL_Keycode key = event->keysym.sym;
     SDL_Scancode place = event->keysym.scancode;
+    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* none of our letters */
+        place >= SDL_SCANCODE_A && place <= SDL_SCANCODE_Z)
+        key = SDLK_a + (SDL_Keycode)(place - SDL_SCANCODE_A);
     SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
     bool letter = key >= SDLK_a && key <= SDLK_z;
     bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
@@ -211,28 +205,7 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
              tab_held ? "Tab+" : "", sdl.GetKeyName(key));
 }
 
-/* Signs and digits. */
-static void read_text(const char *text, Input *input)
-{
-    if (!isgraph((unsigned char)text[0]) || isalpha((unsigned char)text[0]) ||
-        text[1] != '\0')
-        return;
-    input->kind = INPUT_KEY;
-    snprintf(input->key, sizeof input->key, "%s", text);
-}
-
 /* ---- mouse and window --------------------------------------------------- */
-
-static void read_button(const SDL_MouseButtonEvent *event, Input *input)
-{
-    mouse = (SDL_Point){event->x, event->y};
-    input->kind = event->state == SDL_PRESSED ? INPUT_PRESS : INPUT_RELEASE;
-    input->button = event->button == SDL_BUTTON_LEFT && shift ? BUTTON_BOX
-                    : event->button == SDL_BUTTON_LEFT        ? BUTTON_LEFT
-                    : event->button == SDL_BUTTON_RIGHT       ? BUTTON_RIGHT
-                                                              : BUTTON_MIDDLE;
-    input->clicks = event->clicks;
-}
 
 /* Uncovered, resized, left or closed. */
 static InputKind change_of_window(const SDL_WindowEvent *event)
@@ -256,6 +229,9 @@ static InputKind change_of_window(const SDL_WindowEvent *event)
 static Input read_event(const SDL_Event *event)
 {
     Input input = {.kind = INPUT_NONE};
+    const char *text = event->text.text;
+    bool press = event->type == SDL_MOUSEBUTTONDOWN;
+    int button = event->button.button;
     double scale[2];
     switch (event->type) {
     case SDL_QUIT:
@@ -265,8 +241,12 @@ static Input read_event(const SDL_Event *event)
     case SDL_KEYUP:
         read_key(&event->key, &input);
         break;
-    case SDL_TEXTINPUT:
-        read_text(event->text.text, &input);
+    case SDL_TEXTINPUT: /* signs and digits */
+        if (isgraph((unsigned char)text[0]) &&
+            !isalpha((unsigned char)text[0]) && text[1] == '\0') {
+            input.kind = INPUT_KEY;
+            snprintf(input.key, sizeof input.key, "%s", text);
+        }
         break;
     case SDL_WINDOWEVENT:
         input.kind = change_of_window(&event->window);
@@ -277,7 +257,13 @@ static Input read_event(const SDL_Event *event)
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
-        read_button(&event->button, &input);
+        mouse = (SDL_Point){event->button.x, event->button.y};
+        input.kind = press ? INPUT_PRESS : INPUT_RELEASE;
+        input.button = button == SDL_BUTTON_LEFT && shift ? BUTTON_BOX
+                       : button == SDL_BUTTON_LEFT        ? BUTTON_LEFT
+                       : button == SDL_BUTTON_RIGHT       ? BUTTON_RIGHT
+                                                          : BUTTON_MIDDLE;
+        input.clicks = event->button.clicks;
         break;
     case SDL_MOUSEWHEEL:
         input.kind = INPUT_WHEEL;

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "play/film.h"
+#include "play/recording.h"
 
 enum { WIDTH = 61, HEIGHT = 47, BLOCK = 20, FRAMES = 8 };
 
