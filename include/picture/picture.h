@@ -34,10 +34,11 @@ typedef struct Card {
 } Card;
 
 typedef struct Picture {
-    const Card *const *cards; /* NULL at the end */
-    bool stretched;           /* x and y have scales of their own */
-    bool own_handles;         /* it draws and picks the scene's handles */
-    bool places;              /* a click is a place to start from, or a guess */
+    int count; /* of its cards */
+    const Card *const *cards;
+    bool stretched;   /* x and y have scales of their own */
+    bool own_handles; /* it draws and picks the scene's handles */
+    bool places;      /* a click is a place to start from, or a guess */
     /* The part of the world that fits the stage, which has no camera yet: left,
      * bottom, right, top; NULL: always the same. */
     void (*bounds)(const Plot *stage, double bounds[4]);
@@ -59,9 +60,7 @@ typedef struct Picture {
 /* The row of a scene. */
 const Picture *picture_of(const struct Scene *scene);
 
-/* How many cards it has, and the index of the one with this name; -1: it has
- * none. */
-int picture_cards(const Picture *picture);
+/* The index of its card with this name; -1: it has none. */
 int picture_card(const Picture *picture, const char *name);
 
 /* Draws all of the paper: stage, cards, strip, row, time line, last line. */

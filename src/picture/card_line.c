@@ -20,21 +20,15 @@ typedef struct Curves {
     double low, high;          /* of the axis */
 } Curves;
 
-/* E(x + alpha p) - E(x) of a quadratic function with minimum at alpha = 1:
- * p solves H^ p = -g, so p H^ p = -g p, the slope. */
-static double model_value(double slope, double alpha)
-{
-    return slope * (alpha - 0.5 * alpha * alpha);
-}
-
 static double exact_value(const Trace *trace, double alpha)
 {
     double value = trace->difference(trace->function, alpha);
     return isfinite(value) ? value : NAN;
 }
 
-/* From the lowest of both curves to a bit above 0; trials that lie far above
- * are told in words. */
+/* The model is the quadratic function with its minimum at alpha = 1: p solves
+ * H^ p = -g, so p H^ p = -g p, the slope.  From the lowest of both curves to a
+ * bit above 0; trials that lie far above are told in words. */
 static void fill_curves(const Trace *trace, const Trace *other, Curves *curves)
 {
     double end = BEYOND * trace_alpha(trace, 1);
@@ -43,7 +37,7 @@ static void fill_curves(const Trace *trace, const Trace *other, Curves *curves)
         double alpha = end * i / (LINE_POINTS - 1);
         curves->alpha[i] = alpha;
         curves->exact[i] = exact_value(trace, alpha);
-        curves->model[i] = model_value(trace->slope, alpha);
+        curves->model[i] = trace->slope * (alpha - 0.5 * alpha * alpha);
         curves->other[i] = other ? exact_value(other, alpha) : NAN;
         low = fmin(low, fmin(curves->exact[i], curves->model[i]));
         low = fmin(low, curves->other[i]);
@@ -104,26 +98,25 @@ static Plot draw_words(const Plot *card)
     return rest;
 }
 
-/* On a page, of a descent whose p is not projected, that along the projected
- * one, until a step is made; NULL elsewhere. */
-static const Trace *projected_trace(const Plot *card, DescentTrace *space)
+/* On a page, of a descent whose p is not projected, also along the projected
+ * one, until a step is made. */
+void line_draw(const Plot *card)
 {
     const Pane *pane = show_pane(card->show);
-    if (!text_is_known(&pane->facts, "{directions}"))
-        return NULL;
-    *space = pane->descent;
-    descent_direction(card->simulation, FILTER_CLAMP, space->from, space->p);
-    space->trace.function = space;
-    return &space->trace;
-}
-
-static void draw_curves(const Plot *card, const Trace *trace)
-{
-    static const char *const alpha = "{alpha}";
+    const Trace *trace = pane->update;
     Curves curves;
-    DescentTrace space;
-    fill_curves(trace, projected_trace(card, &space), &curves);
-    Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, alpha};
+    DescentTrace other = pane->descent;
+    if (!trace || !trace->difference || !isfinite(trace->slope) ||
+        trace->slope == 0) {
+        cards_hint(card, text_undrawn);
+        return;
+    }
+    bool both = text_is_known(&pane->facts, "{directions}");
+    if (both)
+        descent_direction(card->simulation, FILTER_CLAMP, other.from, other.p);
+    other.trace.function = &other;
+    fill_curves(trace, both ? &other.trace : NULL, &curves);
+    Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, "{alpha}"};
     Axis y = {curves.low, curves.high, false, false, NULL};
     Plot rest = draw_words(card), plot = plot_create(&rest, x, y);
     const double origin[2] = {0, 0};
@@ -141,15 +134,4 @@ static void draw_curves(const Plot *card, const Trace *trace)
         bool last = t == trace->trials - 1;
         draw_trial(&plot, at, exact_value(trace, at), last && trace->accepted);
     }
-}
-
-void line_draw(const Plot *card)
-{
-    const Trace *trace = show_pane(card->show)->update;
-    if (trace && trace->difference && isfinite(trace->slope) &&
-        trace->slope != 0) {
-        draw_curves(card, trace);
-        return;
-    }
-    cards_hint(card, text_undrawn);
 }

@@ -49,43 +49,35 @@ static Box block_box(Box square, int n, int i, int j, int least)
                  high > least ? high : least};
 }
 
-/* Above the diagonal the matrix, below it the factor with its fill. */
-static void draw_pattern(Canvas *canvas, Box square, int n,
-                         const unsigned char *block)
-{
-    for (int j = 0; j < n; j++)
-        for (int i = j; i < n; i++) {
-            int what =
-                i == j ? ENTRY : block[(size_t)j * (size_t)n + (size_t)i];
-            if (what == ENTRY)
-                canvas_fill(canvas, block_box(square, n, j, i, 1), COLOUR_X);
-            if (what != NOTHING)
-                canvas_fill(canvas, block_box(square, n, i, j, 1),
-                            what == ENTRY ? COLOUR_X : 0xffe0a060u);
-        }
-}
-
-/* The pattern; the four blocks of the spring under the mouse are lit, or those
- * of the newest one. */
+/* Above the diagonal the matrix, below it the factor with its fill; the four
+ * blocks of the spring under the mouse are lit, or those of the newest one. */
 static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
     const Pick *hover = &card->show->hover;
     unsigned char *block = make_pattern(system, natural, springs);
+    Canvas *canvas = &paper->canvas;
+    int n = system->nodes;
     int lit = hover->kind == PICK_SPRING ? hover->index
               : card->show->lecture      ? springs - 1
                                          : -1;
-    if (block)
-        draw_pattern(&paper->canvas, square, system->nodes, block);
+    for (int j = 0; block && j < n; j++)
+        for (int i = j; i < n; i++) {
+            int what = i == j ? ENTRY : block[(size_t)j * (size_t)n + i];
+            if (what == ENTRY)
+                canvas_fill(canvas, block_box(square, n, j, i, 1), COLOUR_X);
+            if (what != NOTHING)
+                canvas_fill(canvas, block_box(square, n, i, j, 1),
+                            what == ENTRY ? COLOUR_X : 0xffe0a060u);
+        }
     free(block);
     for (int k = 0; k < 4 && lit >= 0 && lit < system->springs; k++) {
         const int *e = system->e + 2 * lit;
-        Box box = block_box(
-            square, system->nodes, node_place(system, e[k / 2], natural),
-            node_place(system, e[k % 2], natural), paper_pixels(paper, 0.35));
-        canvas_card(&paper->canvas, box_inset(box, -1), COLOUR_PROJECT,
-                    COLOUR_WHITE);
+        Box box = block_box(square, n, node_place(system, e[k / 2], natural),
+                            node_place(system, e[k % 2], natural),
+                            paper_pixels(paper, 0.35));
+        canvas_card(canvas, box_inset(box, -1), COLOUR_PROJECT, COLOUR_WHITE);
     }
 }
 
@@ -104,21 +96,19 @@ void spy_draw(const Plot *card)
         side = inside.height - line - below;
     int springs = page && page->writes ? lecture_spring(card->simulation) + 1
                                        : system->springs;
-    if (side < 4 * line || system->nodes > side)
+    if (side < 4 * line || system->nodes > side) {
         cards_hint(card,
                    side < 4 * line ? "enlarge it" : "too many nodes to draw");
-    else {
-        for (int k = 0; k < 2; k++) {
-            int x = inside.x + k * (side + gap);
-            paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
-                        ALIGN_LEFT,
-                        k ? "order of elimination" : "rows 2i, 2i + 1");
-            draw_matrix(card, (Box){x, inside.y + line, side, side}, !k,
-                        springs);
-        }
-        Plot rest = *card; /* what the newest spring adds */
-        box_cut_off(&rest.box, false, 2 * line + side);
-        if (rest.box.height > 7 * paper->em)
-            text_in_card(&rest, &show_pane(card->show)->facts, text_newest);
+        return;
     }
+    for (int k = 0; k < 2; k++) {
+        int x = inside.x + k * (side + gap);
+        paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
+                    ALIGN_LEFT, k ? "order of elimination" : "rows 2i, 2i + 1");
+        draw_matrix(card, (Box){x, inside.y + line, side, side}, !k, springs);
+    }
+    Plot rest = *card; /* what the newest spring adds */
+    box_cut_off(&rest.box, false, 2 * line + side);
+    if (rest.box.height > 7 * paper->em)
+        text_in_card(&rest, &show_pane(card->show)->facts, text_newest);
 }

@@ -55,10 +55,9 @@ function end_row()
     if (kind == "card")
         print "const Card card_" name " = {" row ".name = " quoted(called) "};"
     if (kind == "picture") {
-        lists = lists "static const Card *const " name "_cards[] = {" list \
-                "NULL};\n"
+        lists = lists "static const Card *const " name "_cards[] = {" list "};\n"
         rows = rows "[PICTURE_" toupper(name) "] = {" row ".cards = " name \
-               "_cards},\n"
+               "_cards, .count = sizeof " name "_cards / sizeof *" name "_cards},\n"
     }
     row = list = ""
 }

@@ -117,15 +117,10 @@ static HelpGrid help_grid(const Show *show, Box inside, double em)
     return grid;
 }
 
-/* What is inside the frame of a page. */
-static Box page_inside(Box column, double em)
-{
-    return cards_inside(box_inset(column, (int)lround(0.9 * em)), em);
-}
-
 int show_help_row(const Show *show, const Layout *layout, double x, double y)
 {
-    Box inside = page_inside(layout->column, layout->em);
+    int margin = (int)lround(0.9 * layout->em);
+    Box inside = cards_inside(box_inset(layout->column, margin), layout->em);
     HelpGrid grid = help_grid(show, inside, layout->em);
     if (show->page.kind != PAGE_HELP || !box_contains(inside, x, y))
         return -1;
@@ -203,27 +198,22 @@ static void draw_code(Paper *paper, Box inside, const Page *page)
     }
 }
 
-/* Help or code, over the whole column. */
-static void draw_page(Paper *paper, Box column, const Show *show)
-{
-    const Page *page = &show->page;
-    Box inside =
-        draw_frame(paper, box_inset(column, paper_pixels(paper, 0.9)),
-                   page->title ? page->title : "Keys and mouse", show, false);
-    Box before = canvas_clip(&paper->canvas, inside);
-    if (page->kind == PAGE_CODE)
-        draw_code(paper, page_draw_claim(paper, inside, show), page);
-    else
-        draw_help(paper, inside, show);
-    canvas_clip(&paper->canvas, before);
-}
-
 void cards_draw(Paper *paper, const Layout *layout, const Show *show)
 {
     const Simulation *simulation = show_pane(show)->simulation;
     const Picture *picture = picture_of(simulation->scene);
-    if (layout->page)
-        draw_page(paper, layout->column, show);
+    const Page *page = &show->page;
+    if (layout->page) { /* over the whole column */
+        Box inside = draw_frame(
+            paper, box_inset(layout->column, paper_pixels(paper, 0.9)),
+            page->title ? page->title : "Keys and mouse", show, false);
+        Box before = canvas_clip(&paper->canvas, inside);
+        if (page->kind == PAGE_CODE)
+            draw_code(paper, page_draw_claim(paper, inside, show), page);
+        else
+            draw_help(paper, inside, show);
+        canvas_clip(&paper->canvas, before);
+    }
     for (int i = 0; i < layout->cards; i++) {
         const Card *card = picture->cards[i];
         TextLine title = text_first(&show_pane(show)->facts, card->title);

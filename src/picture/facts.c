@@ -54,19 +54,6 @@ void fact_matrix(Facts *facts, const char *const names[3], const double H[3],
         fact(facts, names[k], fabs(H[k]) < none ? 0 : H[k]);
 }
 
-/* Where a search ended that is no minimum: the gradient is 0 there, too. */
-static void add_end(const Simulation *simulation, Facts *facts)
-{
-    const Descent *descent = &simulation->descent;
-    bool ended = simulation->done && simulation->scene->step == step_descent &&
-                 descent->residual <= simulation->options.tolerance;
-    int down = ended ? descent_bends_down(simulation, descent->point[0],
-                                          descent->point[1])
-                     : 0;
-    fact_when(facts, "saddle", down == 1);
-    fact_when(facts, "maximum", down == 2);
-}
-
 /* Scene, methods and settings. */
 static void add_settings(const Show *show, const Simulation *simulation,
                          Facts *facts)
@@ -111,6 +98,13 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "paused", show->paused);
     fact_when(facts, show->veiled ? "asked" : "told", true);
     fact_when(facts, show->held.on ? "held" : "free", true);
+    if (simulation->done && scene->step == step_descent &&
+        descent->residual <= options->tolerance) { /* the gradient is 0, too */
+        const double *x = descent->point;
+        int down = descent_bends_down(simulation, x[0], x[1]);
+        fact_when(facts, "saddle", down == 1);
+        fact_when(facts, "maximum", down == 2);
+    }
 }
 
 /* The step as far as it has come, or the last update of a search. */
@@ -180,7 +174,6 @@ static void facts_of(const Show *show, int pane, Facts *facts)
     for (int run = 0; run <= FACTS_RUNS; run++)
         facts->colour[run] = COLOUR_TEXT;
     add_settings(show, simulation, facts);
-    add_end(simulation, facts);
     if (whole && now->trouble && now->trouble != STATUS_INTERRUPTED) {
         fact_words(facts, status_name(now->trouble), "");
         fact_words(facts, "trouble", status_text(now->trouble));
@@ -196,17 +189,6 @@ static void facts_of(const Show *show, int pane, Facts *facts)
 }
 
 /* ---- texts --------------------------------------------------------------- */
-
-/* "#warning"; of a run, "#run" and "#1" */
-static Colour line_colour(const Facts *facts, int run, const char *name,
-                          size_t length)
-{
-    if (length == 3 && strncmp(name, "run", 3) == 0)
-        return facts->colour[run];
-    if (*name >= '0' && *name <= '0' + FACTS_RUNS)
-        return facts->colour[*name - '0'];
-    return colour_named(name, length);
-}
 
 /* The fact of this name, up to its colon or brace. */
 static const Fact *find_fact(const Facts *facts, int run, const char *name)
@@ -234,30 +216,22 @@ double show_number(Show *show, const char *name)
     return fact_number(&show_pane(show)->facts, name);
 }
 
-/* 1/2, 1/4, ... where it is one of them. */
-static Number fraction_of(double value)
-{
-    int exponent;
-    Number number = number_of(value);
-    if (value > 0 && value < 1 && frexp(value, &exponent) == 0.5 &&
-        exponent > -9)
-        snprintf(number.text, sizeof number.text, "1/%d", 1 << (1 - exponent));
-    return number;
-}
-
-/* One number or word of a line, as the letters behind the colon say. */
+/* One number or word of a line, as the letters behind the colon say: with / it
+ * is 1/2, 1/4, ... where it is one of them. */
 static void put_fact(const Fact *one, const char *format, char *out,
                      size_t size)
 {
     char *rest;
-    int digits = (int)strtol(format, &rest, 10);
+    int digits = (int)strtol(format, &rest, 10), exponent;
+    double value = one->value[0];
     Number number[2];
     for (int k = 0; k < 2 && !one->words; k++)
-        number[k] = *rest == '/'
-                        ? fraction_of(one->value[k])
-                        : number_with(one->value[k], digits ? digits : 3);
-    bool apart =
-        *rest == '\'' && (one->value[0] < 0 || strchr(number[0].text, '^'));
+        number[k] = number_with(one->value[k], digits ? digits : 3);
+    if (*rest == '/' && !one->words && value > 0 && value < 1 &&
+        frexp(value, &exponent) == 0.5 && exponent > -9)
+        snprintf(number->text, sizeof number->text, "1/%d",
+                 1 << (1 - exponent));
+    bool apart = *rest == '\'' && (value < 0 || strchr(number[0].text, '^'));
     if (one->words)
         snprintf(out, size, "%s", one->words);
     else if (one->point)
@@ -274,8 +248,11 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
     size_t used = 0, name = strcspn(text, " *{");
     line->colour = COLOUR_TEXT;
     line->face = FACE_REGULAR;
-    if (*from == '#' && from[name] != '{') {
-        line->colour = line_colour(facts, line->run, from + 1, name - 1);
+    if (*from == '#' && from[name] != '{') { /* "#warning", "#run", "#1" */
+        int run = strncmp(from, "#run ", 5) == 0 ? line->run : from[1] - '0';
+        line->colour = run >= 0 && run <= FACTS_RUNS
+                           ? facts->colour[run]
+                           : colour_named(from + 1, name - 1);
         line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
         from += name + 1 + (from[name] == '*');
     }

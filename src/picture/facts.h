@@ -24,7 +24,6 @@ enum { FACTS_TEXT = 512 };
 void fact(Facts *facts, const char *name, double value);
 void fact_words(Facts *facts, const char *name, const char *words);
 void fact_when(Facts *facts, const char *name, bool on);
-double fact_number(const Facts *facts, const char *name);
 void fact_point(Facts *facts, const char *name, const double point[2]);
 void fact_matrix(Facts *facts, const char *const names[3], const double H[3],
                  double none);

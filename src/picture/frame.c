@@ -52,8 +52,6 @@ static void draw_strip(Paper *paper, const Layout *layout, const Show *show)
                     : show->warning ? COLOUR_WARNING
                                     : COLOUR_VALUE;
     char words[2 * SHOW_TEXT];
-    if (layout->strip.width <= 0)
-        return;
     draw_ground(paper, layout->strip, true);
     room.width -= (int)(0.9 * em);
     snprintf(words, sizeof words, "%s%s%s", show->method,
@@ -104,17 +102,6 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
                   (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
                   paper->unit, NULL, colour);
-}
-
-static void draw_row(Paper *paper, const Layout *layout, const Show *show)
-{
-    if (layout->row.width <= 0)
-        return;
-    draw_ground(paper, layout->row, false);
-    for (int i = 0; i < layout->settings; i++)
-        draw_setting(paper, layout->setting[i], &show->setting[i],
-                     show->selected == i,
-                     show->over.zone == ZONE_SETTING && show->over.index == i);
 }
 
 /* ---- the time line ------------------------------------------------------ */
@@ -179,28 +166,10 @@ static void draw_time(Paper *paper, const Layout *layout, const Show *show)
 
 /* ---- the last line ------------------------------------------------------ */
 
-static void draw_chip(Paper *paper, Box box, const Chip *chip,
-                      const char *label, bool over)
-{
-    double gap = 0.5 * paper->em, size = 0.92;
-    int key = paper_width(paper, FACE_BOLD, size, chip->key);
-    int width = key + paper_width(paper, FACE_REGULAR, size, label);
-    canvas_card(&paper->canvas, box,
-                chip->lit ? COLOUR_LIT
-                : over    ? COLOUR_WHITE
-                          : COLOUR_CHIP,
-                over ? COLOUR_GREY : COLOUR_BORDER);
-    box = cut_left(box, fmax(0, 0.5 * (box.width - gap - width)));
-    paper_fit(paper, FACE_BOLD, size, COLOUR_TEXT, box, ALIGN_LEFT, chip->key);
-    paper_fit(paper, FACE_REGULAR, size, COLOUR_TEXT, cut_left(box, key + gap),
-              ALIGN_LEFT, label);
-}
-
 static void draw_last(Paper *paper, const Layout *layout, const Show *show)
 {
+    const double gap = 0.5 * paper->em, size = 0.92;
     Box last = layout->last;
-    if (last.width <= 0)
-        return;
     draw_ground(paper, last, false);
     if (show->message[0] && !strip_tells(layout)) {
         paper_fit(paper, FACE_REGULAR, 1,
@@ -209,18 +178,34 @@ static void draw_last(Paper *paper, const Layout *layout, const Show *show)
         return;
     }
     for (int i = 0; i < layout->chips; i++) {
+        const Chip *chip = &show->chip[i];
+        Box box = layout->chip[i];
         bool all = layout->chips_left_out > 0 && i == layout->chips - 1;
-        if (layout->chip[i].width > 0) /* "all": those left out, too */
-            draw_chip(paper, layout->chip[i], &show->chip[i],
-                      all ? "all \u2026" : show->chip[i].label,
-                      show->over.zone == ZONE_CHIP && show->over.index == i);
+        bool over = show->over.zone == ZONE_CHIP && show->over.index == i;
+        const char *label = all ? "all \u2026" : chip->label;
+        int key = paper_width(paper, FACE_BOLD, size, chip->key);
+        int width = key + paper_width(paper, FACE_REGULAR, size, label);
+        canvas_card(&paper->canvas, box,
+                    chip->lit ? COLOUR_LIT
+                    : over    ? COLOUR_WHITE
+                              : COLOUR_CHIP,
+                    over ? COLOUR_GREY : COLOUR_BORDER);
+        box = cut_left(box, fmax(0, 0.5 * (box.width - gap - width)));
+        paper_fit(paper, FACE_BOLD, size, COLOUR_TEXT, box, ALIGN_LEFT,
+                  chip->key);
+        paper_fit(paper, FACE_REGULAR, size, COLOUR_TEXT,
+                  cut_left(box, key + gap), ALIGN_LEFT, label);
     }
 }
 
 void frame_draw(Paper *paper, const Layout *layout, const Show *show)
 {
     draw_strip(paper, layout, show);
-    draw_row(paper, layout, show);
+    draw_ground(paper, layout->row, false);
+    for (int i = 0; i < layout->settings; i++)
+        draw_setting(paper, layout->setting[i], &show->setting[i],
+                     show->selected == i,
+                     show->over.zone == ZONE_SETTING && show->over.index == i);
     draw_time(paper, layout, show);
     draw_last(paper, layout, show);
 }

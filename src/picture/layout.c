@@ -180,7 +180,7 @@ static int find_rows(const Show *show, double wide, double em, bool pairs,
                      CardRow *rows)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    int count = 0, cards = picture_cards(picture), before = -2;
+    int count = 0, cards = picture->count, before = -2;
     bool large = show->large >= 0 && show->large < cards;
     for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
@@ -241,8 +241,7 @@ static void place_cards(const Show *show, Layout *layout)
         for (int k = 0; k < row->cards; k++)
             layout->card[row->card + k] = box_column(box, k, row->cards, gap);
     }
-    layout->cards =
-        picture_cards(picture_of(show_pane(show)->simulation->scene));
+    layout->cards = picture_of(show_pane(show)->simulation->scene)->count;
 }
 
 /* One beside the other, in one, two or three columns. */
@@ -310,18 +309,6 @@ static void place_sheet(const Show *show, Layout *layout)
     layout->cells = show->cells;
 }
 
-/* Pixels that letters have at least: on a page a 55th of the height, in large
- * type a 35th, on a page or not, where that leaves room for words beside the
- * stage. */
-static double least_letter(const Show *show, int width, int height)
-{
-    bool big = show_pane(show)->simulation->options.big;
-    double least = show->letter > 0 ? show->letter : EM_LEAST;
-    double letter = big ? fmin(height / 35.0, width / 54.0)
-                        : fmin(height / 55.0, width / 64.0);
-    return show->lecture || big ? fmax(show->letter, letter) : least;
-}
-
 /* The card that a page wants large stands on the stage, and the picture in the
  * card's place; where the column has no room for it, or code stands there,
  * below the card; that of some is always below the picture. */
@@ -384,24 +371,20 @@ static void place_folded(const Show *show, Layout *layout)
         box_inset(box_cut_off(stage, true, high), pixels(layout, GAP));
 }
 
-/* Ems. */
-static double column_width(const Show *show, double wide)
-{
-    bool page = show->page.kind != PAGE_NONE;
-    double most = WIDE_PART * wide,
-           least = fmax(COLUMN_PART * wide, COLUMN_LEAST);
-    if (show->page.kind == PAGE_CODE)
-        return fmin(fmax(cards_code_needs(&show->page), least), most);
-    return page && show->help_rows > MOST_ROWS ? most : least;
-}
-
+/* Letters have at least, on a page, a 55th of the height, in large type a 35th,
+ * on a page or not, where that leaves room for words beside the stage. */
 Layout show_layout(const Show *show, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    const Simulation *simulation = show_pane(show)->simulation;
+    const Picture *picture = picture_of(simulation->scene);
     double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
-    bool page = show->page.kind != PAGE_NONE;
-    layout.em = fmax(size, least_letter(show, width, height));
+    double least = show->letter > 0 ? show->letter : EM_LEAST;
+    bool page = show->page.kind != PAGE_NONE, big = simulation->options.big;
+    if (show->lecture || big)
+        least = fmax(show->letter, big ? fmin(height / 35.0, width / 54.0)
+                                       : fmin(height / 55.0, width / 64.0));
+    layout.em = fmax(size, least);
     layout.stage = place_zones(show, &layout);
     if (show->cells > 0) {
         place_sheet(show, &layout);
@@ -410,8 +393,14 @@ Layout show_layout(const Show *show, int width, int height)
     double wide = width / layout.em, high = height / layout.em;
     bool low = page && high < 50; /* a page needs all of the width */
     if (!show->bare && wide >= 53 && high >= 34 && !low &&
-        (page || show->hidden != (1u << picture_cards(picture)) - 1)) {
-        int column = pixels(&layout, column_width(show, wide));
+        (page || show->hidden != (1u << picture->count) - 1)) {
+        double most = WIDE_PART * wide;
+        double ems = fmax(COLUMN_PART * wide, COLUMN_LEAST);
+        if (show->page.kind == PAGE_CODE)
+            ems = fmin(fmax(cards_code_needs(&show->page), ems), most);
+        else if (page && show->help_rows > MOST_ROWS)
+            ems = most;
+        int column = pixels(&layout, ems);
         layout.column = layout.stage;
         layout.column.width = column;
         layout.column.x += layout.stage.width - column;
@@ -419,7 +408,7 @@ Layout show_layout(const Show *show, int width, int height)
         if (!page)
             place_cards(show, &layout);
         else if (show->lecture && show->page.kind == PAGE_CODE)
-            layout.cards = picture_cards(picture);
+            layout.cards = picture->count;
     } else if (!show->bare && page) { /* over the stage */
         layout.column = layout.stage;
     }

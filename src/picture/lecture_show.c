@@ -143,7 +143,7 @@ void show_lecture(Column column, const LecturePage *left, Show *show)
              "page %d of %d \u00b7 K: its code and test",
              (int)(page - lecture_pages) + 1, lecture_count());
     show->hidden = show->veils = 0;
-    for (int c = 0; picture->cards[c]; c++) {
+    for (int c = 0; c < picture->count; c++) {
         bool open = has_word(page->cards, picture->cards[c]->name);
         if (show->veiled && page->veils &&
             has_word(page->veils, picture->cards[c]->name))

@@ -283,19 +283,9 @@ void plot_face(const Plot *plot, const double *const corner[4], Colour colour)
     canvas_triangle(&plot->paper->canvas, half, false, colour);
 }
 
-/* Moves the end of a line from p to q to the middle between two pixels of the
- * direction in which it is longer, so that the next line begins where no pixel
+/* The end of each line is moved to the middle between two pixels of the
+ * direction in which it is longer, so that the next one begins where no pixel
  * is covered by parts of both: their joint would be paler. */
-static void end_between_pixels(const double p[2], double q[2])
-{
-    double dx = q[0] - p[0], dy = q[1] - p[1];
-    int k = fabs(dx) >= fabs(dy) ? 0 : 1;
-    double along = k == 0 ? dx : dy, across = k == 0 ? dy : dx;
-    double end = floor(q[k] + 0.5);
-    q[1 - k] += (end - q[k]) * across / along;
-    q[k] = end;
-}
-
 void plot_curve(const Plot *plot, int count, const double *x, const double *y,
                 double width, Colour colour)
 {
@@ -304,9 +294,13 @@ void plot_curve(const Plot *plot, int count, const double *x, const double *y,
         double q[2];
         plot_place(plot, (double[2]){x[i], y[i]}, q);
         if (isfinite(p[0] + p[1]) && isfinite(q[0] + q[1])) {
-            if (fabs(q[0] - p[0]) < 1 && fabs(q[1] - p[1]) < 1 && i + 1 < count)
+            const double d[2] = {q[0] - p[0], q[1] - p[1]};
+            if (fabs(d[0]) < 1 && fabs(d[1]) < 1 && i + 1 < count)
                 continue; /* less than a pixel: wait for the next point */
-            end_between_pixels(p, q);
+            int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
+            double end = floor(q[k] + 0.5);
+            q[1 - k] += (end - q[k]) * d[1 - k] / d[k];
+            q[k] = end;
             draw_line(plot, p, q, width, colour);
         }
         memcpy(p, q, sizeof p);

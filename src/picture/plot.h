@@ -139,7 +139,7 @@ typedef struct Number {
 Number number_with(double value, int digits);
 Number number_of(double value);
 
-/* ---- stages (show.c, handles.c): what the mouse can drag and switch ------ */
+/* ---- stages (show.c): what the mouse can drag and switch ------ */
 
 /* The stage of a pane; paper NULL: it only tells where things are. */
 Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane);

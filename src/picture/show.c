@@ -1,11 +1,31 @@
-#include "picture/show.h"
-
+/* show.c - a Show: what it is of, where its stages look, what the mouse finds
+ * there, how all of it is drawn. */
 #include <math.h>
 #include <string.h>
 
 #include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "scenes/scene.h"
+#include "base/mathematics.h"
 
-static const double WORDS_ROOM = 1.8; /* ems, of a legend or a label */
+static const double WORDS_ROOM = 1.8;  /* ems, of a legend or a label */
+static const double LEAST_TEXT = 11;   /* ems, a pane with words is high */
+static const double HANDLE_REACH = 14; /* pixels, a handle is hit within */
+static const double SWITCH_WIDE = 13;  /* ems */
+static const double SWITCH_HIGH = 1.8;
+
+const Picture *picture_of(const struct Scene *scene)
+{
+    return &pictures[scene->picture];
+}
+
+int picture_card(const Picture *picture, const char *name)
+{
+    for (int c = 0; c < picture->count; c++)
+        if (strcmp(picture->cards[c]->name, name) == 0)
+            return c;
+    return -1;
+}
 
 void show_create(const Simulation *simulation, Show *show)
 {
@@ -13,7 +33,7 @@ void show_create(const Simulation *simulation, Show *show)
     *show = (Show){.panes = 1, .selected = -1, .large = -1};
     show->pane[0].simulation = simulation;
     show->lens = LENS_FITS;
-    for (int c = 0; picture->cards[c]; c++) {
+    for (int c = 0; c < picture->count; c++) {
         show->closed |= (unsigned)picture->cards[c]->closed << c;
         show->hidden |= (unsigned)picture->cards[c]->lecture << c;
     }
@@ -107,4 +127,215 @@ int show_sample(const Simulation *simulation, Energy row[HISTORY_SERIES])
 {
     const Picture *picture = picture_of(simulation->scene);
     return picture->sample ? picture->sample(simulation, row) : 0;
+}
+
+/* ---- history ------------------------------------------------------------ */
+
+void history_add(History *history, double time, int rows, const Energy *row)
+{
+    double sum = time;
+    for (int i = 0; i < rows; i++)
+        sum += 0 * row[i].value; /* NaN where it is not finite */
+    if (!isfinite(sum) || history->count == HISTORY_POINTS)
+        return;
+    int last = history->count++;
+    history->time[last] = time;
+    for (int s = 0; s < history->series; s++)
+        history->value[s][last] = 0;
+    for (int i = 0; i < rows; i++) {
+        const char *name = row[i].name; /* most often that of series i */
+        int s = i < history->series && history->name[i] == name ? i : 0;
+        while (s < history->series && strcmp(history->name[s], name) != 0)
+            s++;
+        if (s == HISTORY_SERIES)
+            continue; /* there is no room */
+        if (s == history->series) {
+            history->name[history->series++] = name;
+            memset(history->value[s], 0, sizeof history->value[s]);
+        }
+        history->value[s][last] = row[i].value;
+    }
+}
+
+/* ---- what the mouse can drag and switch ---------------------------------- */
+
+void stage_handles(const Plot *stage)
+{
+    double at[SCENE_MAX_HANDLES][2];
+    int count = exhibit_handles(stage->simulation, at);
+    const Pick *hover = &stage->show->hover;
+    for (int i = 0; i < count && !stage->show->bare; i++) {
+        bool over = hover->kind == PICK_HANDLE && hover->pane == stage->pane &&
+                    hover->index == i;
+        plot_ring(stage, at[i], (over ? 13 : 10), over ? 3 : 1.8, COLOUR_HAND);
+    }
+}
+
+static Box switch_box(const Plot *stage, int i)
+{
+    const Box *box = &stage->box;
+    int wide = (int)(SWITCH_WIDE * stage->em);
+    int high = (int)(SWITCH_HIGH * stage->em), gap = (int)(0.4 * stage->em);
+    return (Box){box->x + box->width - wide - gap,
+                 box->y + 3 * gap + i * (high + gap) + high, wide, high};
+}
+
+void stage_switches(const Plot *stage)
+{
+    Paper *paper = stage->paper;
+    Switch out[SCENE_MAX_SWITCHES];
+    int count = exhibit_switches(stage->simulation, out);
+    for (int i = 0; i < count && stage->text; i++) {
+        Box box = switch_box(stage, i), mark = box_inset(box, box.height / 4);
+        bool on = out[i].on;
+        canvas_card(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
+                    COLOUR_BORDER);
+        mark.width = mark.height;
+        canvas_card(&paper->canvas, mark, on ? COLOUR_VALUE : COLOUR_WHITE,
+                    COLOUR_FAINT);
+        box.x += 2 * mark.width;
+        box.width -= 2 * mark.width;
+        paper_fit(paper, FACE_REGULAR, 0.92, on ? COLOUR_TEXT : COLOUR_FAINT,
+                  box, ALIGN_LEFT, out[i].label);
+    }
+}
+
+bool handles_pick(const Plot *stage, double x, double y, Pick *pick)
+{
+    double at[SCENE_MAX_HANDLES][2];
+    Switch out[SCENE_MAX_SWITCHES];
+    int switches = exhibit_switches(stage->simulation, out);
+    int handles = exhibit_handles(stage->simulation, at);
+    for (int i = 0; i < switches && stage->text; i++)
+        if (box_contains(switch_box(stage, i), x, y)) {
+            pick->kind = PICK_SWITCH;
+            pick->index = i;
+            return true;
+        }
+    return plot_pick(stage, handles, *at, HANDLE_REACH, x, y, PICK_HANDLE,
+                     pick);
+}
+
+/* The guess is a cross; along x alone a line from top to bottom, too. */
+void stage_prediction(const Plot *stage)
+{
+    const Prediction *guess = &stage->simulation->prediction;
+    const Box *box = &stage->box;
+    Canvas *canvas = &stage->paper->canvas;
+    double unit = stage->paper->unit, arm = 7 * unit, at[2], came[2], point[2];
+    if (!guess->made || stage->show->bare)
+        return;
+    plot_place(stage, guess->at, at);
+    plot_place(stage, guess->came, came);
+    if (simulation_point(stage->simulation, point) == 1) {
+        canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
+                    1.5 * unit, COLOUR_HAND);
+        came[1] = at[1];
+    }
+    for (int k = -1; k <= 1; k += 2)
+        canvas_line(canvas, at[0] - arm, at[1] - k * arm, at[0] + arm,
+                    at[1] + k * arm, 3 * unit, COLOUR_HAND);
+    if (guess->shown)
+        canvas_dashes(canvas, at, came, 1.6 * unit, unit, NULL, COLOUR_HAND);
+    plot_words(stage, 1, guess->at, COLOUR_HAND,
+               guess->shown ? "%s m off" : "your guess; N shows the step",
+               number_of(guess->distance).text);
+}
+
+/* ---- all of it ----------------------------------------------------------- */
+
+/* One pane, its words, where it is not alone its label in the colour of its
+ * curve, and what the mouse is over in it. */
+static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
+                      int pane)
+{
+    Plot stage = show_stage(paper, show, layout, pane);
+    const Picture *picture = picture_of(stage.simulation->scene);
+    const Pick *hover = &show->hover;
+    Box before = canvas_clip(&paper->canvas, stage.box);
+    if (show->lecture && stage.box.height < LEAST_TEXT * paper->em)
+        stage.text = false; /* a star has taken its room */
+    picture->draw(&stage);
+    TextLine line = text_of(&show->pane[pane].facts, picture->legend);
+    while (stage.text && text_next(&line))
+        plot_legend(&stage, line.colour, "%s", line.words);
+    if (stage.text && picture->scale)
+        plot_scale(&stage);
+    if (!picture->own_handles)
+        stage_handles(&stage);
+    stage_switches(&stage);
+    stage_prediction(&stage);
+    const char *label = layout->panes > 1 ? show->pane[pane].label : NULL;
+    if (label) { /* above the scale where it is long */
+        int wide = paper_width(paper, FACE_BOLD, 1, label);
+        bool high = wide > stage.box.width - 10 * paper->em;
+        paper_panel(paper, FACE_BOLD, 1, colour_of_run(pane),
+                    stage.box.x + 0.5 * stage.box.width,
+                    stage.box.y + stage.box.height -
+                        (high ? 4.2 : 1.7) * paper->em,
+                    ALIGN_CENTRE, label);
+    }
+    if (picture->hover && stage.text && hover->pane == pane &&
+        hover->kind != PICK_NONE && !show->hand)
+        picture->hover(&stage);
+    canvas_clip(&paper->canvas, before);
+}
+
+/* A scene on the sheet: its bare picture, its name, over it the heading of the
+ * group that it begins. */
+static void draw_cell(Paper *paper, Box box, const SheetCell *cell, bool chosen)
+{
+    Layout layout = {.em = paper->em, .panes = 1, .pane = {box}};
+    Box *inside = &layout.pane[0];
+    inside->height = box.width;
+    if (cell->group)
+        paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x,
+                    box.y - 1.7 * paper->em, ALIGN_LEFT, "%s", cell->group);
+    canvas_card(&paper->canvas, *inside, COLOUR_WHITE,
+                chosen ? COLOUR_VALUE : COLOUR_BORDER);
+    if (chosen)
+        canvas_card(&paper->canvas, box_inset(*inside, 1), COLOUR_WHITE,
+                    COLOUR_VALUE);
+    *inside = box_inset(*inside, paper_pixels(paper, 0.3));
+    if (cell->simulation) {
+        Show show;
+        show_create(cell->simulation, &show);
+        show.bare = true;
+        show.strain = cell->simulation->scene->strain > 0;
+        draw_pane(paper, &layout, &show, 0);
+    }
+    Box name = {box.x, box.y + box.width, box.width, box.height - box.width};
+    paper_fit(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
+              chosen ? COLOUR_VALUE : COLOUR_TEXT, name, ALIGN_CENTRE,
+              cell->name);
+}
+
+void show_draw(Paper *paper, const Show *show)
+{
+    Layout layout =
+        show_layout(show, paper->canvas.width, paper->canvas.height);
+    paper->em = layout.em;
+    paper->unit = layout.em / 14;
+    paper->least = show->lecture ? 1 : 0;
+    canvas_clear(&paper->canvas, COLOUR_WHITE);
+    for (int i = 0; i < layout.cells; i++)
+        draw_cell(paper, layout.cell[i], &show->cell[i], i == show->chosen);
+    if (layout.cells > 0) {
+        frame_draw(paper, &layout, show);
+        return;
+    }
+    if (layout.panes > 1) /* lines between them */
+        canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
+    for (int pane = 0; pane < layout.panes; pane++) {
+        if (layout.panes > 1)
+            canvas_fill(&paper->canvas, layout.pane[pane], COLOUR_WHITE);
+        draw_pane(paper, &layout, show, pane);
+    }
+    if (show->bare)
+        return;
+    if (show->page.kind != PAGE_NONE)
+        canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
+    cards_draw(paper, &layout, show);
+    glow_draw(paper, show);
+    frame_draw(paper, &layout, show);
 }

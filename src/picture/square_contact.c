@@ -38,20 +38,6 @@ Touch square_touch(const SpringPen *pen, const Element *element)
     return touch;
 }
 
-static void draw_force(const SpringPen *pen, const Touch *touch, double factor,
-                       double least)
-{
-    const double *at = pen->x + 2 * touch->node, *f = touch->force;
-    const double tail[2] = {at[0] - factor * f[0], at[1] - factor * f[1]};
-    double radius = fmax(pen->radius, 2);
-    if (math_hypot(f[0], f[1]) > least)
-        plot_arrow(pen->stage, tail, f, factor, 1.8, COLOUR_FORCE);
-    if (touch->rough && touch->slides)
-        plot_ring(pen->stage, at, 1.6 * radius, 1.5, COLOUR_FORCE);
-    else if (touch->rough)
-        plot_disc(pen->stage, at, 1.4 * radius, COLOUR_FORCE);
-}
-
 /* Of the contacts of all runs, N. */
 static double largest_force(const SpringPen *pen, int runs)
 {
@@ -66,7 +52,7 @@ static double largest_force(const SpringPen *pen, int runs)
 
 void square_contact_forces(const SpringPen *pen, int runs)
 {
-    const Plot *stage = pen->stage;
+    Plot *stage = pen->stage;
     double most = largest_force(pen, runs), round = plot_round_up(most);
     double factor = FORCE_ROOM * stage->em / stage->camera.scale[0] / round;
     if (!(most > 0))
@@ -74,12 +60,20 @@ void square_contact_forces(const SpringPen *pen, int runs)
     for (int r = runs - 1; r >= 0; r--)
         for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
             Touch touch = square_touch(&pen[r], &at.element);
-            draw_force(&pen[r], &touch, factor, FORCE_LEAST * most);
+            const double *x = pen[r].x + 2 * touch.node, *f = touch.force;
+            const double tail[2] = {x[0] - factor * f[0], x[1] - factor * f[1]};
+            double radius = fmax(pen[r].radius, 2);
+            if (math_hypot(f[0], f[1]) > FORCE_LEAST * most)
+                plot_arrow(stage, tail, f, factor, 1.8, COLOUR_FORCE);
+            if (touch.rough && touch.slides)
+                plot_ring(stage, x, 1.6 * radius, 1.5, COLOUR_FORCE);
+            else if (touch.rough)
+                plot_disc(stage, x, 1.4 * radius, COLOUR_FORCE);
         }
-    plot_legend(pen->stage, COLOUR_FORCE, "contact force \u2264 %s N",
+    plot_legend(stage, COLOUR_FORCE, "contact force \u2264 %s N",
                 number_of(round).text);
     if (system_find_term(pen->system, &friction_energy))
-        plot_legend(pen->stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
+        plot_legend(stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 
 /* Under a run's first wall, right of what lies on it, if the wall has a slope:

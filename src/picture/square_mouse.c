@@ -34,41 +34,18 @@ static double spring_distance2(const Plot *stage, const double *at, int s,
     return ex * ex + ey * ey;
 }
 
-/* Before the first step a spring of the left or right edge is that edge. */
-static void pick_edge(const Plot *stage, Pick *pick)
-{
-    const Simulation *simulation = stage->simulation;
-    const int *e = simulation->system.e + 2 * (size_t)pick->index;
-    int sides = square_mesh_sides(&simulation->mesh, e[0]) &
-                square_mesh_sides(&simulation->mesh, e[1]);
-    if (!stage->show->paused || simulation->steps > 0 ||
-        simulation->options.bodies > 0 || !(sides & (MESH_LEFT | MESH_RIGHT)))
-        return;
-    pick->kind = PICK_EDGE;
-    pick->index = sides & MESH_LEFT ? 0 : 1;
-}
-
-/* What the mouse is inside of, of the obstacles that the options have. */
-static void pick_obstacle(const Simulation *simulation, Pick *pick)
-{
-    const Contact *contact = contact_of(&simulation->system);
-    const Options *options = &simulation->options;
-    for (int k = 0; contact && k < options->grounds + options->balls; k++) {
-        const Obstacle *obstacle = &contact->obstacle[k];
-        if (contact_gap(obstacle, obstacle->o, pick->point, 0).d > 0)
-            continue;
-        pick->kind = PICK_OBSTACLE;
-        pick->index = k;
-    }
-}
-
-/* The nearest node, else the nearest spring, within reach of the mouse; else an
- * obstacle.  A hand takes nodes that are farther away, too. */
+/* The nearest node, else the nearest spring, within reach of the mouse, which
+ * before the first step, on the left or right edge, is that edge; else an
+ * obstacle of the options.  A hand takes nodes that are farther away, too. */
 void square_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    const System *system = &stage->simulation->system;
+    const Simulation *simulation = stage->simulation;
+    const System *system = &simulation->system;
+    const SquareMesh *mesh = &simulation->mesh;
+    const Options *options = &simulation->options;
+    const Contact *contact = contact_of(system);
     const double *at = pane_x(&stage->show->pane[stage->pane]);
-    double spacing = stage->camera.scale[0] * stage->simulation->mesh.spacing;
+    double spacing = stage->camera.scale[0] * mesh->spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
     int springs = solid_of(system) ? 0 : system->springs;
     Pick node = *pick;
@@ -85,29 +62,27 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
             pick->index = s;
         }
     }
-    if (pick->kind == PICK_SPRING)
-        pick_edge(stage, pick);
-    if (pick->kind == PICK_NONE)
-        pick_obstacle(stage->simulation, pick);
+    if (pick->kind == PICK_SPRING) {
+        const int *e = system->e + 2 * (size_t)pick->index;
+        int sides =
+            square_mesh_sides(mesh, e[0]) & square_mesh_sides(mesh, e[1]);
+        if (stage->show->paused && simulation->steps == 0 &&
+            options->bodies == 0 && sides & (MESH_LEFT | MESH_RIGHT)) {
+            pick->kind = PICK_EDGE;
+            pick->index = sides & MESH_LEFT ? 0 : 1;
+        }
+        return;
+    }
+    for (int k = 0; contact && k < options->grounds + options->balls; k++) {
+        const Obstacle *obstacle = &contact->obstacle[k];
+        if (contact_gap(obstacle, obstacle->o, pick->point, 0).d > 0)
+            continue;
+        pick->kind = PICK_OBSTACLE;
+        pick->index = k;
+    }
 }
 
 /* ---- the card beside it ------------------------------------------------- */
-
-/* m g - grad P: the force on a node, N, without friction. */
-static void node_force(const System *system, const double *x, int node,
-                       double force[2])
-{
-    double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
-    Place at = place_at(system, x, NULL, x);
-    at.w = -1;
-    for (const TermKind *kind; f && (kind = next_energy(&at));)
-        if (kind != &friction_energy) /* it has no energy outside of a step */
-            kind->gradient(&at, f);
-    for (int k = 0; k < 2; k++)
-        force[k] =
-            f ? f[2 * node + k] + system->m[node] * system->gravity[k] : NAN;
-    free(f);
-}
 
 /* A text in a lower corner of the stage, the one farther from the mouse. */
 static void draw_note(const Plot *stage, const Facts *facts, const char *text)
@@ -132,6 +107,7 @@ static void draw_note(const Plot *stage, const Facts *facts, const char *text)
     text_in_card(&note, facts, text);
 }
 
+/* Its force is m g - grad P, without friction. */
 static void note_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;
@@ -140,10 +116,19 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     const double *v = simulation->run[0].v + 2 * (size_t)node;
     const double *ghost = pane->trace ? pane->trace->x_tilde : NULL;
     double h = simulation->options.timestep, force[2], tilde[2];
+    double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
+    Place at = place_at(system, pane_x(pane), NULL, pane_x(pane));
     Facts facts = {0};
-    node_force(system, pane_x(pane), node, force);
-    for (int k = 0; k < 2; k++)
+    at.w = -1;
+    for (const TermKind *kind; f && (kind = next_energy(&at));)
+        if (kind != &friction_energy) /* it has no energy outside of a step */
+            kind->gradient(&at, f);
+    for (int k = 0; k < 2; k++) {
+        force[k] =
+            f ? f[2 * node + k] + system->m[node] * system->gravity[k] : NAN;
         tilde[k] = ghost ? ghost[2 * node + k] : x[k] + h * v[k];
+    }
+    free(f);
     fact(&facts, "node", node);
     fact_words(&facts, "pinned", system->pinned[node] ? ", pinned" : "");
     fact(&facts, "mass", system->m[node]);

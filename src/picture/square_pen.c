@@ -11,22 +11,11 @@
 
 enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
 
-static const double FLOWN = 30; /* times its side, what explodes fills */
+static const double FLOWN = 30; /* times its side: nodes have flown so far */
 static const double NODE = 0.1; /* of the distance of two nodes */
 static const double FACE = 4;   /* pixels, the smallest side of one */
 
 /* ---- sizes and colours -------------------------------------------------- */
-
-/* Pixels between two nodes: at rest, or where nodes have flown so far that the
- * rest shape is nothing beside what is seen, of as many over all of that. */
-static double seen_spacing(const Plot *stage)
-{
-    const SquareMesh *mesh = &stage->simulation->mesh;
-    double zoom = stage->show->lens.zoom, scale = stage->camera.scale[0];
-    double seen = zoom * stage->box.width / scale;
-    return scale * mesh->spacing *
-           (seen > FLOWN * mesh->side ? seen / mesh->side : 1);
-}
 
 /* A range for the colours: half the strain of the start, or half of the largest
  * plastic one, at least 5 %. */
@@ -38,20 +27,6 @@ static double strain_range(const Simulation *simulation, const double *ep)
     if (!ep && simulation->scene->strain > 0)
         return simulation->scene->strain;
     return plot_round_up(fmax(0.5 * most, 0.05));
-}
-
-/* The bodies, of several, of which all nodes are pinned: they are drawn as
- * walls are. */
-static unsigned fixed_bodies(const Simulation *simulation)
-{
-    const SquareMesh *mesh = &simulation->mesh;
-    unsigned fixed = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0;
-    for (int i = 0; fixed && i < mesh->nodes; i++) {
-        int node = i;
-        if (!simulation->system.pinned[i])
-            fixed &= ~(1u << square_mesh_body(mesh, &node));
-    }
-    return fixed;
 }
 
 static bool is_fixed(const SpringPen *pen, int node)
@@ -69,6 +44,7 @@ SpringPen square_pen(Plot *stage, int run)
     const Trace *trace = pane->trace;
     const System *system = simulation->run[run].system;
     const Plasticity *plasticity = system_data(system, &plastic_energy);
+    const SquareMesh *mesh = &simulation->mesh;
     SpringPen pen = {.stage = stage,
                      .show = show,
                      .pane = pane,
@@ -76,12 +52,20 @@ SpringPen square_pen(Plot *stage, int run)
                      .run = run,
                      .system = system,
                      .x = run ? simulation->run[run].x : pane_x(pane),
-                     .spacing = seen_spacing(stage),
+                     .spacing = stage->camera.scale[0] * mesh->spacing,
                      .strain = strain_range(simulation, NULL),
                      .ep = plasticity ? plasticity->ep : NULL,
                      .contact = contact_of(system),
-                     .fixed = fixed_bodies(simulation)};
+                     .fixed = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
     double unit = stage->paper->unit;
+    double seen = show->lens.zoom * stage->box.width / stage->camera.scale[0];
+    if (seen > FLOWN * mesh->side) /* the rest shape is nothing beside it */
+        pen.spacing *= seen / mesh->side;
+    for (int i = 0; pen.fixed && i < mesh->nodes; i++) {
+        int node = i;
+        if (!system->pinned[i])
+            pen.fixed &= ~(1u << square_mesh_body(mesh, &node));
+    }
     pen.contacts = place_at(system, NULL, NULL, pen.x);
     pen.contacts.term = system_find_term(system, &contact_energy);
     pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
@@ -217,9 +201,11 @@ static Colour shade(double part)
 
 /* The triangles of a solid by the area that each has kept, in pale colours:
  * darker where it is pressed. */
-static void draw_triangles(const SpringPen *pen, const NeoHookean *solid)
+int square_cells(const SpringPen *pen, bool all)
 {
-    for (int t = 0; t < solid->triangles; t++) {
+    const NeoHookean *solid = solid_of(pen->system);
+    int count = 0, node[4];
+    for (int t = 0; solid && t < solid->triangles; t++) {
         const int *n = solid->node[t];
         const double *corner[4] = {node_at(pen, n[0]), node_at(pen, n[1]),
                                    node_at(pen, n[2]), node_at(pen, n[2])};
@@ -229,14 +215,6 @@ static void draw_triangles(const SpringPen *pen, const NeoHookean *solid)
                   is_fixed(pen, n[0]) ? COLOUR_SOLID
                                       : canvas_mix(colour, COLOUR_WHITE, 0.6));
     }
-}
-
-int square_cells(const SpringPen *pen, bool all)
-{
-    const NeoHookean *solid = solid_of(pen->system);
-    int count = 0, node[4];
-    if (solid)
-        draw_triangles(pen, solid);
     for (int c = 0; !solid && c < pen->simulation->mesh.cells; c++) {
         CellLook look = cell_look(pen->simulation, pen->x, c, node);
         count += look == CELL_FOLDED;

@@ -20,7 +20,8 @@ typedef struct SpringPen {
     int run;
     const System *system;
     const double *x;        /* [2n] m */
-    double spacing;         /* pixels, of two nodes at rest */
+    double spacing;         /* pixels, of two nodes at rest; where they have
+                               flown away, of as many over all that is seen */
     double width;           /* of a spring */
     double radius;          /* of a node */
     double range;           /* of the strains; 0: all blue */
@@ -30,7 +31,8 @@ typedef struct SpringPen {
     const Contact *contact; /* NULL: there is nothing to touch */
     Place contacts;         /* the place that tells of them */
     bool projected;         /* springs whose block was changed are lit */
-    unsigned fixed;         /* bit b: of several bodies b has pins alone */
+    unsigned fixed;         /* bit b: of several bodies b has pins alone, and is
+                               drawn as walls are */
 } SpringPen;
 
 SpringPen square_pen(Plot *stage, int run);

@@ -91,6 +91,9 @@ static void draw_direction(const SpringPen *pen)
 {
     const Box *box = &pen->stage->box;
     const Trace *trace = pen->pane->trace;
+    if (!trace || !trace->p || trace->line < LINE_SOLVE ||
+        trace->line > LINE_SEARCH)
+        return;
     double apart = ceil(ARROW_SPACING * pen->stage->paper->unit / pen->spacing);
     double factor =
         plot_arrows(pen->stage, pen->system->nodes, (int)fmax(apart, 1), pen->x,
@@ -102,35 +105,6 @@ static void draw_direction(const SpringPen *pen)
                 factor == 1 ? "" : number_of(factor).text);
 }
 
-/* The start of the hand's spring, and the spring. */
-static void draw_hand(const SpringPen *pen)
-{
-    const Control *hand = pen->show->hand;
-    const Plot *stage = pen->stage;
-    if (!hand || stage->pane != pen->show->active)
-        return;
-    const double *node = pen->x + 2 * (size_t)hand->hand;
-    plot_dashes(stage, node, hand->at, 2, NULL, COLOUR_HAND);
-    plot_ring(stage, node, pen->radius + 4, 2, COLOUR_HAND);
-    plot_disc(stage, hand->at, 4, COLOUR_HAND);
-}
-
-/* Nodes that are placed together; the box that is drawn around some. */
-static void draw_box(const SpringPen *pen)
-{
-    const Show *show = pen->show;
-    const double *box = show->held.box;
-    for (int i = 0; i < pen->system->nodes; i++)
-        if (show->along_nodes == pen->system->nodes && show->along[i])
-            plot_ring(pen->stage, pen->x + 2 * (size_t)i, pen->radius + 3, 2,
-                      COLOUR_HAND);
-    const double corner[4][2] = {
-        {box[0], box[1]}, {box[2], box[1]}, {box[2], box[3]}, {box[0], box[3]}};
-    for (int i = 0; i < 4 && show->held.boxes; i++)
-        plot_dashes(pen->stage, corner[i], corner[(i + 1) % 4], 2, NULL,
-                    COLOUR_HAND);
-}
-
 static void draw_spring(const SpringPen *pen, int s, double width,
                         Colour colour)
 {
@@ -140,23 +114,41 @@ static void draw_spring(const SpringPen *pen, int s, double width,
                   colour);
 }
 
-/* What the mouse is over. */
-static void draw_hover(const SpringPen *pen)
+/* Nodes that are placed together, the box that is drawn around some; what the
+ * mouse is over; the hand's spring. */
+static void draw_mouse(const SpringPen *pen)
 {
-    const Pick *hover = &pen->show->hover;
+    const Show *show = pen->show;
+    const Plot *stage = pen->stage;
     const System *system = pen->system;
-    if (hover->pane != pen->stage->pane)
-        return;
-    if (hover->kind == PICK_NODE && hover->index < system->nodes)
-        plot_ring(pen->stage, pen->x + 2 * (size_t)hover->index,
-                  pen->radius + 4, 2, COLOUR_TEXT);
-    const LecturePage *page = pen->show->lecture;
-    bool writes = page && page->writes;
+    const Control *hand = stage->pane == show->active ? show->hand : NULL;
+    const Pick *hover = &show->hover;
+    const double *box = show->held.box;
+    for (int i = 0; i < system->nodes; i++)
+        if (show->along_nodes == system->nodes && show->along[i])
+            plot_ring(stage, pen->x + 2 * (size_t)i, pen->radius + 3, 2,
+                      COLOUR_HAND);
+    const double corner[4][2] = {
+        {box[0], box[1]}, {box[2], box[1]}, {box[2], box[3]}, {box[0], box[3]}};
+    for (int i = 0; i < 4 && show->held.boxes; i++)
+        plot_dashes(stage, corner[i], corner[(i + 1) % 4], 2, NULL,
+                    COLOUR_HAND);
+    bool over = hover->pane == stage->pane;
+    bool writes = show->lecture && show->lecture->writes;
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? lecture_spring(pen->simulation)
                                          : -1;
-    if (lit >= 0 && lit < system->springs)
+    if (over && hover->kind == PICK_NODE && hover->index < system->nodes)
+        plot_ring(stage, pen->x + 2 * (size_t)hover->index, pen->radius + 4, 2,
+                  COLOUR_TEXT);
+    if (over && lit >= 0 && lit < system->springs)
         draw_spring(pen, lit, 4.5, writes ? COLOUR_PROJECT : COLOUR_TEXT);
+    if (!hand)
+        return;
+    const double *node = pen->x + 2 * (size_t)hand->hand;
+    plot_dashes(stage, node, hand->at, 2, NULL, COLOUR_HAND);
+    plot_ring(stage, node, pen->radius + 4, 2, COLOUR_HAND);
+    plot_disc(stage, hand->at, 4, COLOUR_HAND);
 }
 
 /* ---- all of it ---------------------------------------------------------- */
@@ -237,23 +229,6 @@ static void draw_origin(const SpringPen *pen)
                  2 * stage->paper->unit, 9 * stage->paper->unit, COLOUR_TEXT);
     paper_panel(stage->paper, FACE_BOLD, 1.1, COLOUR_TEXT, origin[0], low,
                 ALIGN_CENTRE, "the square was here");
-}
-
-/* Above them; and the rest shape by name where it is a dot. */
-static void draw_signs(const SpringPen *pen)
-{
-    double side = pen->simulation->mesh.side;
-    if (side * pen->stage->camera.scale[0] < 4 && !has_frame(pen->simulation))
-        draw_origin(pen);
-    const Trace *trace = pen->pane->trace;
-    if (pen->projected)
-        plot_legend(pen->stage, COLOUR_PROJECT, "projected spring");
-    if (trace && trace->p && trace->line >= LINE_SOLVE &&
-        trace->line <= LINE_SEARCH)
-        draw_direction(pen);
-    draw_box(pen);
-    draw_hover(pen);
-    draw_hand(pen);
 }
 
 /* What the colours mean: the ends of the strains, or the largest plastic one.
@@ -368,39 +343,32 @@ static void draw_kinds(const SpringPen *pen)
     }
 }
 
-/* The corner of the stage, below its legend, where a lens hides least, right
- * ones first; a smaller one where it would hide something in all of them. */
-static Box lens_box(const Plot *stage)
-{
-    int air = (int)stage->em;
-    Box best = {0, 0, 0, 0};
-    double least = INFINITY;
-    for (int i = 0; i < 4 * LENS_SIZES; i++) {
-        int side = (int)((LENS - 2 * (i / 4)) * stage->em);
-        int left = i & 2 ? air : stage->box.width - side - air;
-        int top = i & 1 ? stage->box.height - side - 2 * air : 2 * air;
-        Box box = {stage->box.x + left, stage->box.y + top, side, side};
-        double cost = plot_cost(stage, box) + 0.1 * (i % 4) + 0.5 * (i / 4);
-        if (cost < least) {
-            least = cost;
-            best = box;
-        }
-    }
-    return best;
-}
-
-/* The gap of the page's law so large that it is seen. */
+/* The gap of the page's law so large that it is seen, in the corner of the
+ * stage, below its legend, where a lens hides least, right ones first; a
+ * smaller one where it would hide something in all of them. */
 static void draw_lens(const SpringPen *pen)
 {
     Plot lens = *pen->stage;
     Canvas *canvas = &lens.paper->canvas;
     LawGap gap;
     char words[60];
-    double bounds[4];
+    double bounds[4], least = INFINITY;
+    const Box stage = lens.box;
+    int air = (int)lens.em;
     if (!pen->show->lecture || pen->show->veiled ||
         lens.box.width < 2 * LENS * lens.em || !law_gap(pen->simulation, &gap))
         return;
-    lens.box = lens_box(pen->stage);
+    for (int i = 0; i < 4 * LENS_SIZES; i++) {
+        int side = (int)((LENS - 2 * (i / 4)) * lens.em);
+        int left = i & 2 ? air : stage.width - side - air;
+        int top = i & 1 ? stage.height - side - 2 * air : 2 * air;
+        Box box = {stage.x + left, stage.y + top, side, side};
+        double cost =
+            plot_cost(pen->stage, box) + 0.1 * (i % 4) + 0.5 * (i / 4);
+        if (cost < least)
+            lens.box = box;
+        least = fmin(least, cost);
+    }
     for (int c = 0; c < 4; c++)
         bounds[c] = 0.5 * (gap.foot[c % 2] + gap.node[c % 2]) +
                     (c < 2 ? -1.2 : 1.2) * gap.d_hat;
@@ -459,7 +427,13 @@ void square_draw(Plot *stage)
     if (show->bare)
         return;
     square_contact_forces(pen, runs);
-    draw_signs(pen);
+    if (simulation->mesh.side * stage->camera.scale[0] < 4 &&
+        !has_frame(simulation))
+        draw_origin(pen);
+    if (pen->projected)
+        plot_legend(stage, COLOUR_PROJECT, "projected spring");
+    draw_direction(pen);
+    draw_mouse(pen);
     draw_page_arrows(pen);
     draw_warnings(pen, folded);
     if (show->numbers && !show->veiled && system->nodes <= NUMBERED)

@@ -200,21 +200,6 @@ static void set_root(Pen *pen, Part part, int depth)
     pen->x = inside + in.width + 2 * THIN * em;
 }
 
-/* Square brackets, from `left` to `right`. */
-static void set_brackets(Pen *pen, double left, double right, double top,
-                         double bottom)
-{
-    double lip = 0.2 * pen->style.size;
-    for (int side = 0; side < 2; side++) {
-        double x = floor(side ? right : left) + 0.5;
-        double in = x + (side ? -lip : lip);
-        set_rule(pen, x, top - 0.5, x, bottom + 0.5);
-        set_rule(pen, x, top, in, top);
-        set_rule(pen, x, bottom, in, bottom);
-    }
-    reach(pen, top, bottom);
-}
-
 /* The next cell of a matrix, without blanks around it; moves `at` behind it.
  * Returns whether it is the last one of its row. */
 static bool next_cell(const char **at, const char *end, Part *cell)
@@ -251,6 +236,7 @@ static void set_matrix(Pen *pen, Part part, int depth)
         high += above[rows] + below[rows] + ROW * em;
     }
     double top = floor(pen->y - AXIS * em - 0.5 * high) + 0.5;
+    double bottom = top + high;
     for (int c = 0; c < COLUMNS && wide[c] > 0; c++) {
         double y = top;
         right += wide[c] + CELL * em;
@@ -261,7 +247,14 @@ static void set_matrix(Pen *pen, Part part, int depth)
         }
     }
     right += 2.5 * THIN * em;
-    set_brackets(pen, pen->x + THIN * em, right, top, top + high);
+    for (int side = 0; side < 2; side++) { /* the brackets */
+        double x = floor(side ? right : pen->x + THIN * em) + 0.5;
+        double in = x + (side ? -0.2 : 0.2) * em;
+        set_rule(pen, x, top - 0.5, x, bottom + 0.5);
+        set_rule(pen, x, top, in, top);
+        set_rule(pen, x, bottom, in, bottom);
+    }
+    reach(pen, top, bottom);
     pen->x = right + 1.5 * THIN * em;
 }
 

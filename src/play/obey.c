@@ -91,7 +91,7 @@ static long parts_of(const Player *player, int pane, CommandKind kind)
         return past_panes(&player->past);
     case COMMAND_CARD:
     case COMMAND_ENLARGE:
-        return picture_cards(picture_of(scene));
+        return picture_of(scene)->count;
     case COMMAND_CELL:
         return cells ? (long)ENVELOPE_ROWS * ENVELOPE_COLUMNS : 0;
     default:
