@@ -33,27 +33,17 @@ static bool series_are_runs(const Simulation *simulation)
     return kind == PICTURE_CIRCLE || kind == PICTURE_MASS;
 }
 
-/* Whether a quantity is worth a curve: the first three are, and those which at
- * some time could be told from 0 beside the largest one until then. */
-static bool is_worthy(const History *history, int series)
-{
-    double most = 0;
-    for (int i = 0; i < history->count; i++) {
-        for (int s = 0; s < history->series; s++)
-            most = fmax(most, fabs(history->value[s][i]));
-        if (fabs(history->value[series][i]) > LEAST_SEEN * most)
-            return true;
-    }
-    return series < 3;
-}
-
-/* Of panes side by side the totals; else what the active one keeps.  curve
- * [HISTORY_SERIES] out; returns how many. */
+/* Of panes side by side the totals; else what the active one keeps: its runs,
+ * or the first three quantities and those which at some time could be told from
+ * 0 beside the largest one until then.  curve [HISTORY_SERIES] out; returns how
+ * many. */
 static int find_curves(const Show *show, Curve *curve)
 {
     const Pane *active = show_pane(show);
     const History *history = active->history;
     bool runs = series_are_runs(active->simulation);
+    bool worthy[HISTORY_SERIES] = {true, true, true};
+    double most = 0;
     int count = 0;
     for (int p = 0; show->panes > 1 && p < show->panes; p++)
         if (show->pane[p].history)
@@ -63,15 +53,21 @@ static int find_curves(const Show *show, Curve *curve)
     int series = !history || !history->series ? 0
                  : runs                       ? active->simulation->runs
                                               : history->series;
+    for (int i = 0; series > 3 && i < history->count; i++) {
+        for (int s = 0; s < series; s++)
+            most = fmax(most, fabs(history->value[s][i]));
+        for (int s = 3; s < series; s++)
+            worthy[s] |= fabs(history->value[s][i]) > LEAST_SEEN * most;
+    }
     for (int s = 0; show->panes <= 1 && s < series; s++)
-        if (runs || is_worthy(history, s))
+        if (runs || worthy[s])
             curve[count++] = (Curve){
                 active->simulation,
                 history,
                 s,
                 runs || s == 0,
-                runs ? colour_of_method(active->simulation->run[s].method->name)
-                     : colour_of_energy(s == 0 ? "total" : history->name[s]),
+                runs ? colour_of(active->simulation->run[s].method->name)
+                     : colour_of(s == 0 ? "total" : history->name[s]),
                 history->name[s]};
     return count;
 }
@@ -160,14 +156,23 @@ Axis energies_axis(const Show *show, double *last)
                   plot_round_axis(high), false, false, "J"};
 }
 
-/* Names with their values in the colours of the curves, of each at the time of
- * its picture (a pane that ended stays where it was).  Returns the curves'
- * room.
- */
-static Plot draw_legend(const Plot *card, int curves, const Curve *curve)
+static void draw_curves(const Plot *plot, int curves, const Curve *curve)
 {
+    for (int c = curves - 1; c >= 0; c--)
+        plot_curve(plot, curve[c].history->count, curve[c].history->time,
+                   curve[c].history->value[curve[c].series],
+                   curve[c].total ? 1.8 : 1.4, curve[c].colour);
+}
+
+/* Above the curves their names with their values, of each at the time of its
+ * picture (a pane that ended stays where it was). */
+void energies_draw(const Plot *card)
+{
+    const Show *show = card->show;
+    Curve curve[HISTORY_SERIES];
     Plot rest = *card;
-    int at[2] = {0, 0}, used = 0;
+    int curves = find_curves(show, curve), at[2] = {0, 0}, used = 0;
+    double now = newest_time(show, curves, curve), last;
     double size = fmax(curves > 4 ? CROWDED : LEGEND, card->paper->least);
     for (int c = 0; c < curves; c++) {
         TextLine line = {.colour = curve[c].colour};
@@ -180,25 +185,6 @@ static Plot draw_legend(const Plot *card, int curves, const Curve *curve)
         used = words_flow(card, at, size, 1.05 * size, &line, true);
     }
     box_cut_off(&rest.box, false, used);
-    return rest;
-}
-
-static void draw_curves(const Plot *plot, int curves, const Curve *curve)
-{
-    for (int c = curves - 1; c >= 0; c--)
-        plot_curve(plot, curve[c].history->count, curve[c].history->time,
-                   curve[c].history->value[curve[c].series],
-                   curve[c].total ? 1.8 : 1.4, curve[c].colour);
-}
-
-void energies_draw(const Plot *card)
-{
-    const Show *show = card->show;
-    Curve curve[HISTORY_SERIES];
-    double last;
-    int curves = find_curves(show, curve);
-    double now = newest_time(show, curves, curve);
-    Plot rest = draw_legend(card, curves, curve);
     Axis energy = energies_axis(show, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);

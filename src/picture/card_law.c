@@ -34,22 +34,17 @@ typedef struct Law {
     double low, high; /* ends of the axis, in units of reach */
 } Law;
 
-static double energy_at(const LawNow *now, double s)
+static double gap_value(const void *data, double d)
 {
-    LawNow there = *now;
-    there.element.s = s;
-    return now->at.term->kind->element->value(&there.at, &there.element);
-}
-
-static double gap_value(const void *now, double d)
-{
-    return energy_at(now, d);
+    LawNow there = *(const LawNow *)data;
+    there.element.s = d;
+    return there.at.term->kind->element->value(&there.at, &there.element);
 }
 
 static double near_value(const void *data, double d)
 {
-    const LawNow *now = data;
-    return energy_at(now, d / now->reach * (d / now->reach));
+    double part = d / ((const LawNow *)data)->reach;
+    return gap_value(data, part * part);
 }
 
 /* W/A of the triangle when it is pressed flatter, or let out, in the direction
@@ -67,7 +62,7 @@ static double triangle_value(const void *data, double J)
         f[i] += part * n[0];
         f[i + 1] += part * n[1];
     }
-    return energy_at(&there, J) / solid_of(there.at.system)->area;
+    return gap_value(&there, J) / solid_of(there.at.system)->area;
 }
 
 static double slip_value(const void *now, double v)
@@ -208,12 +203,13 @@ bool law_gap(const Simulation *simulation, LawGap *gap)
     return true;
 }
 
-/* -dW/dd, N. */
-static double force_of(const Law *law, const LawNow *now)
+/* -dW/dd of a gap, N. */
+static double force_of(const LawNow *now)
 {
-    double way = 1e-4 * now->x;
-    return (law->value(now, now->x - way) - law->value(now, now->x + way)) /
-           (2 * way);
+    const Element *element = &now->element;
+    double g[4];
+    now->at.term->kind->element->gradient(&now->at, element, g);
+    return -(g[0] * element->n[0] + g[1] * element->n[1]);
 }
 
 /* Where a spring began to flow, and where it stopped; false: it has flowed to
@@ -249,7 +245,7 @@ void law_facts(const Simulation *simulation, Facts *facts)
              self ? self_contact_of(system)->c : contact_of(system)->barrier.c);
         fact(facts, "d hat", 1e3 * now.reach);
         fact(facts, "law mm", 1e3 * now.x);
-        fact(facts, "law force", force_of(law, &now));
+        fact(facts, "law force", force_of(&now));
     }
     fact(facts, "law x", now.x);
     fact(facts, "law y", is_there ? law->value(&now, now.x) : NAN);
@@ -269,18 +265,6 @@ void law_facts(const Simulation *simulation, Facts *facts)
     gone -= options->body[last][0];
     fact(facts, "gone", fabs(gone) < 1e-9 ? 0 : gone);
     fact(facts, "rigid", v * v / (2 * options->friction * options->gravity));
-}
-
-/* All springs, small: each is on its own law. */
-static void draw_springs(const Plot *plot, const Law *law, LawNow other)
-{
-    static const double radius = 2; /* units */
-    for (int s = 0; s < other.at.system->springs && !law->source; s++) {
-        find_spring(&other, s);
-        if (other.felt > -INFINITY)
-            plot_disc(plot, (double[2]){other.x, law->value(&other, other.x)},
-                      radius, COLOUR_GHOST);
-    }
 }
 
 /* The dots of all runs, and of several which they are, those that lie together
@@ -338,10 +322,16 @@ void law_draw(const Plot *card)
         (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
     const double rest[2] = {now->spring.ep, 0};
     plot_graph(&plot, law->value, now, 2.4, COLOUR_X);
-    draw_springs(&plot, law, *now);
+    LawNow other = *now; /* all springs, small: each is on its own law */
+    for (int s = 0; s < other.at.system->springs && !law->source; s++) {
+        find_spring(&other, s);
+        if (other.felt > -INFINITY)
+            plot_disc(&plot, (double[2]){other.x, law->value(&other, other.x)},
+                      2, COLOUR_GHOST);
+    }
     if (has_gap(law) && !isnan(x)) /* -W' */
-        plot_line(&plot, (double[2]){low, y + (x - low) * force_of(law, now)},
-                  (double[2]){high, y + (x - high) * force_of(law, now)}, 1.4,
+        plot_line(&plot, (double[2]){low, y + (x - low) * force_of(now)},
+                  (double[2]){high, y + (x - high) * force_of(now)}, 1.4,
                   COLOUR_FORCE);
     if (both && rest[0] != 0) {
         double from[2], to[2];

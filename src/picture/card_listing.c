@@ -6,10 +6,13 @@
 
 static const double WIDE_PITCH = 2.1; /* ems, of a line with room on a page */
 
-/* A line: number, text, value; lit or struck through. */
-static void draw_row(Paper *paper, Box box, const Pane *pane,
-                     const ListingRow *row, int number)
+/* A line of what the active pane does: number, text, value; lit or struck
+ * through. */
+static void draw_row(const Plot *card, Box box, const ListingRow *row,
+                     int number)
 {
+    Paper *paper = card->paper;
+    const Pane *pane = show_pane(card->show);
     const Trace *trace = pane->update;
     const Facts *facts = &pane->facts;
     bool lit = row->lit ? text_is_known(facts, row->lit)
@@ -47,11 +50,18 @@ static void draw_row(Paper *paper, Box box, const Pane *pane,
                   value.words);
 }
 
-static int count_rows(const Show *show, const ListingRow *row)
+/* Those that are known, in lines of this height; draw NULL: only counted. */
+static int put_rows(const Show *show, const ListingRow *row, const Plot *draw,
+                    Box line)
 {
     int count = 0;
     for (; row->of; row++)
-        count += text_is_known(&show_pane(show)->facts, row->of);
+        if (text_is_known(&show_pane(show)->facts, row->of)) {
+            if (draw)
+                draw_row(draw, line, row, count + 1);
+            line.y += line.height;
+            count++;
+        }
     return count;
 }
 
@@ -59,22 +69,16 @@ static int count_rows(const Show *show, const ListingRow *row)
 double listing_needs(const Show *show, double wide, double em)
 {
     (void)wide, (void)em;
-    return 1.75 * count_rows(show, rows_listing) + 2.6;
+    return 1.75 * put_rows(show, rows_listing, NULL, (Box){0}) + 2.6;
 }
 
-/* Those of what the active pane does. */
 static void draw_rows(const Plot *card, const ListingRow *row)
 {
-    const Pane *pane = show_pane(card->show);
     double pitch = card->em * (card->show->lecture ? WIDE_PITCH : 1.75);
-    int number = 0, count = count_rows(card->show, row);
-    Box box = card->box;
-    box.height = (int)fmin(lround(pitch), box.height / (double)count);
-    for (; row->of; row++)
-        if (text_is_known(&pane->facts, row->of)) {
-            draw_row(card->paper, box, pane, row, ++number);
-            box.y += box.height;
-        }
+    int count = put_rows(card->show, row, NULL, (Box){0});
+    Box line = card->box;
+    line.height = (int)fmin(lround(pitch), line.height / (double)count);
+    put_rows(card->show, row, card, line);
 }
 
 void listing_draw(const Plot *card)

@@ -62,28 +62,18 @@ static const struct {
              {"sdirk2", 0xff5a4fa2u},
              {"avf", 0xff444444u}};
 
-static Colour find_colour(const char *name, size_t length, Colour otherwise)
+Colour colour_named(const char *name, size_t length)
 {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strlen(names[i].name) == length &&
             strncmp(names[i].name, name, length) == 0)
             return names[i].colour;
-    return otherwise;
+    return COLOUR_TEXT;
 }
 
-Colour colour_of_method(const char *name)
+Colour colour_of(const char *name)
 {
-    return find_colour(name, strlen(name), COLOUR_X);
-}
-
-Colour colour_of_energy(const char *name)
-{
-    return find_colour(name, strlen(name), COLOUR_SHADED);
-}
-
-Colour colour_named(const char *name, size_t length)
-{
-    return find_colour(name, length, COLOUR_TEXT);
+    return colour_named(name, strlen(name));
 }
 
 Colour colour_of_term(int term)

@@ -50,15 +50,13 @@
 /* Panes and integrators side by side. */
 Colour colour_of_run(int run);
 
-/* An energy, by the name that the ledger gives it. */
-Colour colour_of_energy(const char *name);
-
 /* That of a letter or of an energy, the terms of formulas: 0, 1, ...; behind
  * the last one 0. */
 Colour colour_of_term(int term);
 
-/* An integrator, by its name: the same colour alone and among others. */
-Colour colour_of_method(const char *name);
+/* An energy, by the name that the ledger gives it; an integrator, by its name:
+ * the same colour alone and among others. */
+Colour colour_of(const char *name);
 
 /* From one colour at -range over COLOUR_REST at 0 to another at range > 0;
  * strains outside get the colour of the end, NaN that of rest. */

@@ -16,14 +16,6 @@ enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
 /* ---- the map, drawn once for a view of it ------------------------------- */
 
-/* With a long step elasticity is large: the levels grow with h^2 then. */
-static double level_factor(const Simulation *simulation)
-{
-    double h = simulation->run[0].h / 0.2;
-    bool elastic = (simulation->exhibit.parts & PART_ELASTICITY) != 0;
-    return elastic && h > 1 ? h * h : 1;
-}
-
 /* How far the next contour is; value over the factor. */
 static double contour_distance(double value)
 {
@@ -37,12 +29,15 @@ static double contour_distance(double value)
 
 /* Where E is not convex, and contours of the parts that are switched on: two by
  * two pixels at a time, in which E is a plane.  A contour is as many pixels
- * away as E is from its level over the slope. */
+ * away as E is from its level over the slope.  With a long step elasticity is
+ * large: the levels grow with h^2 then. */
 static void draw_ground(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     Canvas *canvas = &plot->paper->canvas;
-    double metre = 1 / plot->camera.scale[0], e = level_factor(simulation);
+    double metre = 1 / plot->camera.scale[0], h = simulation->run[0].h / 0.2;
+    bool elastic = simulation->exhibit.parts & PART_ELASTICITY;
+    double e = elastic && h > 1 ? h * h : 1;
     double reach = 0.5 + 0.5 * fmax(1, 0.6 * plot->paper->unit);
     for (int j = 0; j < plot->box.height; j += 2)
         for (int i = 0; i < plot->box.width; i += 2) {
@@ -128,36 +123,6 @@ static Plot draw_map(const Plot *stage)
 
 /* ---- what moves on it --------------------------------------------------- */
 
-/* Each update: thin its whole direction p, thick alpha p; uphill in red. */
-static void draw_updates(const Plot *plot, const Descent *descent)
-{
-    for (int i = 0; i < descent->count; i++) {
-        const NewtonRecord *record = &descent->record[i];
-        const double *from = record->from, *to = record->to;
-        const double way[2] = {to[0] - from[0], to[1] - from[1]};
-        Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
-        if (record->alpha > 0)
-            plot_arrow(plot, from, way, 1 / record->alpha, 1.2, colour);
-        plot_line(plot, from, to, 3.2, colour);
-        plot_disc(plot, from, 5, COLOUR_X);
-    }
-}
-
-/* The name of a direction and its slope, beside its tip or further on. */
-static void name_direction(const Plot *plot, const double p[2], Colour colour,
-                           const char *name, double slope)
-{
-    const double *from = plot->simulation->descent.point;
-    double length = math_hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
-    double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
-    const double place[4] = {from[0] + p[0], from[1] + p[1],
-                             from[0] + far * p[0], from[1] + far * p[1]};
-    plot_place(plot, place, at);
-    if (box_contains(plot->box, at[0], at[1]))
-        plot_words(plot, 2, place, colour, "%s (slope %s)", name,
-                   number_with(slope, 2).text);
-}
-
 /* Minima and the saddle of the parts that are on: where Newton's method ends.
  */
 static void name_still(const Plot *plot)
@@ -181,8 +146,8 @@ static void name_still(const Plot *plot)
 }
 
 /* That of the run; and, with both parts on the map, the one that it does not
- * take: projected where its own is not, as it is where its own is projected.
- * Uphill in red. */
+ * take: projected where its own is not, as it is where its own is projected;
+ * with its slope, beside its tip or further on.  Uphill in red. */
 static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
@@ -205,9 +170,15 @@ static void draw_directions(const Plot *plot, bool both)
     if (both || !alone)
         plot_arrow(plot, from, own, 1, 2.2,
                    descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
-    if (other)
-        name_direction(plot, p, colour, raw ? "with projection" : "without",
-                       slope);
+    double length = math_hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
+    double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
+    const double place[4] = {from[0] + p[0], from[1] + p[1],
+                             from[0] + far * p[0], from[1] + far * p[1]};
+    plot_place(plot, place, at);
+    if (other && box_contains(plot->box, at[0], at[1]))
+        plot_words(plot, 2, place, colour, "%s (slope %s)",
+                   raw ? "with projection" : "without",
+                   number_with(slope, 2).text);
 }
 
 /* What the map is of. */
@@ -286,14 +257,24 @@ static void draw_model(const Plot *plot)
     }
 }
 
-/* From the ground up. */
+/* From the ground up.  Of each update thin its whole direction p, thick alpha
+ * p; uphill in red. */
 void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
     const Descent *descent = &simulation->descent;
     Plot plot = draw_map(stage);
-    draw_updates(&plot, descent);
+    for (int i = 0; i < descent->count; i++) {
+        const NewtonRecord *record = &descent->record[i];
+        const double *from = record->from, *to = record->to;
+        const double way[2] = {to[0] - from[0], to[1] - from[1]};
+        Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
+        if (record->alpha > 0)
+            plot_arrow(&plot, from, way, 1 / record->alpha, 1.2, colour);
+        plot_line(&plot, from, to, 3.2, colour);
+        plot_disc(&plot, from, 5, COLOUR_X);
+    }
     bool raw = simulation->options.filter == FILTER_NONE;
     if (show->lecture && raw && !show->veiled && !simulation->done)
         draw_model(&plot);

@@ -19,7 +19,7 @@ static Colour run_colour(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
                ? COLOUR_X
-               : colour_of_method(simulation->run[run].method->name);
+               : colour_of(simulation->run[run].method->name);
 }
 
 /* Where the runs have been in the newest steps; with a disc for each. */
@@ -145,7 +145,7 @@ void circle_facts(const Simulation *simulation, Facts *facts)
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
         facts->run = r + 1;
-        facts->colour[r + 1] = colour_of_method(run->method->name);
+        facts->colour[r + 1] = colour_of(run->method->name);
         fact_when(facts, "many", simulation->runs > 1);
         fact_words(facts, "name", run->method->label);
         fact(facts, "radius", math_hypot(run->x[0], run->x[1]));
@@ -159,28 +159,9 @@ void circle_facts(const Simulation *simulation, Facts *facts)
 
 /* ---- the arrows ---------------------------------------------------------- */
 
-/* Around the middle, the mass and the tips of its arrows. */
-static void bounds_of_step(const MassStep *step, double bounds[4])
-{
-    const double air = 0.14; /* of the longer side */
-    double side = 0;
-    for (int k = 0; k < 2; k++) {
-        const double at[] = {step->x[k], step->x[k] + step->v[k],
-                             step->new_x[k]};
-        bounds[k] = bounds[2 + k] = 0;
-        for (int i = 0; i < 3; i++) {
-            bounds[k] = fmin(bounds[k], at[i]);
-            bounds[2 + k] = fmax(bounds[2 + k], at[i]);
-        }
-        side = fmax(side, bounds[2 + k] - bounds[k]);
-    }
-    for (int i = 0; i < 4; i++)
-        bounds[i] += (i < 2 ? -air : air) * side;
-}
-
 /* What is farthest from the middle, in steps of sqrt(2), so that the view does
  * not move all the time; of a page that is about one step the first one from
- * near. */
+ * near: the middle, the mass and the tips of its arrows. */
 void mass_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
@@ -188,7 +169,15 @@ void mass_bounds(const Plot *stage, double bounds[4])
     MassStep first;
     if (page && !page->tell && simulation->steps == 0 &&
         simulation->runs == 1 && mass_next_step(simulation, 0, &first)) {
-        bounds_of_step(&first, bounds);
+        double side = 0;
+        for (int k = 0; k < 2; k++) {
+            double x = first.x[k], tip = x + first.v[k], next = first.new_x[k];
+            bounds[k] = fmin(fmin(0, x), fmin(tip, next));
+            bounds[2 + k] = fmax(fmax(0, x), fmax(tip, next));
+            side = fmax(side, bounds[2 + k] - bounds[k]);
+        }
+        for (int i = 0; i < 4; i++)
+            bounds[i] += (i < 2 ? -0.14 : 0.14) * side;
         return;
     }
     const double *began = simulation->exhibit.began;
@@ -332,21 +321,8 @@ static void draw_mass_step(Plot *stage)
     }
 }
 
-/* All three: the way that each goes next. */
-static void draw_mass_ways(Plot *stage)
-{
-    for (int r = 0; r < stage->simulation->runs; r++) {
-        MassStep step;
-        Colour colour = run_colour(stage->simulation, r);
-        mass_next_step(stage->simulation, r, &step);
-        const double way[2] = {step.new_x[0] - step.x[0],
-                               step.new_x[1] - step.x[1]};
-        plot_arrow(stage, step.x, way, 1, 3, colour);
-        plot_ring(stage, step.new_x, 8, 2.2, colour);
-    }
-}
-
-/* Before a guess, and until what it was about is shown, arrows would tell. */
+/* Of several runs the way that each goes next.  Before a guess, and until what
+ * it was about is shown, arrows would tell. */
 void mass_draw(Plot *stage)
 {
     const Show *show = stage->show;
@@ -361,12 +337,19 @@ void mass_draw(Plot *stage)
         plot_line(stage, origin, run[r].x, 1.4, COLOUR_REST);
     plot_pin(stage, origin, 5);
     draw_trails(stage, true);
-    if (simulation->runs > 1)
-        draw_mass_ways(stage);
-    else if (show->veiled)
+    for (int r = 0; simulation->runs > 1 && r < simulation->runs; r++) {
+        MassStep step;
+        mass_next_step(simulation, r, &step);
+        const double way[2] = {step.new_x[0] - step.x[0],
+                               step.new_x[1] - step.x[1]};
+        plot_arrow(stage, step.x, way, 1, 3, run_colour(simulation, r));
+        plot_ring(stage, step.new_x, 8, 2.2, run_colour(simulation, r));
+    }
+    if (simulation->runs == 1 && show->veiled)
         plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
-    else if (!show->lecture || !show->lecture->predict || !guess->made ||
-             guess->shown)
+    else if (simulation->runs == 1 &&
+             (!show->lecture || !show->lecture->predict || !guess->made ||
+              guess->shown))
         draw_mass_step(stage);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, run[r].x, 8, run_colour(simulation, r));

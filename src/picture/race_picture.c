@@ -32,7 +32,7 @@ static const RacePoint *draw_method(Plot *plot, int method)
 {
     const Simulation *simulation = plot->simulation;
     const Race *race = &simulation->exhibit.race;
-    Colour colour = colour_of_method(race_method(method)->name);
+    Colour colour = colour_of(race_method(method)->name);
     const RacePoint *last = NULL;
     for (int i = method; i < race->count; i += RACE_METHODS) {
         const RacePoint *point = &race->point[i];
@@ -49,18 +49,9 @@ static const RacePoint *draw_method(Plot *plot, int method)
     return last;
 }
 
-/* How steep errors of order 1, 2 and 4 are. */
-static void draw_orders(const Plot *plot)
-{
-    for (int order = 1; order <= 4; order *= 2) {
-        const double from[2] = {5e-5, 0.1}, wide = 8;
-        const double to[2] = {from[0] * wide, from[1] * pow(wide, order)};
-        plot_dashes(plot, from, to, 1.2, NULL, COLOUR_GREY);
-    }
-}
-
-/* Over run time the names of the methods, each at its last point; over h they
- * would lie on each other, and the table has their colours. */
+/* Over run time the names of the methods, each at its last point; over h, where
+ * they would lie on each other, and the table has their colours, how steep
+ * errors of order 1, 2 and 4 are. */
 void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -78,36 +69,33 @@ void race_draw(Plot *stage)
     }
     for (int i = 0; i < RACE_METHODS; i++)
         last[i] = draw_method(&plot, i);
-    if (over_h)
-        draw_orders(&plot);
+    for (int order = 1; over_h && order <= 4; order *= 2) {
+        const double from[2] = {5e-5, 0.1}, wide = 8;
+        const double to[2] = {from[0] * wide, from[1] * pow(wide, order)};
+        plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
+    }
     for (int i = RACE_METHODS - 1; i >= 0 && wide; i--) {
         double x = last[i] ? place_of(simulation, last[i]) : NAN;
         double y = last[i] ? last[i]->error : NAN;
         plot_words(&plot, 3, (double[6]){x, y, 2 * x, y, x, 0.1 * y},
-                   colour_of_method(race_method(i)->name), "%s",
+                   colour_of(race_method(i)->name), "%s",
                    race_method(i)->label);
     }
 }
 
-/* The quickest stable run that is so near, of an implicit method or an explicit
- * one; NULL: there is none. */
-static const RacePoint *find_quickest(const Race *race, bool implicit)
-{
-    const RacePoint *best = NULL;
-    for (const RacePoint *at = race->point; at < race->point + race->count;
-         at++)
-        if (at->method->implicit == implicit && at->stable &&
-            at->error <= NEAR && (!best || at->seconds < best->seconds))
-            best = at;
-    return best;
-}
-
+/* The quickest stable run that is near, of an explicit method and of an
+ * implicit one. */
 void race_facts(const Simulation *simulation, Facts *facts)
 {
     static const char *const names[2][2] = {{"explicit", "explicit ms"},
                                             {"implicit", "implicit ms"}};
     for (int i = 0; i < 2; i++) {
-        const RacePoint *best = find_quickest(&simulation->exhibit.race, i > 0);
+        const Race *race = &simulation->exhibit.race;
+        const RacePoint *best = NULL, *at = race->point;
+        for (; at < race->point + race->count; at++)
+            if (at->method->implicit == i && at->stable && at->error <= NEAR &&
+                (!best || at->seconds < best->seconds))
+                best = at;
         fact_words(facts, names[i][0], best ? best->method->label : NULL);
         fact(facts, names[i][1], best ? 1e3 * best->seconds : NAN);
         fact_when(facts, i ? "" : "no explicit", !best);
@@ -205,7 +193,7 @@ void table_draw(const Plot *card)
             if (shown[c])
                 paper_write(paper, row ? FACE_REGULAR : FACE_BOLD, 1,
                             row && c == 0
-                                ? colour_of_method(race_method(row - 1)->name)
+                                ? colour_of(race_method(row - 1)->name)
                                 : COLOUR_TEXT,
                             c ? right : inside.x, inside.y + row * line,
                             c ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);

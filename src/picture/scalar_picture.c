@@ -147,24 +147,19 @@ static void draw_search(const Plot *plot, const Update *update, bool slopes,
     draw_iterates(plot, update, curve);
 }
 
-/* The models of the whole updates before the last one, pale, and from the
- * minimum of each the way to the curve. */
-static void draw_earlier(const Plot *plot)
-{
-    const Simulation *simulation = plot->simulation;
-    bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
-    const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
-    for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
-        Update update = update_at(simulation, i);
-        draw_model(plot, &update, false, 1.4, 4, pale);
-    }
-}
-
+/* Below all, pale, the models of the whole updates before the last one, and
+ * from the minimum of each the way to the curve. */
 void curve_draw(Plot *stage)
 {
-    Update update = last_update(stage->simulation);
+    const Simulation *simulation = stage->simulation;
+    bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
+    const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
+    Update update = last_update(simulation);
     Plot plot = plot_on(stage, (Axis){.label = "x"}, (Axis){0});
-    draw_earlier(&plot);
+    for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
+        Update earlier = update_at(simulation, i);
+        draw_model(&plot, &earlier, false, 1.4, 4, pale);
+    }
     draw_search(&plot, &update, false, !stage->show->veiled);
 }
 

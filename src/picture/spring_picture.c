@@ -112,21 +112,6 @@ void spring_draw(Plot *stage)
 
 /* ---- cards -------------------------------------------------------------- */
 
-/* Of the Hessian, and of the projected one. */
-static void add_hessian(const Simulation *simulation, Filter filter,
-                        Facts *facts)
-{
-    static const char *const names[2][3] = {{"Hxx", "Hxy", "Hyy"},
-                                            {"Pxx", "Pxy", "Pyy"}};
-    const System *system = &simulation->system;
-    double k = system->k[0], H[3];
-    for (int i = 0; i < 2; i++) {
-        spring_hessian(simulation->run[0].x, system->l2[0], k,
-                       i == 0 ? FILTER_NONE : filter, H);
-        fact_matrix(facts, names[i], H, 1e-12 * k);
-    }
-}
-
 /* On a page its force and Hessian once more, by differences of the energy and
  * of the force at two places. */
 static void add_differences(const Simulation *simulation, Facts *facts)
@@ -154,17 +139,21 @@ static void add_differences(const Simulation *simulation, Facts *facts)
 
 void length_facts(const Simulation *simulation, Facts *facts)
 {
+    static const char *const names[2][3] = {{"Hxx", "Hxy", "Hyy"},
+                                            {"Pxx", "Pxy", "Pyy"}};
+    const double *d = simulation->run[0].x, k = simulation->system.k[0];
+    double l2 = simulation->system.l2[0], H[3];
     SpringFacts now = facts_of_spring(simulation);
     double along = 2 * now.along, across = 2 * now.across; /* of its block */
     Filter filter =
         simulation->options.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
     bool both = simulation->exhibit.parts;
     const LecturePage *page = simulation->options.page;
-    fact_point(facts, "d", simulation->run[0].x);
+    fact_point(facts, "d", d);
     fact(facts, "distance", now.length);
-    fact(facts, "l", sqrt(simulation->system.l2[0]));
-    fact(facts, "l2", simulation->system.l2[0]);
-    fact(facts, "k", simulation->system.k[0]);
+    fact(facts, "l", sqrt(l2));
+    fact(facts, "l2", l2);
+    fact(facts, "k", k);
     fact(facts, "strain", now.strain);
     fact(facts, "energy", now.energy);
     fact_point(facts, "force", now.force);
@@ -175,7 +164,10 @@ void length_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "projected along", projected_eigenvalue(filter, along));
     fact(facts, "projected across", projected_eigenvalue(filter, across));
     fact(facts, "negative", fmin(fmin(along, across), 0));
-    add_hessian(simulation, filter, facts);
+    for (int i = 0; i < 2; i++) { /* the Hessian, and the projected one */
+        spring_hessian(d, l2, k, i == 0 ? FILTER_NONE : filter, H);
+        fact_matrix(facts, names[i], H, 1e-12 * k);
+    }
     if (page)
         add_differences(simulation, facts);
     fact_when(facts, "root", both);
