@@ -59,7 +59,7 @@ static inline bool spring_is_broken(const System *system, int s)
  * is about. */
 void system_changed(System *system, bool pattern);
 
-/* Accepts NULL and a zeroed struct. */
+/* Accepts a zeroed struct. */
 void system_free(System *system);
 
 /* The data of the first term of this kind; where there is none, one is put at

@@ -56,8 +56,8 @@ struct TermKind {
     /* In messages; NULL: no option brings it. */
     const char *name;
 
-    /* Puts the term in with the numbers of its option, gives them to the one
-     * that is there, or takes it out where all are 0; NULL: it asks for more
+    /* Puts the term in with the numbers of its option, of which the first is
+     * not 0, or gives them to the one that is there; NULL: it asks for more
      * than these.  Returns OK, OUT_OF_MEMORY. */
     Status (*set)(System *system, const struct SquareMesh *mesh,
                   const double *number);
@@ -119,7 +119,9 @@ struct TermKind {
      *              one.  NULL: no part is.
      *   remainder  the rest, where there is one: w [P(x + alpha p) - P(x)
      *              - alpha grad P.p] without cancellation, minus what along
-     *              gave; asked once for each trial.  NULL: a polynomial. */
+     *              gave; asked once for each trial.  NULL: a polynomial of
+     *              degree 4 or less in x; average vector field methods can have
+     *              it. */
     void (*along)(const Place *at, const double *p, double q[3]);
     double (*remainder)(const Place *at, const double *p, double alpha);
 
@@ -155,8 +157,6 @@ struct TermKind {
     /* Frees what data points to; NULL: nothing. */
     void (*free)(void *data);
 
-    bool averages;    /* a polynomial of degree 4 or less that reads only x:
-                         average vector field methods can have it */
     bool diagonal;    /* quadratic, and each node stands alone: c/2 |x - o|^2 */
     bool internal;    /* its forces add up to 0: the centre of mass is free */
     bool end_of_step; /* right only where x_(n+1) is the minimiser itself: in

@@ -18,8 +18,6 @@ Status triplets_create(int size, long long capacity, Triplets *triplets)
 
 void triplets_free(Triplets *triplets)
 {
-    if (!triplets)
-        return;
     free(triplets->row);
     free(triplets->column);
     *triplets = (Triplets){0};
@@ -49,36 +47,28 @@ static void counting_sort(int count, int size, const int *key, const int *in,
     }
 }
 
-/* Walks the sorted triplets; each new place opens a new slot. */
-static void number_slots(const Triplets *triplets, const int *sorted, Sparse *A,
-                         int *slot)
-{
-    const int *row = triplets->row, *column = triplets->column;
-    memset(A->start, 0, ((size_t)A->size + 1) * sizeof *A->start);
-    for (int i = 0; i < triplets->count; i++) {
-        int t = sorted[i], last = i > 0 ? sorted[i - 1] : -1;
-        if (last < 0 || row[t] != row[last] || column[t] != column[last]) {
-            A->row[A->entries++] = row[t];
-            A->start[column[t] + 1]++;
-        }
-        slot[t] = A->entries - 1;
-    }
-    for (int c = 0; c < A->size; c++)
-        A->start[c + 1] += A->start[c];
-}
-
 Status sparse_create(const Triplets *triplets, Sparse *A, int *slot)
 {
+    const int *row = triplets->row, *column = triplets->column;
     int count = triplets->count, size = triplets->size;
     size_t bytes = ((size_t)count + 1) * sizeof(int);
-    *A = (Sparse){.size = size};
-    A->start = malloc(((size_t)size + 1) * sizeof *A->start);
-    A->row = malloc(bytes);
+    size_t starts = ((size_t)size + 1) * sizeof *A->start;
+    *A = (Sparse){.size = size, .start = malloc(starts), .row = malloc(bytes)};
     int *by_row = malloc(bytes), *sorted = malloc(bytes);
     if (A->start && A->row && by_row && sorted) {
-        counting_sort(count, size, triplets->row, NULL, A->start, by_row);
-        counting_sort(count, size, triplets->column, by_row, A->start, sorted);
-        number_slots(triplets, sorted, A, slot);
+        counting_sort(count, size, row, NULL, A->start, by_row);
+        counting_sort(count, size, column, by_row, A->start, sorted);
+        memset(A->start, 0, starts);
+        for (int i = 0; i < count; i++) { /* each new place opens a new slot */
+            int t = sorted[i], last = i > 0 ? sorted[i - 1] : -1;
+            if (last < 0 || row[t] != row[last] || column[t] != column[last]) {
+                A->row[A->entries++] = row[t];
+                A->start[column[t] + 1]++;
+            }
+            slot[t] = A->entries - 1;
+        }
+        for (int c = 0; c < size; c++)
+            A->start[c + 1] += A->start[c];
         A->value = calloc((size_t)A->entries + 1, sizeof *A->value);
     }
     free(by_row);
@@ -88,8 +78,6 @@ Status sparse_create(const Triplets *triplets, Sparse *A, int *slot)
 
 void sparse_free(Sparse *A)
 {
-    if (!A)
-        return;
     free(A->start);
     free(A->row);
     free(A->value);

@@ -51,10 +51,6 @@ static Status set(System *system, const struct SquareMesh *mesh,
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
-    if (number[0] == 0) {
-        system_remove_term(system, &damping);
-        return STATUS_OK;
-    }
     Damping *data = system_term(system, &damping,
                                 sizeof *data + 3 * springs * sizeof(double));
     if (!data)

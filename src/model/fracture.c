@@ -79,8 +79,6 @@ static Status set(System *system, const struct SquareMesh *mesh,
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
-    if (number[0] == 0)
-        return STATUS_OK;
     Fracture *data =
         system_term(system, &fracture,
                     sizeof *data + springs * sizeof *data->candidate +

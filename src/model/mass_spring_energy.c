@@ -114,7 +114,6 @@ const TermKind mass_spring_energy = {
     .pattern = mass_spring_pattern,
     .hessian = hessian,
     .along = along,
-    .averages = true,
     .bounds = mass_spring_bounds,
     .concave = concave,
     .internal = true,

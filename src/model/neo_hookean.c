@@ -144,8 +144,6 @@ static Status set(System *system, const SquareMesh *mesh, const double *number)
                                         {{0, 1, 3}, {1, 2, 3}}};
     size_t triangles = 2 * (size_t)mesh->cells;
     double young = number[1], nu = number[2];
-    if (number[0] == 0)
-        return STATUS_OK; /* springs, since the start */
     NeoHookean *data = system_term(
         system, &neo_hookean_energy,
         sizeof *data + triangles * (sizeof *data->weight + sizeof *data->node));

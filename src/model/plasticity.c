@@ -225,8 +225,6 @@ static Status set(System *system, const struct SquareMesh *mesh,
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
-    if (number[0] == 0)
-        return STATUS_OK;
     Plasticity *data = system_term(system, &plastic_energy,
                                    sizeof *data + 2 * springs * sizeof(double));
     if (!data)

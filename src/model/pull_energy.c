@@ -68,7 +68,7 @@ static void bounds(const Place *at, double *stiffest, double *force)
 #define PULL                                                                   \
     .value = value, .gradient = gradient, .entries = entries,                  \
     .pattern = pattern, .hessian = hessian, .along = along, .bounds = bounds,  \
-    .averages = true, .diagonal = true
+    .diagonal = true
 
 const TermKind central_field = {PULL, .energy = "elastic"};
 const TermKind hand_energy = {PULL, .place = PLACE_HAND};

@@ -46,8 +46,6 @@ static void free_term(Term *term)
 
 void system_free(System *system)
 {
-    if (!system)
-        return;
     free(system->m);
     free(system->e);
     free(system->pin_v);

@@ -226,10 +226,13 @@ static Status set_terms(const Options *options, System *system)
         status = set_self_contact(options, &shape, system);
     if (!status && options->cells)
         status = cells_set(system, &shape, k_c);
-    for (const OptionRow *row = option_rows; row->name && !status; row++)
-        if (row->term && row->term->set)
-            status =
-                row->term->set(system, &shape, options->number + row->slot);
+    for (const OptionRow *row = option_rows; row->name && !status; row++) {
+        const double *number = options->number + row->slot;
+        if (row->term && row->term->set && number[0] == 0)
+            system_remove_term(system, row->term);
+        else if (row->term && row->term->set)
+            status = row->term->set(system, &shape, number);
+    }
     return status;
 }
 

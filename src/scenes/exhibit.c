@@ -21,42 +21,33 @@ int exhibit_handles(const Simulation *simulation,
 
 /* A mass is put somewhere, with the velocity that it has, on a spring with
  * none; or it gets the velocity from it to there.  All runs begin anew. */
-static void move_mass(Simulation *simulation, bool tip, const double to[2])
-{
-    TimeIntegrator *run = simulation->run;
-    double *began = simulation->exhibit.began; /* x and v */
-    for (int k = 0; k < 2; k++) {
-        began[k] = tip ? run->x[k] : to[k];
-        began[k + 2] = tip                          ? to[k] - run->x[k]
-                       : simulation->system.springs ? 0
-                                                    : run->v[k];
-    }
-    for (int r = 0; r < simulation->runs; r++) {
-        memcpy(run[r].x, began, 2 * sizeof *began);
-        memcpy(run[r].v, began + 2, 2 * sizeof *began);
-        run[r].memory_h = 0;
-    }
-}
-
 void exhibit_drag(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;
+    TimeIntegrator *run = simulation->run;
+    double *began = simulation->exhibit.began; /* x and v */
     char grip = scene->grips[handle];
     bool line = scene->needs & NEEDS_ONE_NUMBER; /* x alone counts */
     const double to[2] = {x, line ? 0 : y};
     if (!isfinite(to[0]) || !isfinite(to[1]))
         return;
     simulation->prediction = (Prediction){0};
-    if (scene->needs & NEEDS_TIME) {
-        move_mass(simulation, grip == 'v', to);
+    if (!(scene->needs & NEEDS_TIME)) {
+        memcpy(grip == 't' ? simulation->exhibit.target : run->x, to,
+               sizeof to);
+        (scene->step == step_dial ? dial_restart : descent_restart)(simulation);
         return;
     }
-    memcpy(grip == 't' ? simulation->exhibit.target : simulation->run[0].x, to,
-           sizeof to);
-    if (scene->step == step_dial)
-        dial_restart(simulation);
-    else
-        descent_restart(simulation);
+    for (int k = 0; k < 2; k++) {
+        double v = simulation->system.springs ? 0 : run->v[k];
+        began[k] = grip == 'v' ? run->x[k] : to[k];
+        began[k + 2] = grip == 'v' ? to[k] - run->x[k] : v;
+    }
+    for (int r = 0; r < simulation->runs; r++) {
+        memcpy(run[r].x, began, 2 * sizeof *began);
+        memcpy(run[r].v, began + 2, 2 * sizeof *began);
+        run[r].memory_h = 0;
+    }
 }
 
 bool exhibit_has_kinds(const Simulation *simulation)

@@ -551,27 +551,8 @@ static void help_line(FILE *help, const char *start, const char *words)
     fputc('\n', help);
 }
 
-/* One option: its name, what it is, unit, names or range, default. */
-static void help_option(FILE *help, const OptionRow *row)
-{
-    Text start, range = {""}, standard = {""};
-    char words[3 * sizeof(Text)];
-    snprintf(start.text, sizeof start.text, "  --%s%s%s%s%.1s", row->name,
-             row->value ? " " : "", row->value ? row->value : "",
-             row->letter ? ", -" : "", &row->letter);
-    if (row->kind == OPTION_NAME)
-        range = list_text(row->names);
-    if (row->kind == OPTION_WHOLE && row->high <= 4096)
-        snprintf(range.text, sizeof range.text, "%g ... %g", row->low,
-                 row->high);
-    if (row->high > row->low && !row->count && row->standard >= row->low)
-        snprintf(standard.text, sizeof standard.text, "[%g]", row->standard);
-    snprintf(words, sizeof words, "%s%s%s %s %s", row->help,
-             row->unit[0] ? ", " : "", row->unit, range.text, standard.text);
-    help_line(help, start.text, words);
-}
-
-/* The scenes with their numbers, a line each; the options. */
+/* The scenes with their numbers, a line each; of an option its name, what it
+ * is, unit, names or range, default. */
 void options_help(FILE *help)
 {
     fprintf(help, "usage: elasto [SCENE] [options]; SCENE is a name or a "
@@ -579,9 +560,27 @@ void options_help(FILE *help)
     for (int i = 0; scenes[i].name; i++)
         fprintf(help, "  %2d %-15s  %s\n", i + 1, scenes[i].name,
                 scenes[i].sentence);
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->name[0])
-            help_option(help, row);
-        else
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        Text start, range = {""}, standard = {""};
+        char words[3 * sizeof(Text)];
+        if (!row->name[0]) {
             help_line(help, row->help, "");
+            continue;
+        }
+        snprintf(start.text, sizeof start.text, "  --%s%s%s%s%.1s", row->name,
+                 row->value ? " " : "", row->value ? row->value : "",
+                 row->letter ? ", -" : "", &row->letter);
+        if (row->kind == OPTION_NAME)
+            range = list_text(row->names);
+        if (row->kind == OPTION_WHOLE && row->high <= 4096)
+            snprintf(range.text, sizeof range.text, "%g ... %g", row->low,
+                     row->high);
+        if (row->high > row->low && !row->count && row->standard >= row->low)
+            snprintf(standard.text, sizeof standard.text, "[%g]",
+                     row->standard);
+        snprintf(words, sizeof words, "%s%s%s %s %s", row->help,
+                 row->unit[0] ? ", " : "", row->unit, range.text,
+                 standard.text);
+        help_line(help, start.text, words);
+    }
 }

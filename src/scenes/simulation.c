@@ -58,8 +58,6 @@ Status simulation_create(const Options *options, NewtonObserver observer,
 
 void simulation_free(Simulation *simulation)
 {
-    if (!simulation)
-        return;
     for (int i = 0; i < SIMULATION_MAX_RUNS; i++)
         time_integrator_free(&simulation->run[i]);
     system_free(&simulation->system);

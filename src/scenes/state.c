@@ -49,26 +49,6 @@ static void pass_system(Cursor *cursor, System *system)
              (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
-/* Of one run: counters, positions, velocities, memory, system. */
-static void pass_run(Cursor *cursor, Simulation *simulation, int r)
-{
-    TimeIntegrator *run = &simulation->run[r];
-    size_t array = run->size * sizeof(double);
-    PASS(run->steps);
-    PASS(run->clock);
-    PASS(run->moved);
-    PASS(run->work);
-    PASS(run->status);
-    pass(cursor, run->x, array);
-    pass(cursor, run->v, array);
-    PASS(run->memory_h);
-    pass(cursor, run->memory, (size_t)run->method->memory * array);
-    if (r == 0 || run->system != simulation->run[0].system)
-        pass_system(cursor, run->system);
-    if (cursor->restores)
-        system_changed(run->system, false);
-}
-
 /* What a scene shows beside its system. */
 static void pass_exhibit(Cursor *cursor, Simulation *simulation)
 {
@@ -100,8 +80,23 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
     PASS(simulation->status);
     PASS(simulation->done);
     pass_exhibit(cursor, simulation);
-    for (int r = 0; r < simulation->runs; r++)
-        pass_run(cursor, simulation, r);
+    for (int r = 0; r < simulation->runs; r++) {
+        TimeIntegrator *run = &simulation->run[r];
+        size_t array = run->size * sizeof(double);
+        PASS(run->steps);
+        PASS(run->clock);
+        PASS(run->moved);
+        PASS(run->work);
+        PASS(run->status);
+        pass(cursor, run->x, array);
+        pass(cursor, run->v, array);
+        PASS(run->memory_h);
+        pass(cursor, run->memory, (size_t)run->method->memory * array);
+        if (r == 0 || run->system != simulation->run[0].system)
+            pass_system(cursor, run->system);
+        if (cursor->restores)
+            system_changed(run->system, false);
+    }
 }
 
 size_t state_save(const Simulation *simulation, void *bytes)

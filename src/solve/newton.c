@@ -113,6 +113,18 @@ static Status iterate(Newton *newton, NewtonRecord *done)
     return status;
 }
 
+/* Adds the record's change of E, and shows it to the observer.  Returns its
+ * status, or INTERRUPTED where the observer asks to stop. */
+static Status tell(Newton *newton, const NewtonRecord *record)
+{
+    const NewtonSettings *settings = &newton->settings;
+    newton->sum += record->change;
+    newton->size += fabs(record->change);
+    if (settings->observer && !settings->observer(settings->user, record))
+        return STATUS_INTERRUPTED;
+    return record->status;
+}
+
 Status newton_iterate(Newton *newton)
 {
     if (newton->status != STATUS_RUNNING)
@@ -127,7 +139,7 @@ Status newton_iterate(Newton *newton)
                         : iterate(newton, &done);
     done.status = status;
     done.seconds = clock_now() - start;
-    return newton->status = newton_tell(newton, &done);
+    return newton->status = tell(newton, &done);
 }
 
 /* Moves the centre of mass to where u_tilde has it. */
@@ -156,45 +168,40 @@ static void move_centre(Newton *newton)
  * nodes alike, lowers E, and conserves linear momentum to rounding.  The second
  * move removes the rounding errors of the first, which is long where springs
  * are stiff beyond the digits of the masses.  If E has risen even so, all nodes
- * make the centre's way from x_n instead. */
-static void finish(Newton *newton)
-{
-    Status before = newton->status;
-    if (before && !status_is_unconverged(before))
-        return;
-    if (system_is_free(newton->system)) {
-        move_centre(newton);
-        move_centre(newton);
-        if (before != STATUS_DIVERGED &&
-            !rounding_is_low(newton, newton->at.u, newton->at.x)) {
-            for (int i = 0; i < 2 * newton->system->nodes; i++)
-                newton->at.u[i] = 0;
-            move_centre(newton);
-            newton->status = STATUS_ROUNDING_LIMIT;
-            newton->size = INFINITY; /* the sum is that of another way */
-        }
-    }
-    if (newton->record.iteration >= 0 && newton->status == before)
-        return; /* the last iteration has told it */
-    NewtonRecord end = {.step = newton->step,
-                        .iteration = -1,
-                        .residual = newton->residual,
-                        .kind = newton->kind,
-                        .status = newton->status};
-    newton->status = newton_tell(newton, &end);
-}
-
-/* The change of E is the sum of the changes, each of which is exact along its
+ * make the centre's way from x_n instead.
+ *
+ * The change of E is the sum of the changes, each of which is exact along its
  * line; or the difference of E at end and start, where E was so high in between
  * that the sum has lost more digits. */
 void newton_finish(Newton *newton)
 {
     const Iterate *at = &newton->at;
-    double first = newton->rounding.first, change, last;
-    finish(newton);
-    change = newton->sum;
+    const double first = newton->rounding.first;
+    Status before = newton->status;
+    bool usable = !before || status_is_unconverged(before);
+    if (usable && system_is_free(newton->system)) {
+        move_centre(newton);
+        move_centre(newton);
+        if (before != STATUS_DIVERGED &&
+            !rounding_is_low(newton, at->u, at->x)) {
+            for (int i = 0; i < 2 * newton->system->nodes; i++)
+                at->u[i] = 0;
+            move_centre(newton);
+            newton->status = STATUS_ROUNDING_LIMIT;
+            newton->size = INFINITY; /* the sum is that of another way */
+        }
+    }
+    if (usable && (newton->record.iteration < 0 || newton->status != before)) {
+        NewtonRecord end = {.step = newton->step, /* no iteration has told it */
+                            .iteration = -1,
+                            .residual = newton->residual,
+                            .kind = newton->kind,
+                            .status = newton->status};
+        newton->status = tell(newton, &end);
+    }
+    double change = newton->sum;
     if (!isnan(first)) {
-        last = incremental_potential_value(&at->E, at->u, at->x);
+        double last = incremental_potential_value(&at->E, at->u, at->x);
         if (newton->size > fabs(first) + fabs(last))
             change = last - first;
     }
@@ -235,16 +242,6 @@ void newton_free(Newton *newton)
     multigrid_free(newton->multigrid);
     free(newton->at.u);
     *newton = (Newton){0};
-}
-
-Status newton_tell(Newton *newton, const NewtonRecord *record)
-{
-    const NewtonSettings *settings = &newton->settings;
-    newton->sum += record->change;
-    newton->size += fabs(record->change);
-    if (settings->observer && !settings->observer(settings->user, record))
-        return STATUS_INTERRUPTED;
-    return record->status;
 }
 
 /* All of them are long. */

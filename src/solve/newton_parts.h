@@ -6,10 +6,6 @@
 
 #include "solve/newton.h"
 
-/* Adds the record's change of E, and shows it to the observer.  Returns its
- * status, or INTERRUPTED where the observer asks to stop. */
-Status newton_tell(Newton *newton, const NewtonRecord *record);
-
 /* ---- direction.c: gradient, search direction and the test of Algorithm 3 at
  * each iterate. */
 

@@ -148,17 +148,11 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
     return sum_of(sum);
 }
 
-FAST static void relax_chosen(const Tiles *tiles, int count)
-{
-    for (int t = 0; t < count; t++)
-        tiles->change[tiles->chosen[t]] = relax_tile(tiles, tiles->chosen[t]);
-}
-
 /* Sweeps of the tiles with at least this activity.  Tiles of a colour have no
  * neighbours among each other, so it does not matter who relaxes first.
  *   visits  out, how many they were
  * Returns the change of E. */
-static double relax_active(Tiles *tiles, double activity, int *visits)
+FAST static double relax_active(Tiles *tiles, double activity, int *visits)
 {
     const int high = tiles->high, wide = tiles->wide;
     double change = 0;
@@ -169,7 +163,9 @@ static double relax_active(Tiles *tiles, double activity, int *visits)
             for (int j = colour % 2; j < wide; j += 2)
                 if (tiles->activity[i * wide + j] <= activity)
                     tiles->chosen[count++] = i * wide + j;
-        relax_chosen(tiles, count);
+        for (int t = 0; t < count; t++)
+            tiles->change[tiles->chosen[t]] =
+                relax_tile(tiles, tiles->chosen[t]);
         for (int t = 0; t < count; t++) { /* the tiles around hear of it */
             int tile = tiles->chosen[t], i = tile / wide, j = tile % wide;
             for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < high; a++)

@@ -428,26 +428,6 @@ static void v_cycle(VCycle *cycle, double *sums)
 
 /* ---- conjugate gradients ---- */
 
-FAST static void take(const Grid *grid, double factor, const double *a,
-                      float *b)
-{
-    for (const double *end = a + 2 * grid->rows.plane; a < end;
-         a += WIDE_LANES, b += WIDE_LANES) {
-        EACH_FEW (WIDE_LANES)
-            FEW(b, e) =
-                narrow(factor * PAIR(a, e), factor * PAIR(a, e + PAIRED));
-    }
-}
-
-/* p = factor x, or p += it. */
-FAST static void give(const Grid *grid, double factor, const float *x,
-                      bool adds, double *p)
-{
-    const double old = adds;
-    EACH_OF (2 * grid->rows.plane)
-        p[e] = old * p[e] + factor * x[e];
-}
-
 /* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d, with the
  * next x.  Returns |b|_(M^-1)^2, and the largest |p_x| + |p_y|. */
 FAST static double advance(const VCycle *of, float alpha, float beta,
@@ -496,17 +476,25 @@ bool v_decides(const Grid *grid, double largest, double square, double length)
     return fabs(largest - length) >= sqrt(2 / grid->lightest * square);
 }
 
-double v_solve(VCycle *cycle, double sign, const double *a, double square,
-               VEnd end, bool adds, double *p)
+FAST double v_solve(VCycle *cycle, double sign, const double *a, double square,
+                    VEnd end, bool adds, double *p)
 {
     const Grid *grid = cycle->grid;
+    const int numbers = 2 * grid->rows.plane;
     double unit = unit_of(sqrt(square * grid->lightest)), largest = 0;
     double last = 0, alpha = 1, rest = INFINITY;
     set_up(cycle);
     for (int i = 0; i < 3; i++)
         memset((float *[]){cycle->p, cycle->d, cycle->Ad}[i], 0,
-               2 * (size_t)grid->rows.plane * sizeof(float));
-    take(grid, sign * unit, a, cycle->level->b);
+               (size_t)numbers * sizeof(float));
+    const double take = sign * unit, give = 1 / unit, old = adds;
+    for (int q = 0; q < numbers; q += WIDE_LANES) {
+        float *const b = cycle->level->b + q;
+        const double *const from = a + q;
+        EACH_FEW (WIDE_LANES)
+            FEW(b, e) =
+                narrow(take * PAIR(from, e), take * PAIR(from, e + PAIRED));
+    }
     for (int i = 0; i < end.cycles; i++) {
         double sums[2];
         v_cycle(cycle, sums);
@@ -523,6 +511,8 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
             (end.length > 0 && v_decides(grid, largest, rest, end.length)))
             break;
     }
-    give(grid, 1 / unit, cycle->p, adds, p);
+    const float *const found = cycle->p;
+    EACH_OF (numbers)
+        p[e] = old * p[e] + give * found[e];
     return largest;
 }

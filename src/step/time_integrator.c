@@ -20,7 +20,7 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if ((method->averaged && kind->value && !kind->averages) ||
+        if ((method->averaged && kind->remainder) ||
             (kind->end_of_step && !method->at_end))
             return true;
     }
@@ -60,8 +60,6 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
 
 void time_integrator_free(TimeIntegrator *run)
 {
-    if (!run)
-        return;
     newton_free(run->newton);
     free(run->newton);
     free(run->x);
