@@ -10,17 +10,9 @@
  *   quick  seconds instead of minutes: does it all work?
  * Returns OK, OUT_OF_MEMORY. */
 Status bench_work(bool quick);
-Status bench_steps(bool quick);
 
 /* Processor time of this thread, s: what a busy machine changes least. */
 double bench_cpu(void);
-
-/* The middle one, or the mean of the two in the middle; sorts the values.
- * count at least 1. */
-double bench_median(double *values, int count);
-
-/* Prints what README says, what was measured, and whether that holds. */
-void bench_claim(const char *what, double measured, double at_most);
 
 /* The slides' numbers, on a square of so many segments. */
 Options slides_options(int segments);

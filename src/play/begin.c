@@ -134,38 +134,31 @@ Status player_unveil(Player *player, const char *typed)
     return status;
 }
 
-/* The page that is asked for: by its name; the next one or the one before; the
- * one that was left for another scene; or the first.  NULL: there is none. */
-static const LecturePage *find_page(Player *player, const Command *command)
+/* The page that is asked for, from its start with its settings: by its name;
+ * the next one or the one before; the one that was left for another scene; or
+ * the first. */
+Status obey_page(Player *player, const Command *command)
 {
+    Options options;
+    int count;
     const LecturePage *page = player_settings(player)->page;
     bool on = command->kind == COMMAND_PAGE_ON;
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
         if (!page)
-            player_refuse(player, "there is no page '%s', they are 1 ... %d",
-                          command->text, lecture_count());
-        return page;
+            return player_refuse(player,
+                                 "there is no page '%s', they are 1 ... %d",
+                                 command->text, lecture_count());
+    } else if (page) {
+        if (on ? !page[1].name : page == lecture_pages)
+            return player_refuse(player, on ? "this is the last page"
+                                            : "this is the first page");
+        page += on ? 1 : -1;
+    } else if (player->left) {
+        page = player->left + (on && player->left[1].name);
+    } else {
+        page = &lecture_pages[0];
     }
-    if (!page && !player->left)
-        return &lecture_pages[0];
-    if (!page)
-        return on && player->left[1].name ? player->left + 1 : player->left;
-    if (on ? page[1].name != NULL : page > lecture_pages)
-        return on ? page + 1 : page - 1;
-    player_refuse(player,
-                  on ? "this is the last page" : "this is the first page");
-    return NULL;
-}
-
-/* The page's scene from its start, with its settings. */
-Status obey_page(Player *player, const Command *command)
-{
-    Options options;
-    int count;
-    const LecturePage *page = find_page(player, command);
-    if (!page)
-        return STATUS_INVALID_INPUT;
     Status status = player_own_options(player, "", page, &options, &count);
     if (status)
         return status;

@@ -11,7 +11,6 @@
 
 #include "play/output.h"
 #include "play/playing.h"
-#include "scenes/one_line.h"
 
 static const CommandRow command_rows[COMMAND_KINDS] = {
 #define ROW(kind, ...) [COMMAND_##kind] = {__VA_ARGS__},

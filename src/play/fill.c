@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/one_line.h"
 #include "scenes/scene.h"
 
 static const double LONG_WORK = 0.3;  /* s; then it is shown */

@@ -12,7 +12,6 @@
 #include "base/mathematics.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/one_line.h"
 #include "scenes/scene.h"
 
 enum {
@@ -54,15 +53,18 @@ static Under look(Player *player)
     return under;
 }
 
-static Status ask(Player *player, CommandKind kind, long number)
-{
-    return player_ask(player, kind, number, 0, 0);
-}
-
+/* Commands of one key or drag are undone at once. */
 static Status ask_at(Player *player, CommandKind kind, long number,
                      const double at[2])
 {
-    return player_ask(player, kind, number, at[0], at[1]);
+    const Command command = {
+        .kind = kind, .number = number, .x = at[0], .y = at[1], .joins = true};
+    return player_obey(player, &command);
+}
+
+static Status ask(Player *player, CommandKind kind, long number)
+{
+    return ask_at(player, kind, number, (const double[2]){0, 0});
 }
 
 /* ---- the keyboard -------------------------------------------------------- */

@@ -6,19 +6,8 @@
 
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/one_line.h"
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
-
-Status player_refuse(Player *player, const char *why, ...)
-{
-    va_list arguments;
-    va_start(arguments, why);
-    vsnprintf(player->message, sizeof player->message, why, arguments);
-    va_end(arguments);
-    one_line(player->message, player->message, sizeof player->message);
-    return STATUS_INVALID_INPUT;
-}
 
 Status player_tell(Player *player, Status status)
 {
@@ -29,17 +18,13 @@ Status player_tell(Player *player, Status status)
     return STATUS_OK;
 }
 
-Status player_ask(Player *player, CommandKind kind, long number, double x,
-                  double y)
-{
-    const Command command = {
-        .kind = kind, .number = number, .x = x, .y = y, .joins = true};
-    return player_obey(player, &command);
-}
-
 Status player_ask_set(Player *player, const OptionRow *row, double value)
 {
-    return player_ask(player, COMMAND_SET, row - option_rows, value, 0);
+    const Command command = {.kind = COMMAND_SET,
+                             .number = row - option_rows,
+                             .x = value,
+                             .joins = true};
+    return player_obey(player, &command);
 }
 
 void player_note(Player *player, const char *format, ...)

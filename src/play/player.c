@@ -8,7 +8,6 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/one_line.h"
 #include "scenes/scene.h"
 
 enum {

@@ -3,6 +3,7 @@
 #define ELASTO_PLAYING_H
 
 #include "play/player.h"
+#include "scenes/one_line.h"
 
 /* All deeds are called alike, whether they need to know the command or not. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -16,16 +17,16 @@ static const double SLICE = 0.05;
 #include "play/command_rows.def"
 #undef ROW
 
-/* Says why a command makes no sense here.  Returns INVALID_INPUT. */
-Status player_refuse(Player *player, const char *why, ...);
+/* Says why a command makes no sense here: a format, and what it needs.  Returns
+ * INVALID_INPUT. */
+#define player_refuse(player, ...)                                             \
+    refuse((Refusal){(player)->message, sizeof(player)->message}, __VA_ARGS__)
 
 /* INVALID_INPUT becomes a line below the picture; returns any other status. */
 Status player_tell(Player *player, Status status);
 
-/* A command that belongs to the one that is obeyed, or to what the hand does:
- * they are undone at once.  Of an option: its row, and the value. */
-Status player_ask(Player *player, CommandKind kind, long number, double x,
-                  double y);
+/* Sets an option, which belongs to the command that is obeyed, or to what the
+ * hand does: they are undone at once. */
 Status player_ask_set(Player *player, const OptionRow *row, double value);
 
 /* A line below the picture. */

@@ -222,29 +222,7 @@ static void add_place(Rounds *rounds, int round, Line line, int trials)
     rounds->place[rounds->places++] = (Station){round, line, trials};
 }
 
-/* The lines of a round; the last one may have the test alone. */
-static void add_round(Rounds *rounds, const Options *options, int i)
-{
-    const NewtonRecord *record = &rounds->made.row[i];
-    bool made = i < rounds->made.count, solves = made || !rounds->passed;
-    bool searches = made && options->line_search != LINE_SEARCH_NONE;
-    bool fails = made && record->alpha == 0;
-    int trials = made ? record->trials : 0;
-    add_place(rounds, i, LINE_DO, 0);
-    if (solves && options->filter != FILTER_NONE)
-        add_place(rounds, i, LINE_PROJECT, 0);
-    if (solves)
-        add_place(rounds, i, LINE_SOLVE, 0);
-    for (int t = 1; searches && t < trials && trials < TRIALS_WALKED; t++)
-        add_place(rounds, i, LINE_SEARCH, t);
-    if (searches || fails)
-        add_place(rounds, i, LINE_SEARCH, trials);
-    if (made && !fails)
-        add_place(rounds, i, LINE_UPDATE, trials);
-    if (!fails)
-        add_place(rounds, i, LINE_TEST, trials);
-}
-
+/* The lines of each round; the last one may have the test alone. */
 void rounds_end(Rounds *rounds, const Options *options)
 {
     int count = rounds->made.count;
@@ -256,8 +234,26 @@ void rounds_end(Rounds *rounds, const Options *options)
         return;
     rounds->place = place;
     add_place(rounds, 0, LINE_START, 0);
-    for (int i = 0; i < count + rounds->ended; i++)
-        add_round(rounds, options, i);
+    for (int i = 0; i < count + rounds->ended; i++) {
+        const NewtonRecord *record = &rounds->made.row[i];
+        bool made = i < count, solves = made || !rounds->passed;
+        bool searches = made && options->line_search != LINE_SEARCH_NONE;
+        bool fails = made && record->alpha == 0;
+        int trials = made ? record->trials : 0;
+        add_place(rounds, i, LINE_DO, 0);
+        if (solves && options->filter != FILTER_NONE)
+            add_place(rounds, i, LINE_PROJECT, 0);
+        if (solves)
+            add_place(rounds, i, LINE_SOLVE, 0);
+        for (int t = 1; searches && t < trials && trials < TRIALS_WALKED; t++)
+            add_place(rounds, i, LINE_SEARCH, t);
+        if (searches || fails)
+            add_place(rounds, i, LINE_SEARCH, trials);
+        if (made && !fails)
+            add_place(rounds, i, LINE_UPDATE, trials);
+        if (!fails)
+            add_place(rounds, i, LINE_TEST, trials);
+    }
     add_place(rounds, count, LINE_END, 0);
 }
 

@@ -1,12 +1,15 @@
-/* window_web.c - the window in a page: the paper's pixels go into its canvas;
- * mouse, touch and keys come from it into a line of inputs.  src/web/page.js
- * has the object Page.
+/* window_web.c - the window and films in a page: the paper's pixels go into its
+ * canvas; mouse, touch and keys come from it into a line of inputs; the browser
+ * films the canvas while it is drawn and gives the film as a download.
+ * src/web/page.js has the object Page.
  */
-#include "play/view.h"
-
 #include <emscripten.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "play/recording.h"
+#include "play/view.h"
 
 /* ---- what the page does ------------------------------------------------- */
 
@@ -24,6 +27,9 @@ EM_JS(bool, window_is_full, (void), { return !!document.fullscreenElement; });
 EM_JS(void, page_show, (const uint32_t *pixels, int width, int height), {
     Page.show(HEAPU8, pixels, width, height);
 });
+EM_JS(int, page_films, (void), { return Page.films() ? 1 : 0; });
+EM_JS(void, page_film, (const char *name), { Page.film(UTF8ToString(name)); });
+EM_JS(void, page_film_end, (int keep), { Page.filmEnd(keep); });
 /* clang-format on */
 
 bool window_open(const char *title, const int size[2], bool full)
@@ -115,4 +121,38 @@ Input window_input(void)
 void window_wait(int milliseconds)
 {
     (void)milliseconds;
+}
+
+/* ---- films --------------------------------------------------------------- */
+
+Status film_open(const char *name, Film *film)
+{
+    *film = (Film){0};
+    if (!page_films()) {
+        film->reason = "this browser makes no films of a page";
+        return STATUS_INVALID_INPUT;
+    }
+    film->output.name = strdup(name);
+    if (!film->output.name)
+        return STATUS_OUT_OF_MEMORY;
+    page_film(name);
+    return STATUS_OK;
+}
+
+Status film_add(Film *film, const Canvas *canvas, int shown)
+{
+    (void)canvas;
+    film->frames += shown;
+    return STATUS_OK;
+}
+
+Status film_close(Film *film)
+{
+    bool empty = film->frames == 0;
+    if (!film_runs(film))
+        return STATUS_OK;
+    page_film_end(!empty);
+    free(film->output.name);
+    *film = (Film){.reason = empty ? "no frame was drawn" : NULL};
+    return empty ? STATUS_FILE_FAILED : STATUS_OK;
 }

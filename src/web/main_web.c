@@ -8,7 +8,6 @@
 
 #include "base/clock.h"
 #include "play/playing.h"
-#include "scenes/one_line.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 

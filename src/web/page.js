@@ -1,5 +1,5 @@
 // page.js - the page's side of the program: canvas, mouse, touch, keys, files,
-// address.  window_web.c, film_web.c and main_web.c are the other side.
+// address.  window_web.c and main_web.c are the other side.
 'use strict';
 
 const $ = (id) => document.getElementById(id);
