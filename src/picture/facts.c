@@ -319,14 +319,13 @@ bool text_is_known(const Facts *facts, const char *text)
 }
 
 /* Draws a line at the upper edge of the box, or only measures it; returns the
- * pixels that it takes. */
+ * pixels that it takes.  What is too wide goes on below. */
 static int put_line(Paper *paper, Box box, double size, const TextLine *line,
                     bool draw)
 {
     const double air = 0.2, empty = 0.6; /* ems */
-    box.width = INT_MAX;
-    int high = paper_paragraph(paper, line->face, size, line->colour, box, draw,
-                               line->words);
+    int high = paper_paragraph(paper, line->face, size, line->colour, box,
+                               draw ? INT_MAX : 0, line->words);
     return high + paper_pixels(paper, size * (high > 0 ? air : empty));
 }
 

@@ -447,7 +447,8 @@ void square_draw(Plot *stage)
 
 int lecture_spring(const Simulation *simulation)
 {
-    return (int)(simulation->steps % simulation->system.springs);
+    int last = simulation->system.springs - 1;
+    return simulation->steps < last ? (int)simulation->steps : last;
 }
 
 /* Of h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and its

@@ -154,6 +154,7 @@ Status obey_set(Player *player, const Command *command)
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);
     player_options(player, options);
+    const LecturePage *page = player_settings(player)->page;
     double old = options[player->active].number[row->slot];
     Status status = STATUS_OK;
     for (int p = from; p < to && !status; p++)
@@ -165,6 +166,8 @@ Status obey_set(Player *player, const Command *command)
     bool again =
         (!past_is_given(&player->past) || player_machine(player)->failed) &&
         (row->effect == EFFECT_AGAIN ||
+         (page && page->law && player->past.step > 0 &&
+          player_stands(player)) ||
          (player->fine > 0 && player->side[player->active].place >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)
         return player_begin(player, options, past_panes(&player->past),

@@ -110,7 +110,8 @@ static void fill_settings(Player *player)
         option_value(row, &past_start(&player->past, player->active)->options,
                      start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
-        setting->off = strcmp(now, "none") == 0 || player_idle(player, row);
+        setting->off =
+            strcmp(setting->value, "none") == 0 || player_idle(player, row);
         if (row == player->lit)
             show->selected = i;
         if (row == player->lit && player->typing)
@@ -297,6 +298,13 @@ static void fill_time(Player *player)
     double time = 0; /* that of panes that have ended stands still */
     for (int p = 0; p < past_panes(past); p++)
         time = fmax(time, simulation_time(&past->machine[p].simulation));
+    const LecturePage *page = player_settings(player)->page;
+    if (page && page->writes) { /* its steps are springs */
+        long last = player_simulation(player)->system.springs - 1;
+        snprintf(text, SHOW_TEXT, "spring %ld",
+                 past->step < last ? past->step : last);
+        return;
+    }
     snprintf(text, SHOW_TEXT, "%s %ld", turn ? turn : "step", past->step);
     if (past_newest(past) > past->step)
         append(text, SHOW_TEXT, " of %ld", past_newest(past));
