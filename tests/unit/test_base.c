@@ -1,10 +1,289 @@
-/* Functions whose last digit is promised. */
+/* Factorisations of sparse matrices, and what they say of matrices that have
+ * none; functions whose last digit is promised.
+ */
 #include "test.h"
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/mathematics.h"
+
+/* ---- factorisations ---------------------------------------------------- */
+
+enum { GRID = 7, SIZE = GRID * GRID, ENTRIES = 3 * SIZE };
+
+/* The matrix of a grid: diagonal, left and lower neighbour. */
+typedef struct Problem {
+    Triplets triplets;
+    Sparse A;
+    int slot[ENTRIES];
+    Cholesky *cholesky;
+} Problem;
+
+static void problem_create(CholeskyKind kind, Problem *problem)
+{
+    CHECK_STATUS(triplets_create(SIZE, ENTRIES, &problem->triplets), STATUS_OK);
+    for (int i = 0; i < SIZE; i++) {
+        triplets_add(&problem->triplets, i, i);
+        if (i % GRID > 0)
+            triplets_add(&problem->triplets, i, i - 1);
+        if (i >= GRID)
+            triplets_add(&problem->triplets, i, i - GRID);
+    }
+    CHECK_STATUS(sparse_create(&problem->triplets, &problem->A, problem->slot),
+                 STATUS_OK);
+    CHECK_STATUS(cholesky_create(&problem->A, kind, &problem->cholesky),
+                 STATUS_OK);
+}
+
+static void problem_free(Problem *problem)
+{
+    cholesky_free(problem->cholesky);
+    sparse_free(&problem->A);
+    triplets_free(&problem->triplets);
+}
+
+/* Entry (row, column), row >= column. */
+static double *entry(Problem *problem, int row, int column)
+{
+    for (int s = problem->A.start[column];; s++)
+        if (problem->A.row[s] == row)
+            return problem->A.value + s;
+}
+
+/* Random couplings; the diagonal is above the sum of a row by 1/2. */
+static void problem_fill(Random *random, Problem *problem)
+{
+    Sparse *A = &problem->A;
+    double sum[SIZE] = {0};
+    for (int c = 0; c < SIZE; c++)
+        for (int s = A->start[c]; s < A->start[c + 1]; s++) {
+            A->value[s] = random_uniform(random, -1, 1);
+            sum[c] += fabs(A->value[s]);
+            sum[A->row[s]] += fabs(A->value[s]);
+        }
+    for (int i = 0; i < SIZE; i++)
+        *entry(problem, i, i) = sum[i] + 0.5;
+}
+
+/* A x is b within the tolerance, in place or not. */
+static void check_solution(Random *random, Problem *problem, double tolerance)
+{
+    double b[SIZE], x[2][SIZE], A[SIZE * SIZE];
+    for (int i = 0; i < SIZE; i++)
+        b[i] = x[1][i] = random_uniform(random, -1, 1);
+    dense_from_sparse(&problem->A, A);
+    for (int k = 0; k < 2; k++) {
+        CHECK_STATUS(cholesky_solve(problem->cholesky, k ? x[k] : b, x[k]),
+                     STATUS_OK);
+        for (int i = 0; i < SIZE; i++) {
+            Real sum = 0;
+            for (int j = 0; j < SIZE; j++)
+                sum += (Real)A[SIZE * i + j] * x[k][j];
+            CHECK_NEAR(sum, b[i], tolerance);
+        }
+    }
+}
+
+static void leave(Problem *problem, int trial)
+{
+    (void)problem;
+    (void)trial;
+}
+
+static void negate_one(Problem *problem, int trial)
+{
+    *entry(problem, trial % SIZE, trial % SIZE) *= -1;
+}
+
+static void negate_half(Problem *problem, int trial)
+{
+    for (int i = trial % 2; i < SIZE; i += 2)
+        negate_one(problem, i);
+}
+
+/* Zeros in row and column 7; the right-hand side is not 0 there. */
+static void empty_a_row(Problem *problem, int trial)
+{
+    Sparse *A = &problem->A;
+    (void)trial;
+    for (int c = 0; c < SIZE; c++)
+        for (int s = A->start[c]; s < A->start[c + 1]; s++)
+            if (A->row[s] == 7 || c == 7)
+                A->value[s] = 0;
+}
+
+static void empty_all(Problem *problem, int trial)
+{
+    (void)trial;
+    memset(problem->A.value, 0, (size_t)problem->A.entries * sizeof(double));
+}
+
+/* [[1e-17, 1], [1, 1]] in the corner: a pivot that is 0 but for rounding, in a
+ * matrix that is not singular at all. */
+static void make_a_small_pivot(Problem *problem, int trial)
+{
+    (void)trial;
+    *entry(problem, 0, 0) = 1e-17;
+    *entry(problem, 1, 0) = 1;
+}
+
+static void make_one_not_finite(Problem *problem, int trial)
+{
+    static const double bad[] = {NAN, INFINITY, -INFINITY};
+    problem->A.value[trial % problem->A.entries] = bad[trial % 3];
+}
+
+/* 1 / 1e-310 is infinite. */
+static void make_all_tiny(Problem *problem, int trial)
+{
+    empty_all(problem, trial);
+    for (int i = 0; i < SIZE; i++)
+        *entry(problem, i, i) = 1e-310;
+}
+
+/* What each kind says of each matrix; and the next one is solved again.  The
+ * sums have size 10, so 1e-14 leaves room for rounding and for nothing else;
+ * refinement stops at a residual of 1e-15.  L D L^T steps over a
+ * zero pivot, and the solution tells.  What is dropped lies behind the last
+ * entry and is never read. */
+TEST(matrices_are_solved_or_named)
+{
+    static const struct {
+        void (*spoil)(Problem *, int);
+        CholeskyKind kind;
+        Status factor, solve;
+        double tolerance;
+    } rows[] = {
+        {leave, CHOLESKY_DEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {leave, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {negate_half, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {make_a_small_pivot, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {negate_one, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
+        {empty_a_row, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
+        {empty_all, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
+        {empty_a_row, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_SINGULAR, 0},
+        {make_one_not_finite, CHOLESKY_DEFINITE, STATUS_NOT_FINITE, 0, 0},
+        {make_one_not_finite, CHOLESKY_INDEFINITE, STATUS_NOT_FINITE, 0, 0},
+        {make_all_tiny, CHOLESKY_DEFINITE, STATUS_OK, STATUS_NOT_FINITE, 0},
+        {make_all_tiny, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_NOT_FINITE, 0},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Random random = {30 + (uint64_t)i};
+        Problem problem;
+        problem_create(rows[i].kind, &problem);
+        problem.A.value[problem.A.entries] = NAN;
+        for (int trial = 0; trial < SIZE; trial++) {
+            double x[SIZE];
+            for (int k = 0; k < SIZE; k++)
+                x[k] = 1;
+            problem_fill(&random, &problem);
+            rows[i].spoil(&problem, trial);
+            CHECK_STATUS(cholesky_factor(problem.cholesky), rows[i].factor);
+            if (rows[i].factor == STATUS_OK)
+                CHECK_STATUS(cholesky_solve(problem.cholesky, x, x),
+                             rows[i].solve);
+            if (rows[i].tolerance > 0)
+                check_solution(&random, &problem, rows[i].tolerance);
+            problem_fill(&random, &problem);
+            CHECK_STATUS(cholesky_factor(problem.cholesky), STATUS_OK);
+            check_solution(&random, &problem, 1e-14);
+        }
+        CHECK(cholesky_factor_entries(problem.cholesky) >= problem.A.entries);
+        problem_free(&problem);
+    }
+}
+
+/* ---- CHOLMOD's calls of BLAS: every entry is one sum, in one order ----- */
+
+void dgemm_(const char *, const char *, const int *, const int *, const int *,
+            const double *, const double *, const int *, const double *,
+            const int *, const double *, double *, const int *);
+void dsyrk_(const char *, const char *, const int *, const int *,
+            const double *, const double *, const int *, const double *,
+            double *, const int *);
+void dtrsm_(const char *, const char *, const char *, const char *, const int *,
+            const int *, const double *, const double *, const int *, double *,
+            const int *);
+void dpotrf_(const char *, const int *, double *, const int *, int *);
+
+enum { MOST = 21, LD = MOST + 2 };
+static const int ld = LD;
+static const double one = 1, zero = 0;
+
+static void fill(Random *random, double *A)
+{
+    for (int i = 0; i < LD * MOST; i++)
+        A[i] = random_uniform(random, -1, 1);
+}
+
+/* sum_p A[i, p] B[j, p], p = 0 ... k - 1 */
+static double product(const double *A, const double *B, int i, int j, int k)
+{
+    double sum = 0;
+    for (int p = 0; p < k; p++)
+        sum += A[p * LD + i] * B[p * LD + j];
+    return sum;
+}
+
+/* Equal to the bit, whatever the width of the lanes; nothing else is written,
+ * but by dsyrk right of the triangle. */
+TEST(products_have_one_order_of_sums)
+{
+    Random random = {71};
+    double A[LD * MOST], B[LD * MOST], C[LD * MOST], S[LD * MOST];
+    for (int m = 1; m <= MOST; m++)
+        for (int n = 1; n <= 9; n++) {
+            int k = (m * n) % MOST;
+            fill(&random, A);
+            fill(&random, B);
+            for (int i = 0; i < LD * MOST; i++)
+                C[i] = S[i] = 7;
+            dgemm_("N", "C", &m, &n, &k, &one, A, &ld, B, &ld, &zero, C, &ld);
+            dsyrk_("L", "N", &m, &k, &one, A, &ld, &zero, S, &ld);
+            for (int j = 0; j < MOST; j++)
+                for (int i = 0; i < LD; i++) {
+                    double *c = C + j * LD + i, *s = S + j * LD + i;
+                    CHECK(*c == (i < m && j < n ? product(A, B, i, j, k) : 7));
+                    if (i >= m || j >= m)
+                        CHECK(*s == 7);
+                    else if (i >= j)
+                        CHECK(*s == product(A, A, i, j, k));
+                }
+        }
+}
+
+/* L L^T = A, and (B L^-T) L^T = B, to some epsilon of the sums' sizes: pivots
+ * are 2 at least, the other entries at most 1. */
+TEST(factors_and_divisions_are_exact_to_rounding)
+{
+    Random random = {72};
+    double A[LD * MOST], L[LD * MOST], B[LD * MOST], X[LD * MOST];
+    for (int n = 1; n <= MOST; n++) {
+        int info = -1, m = 1 + (5 * n) % MOST;
+        fill(&random, A);
+        for (int i = 0; i < n; i++)
+            A[i * LD + i] = 4 + n;
+        memcpy(L, A, sizeof A);
+        dpotrf_("L", &n, L, &ld, &info);
+        CHECK(info == 0);
+        fill(&random, B);
+        memcpy(X, B, sizeof B);
+        dtrsm_("R", "L", "C", "N", &m, &n, &one, L, &ld, X, &ld);
+        for (int j = 0; j < n; j++) {
+            for (int i = j; i < n; i++)
+                CHECK_NEAR(product(L, L, i, j, j + 1), A[j * LD + i],
+                           8 * DBL_EPSILON * (4 + n));
+            for (int i = 0; i < m; i++)
+                CHECK_NEAR(product(X, L, i, j, j + 1), B[j * LD + i],
+                           8 * DBL_EPSILON * (4 + n));
+        }
+        A[(n - 1) * LD + n - 1] = -1;
+        dpotrf_("L", &n, A, &ld, &info);
+        CHECK(info == n);
+    }
+}
 
 /* Units in the last place between a double and the same in extended precision.
  */

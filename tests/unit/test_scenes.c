@@ -1,11 +1,19 @@
 /* The table of scenes, and the small ones among them, held to formulas written
- * here once more.  (What pages say of them is test_pages' matter.)
+ * here once more (what pages say of them is for test_pages); those of contact,
+ * inelasticity and fracture from outside: rows of options, starts that are
+ * refused, what is held fast, and what changes while they run.
  */
 #include "test.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "model/damping.h"
+#include "model/friction.h"
+#include "model/self_contact.h"
+#include "scenes/control.h"
 
 /* Steps until the scene is done, at most `limit`; the status of the last. */
 static Status run_to_end(Simulation *simulation, int limit)
@@ -235,6 +243,403 @@ TEST(predictions_are_compared)
     scene = simulate("square"); /* no single point */
     simulation_predict(scene, 1, 1);
     CHECK(!scene->prediction.made);
+}
+
+/* A scene is a row of defaults: the square with the same options makes the
+ * same bits, with normals of any length.  And a number that is set at the
+ * beginning of a run is the option: long enough to meet what needs it; with
+ * damping that is taken back it is as if there never was any. */
+TEST(scenes_are_rows_of_options)
+{
+    static const struct {
+        const char *one, *other;
+        int steps;
+        double friction, damping; /* set in the other, if it is > 0 */
+    } rows[] = {
+        {"hang",
+         "square --segments 12 --stiffness 1e4 --stretch 1 --timestep 0.01 "
+         "--tolerance 1e-3 --gravity 9.81 --pin top-corners",
+         70, 0, 0},
+        {"drop",
+         "square --segments 16 --stretch 1 --timestep 0.005 --tolerance 1e-4 "
+         "--gravity 9.81 --cells on --turn 25 --at -0.3,0.75 --velocity 0.9,-1 "
+         "--friction 0.3 --ground 0,2,0,-0.5 --ground 1,0,-1.1,0 --ground "
+         "-0.5,0,1.1,0",
+         70, 0, 0},
+        {"dent",
+         "square --segments 16 --stiffness 2e5 --stretch 1 --timestep 0.004 "
+         "--tolerance 1e-4 --gravity 9.81 --cells on --at 0,0.62 --velocity "
+         "0.02,-2 --friction 0.3 --yield 0.04 --hardening 0.1 --ball "
+         "0,-0.75,0.35 --ground 0,1,0,-1.15",
+         70, 0, 0},
+        {"rub --friction 0.4", "rub --friction 0", 20, 0.4, 0},
+        {"hang --segments 40", "hang --segments 40", 10, 0, 0},
+        {"tear", "tear", 30, 0, 0},
+        {"slope --friction 0.2", "slope", 20, 0.2, 0},
+        {"drop --friction 0.4 --segments 8", "drop --friction 0 --segments 8",
+         100, 0.4, 0},
+        {"dent --damping 0.003 --segments 8", "dent --segments 8", 90, 0,
+         0.003},
+        {"--damping 0.003", "--damping 1", 20, 0, 0.003},
+        {"tear --damping 0.001 --segments 8", "tear --segments 8", 90, 0,
+         0.001},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Simulation *one = simulate("%s", rows[i].one);
+        Simulation *other = simulate("%s", rows[i].other);
+        if (rows[i].friction > 0)
+            CHECK(!simulation_set(other, OPTION_SLOT(friction),
+                                  rows[i].friction));
+        for (int k = 0; k < 2; k++)
+            CHECK(!simulation_set(other, OPTION_SLOT(damping),
+                                  k ? rows[i].damping : 0.1));
+        CHECK(!system_data(&other->system, &damping) == !(rows[i].damping > 0));
+        make_steps(one, rows[i].steps);
+        make_steps(other, rows[i].steps);
+        CHECK(state_hash(one, 1) == state_hash(other, 1));
+        CHECK(energy_now(one, 0, "damping") == energy_now(other, 0, "damping"));
+        CHECK((energy_now(one, 0, "damping") > 0) == (rows[i].damping > 0));
+    }
+}
+
+/* Of a run that goes on only what may be moved counts: not where a ball began,
+ * nor a cell that is torn. */
+TEST(obstacles_have_room_in_what_was_torn)
+{
+    char message[256];
+    Simulation *beam = simulate("bend --segments 16");
+    beam->run[0].x[0] = 0;
+    beam->run[0].x[1] = 0.42;
+    CHECK(simulation_has_room(beam, &beam->options, message, sizeof message));
+    beam->run[0].x[1] = -1;
+    CHECK(!simulation_has_room(beam, &beam->options, message, sizeof message));
+}
+
+/* Pins are no way out: a ceiling ends at nodes that are held, and pins that are
+ * drawn against a wall stop before it; the steps say so.  What a ceiling has
+ * pressed flat takes few updates: 706, and 2642 with parts as short as a
+ * millionth of the way. */
+TEST(pins_and_walls_stop_each_other)
+{
+    static const struct {
+        const char *line;
+        int blocked, updates; /* more than this, less than that */
+    } rows[] = {
+        {"squeeze --segments 4 --pin top", 15, 100},
+        {"tear --segments 4 --ground 1,0,-0.52,0 --timestep 0.01", 15, 100},
+        {"return --segments 4 --body 0,0 --body 0,1.1 --ground 0,1,0,-0.6 "
+         "--ceiling 1.7,-50,-5",
+         5, 1300}};
+    for (int i = 0; i < 3; i++) {
+        Simulation *scene = simulate("%s", rows[i].line);
+        double gap = INFINITY;
+        int blocked = 0;
+        for (int step = 0; step < 30; step++) {
+            Status status = simulation_step(scene);
+            CHECK(status == STATUS_OK || status == STATUS_BLOCKED);
+            blocked += status == STATUS_BLOCKED;
+            gap = fmin(gap, smallest_gap(&scene->system, scene->run[0].x));
+        }
+        CHECK(gap > 0 && gap < 1e-3);
+        CHECK(blocked > rows[i].blocked && blocked < 30);
+        CHECK(scene->run[0].newton->counters.iterations < rows[i].updates);
+    }
+}
+
+/* Two bodies at rest, 0.2 m apart, have no entries for each other.  One that is
+ * inside a step as near as half the barrier's width gets them there, once, and
+ * the direction solves Newton's equation: 1e-10, rounding of a factor. */
+TEST(pairs_that_come_up_inside_a_step_have_entries)
+{
+    Simulation *scene = simulate("return --segments 2 --body 0,0 --body 0,1.2");
+    const System *system = &scene->system;
+    const SelfContact *self = self_contact_of(system);
+    Newton *newton = scene->run[0].newton;
+    double u[36] = {0}, Hp[36];
+    bool grown;
+    CHECK(system->nodes == 18);
+    make_steps(scene, 1);
+    CHECK(self->pairs == 0);
+    CHECK_STATUS(incremental_potential_grow(&newton->at, &grown), STATUS_OK);
+    CHECK(!grown);
+    for (int i = 9; i < 18; i++)
+        u[2 * i + 1] = -0.2 + 0.5 * self->d_hat;
+    CHECK_STATUS(newton_start(newton, scene->run[0].x, u, 1e-4),
+                 STATUS_RUNNING);
+    CHECK(self->pairs > 0);
+    incremental_potential_product(&newton->at, newton->search.filter,
+                                  newton->at.p, Hp);
+    for (int i = 0; i < 36; i++)
+        CHECK_NEAR(Hp[i], -newton->at.g[i], 1e-10);
+    CHECK_STATUS(incremental_potential_grow(&newton->at, &grown), STATUS_OK);
+    CHECK(!grown);
+}
+
+/* Whether a point and an edge that it is no end of come nearer than two margins
+ * in both coordinates, looked at one by one. */
+static bool are_near(const double *x, int p, const int end[2], double margin)
+{
+    bool near = p != end[0] && p != end[1];
+    for (int c = 0; c < 2; c++) {
+        double at = x[2 * p + c], a = x[2 * end[0] + c], b = x[2 * end[1] + c];
+        near = near && fmin(a, b) - margin <= at + margin &&
+               fmax(a, b) + margin >= at - margin;
+    }
+    return near;
+}
+
+/* Wherever nodes have gone since the last time, and along which axis. */
+TEST(the_sweep_finds_all_that_is_near)
+{
+    Simulation *scene = simulate("stack --segments 8");
+    const System *system = &scene->system;
+    Boundary *boundary = &self_contact_of(system)->boundary;
+    double x[2 * 3 * 81], margin = 0.01;
+    Random random = {7};
+    CHECK(system->nodes == 3 * 81);
+    for (int round = 0; round < 20; round++) {
+        long found = 0, expected = 0;
+        int place = 0;
+        for (int i = 0; i < 2 * system->nodes; i++)
+            x[i] = random_uniform(&random, -1, 1) * (1 + (i + round) % 2);
+        boundary_sort(boundary, system, x, NULL, 0, margin);
+        for (int i = 0; i < boundary->points; i++) {
+            int p = boundary->point[i], edge;
+            while ((edge = boundary_next(boundary, system, i, &place)) >= 0) {
+                CHECK(are_near(x, p, system->e + 2 * edge, margin));
+                found++;
+            }
+            for (int k = 0; k < boundary->edges; k++)
+                expected += are_near(
+                    x, p, system->e + 2 * boundary->box[k].edge, margin);
+        }
+        CHECK(found == expected && found > 500);
+    }
+}
+
+/* Pinned all over, one is moved down on the other, 0.2 m below it. */
+TEST(a_body_that_is_pushed_stops_at_another)
+{
+    Simulation *scene = simulate("--segments 2 --body 0,0 --body 0.1,1.2 "
+                                 "--pin all --timestep 0.01");
+    System *system = &scene->system;
+    const double *x = scene->run[0].x;
+    system->pin_v = calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
+    CHECK(system->pin_v != NULL);
+    for (int i = 9; i < 18; i++)
+        system->pin_v[2 * i + 1] = -1;
+    for (int step = 1; step <= 30; step++) {
+        CHECK_STATUS(simulation_step(scene),
+                     step < 20 ? STATUS_OK : STATUS_BLOCKED);
+        CHECK(exact_crossings(system, x) == 0);
+    }
+    CHECK(x[2 * 9 + 1] > 0.5 && x[2 * 9 + 1] < 0.5 + 1e-3);
+}
+
+/* Neither into another body nor through all of it. */
+TEST(no_node_is_placed_in_another_body)
+{
+    Simulation *scene = simulate("--segments 4 --body 0,0 --body 0,1.1");
+    for (int i = 0; i < 2; i++)
+        CHECK_STATUS(simulation_place(scene, 25, 0, -2 * i, NULL, true),
+                     STATUS_INVALID_INPUT);
+    CHECK_STATUS(simulation_place(scene, 25, -0.5, 0.55, NULL, true),
+                 STATUS_OK);
+    CHECK(exact_crossings(&scene->system, scene->run[0].x) == 0);
+}
+
+/* The sides of the sheet are drawn apart; a node that a hand pins stays. */
+TEST(a_pin_set_by_hand_stays)
+{
+    Simulation *scene = simulate("tear --segments 6");
+    const double *x = scene->run[0].x;
+    double left = x[0], at[2] = {x[2 * 17], x[2 * 17 + 1]};
+    CHECK_STATUS(simulation_pin(scene, 17, true), STATUS_OK);
+    make_steps(scene, 10);
+    CHECK_SAME_BITS(scene->run[0].x + 2 * 17, at, 2);
+    CHECK_NEAR(scene->run[0].x[0], left - 0.2 * 10 * 0.002, 1e-14);
+}
+
+/* A beam of another size has the cells of the one that is shown; the blocks of
+ * the slope begin as high above their grounds, whatever their size.  1e-15:
+ * rounding of coordinates of size 1. */
+TEST(scenes_begin_alike_at_every_size)
+{
+    static const char *const beams[] = {"bend", "bend --side 0.01",
+                                        "bend --side 1"};
+    for (int i = 0; i < 3; i++) {
+        const SquareMesh *mesh = &simulate("%s", beams[i])->mesh;
+        CHECK(mesh->segments == 32 && mesh->rows == 6);
+    }
+    const Simulation *slope = simulate("slope --side 0.3");
+    const TimeIntegrator *run = slope->run;
+    double gap = smallest_gap(run[0].system, run[0].x);
+    CHECK(gap > 0 && slope->runs == 3);
+    for (int r = 1; r < 3; r++) {
+        CHECK_NEAR(smallest_gap(run[r].system, run[r].x), gap, 1e-15);
+        CHECK_NEAR(run[0].x[1] - run[r].x[1], r * 2.6 * 0.3, 1e-15);
+    }
+}
+
+/* lambda of a contact at x, N: of a point and an edge, or of a node and an
+ * obstacle. */
+static double normal_force(const System *system, const TermKind *kind,
+                           const Element *row, const double *x)
+{
+    const SelfContact *self = self_contact_of(system);
+    const Contact *contact = contact_of(system);
+    if (kind == &friction_energy) {
+        const Barrier *barrier = &contact->barrier;
+        double s = exact_gap(system, x, row->node[0], row->from);
+        s /= barrier->d_hat;
+        return barrier->c / barrier->d_hat * -(log(s) + 1 - 1 / s);
+    }
+    double q[2], e[2];
+    for (int c = 0; c < 2; c++) {
+        q[c] = x[2 * row->node[0] + c] - x[2 * row->node[1] + c];
+        e[c] = x[2 * row->node[2] + c] - x[2 * row->node[1] + c];
+    }
+    double r = (q[0] * e[0] + q[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]);
+    r = fmin(fmax(r, 0), 1);
+    double d = hypot(q[0] - r * e[0], q[1] - r * e[1]) / self->d_hat;
+    return self->c / self->d_hat * 2 * d * -(2 * log(d) + 1 - 1 / (d * d));
+}
+
+/* One after the other is the only contact: what it does to its node is at most
+ * mu lambda, and takes energy away.  1e-9: rounding of gaps, of lambda. */
+static int check_cone(System *system, const TermKind *kind, double mu,
+                      const double *x_n, const double *x)
+{
+    Place at = place_at(system, x_n, NULL, x);
+    at.term = system_find_term(system, kind);
+    Friction *friction = at.term ? at.term->data : NULL;
+    int size = 2 * system->nodes, slides = friction ? friction->slides : 0;
+    double *u = malloc(2 * (size_t)size * sizeof *u), *g = u + size;
+    CHECK(u != NULL);
+    for (int i = 0; i < size; i++)
+        u[i] = x[i] - x_n[i];
+    at.u = u;
+    for (int k = 0; k < slides; k++) {
+        Slide first = friction->slide[0];
+        const Element *row = &friction->slide[k].row;
+        double lambda = normal_force(system, kind, row, x_n), work = 0;
+        const double *force = g + 2 * row->node[0];
+        memset(g, 0, (size_t)size * sizeof *g);
+        friction->slide[0] = friction->slide[k];
+        friction->slides = 1;
+        kind->gradient(&at, g);
+        friction->slide[0] = first;
+        friction->slides = slides;
+        for (int i = 0; i < size; i++)
+            work -= g[i] * u[i];
+        CHECK(hypot(force[0], force[1]) <= mu * lambda * (1 + 1e-9));
+        CHECK(work <= 0);
+    }
+    free(u);
+    return slides;
+}
+
+TEST(friction_stays_in_its_cone_and_takes_energy)
+{
+    static const char *const lines[] = {
+        "rub", "stack --segments 3",
+        ("--segments 3 --self-contact on --body 0,0 --body 0.2,1.2,5,1,-2 "
+         "--friction 0.4 --ground 0,1,0,-0.6 --gravity 9.81 --timestep 0.01")};
+    for (int i = 0; i < 3; i++) {
+        Simulation *scene = simulate("%s", lines[i]);
+        System *system = &scene->system;
+        const double *x = scene->run[0].x;
+        double x_n[512], mu = i ? 0.4 : 0.2;
+        int slides = 0;
+        CHECK(system->nodes <= 256);
+        for (int step = 0; step < 60; step++) {
+            memcpy(x_n, x, 2 * (size_t)system->nodes * sizeof *x);
+            make_steps(scene, 1);
+            slides += check_cone(system, &friction_energy, mu, x_n, x) +
+                      check_cone(system, &self_friction_energy, mu, x_n, x);
+        }
+        CHECK(slides > 100);
+    }
+}
+
+/* ---- the ledger while hands are on ------------------------------------- */
+
+/* What one does to a run between two steps. */
+static Status meddle(Simulation *scene, int deed)
+{
+    const double *x = scene->run[0].x + 2 * 7;
+    const Options *now = &scene->options;
+    switch (deed % 8) {
+    case 0:
+        return simulation_hold(scene, 7, x[0], x[1]);
+    case 1:
+        return simulation_hold(scene, 7, x[0] + 0.1, x[1] - 0.07);
+    case 2:
+        return simulation_hold(scene, -1, 0, 0);
+    case 3:
+    case 5:
+        return simulation_pin(scene, 9, deed % 8 == 3);
+    case 4:
+        return simulation_set(scene, OPTION_SLOT(timestep),
+                              0.4 * now->timestep);
+    default:
+        simulation_set(scene, OPTION_SLOT(stiffness),
+                       now->stiffness * (deed % 2 ? 0.5 : 3));
+        simulation_set(scene, OPTION_SLOT(friction),
+                       now->friction * (deed % 2 ? 0.5 : 2));
+        return simulation_set(scene, OPTION_SLOT(damping),
+                              deed % 2 ? 0.01 : 0.02);
+    }
+}
+
+static int broken_springs(const Simulation *scene)
+{
+    int count = 0;
+    for (int s = 0; s < scene->system.springs; s++)
+        count += spring_is_broken(&scene->system, s);
+    return count;
+}
+
+/* A hand, a pin, another time step, stiffness, mu or eta is booked as work:
+ * nothing that is lost changes with it, in the steps after it all that is lost
+ * grows, and no broken spring heals. */
+TEST(what_hands_do_is_work)
+{
+    static const char *const lines[] = {"drop --segments 4 --at -0.3,0.4",
+                                        "slope --segments 3",
+                                        "squeeze --segments 4",
+                                        "dent --segments 4 --at 0,0.2",
+                                        "tear --segments 6 --timestep 0.01",
+                                        "bend --segments 16"};
+    static const char *const lost[] = {"plastic", "fracture", "friction",
+                                       "damping"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        Simulation *scene = simulate("%s", lines[i]);
+        simulation_set(scene, OPTION_SLOT(tolerance), 1e-8);
+        int blocked = 0; /* the ceiling, by the node that is pinned */
+        for (int n = 0; n < 24 * 5; n++) {
+            Energies before = simulation_energies(scene, 0);
+            int broken = broken_springs(scene);
+            Status status =
+                n % 5 ? simulation_step(scene) : meddle(scene, n / 5);
+            Energies after = simulation_energies(scene, 0);
+            double size = fabs(before.total) + fabs(after.total) +
+                          fabs(after.work) + fabs(before.dissipated) + 1;
+            blocked += status == STATUS_BLOCKED;
+            CHECK(broken_springs(scene) >= broken);
+            CHECK(status == STATUS_OK || (i == 2 && status == STATUS_BLOCKED));
+            for (int k = 0; k < 4; k++) {
+                double had = energies_of(&before, lost[k]);
+                double has = energies_of(&after, lost[k]);
+                CHECK(n % 5 ? has >= had : has == had);
+                size += has;
+            }
+            if (n % 5 == 0)
+                CHECK_NEAR(after.dissipated, before.dissipated, 1e-12 * size);
+        }
+        CHECK(i == 2 || blocked == 0);
+        CHECK(fabs(simulation_energies(scene, 0).work) > 1e-3);
+    }
 }
 
 TESTS(NULL, NULL)
