@@ -22,9 +22,6 @@ typedef struct Moment {
 /* E at x_n + u, which is not rounded; J s^2.  All terms, by oracle.c. */
 long double wide_energy(const Moment *moment, const double *u);
 
-/* P(x), J. */
-long double wide_potential(const System *system, const double *x);
-
 /* What rounding of coordinates, and of the slope on the way by `way`, can make
  * of E there. */
 long double wide_noise(const Moment *moment, const double *u,
@@ -76,35 +73,40 @@ typedef enum Verdict {
     VERDICTS
 } Verdict;
 
+/* Of cases, steps by verdict and by status, residuals computed again (judged)
+ * and those of them where rounding is larger than the tolerance (blurred). */
+typedef struct Tally {
+    long cases, wrong, updates, steps[VERDICTS], judged, blurred;
+    long statuses[STATUS_COUNT];
+} Tally;
+
 /* Watches one run: nothing is behind a wall or turned, E is raised by no update
  * and by no step, residuals are what a step says: of springs alone they are
  * solved for again; else the solver's direction has to solve Newton's
  * equation. */
 typedef struct Watch {
     TimeIntegrator *run;
-    bool residuals;       /* solve again where a step says it converged */
-    bool springs;         /* there is nothing else */
-    double *x, *v;        /* [2n] before the step */
-    double *x_n;          /* [2n] where the present minimisation started */
-    double *u;            /* [2n] m, last iterate of the minimisation */
-    double *way;          /* [2n] workspace */
-    Wide *g, *H;          /* [2n], [2n 2n] workspace */
-    long double start;    /* E at u = 0 */
-    long double energy;   /* E at u */
-    int updates;          /* of this minimisation */
-    long crossings;       /* of edges, where cells may turn over */
-    bool wrong;           /* in this step */
-    bool flat;            /* a cell was, as E was looked at last */
-    char reason[512];     /* what was wrong first */
-    Status status;        /* of the last step */
-    long steps[VERDICTS]; /* how often each verdict */
-    long judged;          /* residuals computed again */
-    long blurred;         /* of them: rounding is larger than the tolerance */
+    Tally *tally;       /* what is counted */
+    bool residuals;     /* solve again where a step says it converged */
+    bool springs;       /* there is nothing else */
+    double *x, *v;      /* [2n] before the step */
+    double *x_n;        /* [2n] where the present minimisation started */
+    double *u;          /* [2n] m, last iterate of the minimisation */
+    double *way;        /* [2n] workspace */
+    Wide *g, *H;        /* [2n], [2n 2n] workspace */
+    long double start;  /* E at u = 0 */
+    long double energy; /* E at u */
+    int updates;        /* of this minimisation */
+    long crossings;     /* of edges, where cells may turn over */
+    bool wrong;         /* in this step */
+    bool flat;          /* a cell was, as E was looked at last */
+    char reason[512];   /* what was wrong first */
+    Status status;      /* of the last step */
 } Watch;
 
 /* The run must stay where it is; its Newton's observer becomes the watch.
  * Returns false without memory. */
-bool watch_create(TimeIntegrator *run, Watch *watch);
+bool watch_create(TimeIntegrator *run, Tally *tally, Watch *watch);
 void watch_free(Watch *watch);
 
 /* After a change of the system: the run made anew, with its x, v and h. */
@@ -112,14 +114,6 @@ Status watch_restart(TimeIntegrator *run);
 
 /* One step, judged. */
 Verdict watch_step(Watch *watch);
-
-typedef struct Tally {
-    long cases, wrong, updates, steps[VERDICTS], judged, blurred;
-    long statuses[STATUS_COUNT];
-} Tally;
-
-/* Adds what a watch saw. */
-void tally_add(const Watch *watch, Tally *tally);
 
 /* ---- random scenes (stress_scenes.c) ----------------------------------- */
 

@@ -32,8 +32,7 @@ static Jet energy(const Moment *moment, const double *u, const double *way,
                   const double *q, Random *jitter, Jet *size)
 {
     const IncrementalPotential *E = &moment->E;
-    const System *system = E->system;
-    Place place = place_at(system, E->x_n, u, NULL);
+    Place place = place_at(E->system, E->x_n, u, NULL);
     Spot spot = {.at = &place,
                  .h = sqrtl(E->weight),
                  .p = way,
@@ -42,19 +41,9 @@ static Jet energy(const Moment *moment, const double *u, const double *way,
                  .jitter = jitter,
                  .averaged = E->between};
     place.w = E->weight;
-    Jet sum = oracle_energy(&spot, NULL);
+    Jet sum = oracle_step(&spot, E->u_tilde);
     if (moment->clamped)
         sum.pq += oracle_clamping(&spot);
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        Real away = (Real)u[i] - E->u_tilde[i];
-        Real pull = system->m[i / 2] * away, p = way ? way[i] : 0;
-        Real dq = q ? q[i] : 0, mq = system->m[i / 2] * dq;
-        sum.f += pull * away / 2;
-        sum.q += pull * dq;
-        sum.pq += mq * p;
-        spot.size.q += fabsl(pull * dq);
-        spot.size.pq += fabsl(mq * p);
-    }
     if (size)
         *size = spot.size;
     return sum;
@@ -95,14 +84,6 @@ long double wide_imbalance(const Moment *moment, const double *u,
         *noise += fabsl(rounded.q - exact.q) + fabsl(rounded.pq - exact.pq);
     }
     return off;
-}
-
-long double wide_potential(const System *system, const double *x)
-{
-    Place place = place_at(system, x, NULL, x);
-    Spot spot = {.at = &place};
-    place.w = 1;
-    return oracle_energy(&spot, NULL).f;
 }
 
 static Wide wide_abs(Wide a)

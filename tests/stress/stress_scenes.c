@@ -193,18 +193,17 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
         Watch watch;
         if (shaken > 0)
             shake(shaken, run);
-        if ((shaken > 0 && watch_restart(run)) || !watch_create(run, &watch))
+        if ((shaken > 0 && watch_restart(run)) ||
+            !watch_create(run, tally, &watch))
             return snprintf(reason, 512, "no restart"), VERDICT_WRONG;
         for (int step = 0; step < steps && worst != VERDICT_WRONG; step++) {
             Verdict verdict = watch_step(&watch);
-            tally->statuses[watch.status]++;
             worst = verdict > worst ? verdict : worst;
             if (verdict == VERDICT_WRONG)
                 memcpy(reason, watch.reason, sizeof watch.reason);
             if (watch.status && !status_is_unconverged(watch.status))
                 break;
         }
-        tally_add(&watch, tally);
         watch_free(&watch);
     }
     return worst;

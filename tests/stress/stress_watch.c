@@ -127,8 +127,8 @@ static void judge_large(Watch *watch, const double *u, double tolerance)
     if (E.between || settings->filter != FILTER_CLAMP)
         return;
     LargeVerdict verdict = large_judge(&E, u, settings->h, tolerance);
-    watch->judged++;
-    watch->blurred += verdict == LARGE_UNDECIDED;
+    watch->tally->judged++;
+    watch->tally->blurred += verdict == LARGE_UNDECIDED;
     if (verdict == LARGE_FAILED)
         blame(watch, "converged, but the residual is above %g m/s", tolerance);
 }
@@ -192,7 +192,7 @@ static void judge_direction(Watch *watch, const double *u, double limit)
     if (!(fabsl(off) <= ROUNDINGS * (ROUNDINGS * noise + factor)))
         blame(watch, "converged, but H p + grad E is %Lg, rounding %Lg", off,
               noise);
-    watch->judged++;
+    watch->tally->judged++;
 }
 
 /* Where a minimisation says it converged at u: once more, in wide numbers.
@@ -218,7 +218,7 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
     }
     double residual = judged_residual(
         watch, u, either ? FILTER_CLAMP : settings->filter, limit, &noise);
-    watch->judged++;
+    watch->tally->judged++;
     if (!(residual <= limit + noise) && either)
         residual = judged_residual(watch, u, FILTER_NONE, limit, &noise);
     if (!(residual <= limit) && !(residual <= limit + noise))
@@ -227,7 +227,7 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
             "converged, but the residual is %g m/s, tolerance %g, rounding %g",
             residual, limit, noise);
     if (noise > 1e-6 * limit)
-        watch->blurred++;
+        watch->tally->blurred++;
 }
 
 /* How much higher than at `from` the energy at `to` may seem. */
@@ -294,7 +294,7 @@ static void check_excuse(Watch *watch, const NewtonRecord *record)
         long double away = (long double)watch->u[i] - E.u_tilde[i];
         scale += 0.5L * E.system->m[i / 2] * away * away;
     }
-    scale += E.weight * wide_potential(E.system, watch->run->newton->at.x);
+    scale += E.weight * exact_potential(E.system, watch->run->newton->at.x);
     if (fabs(record->slope) < 3 * DBL_EPSILON * scale)
         blame(watch, "%s, but the slope %g is lost in E = %Lg",
               status_name(record->status), record->slope, scale);
@@ -353,9 +353,10 @@ static bool watch_record(void *user, const NewtonRecord *record)
     return true;
 }
 
-bool watch_create(TimeIntegrator *run, Watch *watch)
+bool watch_create(TimeIntegrator *run, Tally *tally, Watch *watch)
 {
-    *watch = (Watch){.run = run, .residuals = true, .springs = true};
+    *watch =
+        (Watch){.run = run, .tally = tally, .residuals = true, .springs = true};
     size_t n = (size_t)watch_size(watch);
     double **vectors[] = {&watch->x, &watch->v, &watch->x_n, &watch->u,
                           &watch->way};
@@ -382,6 +383,8 @@ bool watch_create(TimeIntegrator *run, Watch *watch)
 
 void watch_free(Watch *watch)
 {
+    if (watch->run->newton)
+        watch->tally->updates += watch->run->newton->counters.iterations;
     free(watch->x);
     free(watch->v);
     free(watch->x_n);
@@ -477,16 +480,6 @@ static void check_state(Watch *watch, Status status)
         check_last_minimisation(watch, status);
 }
 
-void tally_add(const Watch *watch, Tally *tally)
-{
-    for (int i = 0; i < VERDICTS; i++)
-        tally->steps[i] += watch->steps[i];
-    tally->judged += watch->judged;
-    tally->blurred += watch->blurred;
-    if (watch->run->newton)
-        tally->updates += watch->run->newton->counters.iterations;
-}
-
 Verdict watch_step(Watch *watch)
 {
     TimeIntegrator *run = watch->run;
@@ -505,6 +498,7 @@ Verdict watch_step(Watch *watch)
     Verdict verdict = watch->wrong ? VERDICT_WRONG
                       : status     ? VERDICT_REPORTED
                                    : VERDICT_CONVERGED;
-    watch->steps[verdict]++;
+    watch->tally->steps[verdict]++;
+    watch->tally->statuses[status]++;
     return verdict;
 }

@@ -74,7 +74,7 @@ static Jet between(Spot *spot, int i, int j, int axis, bool of_u)
                 coordinate(spot, 2 * j + axis, of_u));
 }
 
-static Real strain_at(const System *system, int s, const double *x)
+Real exact_strain(const System *system, const double *x, int s)
 {
     int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
     Real dx = (Real)x[i] - x[j], dy = (Real)x[i + 1] - x[j + 1];
@@ -118,7 +118,7 @@ static void spring(Spot *spot, Jet *sum, const void *data, int s)
     V = chain(E, held * (held / 2 + over) + hard * over * over / 2,
               copysignl(held + hard * over, e), flows ? hard : 1);
     Jet rate = E;
-    rate.f -= theta > 0 ? strain_at(system, s, spot->at->x_n) : 0;
+    rate.f -= theta > 0 ? exact_strain(system, spot->at->x_n, s) : 0;
     V = plus(V, theta / 2, times(rate, rate));
     V.f += flow ? flow->hardening * kappa * kappa / 2 : 0;
     book(spot, sum, (Real)system->k[s] * system->l2[s], V);
@@ -686,46 +686,43 @@ Jet oracle_step(Spot *spot, const double *u_tilde)
 {
     const System *system = spot->at->system;
     Jet sum = oracle_energy(spot, NULL);
+    Spot still = *spot;
+    still.jitter = NULL;
     for (int c = 0; c < 2 * system->nodes; c++) {
-        Jet away = coordinate(spot, c, true);
+        Jet away = coordinate(&still, c, true);
         away.f -= u_tilde[c];
         book(spot, &sum, system->m[c / 2] / (Real)2, times(away, away));
     }
     return sum;
 }
 
+Real exact_potential(const System *system, const double *x)
+{
+    Place at = place_at(system, x, NULL, x);
+    Spot spot = {.at = &at};
+    return oracle_energy(&spot, NULL).f;
+}
+
 /* ---- of a minimisation ------------------------------------------------- */
-
-static Jet step_jet(const IncrementalPotential *E, const double *u,
-                    const double *x, const double *p, const double *q)
-{
-    Place at = place_at(E->system, E->x_n, u, x);
-    at.w = E->weight;
-    Spot spot = {.at = &at, .h = 1, .p = p, .q = q};
-    return u ? oracle_step(&spot, E->u_tilde) : oracle_energy(&spot, NULL);
-}
-
-Real exact_energy(const IncrementalPotential *E, const double *u,
-                  const double *x)
-{
-    return step_jet(E, u, x, NULL, NULL).f;
-}
 
 void exact_derivatives(const IncrementalPotential *E, const double *u,
                        const double *x, Real *g, Real *H)
 {
     int size = 2 * E->system->nodes;
     double p[MOST_UNKNOWNS] = {0}, q[MOST_UNKNOWNS] = {0};
+    Place at = place_at(E->system, E->x_n, u, x);
+    Spot spot = {.at = &at, .h = 1, .p = p, .q = q};
+    at.w = E->weight;
     CHECK(size <= MOST_UNKNOWNS);
-    for (int i = 0; i < size; i++) {
-        p[i] = 1;
-        g[i] = step_jet(E, u, x, p, NULL).p;
-        for (int j = 0; H && j < size; j++) {
-            q[j] = 1;
-            H[size * i + j] = step_jet(E, u, x, p, q).pq;
-            q[j] = 0;
-        }
-        p[i] = 0;
+    for (int i = 0; i < size * (H ? size : 1); i++) {
+        int row = H ? i / size : i, column = i % size;
+        p[row] = q[column] = 1;
+        Jet E_there =
+            u ? oracle_step(&spot, E->u_tilde) : oracle_energy(&spot, NULL);
+        p[row] = q[column] = 0;
+        g[row] = E_there.p;
+        if (H)
+            H[i] = E_there.pq;
     }
 }
 

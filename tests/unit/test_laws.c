@@ -294,13 +294,6 @@ static double dissipated_in(const TimeIntegrator *it, double *k,
     return (double)sum;
 }
 
-static Real potential_of(const System *system, const double *x)
-{
-    Place at = place_at(system, x, NULL, x);
-    Spot spot = {.at = &at};
-    return oracle_energy(&spot, NULL).f;
-}
-
 /* The ledger's dissipation is what is left over; here it is summed from the
  * oracle's formulas. */
 TEST(the_ledger_adds_up)
@@ -322,7 +315,7 @@ TEST(the_ledger_adds_up)
             for (int r = 0; r < scene->runs; r++) {
                 TimeIntegrator *it = &scene->run[r];
                 Energies start = simulation_energies(scene, r);
-                Real P = potential_of(it->system, it->x);
+                Real P = exact_potential(it->system, it->x);
                 memcpy(x, it->x, it->size * sizeof *x);
                 memcpy(v, it->v, it->size * sizeof *v);
                 memcpy(k, it->system->k,
@@ -330,7 +323,7 @@ TEST(the_ledger_adds_up)
                 CHECK_STATUS(time_integrator_step(it), STATUS_OK);
                 Energies end = simulation_energies(scene, r);
                 double stored = OF(&end, elastic) + OF(&end, contact);
-                CHECK_NEAR(stored, potential_of(it->system, it->x),
+                CHECK_NEAR(stored, exact_potential(it->system, it->x),
                            1e-9 * (most + stored + 1));
                 CHECK_NEAR(end.total, end.kinetic + end.gravity + stored,
                            1e-9 * (most + stored + 1));
@@ -384,8 +377,7 @@ TEST(breaking_books_its_energy)
         for (int s = 0; s < system->springs; s++) {
             Random random = {(uint64_t)s * 0x9e3779b97f4a7c15u};
             double strength = 0.12 * (1 + 0.1 * random_uniform(&random, -1, 1));
-            double strain = 1 + strain_of(scene, s);
-            load[s] = (strain * strain - 1) / strength;
+            load[s] = (double)exact_strain(system, x, s) / strength;
             if (k[s] == 0 || system->k[s] > 0)
                 continue;
             double *end[2] = {most + system->e[2 * s],
@@ -401,7 +393,7 @@ TEST(breaking_books_its_energy)
         System whole = *system;
         whole.k = k;
         CHECK_NEAR(energy_now(scene, 0, "fracture") - lost,
-                   potential_of(&whole, x) - potential_of(system, x),
+                   exact_potential(&whole, x) - exact_potential(system, x),
                    1e-10 * (1 + energy_now(scene, 0, "elastic")));
     }
     const Fracture *breaks = system_data(system, &fracture);

@@ -98,8 +98,8 @@ static bool see_fall(void *user, const NewtonRecord *record)
     if (record->iteration < 0)
         return true;
     if (record->iteration == 0)
-        E->start = E->now = exact_energy(&at->E, zero, at->E.x_n);
-    Real now = exact_energy(&at->E, at->u, at->x);
+        E->start = E->now = wide_energy(&(Moment){.E = at->E}, zero);
+    Real now = wide_energy(&(Moment){.E = at->E}, at->u);
     CHECK_AT_MOST(now, E->now);
     CHECK_NEAR(now - E->now, record->change, 2e-14L * E->start);
     E->now = now;

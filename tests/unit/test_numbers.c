@@ -193,7 +193,7 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
     bool over = trace->line == LINE_NONE || trace->line == LINE_END;
     const double *x = over && !trace->given_up ? x_now : trace->x;
     double u[UNKNOWNS] = {0}, u_tilde[UNKNOWNS], q[UNKNOWNS];
-    Real p[UNKNOWNS], g[UNKNOWNS], slope = 0, pair = 0;
+    Real p[UNKNOWNS], g[UNKNOWNS], slope = 0;
     int size = 2 * system->nodes, least = 0, most = 0;
     const IncrementalPotential E = {.system = system,
                                     .weight = made.timestep * made.timestep,
@@ -220,10 +220,7 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
         CHECK_NEAR(trace->p[i], p[i], 1e-6L * (residual + fabsl(slope)));
     CHECK(!trace->p || (slope > 0) == (trace->slope > 0));
     for (int s = 0; s < system->springs; s++) {
-        const int *e = system->e + 2 * s;
-        Real dx = (Real)trace->x[2 * e[0]] - trace->x[2 * e[1]];
-        Real dy = (Real)trace->x[2 * e[0] + 1] - trace->x[2 * e[1] + 1];
-        pair = (dx * dx + dy * dy) / system->l2[s] - 1;
+        Real pair = exact_strain(system, trace->x, s);
         least += pair < -1e-9L;
         most += pair < 1e-9L;
     }
@@ -403,10 +400,7 @@ static Real most_loaded(const System *system, const double *x,
 {
     Real most = -1, at = NAN;
     for (int i = 0; i < system->springs; i++) {
-        const int *e = system->e + 2 * i;
-        Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
-                        (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
-        Real strain = d * d / system->l2[i] - 1, ep = flow ? flow->ep[i] : 0;
+        Real strain = exact_strain(system, x, i), ep = flow ? flow->ep[i] : 0;
         Real load =
             flow
                 ? fabsl(ep) + 1e-3L * fabsl(strain)
@@ -523,12 +517,8 @@ static void tell_page(const Simulation *simulation)
     Real mass = o->density * side * side;
     const IncrementalPotential E = {.system = system, .weight = 1, .x_n = x};
     tell_law(simulation);
-    for (int s = 0; s < system->springs; s++) {
-        const int *e = system->e + 2 * s;
-        Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
-                        (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
-        shorter += d < (1 - 5e-10L) * sqrtl(system->l2[s]);
-    }
+    for (int s = 0; s < system->springs; s++)
+        shorter += exact_strain(system, x, s) < -1e-9L;
     if (o->bodies > 0 || o->scene->create != scene_find("square")->create)
         nodes = system->nodes;
     is("masses", nodes);
@@ -995,19 +985,16 @@ static void tell_hovered_spring(const Pane *pane, int s)
     const TermKind *kind = system_find_term(system, &plastic_energy)
                                ? &plastic_energy
                                : &mass_spring_energy;
-    Real d[2], H[3], most = 0;
+    Real H[3], most = 0;
     for (int i = 0; i < 3; i++)
         H[i] = -potential_along(system, x, kind, 2 * e[0] + i / 2,
                                 2 * e[1] + (i + 1) / 2)
                     .pq;
-    for (int i = 0; i < 2; i++)
-        d[i] = (Real)x[2 * e[0] + i] - x[2 * e[1] + i];
     most = fabsl(H[0]) + fabsl(H[1]) + fabsl(H[2]);
     is("node", e[0]);
     is("node", e[1]);
     is("l2", system->l2[s]);
-    near("strain", 100 * (hypotl(d[0], d[1]) / sqrtl(system->l2[s]) - 1),
-         1e-11L);
+    near("strain", 100 * (sqrtl(1 + exact_strain(system, x, s)) - 1), 1e-11L);
     Real middle = (H[0] + H[2]) / 2, apart = hypotl((H[0] - H[2]) / 2, H[1]);
     near("eigenvalue", 2 * (middle - apart), 1e-9L * most);
     near("eigenvalue", 2 * (middle + apart), 1e-9L * most);

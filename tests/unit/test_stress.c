@@ -146,10 +146,11 @@ TEST(broken_promises_are_noticed)
     };
     for (int i = 0; i < 5; i++) {
         Watch watch;
+        Tally tally = {0};
         TimeIntegrator *run =
             &simulate("%s --tolerance 1e-6", rows[i].line)->run[0];
         IntegratorMethod method = *run->method;
-        CHECK(watch_create(run, &watch));
+        CHECK(watch_create(run, &tally, &watch));
         CHECK(watch_step(&watch) == VERDICT_CONVERGED);
         method.aim = rows[i].aim ? rows[i].aim : method.aim;
         method.land = rows[i].land;

@@ -263,11 +263,3 @@ double *rest_of(const Simulation *simulation)
         square_mesh_place(&simulation->mesh, i, rest + 2 * i);
     return rest;
 }
-
-double strain_of(const Simulation *simulation, int s)
-{
-    const System *system = &simulation->system;
-    const double *x = simulation->run[0].x;
-    int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-    return hypot(x[i] - x[j], x[i + 1] - x[j + 1]) / sqrt(system->l2[s]) - 1;
-}

@@ -117,7 +117,4 @@ double energy_now(const Simulation *simulation, int run, const char *name);
  * call */
 double *rest_of(const Simulation *simulation);
 
-/* Strain of spring s of run 0: |d|/l - 1. */
-double strain_of(const Simulation *simulation, int s);
-
 #endif
