@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "model/damping.h"
-#include "model/friction.h"
 #include "model/self_contact.h"
 #include "scenes/control.h"
 
@@ -478,87 +477,6 @@ TEST(scenes_begin_alike_at_every_size)
     for (int r = 1; r < 3; r++) {
         CHECK_NEAR(smallest_gap(run[r].system, run[r].x), gap, 1e-15);
         CHECK_NEAR(run[0].x[1] - run[r].x[1], r * 2.6 * 0.3, 1e-15);
-    }
-}
-
-/* lambda of a contact at x, N: of a point and an edge, or of a node and an
- * obstacle. */
-static double normal_force(const System *system, const TermKind *kind,
-                           const Element *row, const double *x)
-{
-    const SelfContact *self = self_contact_of(system);
-    const Contact *contact = contact_of(system);
-    if (kind == &friction_energy) {
-        const Barrier *barrier = &contact->barrier;
-        double s = exact_gap(system, x, row->node[0], row->from);
-        s /= barrier->d_hat;
-        return barrier->c / barrier->d_hat * -(log(s) + 1 - 1 / s);
-    }
-    double q[2], e[2];
-    for (int c = 0; c < 2; c++) {
-        q[c] = x[2 * row->node[0] + c] - x[2 * row->node[1] + c];
-        e[c] = x[2 * row->node[2] + c] - x[2 * row->node[1] + c];
-    }
-    double r = (q[0] * e[0] + q[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]);
-    r = fmin(fmax(r, 0), 1);
-    double d = hypot(q[0] - r * e[0], q[1] - r * e[1]) / self->d_hat;
-    return self->c / self->d_hat * 2 * d * -(2 * log(d) + 1 - 1 / (d * d));
-}
-
-/* One after the other is the only contact: what it does to its node is at most
- * mu lambda, and takes energy away.  1e-9: rounding of gaps, of lambda. */
-static int check_cone(System *system, const TermKind *kind, double mu,
-                      const double *x_n, const double *x)
-{
-    Place at = place_at(system, x_n, NULL, x);
-    at.term = system_find_term(system, kind);
-    Friction *friction = at.term ? at.term->data : NULL;
-    int size = 2 * system->nodes, slides = friction ? friction->slides : 0;
-    double *u = malloc(2 * (size_t)size * sizeof *u), *g = u + size;
-    CHECK(u != NULL);
-    for (int i = 0; i < size; i++)
-        u[i] = x[i] - x_n[i];
-    at.u = u;
-    for (int k = 0; k < slides; k++) {
-        Slide first = friction->slide[0];
-        const Element *row = &friction->slide[k].row;
-        double lambda = normal_force(system, kind, row, x_n), work = 0;
-        const double *force = g + 2 * row->node[0];
-        memset(g, 0, (size_t)size * sizeof *g);
-        friction->slide[0] = friction->slide[k];
-        friction->slides = 1;
-        kind->gradient(&at, g);
-        friction->slide[0] = first;
-        friction->slides = slides;
-        for (int i = 0; i < size; i++)
-            work -= g[i] * u[i];
-        CHECK(hypot(force[0], force[1]) <= mu * lambda * (1 + 1e-9));
-        CHECK(work <= 0);
-    }
-    free(u);
-    return slides;
-}
-
-TEST(friction_stays_in_its_cone_and_takes_energy)
-{
-    static const char *const lines[] = {
-        "rub", "stack --segments 3",
-        ("--segments 3 --self-contact on --body 0,0 --body 0.2,1.2,5,1,-2 "
-         "--friction 0.4 --ground 0,1,0,-0.6 --gravity 9.81 --timestep 0.01")};
-    for (int i = 0; i < 3; i++) {
-        Simulation *scene = simulate("%s", lines[i]);
-        System *system = &scene->system;
-        const double *x = scene->run[0].x;
-        double x_n[512], mu = i ? 0.4 : 0.2;
-        int slides = 0;
-        CHECK(system->nodes <= 256);
-        for (int step = 0; step < 60; step++) {
-            memcpy(x_n, x, 2 * (size_t)system->nodes * sizeof *x);
-            make_steps(scene, 1);
-            slides += check_cone(system, &friction_energy, mu, x_n, x) +
-                      check_cone(system, &self_friction_energy, mu, x_n, x);
-        }
-        CHECK(slides > 100);
     }
 }
 
