@@ -374,48 +374,6 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     CHECK(!grown);
 }
 
-/* Whether a point and an edge that it is no end of come nearer than two margins
- * in both coordinates, looked at one by one. */
-static bool are_near(const double *x, int p, const int end[2], double margin)
-{
-    bool near = p != end[0] && p != end[1];
-    for (int c = 0; c < 2; c++) {
-        double at = x[2 * p + c], a = x[2 * end[0] + c], b = x[2 * end[1] + c];
-        near = near && fmin(a, b) - margin <= at + margin &&
-               fmax(a, b) + margin >= at - margin;
-    }
-    return near;
-}
-
-/* Wherever nodes have gone since the last time, and along which axis. */
-TEST(the_sweep_finds_all_that_is_near)
-{
-    Simulation *scene = simulate("stack --segments 8");
-    const System *system = &scene->system;
-    Boundary *boundary = &self_contact_of(system)->boundary;
-    double x[2 * 3 * 81], margin = 0.01;
-    Random random = {7};
-    CHECK(system->nodes == 3 * 81);
-    for (int round = 0; round < 20; round++) {
-        long found = 0, expected = 0;
-        int place = 0;
-        for (int i = 0; i < 2 * system->nodes; i++)
-            x[i] = random_uniform(&random, -1, 1) * (1 + (i + round) % 2);
-        boundary_sort(boundary, system, x, NULL, 0, margin);
-        for (int i = 0; i < boundary->points; i++) {
-            int p = boundary->point[i], edge;
-            while ((edge = boundary_next(boundary, system, i, &place)) >= 0) {
-                CHECK(are_near(x, p, system->e + 2 * edge, margin));
-                found++;
-            }
-            for (int k = 0; k < boundary->edges; k++)
-                expected += are_near(
-                    x, p, system->e + 2 * boundary->box[k].edge, margin);
-        }
-        CHECK(found == expected && found > 500);
-    }
-}
-
 /* Pinned all over, one is moved down on the other, 0.2 m below it. */
 TEST(a_body_that_is_pushed_stops_at_another)
 {
