@@ -104,11 +104,11 @@ Energies simulation_energies(const Simulation *simulation, int run);
 bool simulation_is_loose(const Simulation *simulation, double *needed);
 
 /* Whether the body of run 0, which stands still, is at rest: the forces on it
- * balance within a hundredth of the shortest spring's length
- * (time_integrator_balances).  That a step needs no update does not tell: the
- * tolerance is a velocity and lets pass every p below h tolerance, which may be
- * metres, and every acceleration below tolerance / h.  False, too, where only a
- * smaller tolerance shows that friction holds, or memory is missing. */
+ * balance within a hundredth of the shortest spring's length.  That a step
+ * needs no update does not tell: the tolerance is a velocity and lets pass
+ * every p below h tolerance, which may be metres, and every acceleration below
+ * tolerance / h.  False, too, where only a smaller tolerance shows that
+ * friction holds, or memory is missing. */
 bool simulation_rests(const Simulation *simulation);
 
 /* Sum over the runs of what Newton did; zero where all are explicit. */

@@ -94,15 +94,4 @@ Status time_integrator_iterate(TimeIntegrator *run);
 /* A whole step.  Returns as time_integrator_iterate at its end. */
 Status time_integrator_step(TimeIntegrator *run);
 
-/* Whether the forces at x balance: whether the test of Algorithm 3 would be
- * passed by a step from rest that is so long that the masses hardly count.  Its
- * direction, p = (M/T^2 + H_P)^-1 f with the forces f, is how far the nodes are
- * from where f vanishes; T^2 = 1e10 m / curvature of P is the longest for which
- * p has its digits.  h is not in it, nor the tolerance.
- *   distance  m, the test lets pass
- *   balances  out; true also where the balance is unstable
- * Returns OK, or a failure. */
-Status time_integrator_balances(const TimeIntegrator *run, double distance,
-                                bool *balances);
-
 #endif

@@ -1,6 +1,5 @@
 #include "model/damping.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "model/mass_spring_energy.h"

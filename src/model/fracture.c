@@ -1,6 +1,5 @@
 #include "model/fracture.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>

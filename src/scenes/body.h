@@ -4,8 +4,6 @@
 #ifndef ELASTO_BODY_H
 #define ELASTO_BODY_H
 
-#include <stddef.h>
-
 #include "model/contact.h"
 #include "scenes/one_line.h"
 #include "scenes/simulation.h"
