@@ -122,17 +122,4 @@ Status recording_close(Recording *recording);
 Status png_file_write(const char *name, const Canvas *canvas);
 Status png_write(FILE *file, const Canvas *canvas, bool small);
 
-/* One step for ParaView, whole or not at all (output.h): points are the nodes
- * of all runs, in the order of the states, with velocity (m/s) and run; cells
- * are the springs that are whole and the triangles whose sides are
- * (square_mesh_is_half), with a strain: Green's |d|^2/l2 - 1, of a triangle
- * what its area has grown by, as a part.  `count` simulations as they are.
- * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
-Status vtk_write(const char *name, const Simulation *const *simulation,
-                 int count);
-
-/* The file's name in a folder: "step_000012.vtu". */
-enum { VTK_NAME_SIZE = 32 };
-void vtk_name(long step, char name[VTK_NAME_SIZE]);
-
 #endif

@@ -20,7 +20,7 @@ enum { TABLE_COLUMNS = 32, TABLE_LETTERS = 16 }; /* at most */
 
 /* Writes all rows of a table as a file of another kind. */
 typedef void TableFormat(const Table *table, FILE *file);
-TableFormat npz_write, pvd_write;
+TableFormat pvd_write; /* of recording.c */
 
 struct Table {
     Output output;

@@ -87,6 +87,20 @@ Status player_write_rest(Player *player);
 
 /* ---- change.c ------------------------------------------------------------ */
 
+/* The options of a scene or, where it has one, of a page: those of the command
+ * line where it was called for, else its own.  count out: of panes. */
+Status player_own_options(Player *player, const char *scene,
+                          const LecturePage *page, Options *options,
+                          int *count);
+
+/* Whether the page in the window waits for a guess; what it asks for is shown
+ * from now on, beside the number that was typed, or NULL. */
+bool player_veils(const Player *player);
+Status player_unveil(Player *player, const char *typed);
+
+/* Commands with a ; between them, which are undone at once; NULL: none. */
+Status player_obey_lines(Player *player, const char *lines);
+
 /* Whether the panes have different values of this option. */
 bool player_compares(const Player *player, const OptionRow *row);
 
@@ -101,22 +115,6 @@ Status player_pace(Player *player, const OptionRow *row, int paces);
 
 /* Why a number has no meaning now; NULL: it has one. */
 const char *player_idle(const Player *player, const OptionRow *row);
-
-/* ---- begin.c ------------------------------------------------------------- */
-
-/* The options of a scene or, where it has one, of a page: those of the command
- * line where it was called for, else its own.  count out: of panes. */
-Status player_own_options(Player *player, const char *scene,
-                          const LecturePage *page, Options *options,
-                          int *count);
-
-/* Whether the page in the window waits for a guess; what it asks for is shown
- * from now on, beside the number that was typed, or NULL. */
-bool player_veils(const Player *player);
-Status player_unveil(Player *player, const char *typed);
-
-/* Commands with a ; between them, which are undone at once; NULL: none. */
-Status player_obey_lines(Player *player, const char *lines);
 
 /* ---- screen.c ------------------------------------------------------------ */
 
