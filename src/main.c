@@ -43,20 +43,15 @@ static void handle_signals(void)
     sigaction(SIGXFSZ, &action, NULL);
 }
 
-/* Standard streams that are closed must not become those of other files:
- * reading only, so that writing to them still fails. */
-static void hold_standard_streams(void)
+/* Standard streams that are closed must not become those of other files: they
+ * are open for reading only, so that writing to them still fails. */
+int main(int argc, char **argv)
 {
     int file = 0;
     while (file >= 0 && file <= STDERR_FILENO)
         file = open("/dev/null", O_RDONLY);
     if (file > STDERR_FILENO)
         close(file);
-}
-
-int main(int argc, char **argv)
-{
-    hold_standard_streams();
     handle_signals();
     int code = program_begin(argc, argv, &main_stop, &main_player);
     if (code == PROGRAM_PLAYS)

@@ -289,12 +289,14 @@ void player_label_panes(Player *player)
     }
 }
 
-/* "step 12 of 40   t = 0.24 s   2 steps a frame" */
+/* "step 12 of 40   t = 0.24 s   2 steps a frame", and what time does; a long
+ * step says so, and how to stop it. */
 static void fill_time(Player *player)
 {
-    char *text = player->show.time_text;
+    Show *show = &player->show;
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
+    char *text = show->time_text;
     double time = 0; /* that of panes that have ended stands still */
     for (int p = 0; p < past_panes(past); p++)
         time = fmax(time, simulation_time(&past->machine[p].simulation));
@@ -308,26 +310,19 @@ static void fill_time(Player *player)
     snprintf(text, SHOW_TEXT, "%s %ld", turn ? turn : "step", past->step);
     if (past_newest(past) > past->step)
         append(text, SHOW_TEXT, " of %ld", past_newest(past));
-    if (turn)
-        return;
-    append(text, SHOW_TEXT, "   t = %.4g s", time);
-    if (player->speed != 0)
+    if (!turn)
+        append(text, SHOW_TEXT, "   t = %.4g s", time);
+    if (!turn && player->speed != 0)
         append(text, SHOW_TEXT, "   %.4g steps a frame",
                ldexp(1, player->speed));
-}
-
-/* What time does; a long step says so, and how to stop it. */
-static void fill_state(Player *player)
-{
-    Show *show = &player->show;
-    const char *state = player->mode == MODE_HELD   ? "within \u03b5"
-                        : player->mode == MODE_REST ? "at rest"
-                                                    : "";
     show->paused = player_stands(player);
-    if (!show->paused && player->rigid >= DRIFT_STEPS)
-        state = "drifting";
-    snprintf(show->state, SHOW_VALUE, "%s", state);
-    if (!player->past.making ||
+    bool drifts = !show->paused && player->rigid >= DRIFT_STEPS;
+    snprintf(show->state, SHOW_VALUE, "%s",
+             player->mode == MODE_HELD   ? "within \u03b5"
+             : player->mode == MODE_REST ? "at rest"
+             : drifts                    ? "drifting"
+                                         : "");
+    if (!past->making ||
         (clock_now() - player->began <= LONG_WORK && !player_is_slow(player)))
         return;
     snprintf(show->sentence, SHOW_TEXT,
@@ -355,14 +350,13 @@ void player_fill(Player *player)
     show->over = over;
     show->held = held;
     show->chosen = chosen;
-    fill_state(player);
+    fill_time(player);
     fill_settings(player);
     fill_chips(player);
     if (control->hand >= 0 && player->side[player->active].place < 0)
         show->hand = control;
     show->along = player->past.along;
     show->along_nodes = player->past.along_nodes;
-    fill_time(player);
     show->bars = player->past.keeps ? past_newest(&player->past) : 0;
     show->bar = bar_of;
     show->past = player;

@@ -568,12 +568,19 @@ static Status go_on(Past *past, int pane, Status status)
     return more ? STATUS_RUNNING : arrive(past, pane);
 }
 
-/* One step of the simulation begins, where the pane makes any. */
-static Status begin_step(Past *past, int pane)
+/* The next iteration of this pane; or one step of the simulation begins, where
+ * the pane makes any. */
+static Status work_on(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
     const Entry *from = past_entry(past, pane, machine->step);
     const Entry *to = past_entry(past, pane, machine->step + 1);
+    const Newton *newton = listened_to(&machine->simulation);
+    if (machine->iterating) {
+        if (newton && past->keeps)
+            rounds_look(&machine->rounds, newton);
+        return go_on(past, pane, simulation_iterate(&machine->simulation));
+    }
     if (machine->substeps == 0) {
         machine->outcome = (Outcome){0};
         forget_step(machine);
@@ -589,18 +596,6 @@ static Status begin_step(Past *past, int pane)
     machine->before = machine->simulation.steps;
     machine->iterating = true;
     return go_on(past, pane, simulation_begin(&machine->simulation));
-}
-
-/* The next iteration of this pane. */
-static Status work_on(Past *past, int pane)
-{
-    Machine *machine = &past->machine[pane];
-    if (!machine->iterating)
-        return begin_step(past, pane);
-    const Newton *newton = listened_to(&machine->simulation);
-    if (newton && past->keeps)
-        rounds_look(&machine->rounds, newton);
-    return go_on(past, pane, simulation_iterate(&machine->simulation));
 }
 
 /* ---- work ---------------------------------------------------------------- */
