@@ -238,7 +238,9 @@ void law_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "bodies apart", self);
     double ends[2][2];
     fact_when(facts, law->name, is_there && !still);
-    fact_when(facts, "one way", flowed_one_way(&now, ends[0], ends[1]));
+    fact_words(facts, "its way",
+               flowed_one_way(&now, ends[0], ends[1]) ? "; violet: its way"
+                                                      : "");
     if (has_gap(law)) {
         const System *system = now.at.system;
         fact(facts, "c",

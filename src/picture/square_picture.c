@@ -237,7 +237,8 @@ static void draw_colours(const SpringPen *pen)
 {
     double percent = 100 * pen->range;
     if (pen->plastic) {
-        plot_legend(pen->stage, COLOUR_PLASTIC, "plastic strain up to %s %%",
+        plot_legend(pen->stage, COLOUR_PLASTIC,
+                    "plastic strain; darkest from %s %% on",
                     number_of(percent).text);
         return;
     }

@@ -1004,7 +1004,7 @@ TEST(claim_friction)
 
 TEST(claim_inelastic)
 {
-    says("inelastic", "0.04 0.1 4 1.5 1 8225 8000 60 0.98 300 0.05");
+    says("inelastic", "0.04 0.1 4 1.5 60 1 8000 60 0.98 300 0.05");
     double nearest = 1, most = 0;
     Simulation *simulation = open_page("inelastic", "");
     double start = simulation_energies(simulation, 0).total;
@@ -1130,7 +1130,7 @@ TEST(claim_bodies)
 
 TEST(claim_rub)
 {
-    says("rub", "20 1 0.2 2 2 0.6 100 1 0.6");
+    says("rub", "20 1 0.2 2 0.6 100 1 0.6");
     CHECK(open_page("rub", "")->options.barrier[0] == 0.02);
     for (int i = 0; i < 2; i++) {
         double x[2], rigid = 1 / (2 * (i ? 0.6 : 0.2) * 9.81);
@@ -1141,8 +1141,9 @@ TEST(claim_rub)
 
 TEST(claim_gap)
 {
-    says("gap", "0.5 0.3 20 000 0.1 462 20 36 259 978 36 462 20 259 978 100 "
-                "200000");
+    says("gap",
+         "0.5 0.3 20 000 0.1 462 20 36 259 978 200 000 36 462 20 259 978 100 "
+         "200000");
     for (int i = 0; i < 2; i++) {
         double x[2];
         middle_of(bodies_after("gap", i ? "--young 200000" : "", 100), 0, x);
