@@ -231,11 +231,11 @@ void budget_draw(const Plot *card)
         all.value += row->value;
     }
     double ends[3] = {0, all.value, fmax(all.value, 1e-300)};
-    draw_bar(card, 0, rows + 1, ends, &all, colour_of_energy("total"));
+    draw_bar(card, 0, rows + 1, ends, &all, colour_of("total"));
     for (int i = 0; i < rows; i++) {
         ends[1] = (i ? ends[1] : 0) + shown[i]->value;
         draw_bar(card, i + 1, rows + 1, ends, shown[i],
-                 colour_of_energy(shown[i]->name));
+                 colour_of(shown[i]->name));
         ends[0] = ends[1];
     }
 }
