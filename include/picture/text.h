@@ -4,7 +4,7 @@
  * costs as much as its pixels.  Texts are UTF-8.  Marks such as U+0303 stand
  * over the middle of the letter before them.  In markup
  *     ^{...} _{...}            are superscripts and subscripts,
- *     frac{a over b} sqrt{a}   a fraction, a root,
+ *     frac{a over b}           a fraction,
  *     matrix{a & b; c & d}     a matrix in brackets, row by row,
  *     #p{...}                  what has the colour of this name (colour_map.h),
  *     {x} {xt} {p} {alpha}     the slides' letters in theirs (xt: x with a

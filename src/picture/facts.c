@@ -158,34 +158,38 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     }
 }
 
-/* What is known of a pane, whose update is known, and what its picture knows
- * beside that; facts out. */
-static void facts_of(const Show *show, int pane, Facts *facts)
+void show_know(Show *show)
 {
     static const char *const lines[LINE_COUNT] = {"",       "line 1", "line 2",
                                                   "line 3", "line 4", "line 5",
                                                   "line 6", "line 7", "line 8"};
-    const Pane *now = &show->pane[pane];
-    const Simulation *simulation = now->simulation;
-    const Picture *picture = picture_of(simulation->scene);
-    Line line = now->trace ? now->trace->line : LINE_NONE;
-    bool whole = !line || now->trace->given_up;
-    facts->count = facts->run = 0;
-    for (int run = 0; run <= FACTS_RUNS; run++)
-        facts->colour[run] = COLOUR_TEXT;
-    add_settings(show, simulation, facts);
-    if (whole && now->trouble && now->trouble != STATUS_INTERRUPTED) {
-        fact_words(facts, status_name(now->trouble), "");
-        fact_words(facts, "trouble", status_text(now->trouble));
-    }
     const char *cards = show->lecture ? show->lecture->cards : "listing";
-    if (strstr(cards, "listing") || strstr(cards, "line")) /* they are seen */
-        fact_when(facts, lines[line], line);
-    fact_when(facts, "no step", !now->update);
-    if (now->update)
-        add_trace(simulation, now->update, facts);
-    if (picture->facts && (pane == show->active || picture->legend))
-        picture->facts(simulation, facts); /* of others legends are read */
+    bool walks = strstr(cards, "listing") || strstr(cards, "line");
+    for (int i = 0; i < show->panes; i++) {
+        Pane *now = &show->pane[i];
+        Facts *facts = &now->facts;
+        const Simulation *simulation = now->simulation;
+        const Picture *picture = picture_of(simulation->scene);
+        Line line = now->trace ? now->trace->line : LINE_NONE;
+        now->update = now->trace;
+        if (!now->trace && simulation->scene->step == step_descent)
+            now->update = descent_trace(simulation, &now->descent);
+        facts->count = facts->run = 0;
+        for (int run = 0; run <= FACTS_RUNS; run++)
+            facts->colour[run] = COLOUR_TEXT;
+        add_settings(show, simulation, facts);
+        if ((!line || now->trace->given_up) && now->trouble &&
+            now->trouble != STATUS_INTERRUPTED) {
+            fact_words(facts, status_name(now->trouble), "");
+            fact_words(facts, "trouble", status_text(now->trouble));
+        }
+        fact_when(facts, lines[line], walks && line);
+        fact_when(facts, "no step", !now->update);
+        if (now->update)
+            add_trace(simulation, now->update, facts);
+        if (picture->facts && (i == show->active || picture->legend))
+            picture->facts(simulation, facts); /* of others legends are read */
+    }
 }
 
 /* ---- texts --------------------------------------------------------------- */
@@ -373,18 +377,6 @@ static void say(const Show *show, const char *text, char *out, size_t size)
     if (!out[0])
         snprintf(out, size, "%.*s", (int)size - 1,
                  text_first(&show_pane(show)->facts, text).words);
-}
-
-void show_know(Show *show)
-{
-    for (int i = 0; i < show->panes; i++) {
-        Pane *pane = &show->pane[i];
-        bool descends = pane->simulation->scene->step == step_descent;
-        pane->update = pane->trace || !descends
-                           ? pane->trace
-                           : descent_trace(pane->simulation, &pane->descent);
-        facts_of(show, i, &pane->facts);
-    }
 }
 
 void show_describe(Show *show)

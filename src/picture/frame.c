@@ -112,15 +112,23 @@ long frame_span(const Show *show)
 }
 
 /* Bars of single steps, or of the most in a group where there is no room for
- * all. */
-static void draw_bars(Paper *paper, Box bars, const Show *show)
+ * all; the handle at the step that is shown, its words beside it. */
+static void draw_time(Paper *paper, const Layout *layout, const Show *show)
 {
+    Box zone = layout->time, bars = layout->bars;
+    double em = paper->em, part = (show->step - 0.5) / frame_span(show);
     double pitch = (double)bars.width / frame_span(show);
     long group = (long)ceil(LEAST_BAR / pitch), most = MOST_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
-    for (long s = 1; s <= show->bars; s++)
+    bool words = zone.height > 3.5 * em;
+    double x = floor(bars.x + fmax(part, 0) * bars.width) + 0.5;
+    double top = zone.y + (words ? 1.1 : 0.5) * em, at = x + 1.1 * em;
+    if (zone.width <= 0)
+        return;
+    draw_ground(paper, zone, false);
+    for (long s = 1; show->bar && s <= show->bars; s++)
         most = (long)fmax(most, show->bar(show->past, s).updates);
-    for (long s = 0; s < show->bars; s += group) {
+    for (long s = 0; show->bar && s < show->bars; s += group) {
         StepBar bar = {0, false};
         for (long k = s; k < s + group && k < show->bars; k++) {
             StepBar one = show->bar(show->past, k + 1);
@@ -137,21 +145,6 @@ static void draw_bars(Paper *paper, Box bars, const Show *show)
                     : show->step > s && show->step <= s + group ? COLOUR_VALUE
                                                                 : COLOUR_BAR);
     }
-}
-
-/* The handle at the step that is shown, its words beside it. */
-static void draw_time(Paper *paper, const Layout *layout, const Show *show)
-{
-    Box zone = layout->time, bars = layout->bars;
-    double em = paper->em, part = (show->step - 0.5) / frame_span(show);
-    bool words = zone.height > 3.5 * em;
-    double x = floor(bars.x + fmax(part, 0) * bars.width) + 0.5;
-    double top = zone.y + (words ? 1.1 : 0.5) * em, at = x + 1.1 * em;
-    if (zone.width <= 0)
-        return;
-    draw_ground(paper, zone, false);
-    if (show->bar)
-        draw_bars(paper, bars, show);
     canvas_line(&paper->canvas, x, top, x, bars.y + bars.height + 0.2 * em,
                 2 * paper->unit, COLOUR_TEXT);
     canvas_disc(&paper->canvas, x, top, (words ? 7 : 5) * paper->unit,

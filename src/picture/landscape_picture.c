@@ -61,22 +61,26 @@ static void draw_ground(const Plot *plot)
         }
 }
 
-/* The map as it was kept, or drawn and kept. */
-static void show_map(const Plot *plot)
+/* The map as it was kept, or drawn and kept; the springs, the pins and x_tilde.
+ */
+static Plot draw_map(const Plot *stage)
 {
-    const Simulation *simulation = plot->simulation;
+    const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     const Exhibit *exhibit = &simulation->exhibit;
-    const Camera *camera = &plot->camera;
     const double *x = simulation->run[0].x;
-    Paper *paper = plot->paper, small = *paper;
-    Plot map = *plot;
+    Plot plot = plot_on(stage, (Axis){.label = "x in m"}, (Axis){0});
+    Plot map = plot;
+    const Camera *camera = &plot.camera;
+    Paper *paper = plot.paper, small = *paper;
+    const Box box = plot.box;
+    bool elastic = exhibit->parts != PART_INERTIA;
     const double of[PAPER_MAP_OF] = {camera->scale[0],
                                      camera->scale[1],
                                      camera->origin[0],
                                      camera->origin[1],
-                                     plot->box.width,
-                                     plot->box.height,
+                                     box.width,
+                                     box.height,
                                      system->k[0],
                                      system->l2[0],
                                      system->m[0],
@@ -91,33 +95,24 @@ static void show_map(const Plot *plot)
     if (memcmp(paper->map_of, of, sizeof of) != 0) {
         memset(paper->map_of, 0, sizeof of);
         canvas_free(&paper->map);
-        if (canvas_create(plot->box.width, plot->box.height, &paper->map))
-            return;
+    }
+    if (!paper->map.pixels &&
+        canvas_create(box.width, box.height, &paper->map) == STATUS_OK) {
         small.canvas = paper->map;
         map.paper = &small;
         map.box.x = map.box.y = 0;
-        map.camera.origin[0] -= plot->box.x;
-        map.camera.origin[1] -= plot->box.y;
+        map.camera.origin[0] -= box.x;
+        map.camera.origin[1] -= box.y;
         draw_ground(&map);
         memcpy(paper->map_of, of, sizeof of);
     }
-    canvas_copy(&paper->canvas, &paper->map, plot->box.x, plot->box.y);
-}
-
-/* The map, the springs, the pins and x_tilde. */
-static Plot draw_map(const Plot *stage)
-{
-    const Simulation *simulation = stage->simulation;
-    const System *system = &simulation->system;
-    const double *x = simulation->run[0].x;
-    Plot plot = plot_on(stage, (Axis){.label = "x in m"}, (Axis){0});
-    show_map(&plot);
-    bool elastic = simulation->exhibit.parts != PART_INERTIA;
+    if (paper->map.pixels)
+        canvas_copy(&paper->canvas, &paper->map, box.x, box.y);
     if (elastic)
         plot_springs(&plot, system, x, 3.5, COLOUR_REST);
     for (int i = 1; i < system->nodes && elastic; i++)
         plot_pin(&plot, x + 2 * i, 5);
-    plot_disc(&plot, simulation->exhibit.target, 6, COLOUR_X_TILDE);
+    plot_disc(&plot, exhibit->target, 6, COLOUR_X_TILDE);
     return plot;
 }
 

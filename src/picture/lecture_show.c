@@ -64,39 +64,33 @@ static int count_asides(const char *const *line)
     return 0;
 }
 
-/* A function's lines, behind those of the one before, as many as there is room
- * for. */
-static void add_function(const Listing *listing, const char *name,
-                         const char *text, Page *code)
-{
-    int from, at, to;
-    if (!listing_function(listing, name, &from, &at, &to))
-        return;
-    if (code->lines > 0 && code->lines < SHOW_CODE_LINES)
-        code->line[code->lines++] = "";
-    while (at < to && code->lines < SHOW_CODE_LINES) {
-        int asides = count_asides(listing->line + at);
-        bool begins = code->lines > 0 && code->line[code->lines - 1][0] == '{';
-        at += asides;
-        at += begins && !listing->line[at][0];
-        if (asides > 0)
-            continue;
-        code->lit[code->lines] = strstr(listing->line[at], text) != NULL;
-        code->line[code->lines++] = listing->line[at++];
-    }
-}
-
+/* The lines of the page's functions, as many as there is room for. */
 static void fill_code(const LecturePage *page, Show *show)
 {
     const Listing *listing = listing_find(page->file);
     const char *text = lit_text(show, page);
-    show->page = (Page){.kind = PAGE_CODE, .title = page->file};
-    for (const char *at = page->function; listing && *at;) {
+    Page *code = &show->page;
+    *code = (Page){.kind = PAGE_CODE, .title = page->file};
+    for (const char *names = page->function; listing && *names;) {
         char name[40];
-        int length = (int)strcspn(at, ",");
-        snprintf(name, sizeof name, "%.*s", length, at);
-        add_function(listing, name, text, &show->page);
-        at += length + (at[length] == ',');
+        int length = (int)strcspn(names, ","), from, at, to;
+        snprintf(name, sizeof name, "%.*s", length, names);
+        names += length + (names[length] == ',');
+        if (!listing_function(listing, name, &from, &at, &to))
+            continue;
+        if (code->lines > 0 && code->lines < SHOW_CODE_LINES)
+            code->line[code->lines++] = "";
+        while (at < to && code->lines < SHOW_CODE_LINES) {
+            int last = code->lines - 1, asides;
+            bool begins = last >= 0 && code->line[last][0] == '{';
+            asides = count_asides(listing->line + at);
+            at += asides;
+            at += begins && !listing->line[at][0];
+            if (asides > 0)
+                continue;
+            code->lit[code->lines] = strstr(listing->line[at], text) != NULL;
+            code->line[code->lines++] = listing->line[at++];
+        }
     }
 }
 

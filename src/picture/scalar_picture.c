@@ -87,16 +87,42 @@ static double iterate(const Descent *descent, int i)
 /* ---- a function, its model and the iterates --------------------------------
  */
 
-/* Rings where the line search looked and went on; discs on the curve, the last
- * one is black, with their numbers below and above in turn, unless there is no
- * room beside the one before. */
-static void draw_iterates(const Plot *plot, const Update *update,
-                          double (*curve)(const void *, double))
+/* The model of E or its tangent, its minimum or zero, and from there the way to
+ * the curve, where the full step leads. */
+static void draw_model(const Plot *plot, const Update *update, bool slopes,
+                       double width, double radius, Colour colour)
 {
+    double (*curve)(const void *, double) = slopes ? slope_at : value_at;
+    double (*near)(const void *, double) = slopes ? tangent_at : model_at;
+    const double low[2] = {update->x1, near(update, update->x1)};
+    const double high[2] = {update->x1, curve(update, update->x1)};
+    plot_graph(plot, near, update, width, colour);
+    plot_line(plot, low, high, 1.2, colour);
+    plot_hollow(plot, low, radius, 0.6 * radius, COLOUR_P);
+}
+
+/* E or its slope, and its model, if that is to be seen.  Rings where the line
+ * search looked and went on; discs on the curve, the last one is black, with
+ * their numbers below and above in turn, unless there is no room beside the one
+ * before. */
+static void draw_search(const Plot *plot, const Update *update, bool slopes,
+                        bool model)
+{
+    double (*curve)(const void *, double) = slopes ? slope_at : value_at;
     const Descent *descent = &update->simulation->descent;
-    double used[2] = {-1e9, -1e9}, alpha = 1, p[2];
+    double x1 = update->x1, used[2] = {-1e9, -1e9}, alpha = 1, p[2];
+    bool right = x1 > plot->x.high, left = x1 < plot->x.low;
+    plot_graph(plot, curve, update, 2.4, COLOUR_X);
+    if (model)
+        draw_model(plot, update, slopes, 1.6, 6, COLOUR_P);
+    const double edge[2] = {right ? plot->x.high : plot->x.low,
+                            0.2 * plot->y.low};
+    if (model && !slopes && isfinite(x1) && (left || right))
+        plot_words(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
+                   right ? "" : "\u2190 ", number_of(x1).text,
+                   right ? " \u2192" : "");
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
-        double x = update->x0 + alpha * (update->x1 - update->x0);
+        double x = update->x0 + alpha * (x1 - update->x0);
         plot_hollow(plot, (double[2]){x, curve(update, x)}, 5, 3.2,
                     COLOUR_WARNING);
     }
@@ -112,39 +138,6 @@ static void draw_iterates(const Plot *plot, const Update *update,
         used[i % 2] = p[0];
         plot_words(plot, 1, at, colour, "x^{%d}", i);
     }
-}
-
-/* The model of E or its tangent, its minimum or zero, and from there the way to
- * the curve, where the full step leads. */
-static void draw_model(const Plot *plot, const Update *update, bool slopes,
-                       double width, double radius, Colour colour)
-{
-    double (*curve)(const void *, double) = slopes ? slope_at : value_at;
-    double (*near)(const void *, double) = slopes ? tangent_at : model_at;
-    const double low[2] = {update->x1, near(update, update->x1)};
-    const double high[2] = {update->x1, curve(update, update->x1)};
-    plot_graph(plot, near, update, width, colour);
-    plot_line(plot, low, high, 1.2, colour);
-    plot_hollow(plot, low, radius, 0.6 * radius, COLOUR_P);
-}
-
-/* E or its slope, and its model, if that is to be seen. */
-static void draw_search(const Plot *plot, const Update *update, bool slopes,
-                        bool model)
-{
-    double (*curve)(const void *, double) = slopes ? slope_at : value_at;
-    double x1 = update->x1;
-    bool right = x1 > plot->x.high, left = x1 < plot->x.low;
-    plot_graph(plot, curve, update, 2.4, COLOUR_X);
-    if (model)
-        draw_model(plot, update, slopes, 1.6, 6, COLOUR_P);
-    const double edge[2] = {right ? plot->x.high : plot->x.low,
-                            0.2 * plot->y.low};
-    if (model && !slopes && isfinite(x1) && (left || right))
-        plot_words(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
-                   right ? "" : "\u2190 ", number_of(x1).text,
-                   right ? " \u2192" : "");
-    draw_iterates(plot, update, curve);
 }
 
 /* Below all, pale, the models of the whole updates before the last one, and

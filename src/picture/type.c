@@ -186,20 +186,6 @@ static void set_fraction(Pen *pen, Part part, int depth)
     pen->x = left + wide + thin;
 }
 
-static void set_root(Pen *pen, Part part, int depth)
-{
-    TextExtent in = measure(pen, part, depth);
-    double em = pen->style.size, x = pen->x + 0.1 * em;
-    double top = floor(pen->y - in.above - THIN * em) + 0.5;
-    double low = pen->y + 0.6 * in.below, inside = x + 0.6 * em;
-    set_rule(pen, x, pen->y - 0.3 * em, x + 0.2 * em, low);
-    set_rule(pen, x + 0.2 * em, low, x + 0.5 * em, top);
-    set_rule(pen, x + 0.5 * em, top, inside + in.width + THIN * em, top);
-    set_at(pen, inside, pen->y, part, depth);
-    reach(pen, top, low);
-    pen->x = inside + in.width + 2 * THIN * em;
-}
-
 /* The next cell of a matrix, without blanks around it; moves `at` behind it.
  * Returns whether it is the last one of its row. */
 static bool next_cell(const char **at, const char *end, Part *cell)
@@ -263,8 +249,11 @@ static void set_matrix(Pen *pen, Part part, int depth)
 static const struct {
     const char *name;
     void (*set)(Pen *pen, Part part, int depth);
-} words[] = {{"^", set_raised},  {"_", set_raised},      {"frac", set_fraction},
-             {"sqrt", set_root}, {"matrix", set_matrix}, {"#", NULL}};
+} words[] = {{"^", set_raised},
+             {"_", set_raised},
+             {"frac", set_fraction},
+             {"matrix", set_matrix},
+             {"#", NULL}};
 
 /* The letters that have a colour. */
 static const struct {
