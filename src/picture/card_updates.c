@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/inertia_energy.h"
@@ -13,36 +14,69 @@ static int updates_made(const Trace *trace)
     return before ? trace->iteration : trace->updates;
 }
 
-/* E of masses and springs, J s^2. */
-static double value_at(const System *system, const Trace *trace,
-                       const double *x)
+/* E of masses and springs at x, J s^2: its parts, and their sum. */
+static void values_at(const System *system, const Trace *trace, const double *x,
+                      double value[3])
 {
-    return inertia_energy_value(system->nodes, x, trace->x_tilde, system->m) +
-           trace->h * trace->h * system_potential(system, x);
+    value[0] =
+        inertia_energy_value(system->nodes, x, trace->x_tilde, system->m);
+    value[1] = trace->h * trace->h * system_potential(system, x);
+    value[2] = value[0] + value[1];
 }
 
-/* From the start of the step on, a point an update; and how high x_tilde is. */
-void values_draw(const Plot *card)
+/* Along the line from x_tilde through x: why neither is lowest where one part
+ * is. */
+static void draw_way(const Plot *card, const System *system, const Trace *trace,
+                     const double *x)
 {
-    const Pane *pane = show_pane(card->show);
-    const Trace *trace = pane->trace;
-    const System *system = &card->simulation->system;
-    if (!trace || !trace->x_tilde) {
-        cards_hint(card, "N makes a step");
+    enum { POINTS = 39, AIM = 6, NOW = 26 }; /* t = 0, 1 */
+    static const int named[] = {18, 15, 34};
+    static const double lower[] = {1, 0.72, 1};
+    static const char *const names[] = {"inertia", "h\u00b2 P", "E"};
+    static const Colour colours[] = {COLOUR_X_TILDE, COLOUR_SHADED, COLOUR_X};
+    double t[POINTS], part[3][POINTS], value[3];
+    size_t count = 2 * (size_t)system->nodes;
+    double *at = malloc(count * sizeof *at);
+    if (!at)
         return;
+    for (int i = 0; i < POINTS; i++) {
+        t[i] = 0.05 * (i - AIM);
+        for (size_t c = 0; c < count; c++)
+            at[c] = trace->x_tilde[c] + t[i] * (x[c] - trace->x_tilde[c]);
+        values_at(system, trace, at, value);
+        for (int k = 0; k < 3; k++)
+            part[k][i] = value[k];
     }
+    free(at);
+    double high = fmax(part[2][AIM], part[2][NOW]);
+    Plot plot =
+        plot_create(card, (Axis){t[0], t[POINTS - 1], false, false, "t"},
+                    (Axis){0, 1.4 * high, false, false, "J s\u00b2"});
+    for (int k = 0; k < 3; k++)
+        plot_curve(&plot, POINTS, t, part[k], k < 2 ? 1.6 : 2.4, colours[k]);
+    for (int i = AIM; i <= NOW; i += NOW - AIM)
+        plot_disc(&plot, (double[2]){t[i], part[2][i]}, 5,
+                  colours[i > AIM ? 2 : 0]);
+    for (int i = AIM; i <= NOW; i += NOW - AIM)
+        plot_words(&plot, 1, (double[2]){t[i], part[2][i]},
+                   colours[i > AIM ? 2 : 0], i > AIM ? "{x}: %s" : "{xt}: %s",
+                   number_with(part[2][i], 4).text);
+    for (int k = 0; k < 3; k++)
+        plot_words(&plot, 1,
+                   (double[2]){t[named[k]], lower[k] * part[k][named[k]]},
+                   colours[k], "%s", names[k]);
+}
+
+/* From the start of the step on, a point an update. */
+static void draw_values(const Plot *card, const Trace *trace, double now)
+{
     int made = updates_made(trace);
-    double start = value_at(system, trace, pane_x(pane));
-    double aim = value_at(system, trace, trace->x_tilde);
+    double start = now;
     for (int i = 0; i < made; i++)
         start -= trace->record[i].change;
-    double right = fmax(made, 3) + 0.7;
     Plot plot = plot_create(
-        card, (Axis){-0.4, right, false, true, "update"},
-        (Axis){0, 1.3 * fmax(start, aim), false, false, "E, J s\u00b2"});
-    const double from[2] = {-0.4, aim}, to[2] = {right, aim};
-    const double told[2] = {0.5 * right, aim};
-    plot_dashes(&plot, from, to, 1.6, NULL, COLOUR_X_TILDE);
+        card, (Axis){-0.4, fmax(made, 3) + 0.7, false, true, "update"},
+        (Axis){0, 1.3 * start, false, false, "E, J s\u00b2"});
     for (int words = 0; words < 2; words++) { /* off all that is drawn */
         double at[2] = {0, start}, before[2];
         for (int i = 0; i <= made; i++) {
@@ -58,8 +92,29 @@ void values_draw(const Plot *card)
             plot_disc(&plot, at, 4.5, COLOUR_X);
         }
     }
-    plot_words(&plot, 1, told, COLOUR_X_TILDE, "at {xt}: %s",
-               number_with(aim, 4).text);
+}
+
+/* E of the step in two graphs; in a narrow card the first alone. */
+void values_draw(const Plot *card)
+{
+    const Pane *pane = show_pane(card->show);
+    const Trace *trace = pane->trace;
+    const System *system = &card->simulation->system;
+    double value[3];
+    Plot half = *card;
+    if (!trace || !trace->x_tilde) {
+        cards_hint(card, "N makes a step");
+        return;
+    }
+    bool wide = card->box.width > 36 * card->em;
+    half.box.width = (int)((wide ? 0.52 : 1) * card->box.width);
+    draw_way(&half, system, trace, pane_x(pane));
+    if (!wide)
+        return;
+    values_at(system, trace, pane_x(pane), value);
+    half.box.x = card->box.x + half.box.width + paper_pixels(card->paper, 1);
+    half.box.width = card->box.x + card->box.width - half.box.x;
+    draw_values(&half, trace, value[2]);
 }
 
 /* A row of the table, 0: its heads; with what is known at this line. */
