@@ -270,15 +270,18 @@ static void draw_arrows(const SpringPen *pen, const double *d, double factor,
     double longest = 1e-300, most = 0.9 * pen->simulation->mesh.spacing;
     for (int i = 0; i < nodes; i++)
         longest = fmax(longest, math_hypot(d[2 * i], d[2 * i + 1]));
-    if (factor == 0)
+    char scale[40] = "";
+    if (factor == 0) {
         factor = most / longest;
+        snprintf(scale, sizeof scale, ", at most %.0f N", longest);
+    }
     for (int i = 0; i < nodes; i++) {
         double length = math_hypot(d[2 * i], d[2 * i + 1]);
         plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i,
                    fmin(factor, most / fmax(length, 1e-300)), 2.6, colour);
     }
     plot_legend(pen->stage, colour, "%s%s", word,
-                factor * longest > 1.001 * most ? ", cut" : "");
+                factor * longest > 1.001 * most ? ", cut" : scale);
 }
 
 /* Where nodes that nobody has moved begin: the rest shape, stretched. */
@@ -305,7 +308,7 @@ static void draw_page_arrows(const SpringPen *pen)
             arrow[k] = pen->x[k] - arrow[k];
         draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
     }
-    if (!page->forces)
+    if (!page->forces || pen->show->veiled)
         return;
     system_acceleration(system, pen->x, arrow);
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -470,6 +473,23 @@ static void add_block(const Simulation *simulation, Facts *facts)
     fact_matrix(facts, names, H, 1e-7 * k);
 }
 
+/* The last node's force and acceleration, and how many nodes have none. */
+static void force_facts(const Simulation *simulation, const double *x,
+                        Facts *facts)
+{
+    int last = simulation->system.nodes - 1, balanced = 0;
+    double a[2 * NUMBERED] = {0}, m = simulation->system.m[last];
+    double *at = a + 2 * last;
+    system_acceleration(&simulation->system, x, a);
+    for (int i = 0; i <= last; i++) /* but for rounding */
+        balanced += math_hypot(a[2 * i], a[2 * i + 1]) <=
+                    1e-9 * math_hypot(at[0], at[1]);
+    fact_point(facts, "a", at);
+    fact_point(facts, "f", (double[2]){m * at[0], m * at[1]});
+    fact(facts, "last", last);
+    fact(facts, "balanced", balanced);
+}
+
 /* What pages say of the mesh, the Hessian and one row of M a = f. */
 void square_facts(const Simulation *simulation, Facts *facts)
 {
@@ -493,7 +513,6 @@ void square_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "masses", nodes);
     fact(facts, "mass", mass);
     fact(facts, "node mass", system->m[0]);
-    fact(facts, "middle", n % 2 ? NAN : (nodes - 1) / 2);
     fact(facts, "places", 4 * (nodes + 2.0 * system->springs));
     fact(facts, "short", shorter);
     fact(facts, "segments", n);
@@ -519,15 +538,8 @@ void square_facts(const Simulation *simulation, Facts *facts)
         fact(facts, t > 1 ? "h omega" : "short h omega", turn);
         fact(facts, "growth", t > 1 ? t + sqrt(t * t - 1) : NAN);
     }
-    if (page->forces && nodes <= NUMBERED) {
-        double a[2 * NUMBERED] = {0};
-        system_acceleration(system, x, a);
-        fact_point(facts, "a", a + 2 * (nodes - 1));
-        fact_point(facts, "f",
-                   (double[2]){system->m[nodes - 1] * a[2 * nodes - 2],
-                               system->m[nodes - 1] * a[2 * nodes - 1]});
-        fact(facts, "last", nodes - 1);
-    }
+    if (page->forces && nodes <= NUMBERED)
+        force_facts(simulation, x, facts);
 }
 
 /* All energies of the first run, J; cards leave out those that are 0. */

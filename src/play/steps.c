@@ -228,8 +228,8 @@ static void tell_rest(Player *player)
     }
     player_note(player,
                 folded ? "at rest, with folded cells: springs alone do "
-                         "not mind, --cells on forbids it; pull a node, or "
-                         "R begins again"
+                         "not mind, cells on (A) forbids it; pull a node, "
+                         "or R begins again"
                        : "at rest, as far as \u03b5 tells; pull a node, change "
                          "a number, or R begins again");
 }

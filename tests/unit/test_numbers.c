@@ -524,7 +524,6 @@ static void tell_page(const Simulation *simulation)
     is("masses", nodes);
     near("mass", system->nodes * (Real)system->m[0], 1e-9L * mass);
     is("node mass", system->m[0]);
-    is("middle", floorl((nodes - 1) / 2));
     is("places", 4 * (nodes + 2 * (Real)system->springs));
     is("short", shorter);
     int newest = (int)(simulation->steps % system->springs);
@@ -543,6 +542,10 @@ static void tell_page(const Simulation *simulation)
     if (size > UNKNOWNS)
         return;
     exact_derivatives(&E, NULL, x, g, H);
+    int balanced = 0;
+    for (int i = 0; i < size; i += 2)
+        balanced += hypotl(g[i], g[i + 1]) < 1e-8L;
+    is("balanced", balanced);
     for (int i = size - 2; i < size; i++) {
         near("f", -g[i], 1e-9L * (1 + fabsl(g[i])));
         near("a", -g[i] / system->m[i / 2], 1e-11L * (1 + fabsl(g[i])));
