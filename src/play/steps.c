@@ -151,7 +151,8 @@ Status player_begin(Player *player, const Options *options, int count,
     bool again = past->branches > 0;
     Status status = past_begin(past, options, count, player->gesture, edit);
     if (status) /* what was there before is going to be shown again */
-        return again ? player_refuse(player, status_text(status)) : status;
+        return again ? player_refuse(player, "%s", status_text(status))
+                     : status;
     player_leave_step(player);
     player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
     player->sampled = -1;
