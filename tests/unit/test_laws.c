@@ -324,9 +324,9 @@ TEST(the_ledger_adds_up)
                 Energies end = simulation_energies(scene, r);
                 double stored = OF(&end, elastic) + OF(&end, contact);
                 CHECK_NEAR(stored, exact_potential(it->system, it->x),
-                           1e-9 * (most + stored + 1));
+                           1e-12 * (most + stored + 1));
                 CHECK_NEAR(end.total, end.kinetic + end.gravity + stored,
-                           1e-9 * (most + stored + 1));
+                           1e-12 * (most + stored + 1));
                 sum[r] += dissipated_in(it, k, x, v, P) -
                           (OF(&end, plastic) - OF(&start, plastic)) -
                           (OF(&end, damping) - OF(&start, damping));

@@ -334,6 +334,7 @@ static void collect_facts(void)
     fact("state\t%s", text_or(show->state));
     fact("time\t%s", text_or(show->time_text));
     fact("sentence\t%s", text_or(show->sentence));
+    fact("method\t%s", text_or(show->method));
     collect_parts(show);
 }
 

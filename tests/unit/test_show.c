@@ -564,43 +564,6 @@ TEST(texts_say_what_is_known)
     }
 }
 
-/* The strip says where a search ended that found no minimum, and who makes the
- * steps. */
-TEST(ends_and_methods_have_their_names)
-{
-    static const struct {
-        const char *line, *sentence, *method;
-    } rows[] = {
-        {"landscape --start 0.05,-0.05 --filter none --line-search none",
-         "the gradient is 0, but this is a saddle", "Newton's method"},
-        {"landscape", "without projection Newton may go uphill; clamped, never",
-         "Newton's method"},
-        {"overshoot",
-         "it flies away: no curvature is left, so there is no next "
-         "step",
-         "Newton's method"},
-        {"race", "run time against error, measured now", "9 methods"},
-        {"slope", "three blocks, each with a friction of its own",
-         "backward Euler"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        stand_up(rows[i].line, 0);
-        while (simulation.scene->turn && !simulation.done)
-            simulation_step(&simulation);
-        show.pane[0].trouble = simulation.status;
-        show_describe(&show);
-        assert_string_equal(show.sentence, rows[i].sentence);
-        assert_string_equal(show.method, rows[i].method);
-    }
-    /* x = x_tilde = 0, where E'' = m - 2 h^2 k < 0 */
-    stand_up("tangent", 0);
-    exhibit_drag(&simulation, 1, 0, 0);
-    exhibit_drag(&simulation, 0, 0, 0);
-    show_describe(&show);
-    assert_string_equal(show.sentence,
-                        "the gradient is 0, but this is a maximum");
-}
-
 /* ---- cards --------------------------------------------------------------- */
 
 /* What a later explosion would hide: the energies of a step before it keep
