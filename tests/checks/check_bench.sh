@@ -1,10 +1,9 @@
 #!/bin/sh
 # elasto-bench: a quick run of all tables writes whole files of finite numbers;
 # what is wrong on its command line is told in one line.
-temporary=$(mktemp -d) || exit 1
-trap 'rm -rf "$temporary"' EXIT
-program=${BENCH:-build/elasto-bench}
+program=$(realpath "${BENCH:-build/elasto-bench}")
 . "$(dirname "$0")/verdict.sh"
+work_apart
 
 # table NAME COLUMN: a comment, the names of the columns, and rows that have all
 # of them, each number finite.
@@ -21,11 +20,11 @@ table() {
                 if (tolower($i) ~ /^[-+]?(nan|inf|infinity)?$/)
                     print "line " NR " column " i ": " $i
         }
-        END { if (NR < 3) print "no rows" }' "$temporary/$1.csv" 2>&1
+        END { if (NR < 3) print "no rows" }' "$1.csv" 2>&1
 }
 
 verdict quick_runs_end_well "$(for table in work steps frames; do
-    "$program" $table --quick >"$temporary/$table.csv" || echo "$table ends badly"
+    "$program" $table --quick >"$table.csv" || echo "$table ends badly"
 done 2>&1)"
 verdict tables_are_whole "$(
     table work error_m
@@ -33,36 +32,36 @@ verdict tables_are_whole "$(
     table frames bare_ms
 )"
 verdict the_table_says_where_implicit_loses \
-    "$(grep -q 'implicit loses' "$temporary/work.csv" || echo 'it does not')"
+    "$(grep -q 'implicit loses' work.csv || echo 'it does not')"
 
 # What the numbers must be even in a quick run.
 methods='backward-euler forward-euler symplectic-euler verlet bdf2 midpoint
     sdirk2 avf avf4'
 verdict all_methods_were_measured "$(for name in $methods; do
-    [ "$(grep -c ",$name," "$temporary/work.csv")" -ge 3 ] ||
+    [ "$(grep -c ",$name," work.csv)" -ge 3 ] ||
         echo "$name has too few runs"
 done)"
 verdict failures_are_marked "$(awk -F , '
     $1 == "spinning" && $3 == "forward-euler" && $10 == 0 {
         print "forward Euler did not fail with " $6 " steps"
-    }' "$temporary/work.csv")"
+    }' work.csv)"
 verdict solvers_end_with_the_same_energy "$(awk -F , 'NR > 2 && !/^#/ {
         if (first[$1] == "") first[$1] = $8
         else if (!($8 - first[$1] < 0.01 && first[$1] - $8 < 0.01))
             print $1, $2, $8, "not", first[$1]
-    }' "$temporary/steps.csv")"
+    }' steps.csv)"
 verdict readme_figure_has_all_methods "$(for name in $methods; do
-    grep -q "$name, " tests/data/work_precision.svg || echo "$name is missing"
+    grep -q "$name, " "$root/tests/data/work_precision.svg" || echo "$name is missing"
 done)"
 
 # Bad usage: exit 2 and one line on standard error.
 misuse() { # code options...
     want=$1
     shift
-    "$program" "$@" >"$temporary/out" 2>"$temporary/err" </dev/null
+    "$program" "$@" >out 2>error </dev/null
     code=$?
-    [ $code -eq "$want" ] && [ "$(wc -l <"$temporary/err")" -eq 1 ] ||
-        echo "$*: exit $code: $(cat "$temporary/err")"
+    [ $code -eq "$want" ] && [ "$(wc -l <error)" -eq 1 ] ||
+        echo "$*: exit $code: $(cat error)"
 }
 verdict bad_usage_is_one_line "$(
     misuse 2

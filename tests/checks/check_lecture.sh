@@ -130,19 +130,12 @@ find_window() {
 # closes COMMAND...: the window that comes up closes by this; states are whole.
 closes() {
     rm -f seen
-    "$lecture" states=seen >out 2>err &
+    "$lecture" states=seen >out 2>error &
     pid=$!
     until_true test -s out || echo 'no step' # SDL may make a window twice
     until_true find_window || echo 'no window'
     "$@" "$window" || echo "$1 failed"
-    until_true has_ended "$pid" || {
-        echo 'it does not close'
-        kill -KILL "$pid"
-    }
-    wait "$pid"
-    code=$?
-    [ $code = 0 ] || echo "exit code $code: $(tail -n 1 err)"
-    pid=
+    ends_with 0
     [ -s seen ] && [ ! -e seen.part ] || echo 'states are not whole'
 }
 escape() {

@@ -44,15 +44,7 @@ begin() {
 
 # end CODE: waits for the end of the program and complains about its code.
 end() {
-    last=$pid
-    until_true has_ended "$last" || {
-        echo 'does not end'
-        kill -KILL "$last"
-    }
-    wait "$last"
-    code=$?
-    pid=
-    [ $code = "$1" ] || echo "ends with $code, not $1: $(tail -n 1 error)"
+    ends_with "$1"
     ls ./*.part 2>/dev/null
     [ -s states ] && [ -s log ] || echo 'no tables'
 }

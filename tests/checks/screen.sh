@@ -47,6 +47,18 @@ start_screen() {
     export DISPLAY
 }
 
+# ends_with CODE: the program does so by itself.
+ends_with() {
+    until_true has_ended "$pid" || {
+        echo 'does not end'
+        kill -KILL "$pid"
+    }
+    wait "$pid"
+    code=$?
+    pid=
+    [ $code = "$1" ] || echo "ends with $code, not $1: $(tail -n 1 error)"
+}
+
 # compile_close_window: the program that asks a window to close, as its
 # cross does; fails where there is no Xlib to link with.
 compile_close_window() {

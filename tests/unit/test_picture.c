@@ -15,26 +15,9 @@
 #include "picture/colour_map.h"
 #include "picture/plot.h"
 
-enum { NAME_SIZE = 256, FRAME = 900 };
+enum { FRAME = 900 };
 
 /* ---- helpers ------------------------------------------------------------ */
-
-static char folder[NAME_SIZE]; /* of this run, empty at the start */
-
-/* FOLDER/NAME; the last four results stay valid. */
-static const char *in_folder(const char *name)
-{
-    static char names[4][NAME_SIZE + 64];
-    static int next = 0;
-    char *result = names[next++ % 4];
-    snprintf(result, sizeof names[0], "%s/%s", folder, name);
-    return result;
-}
-
-static bool exists(const char *name)
-{
-    return access(name, F_OK) == 0;
-}
 
 /* Pixels of a PNG file as 0xffRRGGBB; free it with canvas_free. */
 static Canvas read_png(const char *name)
@@ -457,23 +440,31 @@ TEST(readme_shows_films_of_all_scenes)
 
 /* ---- files (what runs leave: check_files.sh) ---------------------------- */
 
+static bool has_part(const char *name)
+{
+    char part[64];
+    snprintf(part, sizeof part, "%s.part", name);
+    return access(part, F_OK) == 0;
+}
+
 TEST(png_files_are_whole)
 {
     Random random = {21};
     Canvas *canvas = white_canvas(37, 23);
-    const char *name = in_folder("noise.png");
+    char name[] = "/tmp/elasto-picture-XXXXXX";
     for (int i = 0; i < 37 * 23; i++)
         canvas->pixels[i] =
             0xff000000u | (uint32_t)random_below(&random, 0x1000000);
-    FILE *earlier = fopen(name, "w");
-    CHECK(earlier && fputs("an earlier file", earlier) >= 0);
-    fclose(earlier);
+    int earlier = mkstemp(name);
+    CHECK(write(earlier, "an earlier file", 15) == 15);
+    close(earlier);
     CHECK_STATUS(png_file_write(name, canvas), STATUS_OK);
-    CHECK(!exists(in_folder("noise.png.part")));
+    CHECK(!has_part(name));
     Canvas again = read_png(name);
     assert_int_equal(again.width, 37);
     assert_memory_equal(again.pixels, canvas->pixels, 37 * 23 * 4);
     canvas_free(&again);
+    remove(name);
 }
 
 /* What stood there stays until the end, whatever becomes of it; a file that is
@@ -482,14 +473,15 @@ TEST(outputs_replace_at_the_end)
 {
     Output output;
     struct stat info;
-    const char *name = in_folder("late.txt"),
-               *part = in_folder("late.txt.part");
+    char name[] = "/tmp/elasto-picture-XXXXXX";
     mode_t before = umask(027);
+    close(mkstemp(name));
+    remove(name);
     for (int round = 0; round < 3; round++) { /* new, replaced, discarded */
         char text[8] = "";
         CHECK_STATUS(output_open(name, &output), STATUS_OK);
         fprintf(output.file, "%d\n", round);
-        CHECK(exists(part) && exists(name) == (round > 0));
+        CHECK(has_part(name) && (access(name, F_OK) == 0) == (round > 0));
         if (round == 2)
             output_discard(&output);
         CHECK_STATUS(output_close(&output, STATUS_OK), STATUS_OK);
@@ -497,10 +489,11 @@ TEST(outputs_replace_at_the_end)
         CHECK(file && fgets(text, sizeof text, file));
         fclose(file);
         assert_string_equal(text, round ? "1\n" : "0\n");
-        CHECK(!exists(part) && stat(name, &info) == 0);
+        CHECK(!has_part(name) && stat(name, &info) == 0);
         assert_int_equal(info.st_mode & 07777, round ? 0604 : 0640);
         CHECK(chmod(name, 0604) == 0);
     }
+    remove(name);
     umask(before);
     CHECK_STATUS(output_open("/dev/full", &output), STATUS_OK);
     fputs("text", output.file);
@@ -508,23 +501,4 @@ TEST(outputs_replace_at_the_end)
     assert_int_equal(errno, ENOSPC);
 }
 
-/* ------------------------------------------------------------------------- */
-
-static int make_test_folder(void **unused)
-{
-    (void)unused;
-    const char *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/elasto_test_XXXXXX",
-             base ? base : "/tmp");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_test_folder(void **unused)
-{
-    (void)unused;
-    char command[NAME_SIZE + 32];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
-}
-
-TESTS(make_test_folder, remove_test_folder)
+TESTS(NULL, NULL)
