@@ -56,7 +56,7 @@ typedef struct Mouse {
     bool moved;      /* it is more than a click */
     double grip[2];  /* m, from the mouse to the point that it moves */
     bool pins;       /* the node is pinned again when it is let go */
-    bool leaves;     /* it is, as soon as a step was made with `later` */
+    bool leaves;     /* it is, as soon as a step was made with where it is */
     bool turns;      /* the last input was the wheel's */
     int gesture;     /* the last key, click or turn of the wheel */
     Options options; /* at its beginning */
@@ -98,6 +98,7 @@ typedef struct Player {
     int still;     /* steps in a row that needed no update, up to this one, */
     int rigid;     /* and those in which nothing has deformed */
     bool holds;    /* the hand has not let go since it took a node */
+    long pulled;   /* the step at which it went where it is */
     Command later; /* what a drag does as soon as the step is there that is
                       made */
     bool warned;   /* it has stopped because a step did not converge */

@@ -604,6 +604,7 @@ Status obey_drag(Player *player, const Command *command)
     if (past_control(&player->past, player->active)->hand < 0)
         return player_refuse(player, "the hand holds nothing");
     player->holds = command->kind == COMMAND_DRAG;
+    player->pulled = player->past.step;
     return change_all(player, command);
 }
 

@@ -506,13 +506,16 @@ static Status mouse_used(Player *player, const Input *input)
     if (input->kind == INPUT_PRESS)
         return pressed(player, input);
     if (input->kind == INPUT_RELEASE) {
-        mouse->leaves = player->later.kind == COMMAND_DRAG;
+        mouse->leaves = player->holds && mouse->drag == COMMAND_GRAB &&
+                        player_pulls(player);
         return mouse->leaves ? STATUS_OK : player_release(player);
     }
     if (input->kind == INPUT_WHEEL)
         return wheeled(player, input->amount);
+    if (mouse->leaves)
+        return player_pulls(player) ? STATUS_OK : player_release(player);
     if (mouse->drag != COMMAND_NONE)
-        return mouse->leaves ? STATUS_OK : follow(player);
+        return follow(player);
     return rests ? STATUS_OK : hover(player); /* the window came to the mouse */
 }
 

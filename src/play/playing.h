@@ -60,6 +60,9 @@ Status player_change(Player *player, const Command *change, int from, int to,
  * frame is over. */
 Status player_work(Player *player);
 
+/* Whether no step was made yet with where the hand is, and one will be. */
+bool player_pulls(const Player *player);
+
 /* Whether a single factor takes longer than a slice. */
 bool player_is_slow(const Player *player);
 

@@ -445,6 +445,12 @@ bool player_is_slow(const Player *player)
            simulation->system.nodes > SLOW_NODES;
 }
 
+bool player_pulls(const Player *player)
+{
+    return player->past.making ||
+           (!player_stands(player) && player->past.step <= player->pulled);
+}
+
 Status player_work(Player *player)
 {
     Past *past = &player->past;
@@ -474,8 +480,7 @@ Status player_work(Player *player)
     player->later.kind = COMMAND_NONE;
     if (later.kind)
         status = player_tell(player, player_obey(player, &later));
-    if (!status && player->mouse.leaves && /* a step was made with it */
-        (!later.kind || player_stands(player)))
+    if (!status && player->mouse.leaves && !player_pulls(player))
         status = player_tell(player, player_release(player));
     return status;
 }
