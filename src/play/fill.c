@@ -90,7 +90,8 @@ static void value_text(const OptionRow *row, const Options *options,
         snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
 }
 
-/* The row of numbers. */
+/* The row of numbers, and what a sentence can say of the one under the mouse,
+ * or of that which is lit. */
 static void fill_settings(Player *player)
 {
     Show *show = &player->show;
@@ -98,6 +99,8 @@ static void fill_settings(Player *player)
     const OptionRow *all[OPTIONS_MOST];
     show->selected = -1;
     player->numbers = player_row(player, player->number);
+    bool over =
+        show->over.zone == ZONE_SETTING && show->over.index < player->numbers;
     for (int i = 0; i < player->numbers; i++) {
         const OptionRow *row = player->number[i];
         Setting *setting = &show->setting[show->settings++];
@@ -110,8 +113,12 @@ static void fill_settings(Player *player)
         option_value(row, &past_start(&player->past, player->active)->options,
                      start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
-        setting->off =
-            strcmp(setting->value, "none") == 0 || player_idle(player, row);
+        const char *idle = player_idle(player, row);
+        setting->off = strcmp(setting->value, "none") == 0 || idle;
+        bool told = over ? i == show->over.index : row == player->lit;
+        if (told && (idle || row->help[0]))
+            snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
+                     idle ? idle : row->help);
         if (row == player->lit)
             show->selected = i;
         if (row == player->lit && player->typing)
@@ -142,22 +149,6 @@ static void fill_options(Player *player)
         row->grey = idle != NULL;
     }
     show->page = (Page){.kind = PAGE_HELP, .title = "Numbers of this scene"};
-}
-
-/* What a sentence can say of the number under the mouse, or of that which is
- * lit. */
-static void explain_number(const Player *player, Show *show)
-{
-    int over = show->over.index;
-    const OptionRow *row = player->lit;
-    if (show->over.zone == ZONE_SETTING && over < player->numbers)
-        row = player->number[over];
-    if (!row)
-        return;
-    const char *idle = player_idle(player, row);
-    if (idle || row->help[0])
-        snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
-                 idle ? idle : row->help);
 }
 
 /* The chip of a command: its first key, and what that does now: word number
@@ -377,7 +368,6 @@ void player_fill(Player *player)
         fill_help(show);
     if (player->column == COLUMN_OPTIONS)
         fill_options(player);
-    explain_number(player, show);
     bool explained = show->sentence[0];
     show->veiled = player_veils(player);
     show_lecture(player->column, player->left, show);

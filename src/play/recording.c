@@ -25,14 +25,6 @@ static Status note(Recording *recording, Status status, const char *name)
     return status;
 }
 
-/* Makes the folder; whether what stands there is one shows the first file. */
-static Status make_folder(const char *name)
-{
-    return !name || mkdir(name, 0777) == 0 || errno == EEXIST
-               ? STATUS_OK
-               : STATUS_FILE_FAILED;
-}
-
 /* ---- kinds of tables ----------------------------------------------------- */
 
 /* A run at a step: what the rows of a table are about. */
@@ -372,10 +364,11 @@ Status recording_open(const Options *options, int panes, Recording *recording)
 {
     *recording = (Recording){
         .folder = options->frames, .vtk = options->vtk, .panes = panes};
-    const char *folder = recording->folder, *vtk = recording->vtk;
-    Status status = note(recording, make_folder(folder), folder);
-    if (!status)
-        status = note(recording, make_folder(vtk), vtk);
+    const char *const folder[] = {options->frames, options->vtk};
+    Status status = STATUS_OK;
+    for (int i = 0; i < 2 && !status; i++) /* the first file shows if it is */
+        if (folder[i] && mkdir(folder[i], 0777) && errno != EEXIST)
+            status = note(recording, STATUS_FILE_FAILED, folder[i]);
     if (!status && options->film)
         status = recording_film(recording, options->film);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)

@@ -183,10 +183,9 @@ Status obey_sheet(Player *player, const Command *command)
     player->sheet = calloc(1, sizeof *player->sheet);
     if (!player->sheet)
         return STATUS_OUT_OF_MEMORY;
-    player->sheet->cells = 1;
-    for (const Scene *scene = scenes;
-         scene->name && player->sheet->cells < LAYOUT_CELLS; scene++)
-        player->sheet->cells++;
+    int *cells = &player->sheet->cells;
+    for (*cells = 1; scenes[*cells - 1].name && *cells < LAYOUT_CELLS; ++*cells)
+        continue;
     player->show.chosen =
         options->page ? 0 : (int)(options->scene - scenes) + 1;
     return STATUS_OK;
