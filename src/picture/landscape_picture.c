@@ -10,8 +10,8 @@
 #include "base/mathematics.h"
 
 /* J s^2; both valleys have their bottom below 1. */
-static const double map_levels[] = {0.4, 0.6, 1,  1.5, 2,  3,
-                                    5,   7,   10, 15,  30, 50};
+static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
+                                    3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
 /* ---- the map, drawn once for a view of it ------------------------------- */
@@ -27,17 +27,22 @@ static double contour_distance(double value)
     return nearest;
 }
 
+/* With a long step elasticity is large: the levels grow with h^2 then. */
+static double level_factor(const Simulation *simulation)
+{
+    double h = simulation->run[0].h / 0.2;
+    bool elastic = simulation->exhibit.parts & PART_ELASTICITY;
+    return elastic && h > 1 ? h * h : 1;
+}
+
 /* Where E is not convex, and contours of the parts that are switched on: two by
  * two pixels at a time, in which E is a plane.  A contour is as many pixels
- * away as E is from its level over the slope.  With a long step elasticity is
- * large: the levels grow with h^2 then. */
+ * away as E is from its level over the slope. */
 static void draw_ground(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     Canvas *canvas = &plot->paper->canvas;
-    double metre = 1 / plot->camera.scale[0], h = simulation->run[0].h / 0.2;
-    bool elastic = simulation->exhibit.parts & PART_ELASTICITY;
-    double e = elastic && h > 1 ? h * h : 1;
+    double metre = 1 / plot->camera.scale[0], e = level_factor(simulation);
     double reach = 0.5 + 0.5 * fmax(1, 0.6 * plot->paper->unit);
     for (int j = 0; j < plot->box.height; j += 2)
         for (int i = 0; i < plot->box.width; i += 2) {
@@ -59,6 +64,31 @@ static void draw_ground(const Plot *plot)
                             alpha | (COLOUR_GREY & 0xffffff));
             }
         }
+}
+
+/* What contours are of, J s^2, along a ray from x_tilde. */
+static void name_levels(const Plot *plot)
+{
+    static const double ray[2] = {0.62, -0.78}, pace = 0.005; /* m */
+    const Simulation *simulation = plot->simulation;
+    const double *from = simulation->exhibit.target;
+    double e = level_factor(simulation), before = NAN, place[2];
+    double apart = 1.3 * plot->em / plot->camera.scale[0], last = 0;
+    for (double way = 0; way < 3; way += pace) {
+        const double x[2] = {from[0] + way * ray[0], from[1] + way * ray[1]};
+        double value =
+            descent_at(simulation, FILTER_NONE, x[0], x[1]).value / e;
+        plot_place(plot, x, place);
+        for (int k = 0; k < MAP_LEVELS; k++)
+            if (before < map_levels[k] && value >= map_levels[k] &&
+                way > last + apart && place[1] < plot->box.height) {
+                paper_panel(plot->paper, FACE_REGULAR, 0.85, COLOUR_FAINT,
+                            place[0], place[1] - 0.6 * plot->em, ALIGN_CENTRE,
+                            number_of(map_levels[k] * e).text);
+                last = way;
+            }
+        before = value;
+    }
 }
 
 /* The map as it was kept, or drawn and kept; the springs, the pins and x_tilde.
@@ -108,6 +138,8 @@ static Plot draw_map(const Plot *stage)
     }
     if (paper->map.pixels)
         canvas_copy(&paper->canvas, &paper->map, box.x, box.y);
+    if (plot.text && stage->show->lecture)
+        name_levels(&plot);
     if (elastic)
         plot_springs(&plot, system, x, 3.5, COLOUR_REST);
     for (int i = 1; i < system->nodes && elastic; i++)
@@ -176,6 +208,26 @@ static void draw_directions(const Plot *plot, bool both)
                    number_with(slope, 2).text);
 }
 
+/* What the parts that are on pull with, and both together: an arrow of 1 m is
+ * 1 kg m. */
+static void draw_pulls(const Plot *plot)
+{
+    const Simulation *simulation = plot->simulation;
+    const double *x = simulation->descent.point, *m = simulation->system.m;
+    const double *target = simulation->exhibit.target;
+    unsigned parts = simulation->exhibit.parts;
+    Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
+    double inertia[2], springs[2];
+    for (int c = 0; c < 2; c++) {
+        inertia[c] = parts & PART_INERTIA ? m[0] * (target[c] - x[c]) : 0;
+        springs[c] = -E.g[c] - inertia[c];
+    }
+    plot_arrow(plot, x, inertia, 1, 2.6, COLOUR_X_TILDE);
+    plot_arrow(plot, x, springs, 1, 2.6, COLOUR_FORCE);
+    if (parts == PART_BOTH)
+        plot_arrow(plot, x, E.g, -1, 2.2, COLOUR_TEXT);
+}
+
 /* What the map is of. */
 static void name_parts(unsigned parts, Facts *facts)
 {
@@ -222,8 +274,12 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     name_parts(parts, facts);
     fact_when(facts, "both", parts == PART_BOTH);
     fact_when(facts, "elastic", parts != PART_INERTIA);
+    const LecturePage *page = simulation->options.page;
+    bool pulls = page && page->forces;
+    fact_when(facts, "pulls", pulls);
     fact_when(facts, "directed",
-              last >= 0 || (parts == PART_BOTH && descent->slope != 0));
+              last >= 0 ||
+                  (parts == PART_BOTH && descent->slope != 0 && !pulls));
     fact_when(facts, "went uphill",
               descent->slope > 0 ||
                   (last >= 0 && descent->record[last].slope > 0));
@@ -274,7 +330,9 @@ void landscape_draw(Plot *stage)
     if (show->lecture && raw && !show->veiled && !simulation->done)
         draw_model(&plot);
     bool both = !show->lecture || (raw && !show->lecture->predict);
-    if (!show->veiled)
+    if (show->lecture && show->lecture->forces && !show->veiled)
+        draw_pulls(&plot);
+    else if (!show->veiled)
         draw_directions(&plot, plot.text && both);
     if (show->lecture && !show->veiled && plot.text &&
         simulation->exhibit.parts != PART_INERTIA)
@@ -298,8 +356,9 @@ void dial_draw(Plot *stage)
         plot_disc(&plot, walk->point[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
-    for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10)
-        plot_words(&plot, 1, walk->point[i], COLOUR_X, "h = %s s",
+    for (int i = WALK_POINTS - 11; i > 0 && !show->veiled; i -= 10)
+        plot_words(&plot, 1, walk->point[i], COLOUR_X, "h %s %s s",
+                   i == WALK_POINTS - 11 ? "\u2265" : "=",
                    number_of(walk->h[i]).text);
 }
 

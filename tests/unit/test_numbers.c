@@ -749,6 +749,17 @@ static void tell_iterate(const Simulation *simulation)
     }
 }
 
+/* What its contours may be of: more with a long step. */
+static void tell_contours(const Simulation *simulation)
+{
+    static const Real levels[] = {0.1L, 0.2L, 0.4L, 0.6L, 1,  1.5L, 2,
+                                  3,    5,    7,    10,   15, 30,   50};
+    Real h = simulation->run[0].h / 0.2L;
+    bool grows = simulation->exhibit.parts != PART_INERTIA && h > 1;
+    for (size_t i = 0; i < sizeof levels / sizeof *levels; i++)
+        is("contour", levels[i] * (grows ? h * h : 1));
+}
+
 /* E at the iterate of the landscape: its parts and derivatives. */
 static void tell_landscape(const Simulation *simulation)
 {
@@ -756,6 +767,7 @@ static void tell_landscape(const Simulation *simulation)
     const double *o = simulation->exhibit.target;
     Real at[2] = {descent->point[0], descent->point[1]};
     MapE E = map_E(simulation, simulation->exhibit.parts, at, FILTER_NONE);
+    tell_contours(simulation);
     is_point("place", at[0], at[1]);
     is_point("x tilde", o[0], o[1]);
     near("E", E.value, 1e-13L * (1 + E.value));
@@ -840,6 +852,7 @@ static void tell_dial(const Simulation *simulation)
     near("inertia", (d[0] * d[0] + d[1] * d[1]) / 2, 1e-15L);
     near("elasticity", E.elastic, 1e-13L * h * h);
     near("P", E.elastic / (h * h), 1e-13L);
+    tell_contours(simulation);
     for (int i = -2; i <= 1; i++) /* the marks on the path */
         is("h", powl(10, i));
 }

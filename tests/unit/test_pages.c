@@ -680,7 +680,7 @@ TEST(claim_dial)
 
 TEST(claim_inertia)
 {
-    says("inertia", "1 0.6 0.9 0.2 0.3 1 1 0.4 0.6 0.4 0.6 0.6 0.9 0.26");
+    says("inertia", "1 0.6 0.9 0.2 0.3 1 1 0.4 0.6 0.26 0.4 0.6 0.6 0.9 0.26");
     const LecturePage *page = lecture_find("inertia");
     Simulation *simulation = open_page("inertia", "");
     exhibit_flip(simulation, 1);
