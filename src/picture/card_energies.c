@@ -182,7 +182,7 @@ void energies_draw(const Plot *card)
             energies_value(simulation, curve[c].history, curve[c].series, time);
         snprintf(line.words, sizeof line.words, "%s %s J",
                  curve[c].name ? curve[c].name : "", number_of(value).text);
-        used = words_flow(card, at, size, 1.05 * size, &line, true);
+        used = words_flow(card, at, size, 1.05 * size, &line);
     }
     box_cut_off(&rest.box, false, used);
     Axis energy = energies_axis(show, &last);

@@ -77,29 +77,10 @@ static void draw_trial(const Plot *plot, double alpha, double value,
                    number_of(value).text);
 }
 
-/* What the curves are, and the last trial, above the plot: nothing of it lies
- * on a curve.  Returns the room for the plot, which does not depend on what
- * there is to say. */
-static Plot draw_words(const Plot *card)
-{
-    Paper *paper = card->paper;
-    Plot rest = *card;
-    int rows = card->box.width / paper->em < WORDS_WIDE ? 2 : 1;
-    int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
-    TextLine line = text_of(&show_pane(card->show)->facts, text_trials);
-    int air = paper_pixels(paper, 0.4); /* of what is raised */
-    Box words = box_cut_off(&rest.box, false, high);
-    words.y -= air;
-    words.height += air;
-    Box before = canvas_clip(&paper->canvas, words);
-    while (text_next(&line))
-        words_flow(card, at, WORD_SIZE, 1, &line, true);
-    canvas_clip(&paper->canvas, before);
-    return rest;
-}
-
 /* On a page, of a descent whose p is not projected, also along the projected
- * one, until a step is made. */
+ * one, until a step is made.  What the curves are, and the last trial, stand
+ * above the plot, whose room does not depend on what there is to say: nothing
+ * of it lies on a curve. */
 void line_draw(const Plot *card)
 {
     const Pane *pane = show_pane(card->show);
@@ -118,7 +99,20 @@ void line_draw(const Plot *card)
     fill_curves(trace, both ? &other.trace : NULL, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, "{alpha}"};
     Axis y = {curves.low, curves.high, false, false, NULL};
-    Plot rest = draw_words(card), plot = plot_create(&rest, x, y);
+    Paper *paper = card->paper;
+    Plot rest = *card;
+    int rows = card->box.width / paper->em < WORDS_WIDE ? 2 : 1;
+    int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
+    TextLine line = text_of(&pane->facts, text_trials);
+    int air = paper_pixels(paper, 0.4); /* of what is raised */
+    Box words = box_cut_off(&rest.box, false, high);
+    words.y -= air;
+    words.height += air;
+    Box before = canvas_clip(&paper->canvas, words);
+    while (text_next(&line))
+        words_flow(card, at, WORD_SIZE, 1, &line);
+    canvas_clip(&paper->canvas, before);
+    Plot plot = plot_create(&rest, x, y);
     const double origin[2] = {0, 0};
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.other, 2,

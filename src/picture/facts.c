@@ -353,7 +353,7 @@ void text_in_card(const Plot *card, const Facts *facts, const char *text)
 }
 
 int words_flow(const Plot *card, int at[2], double size, double gap,
-               const TextLine *line, bool draw)
+               const TextLine *line)
 {
     Paper *paper = card->paper;
     int width = paper_width(paper, line->face, size, line->words);
@@ -361,9 +361,8 @@ int words_flow(const Plot *card, int at[2], double size, double gap,
         at[0] = 0;
         at[1] += paper_pixels(paper, 1.35 * size);
     }
-    if (draw)
-        paper_panel(paper, line->face, size, line->colour, card->box.x + at[0],
-                    card->box.y + at[1], ALIGN_LEFT, line->words);
+    paper_panel(paper, line->face, size, line->colour, card->box.x + at[0],
+                card->box.y + at[1], ALIGN_LEFT, line->words);
     at[0] += width + paper_pixels(paper, gap);
     return at[1] + paper_pixels(paper, 1.5 * size);
 }

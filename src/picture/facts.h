@@ -56,10 +56,10 @@ bool text_is_known(const Facts *facts, const char *text);
 void text_in_card(const Plot *card, const Facts *facts, const char *text);
 
 /* Words in a row from the left edge of a card, on the next line where there is
- * no room, `gap` ems apart; without `draw` only their room is measured.
+ * no room, `gap` ems apart.
  *   at  [2] in/out, pixels from the corner, where they go; at first 0, 0
  * Returns the pixels that are used up to here, downwards. */
 int words_flow(const Plot *card, int at[2], double size, double gap,
-               const TextLine *line, bool draw);
+               const TextLine *line);
 
 #endif

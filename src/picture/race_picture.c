@@ -26,36 +26,15 @@ void race_bounds(const Plot *stage, double bounds[4])
     bounds[3] = over_h ? 6 : 3; /* below the switch */
 }
 
-/* The points of a method joined, hollow where it explodes later.  Returns the
- * last one; NULL: there is none. */
-static const RacePoint *draw_method(Plot *plot, int method)
-{
-    const Simulation *simulation = plot->simulation;
-    const Race *race = &simulation->exhibit.race;
-    Colour colour = colour_of(race_method(method)->name);
-    const RacePoint *last = NULL;
-    for (int i = method; i < race->count; i += RACE_METHODS) {
-        const RacePoint *point = &race->point[i];
-        const double now[2] = {place_of(simulation, point), point->error};
-        if (!(point->error > 0))
-            continue;
-        if (last)
-            plot_line(plot,
-                      (double[2]){place_of(simulation, last), last->error}, now,
-                      2.2, colour);
-        plot_hollow(plot, now, 5, point->stable ? 0 : 3, colour);
-        last = point;
-    }
-    return last;
-}
-
-/* Over run time the names of the methods, each at its last point; over h, where
- * they would lie on each other, and the table has their colours, how steep
- * errors of order 1, 2 and 4 are. */
+/* The points of each method joined, hollow where it explodes later.  Over run
+ * time the names of the methods, each at its last point; over h, where they
+ * would lie on each other, and the table has their colours, how steep errors of
+ * order 1, 2 and 4 are. */
 void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const RacePoint *last[RACE_METHODS];
+    const Race *race = &simulation->exhibit.race;
+    double last[RACE_METHODS][2]; /* its newest point, or NaN */
     bool over_h = simulation->exhibit.parts;
     bool wide = stage->text && stage->box.width > NAMED * stage->em && !over_h;
     Plot plot = plot_on(
@@ -67,16 +46,26 @@ void race_draw(Plot *stage)
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
         plot_words(&plot, 1, at[1], COLOUR_TEXT, "1 cm");
     }
-    for (int i = 0; i < RACE_METHODS; i++)
-        last[i] = draw_method(&plot, i);
+    for (int method = 0; method < RACE_METHODS; method++) {
+        Colour colour = colour_of(race_method(method)->name);
+        last[method][0] = last[method][1] = NAN;
+        for (int i = method; i < race->count; i += RACE_METHODS) {
+            const RacePoint *point = &race->point[i];
+            const double now[2] = {place_of(simulation, point), point->error};
+            if (!(point->error > 0))
+                continue;
+            plot_line(&plot, last[method], now, 2.2, colour);
+            plot_hollow(&plot, now, 5, point->stable ? 0 : 3, colour);
+            memcpy(last[method], now, sizeof now);
+        }
+    }
     for (int order = 1; over_h && order <= 4; order *= 2) {
         const double from[2] = {5e-5, 0.1}, wide = 8;
         const double to[2] = {from[0] * wide, from[1] * pow(wide, order)};
         plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
     }
     for (int i = RACE_METHODS - 1; i >= 0 && wide; i--) {
-        double x = last[i] ? place_of(simulation, last[i]) : NAN;
-        double y = last[i] ? last[i]->error : NAN;
+        double x = last[i][0], y = last[i][1];
         plot_words(&plot, 3, (double[6]){x, y, 2 * x, y, x, 0.1 * y},
                    colour_of(race_method(i)->name), "%s",
                    race_method(i)->label);

@@ -39,21 +39,19 @@ void show_create(const Simulation *simulation, Show *show)
     }
 }
 
-/* The part of the world that fits a stage; all panes of a page have the scale
- * of the last one. */
-static void find_bounds(const Plot *own, double bounds[4])
+/* The part of the world that fits a pane; all panes of a page have the scale of
+ * the last one. */
+static void find_bounds(const Show *show, int pane, double bounds[4])
 {
-    const Show *show = own->show;
-    int last = show->panes - 1;
-    const Plot of_last = {
-        .show = show, .simulation = show->pane[last].simulation, .pane = last};
-    const Plot *stage = show->lecture ? &of_last : own;
-    const Picture *picture = picture_of(stage->simulation->scene);
-    const Held *held = &stage->show->held;
-    if (held->on && !held->away && held->pane == stage->pane)
+    pane = show->lecture ? show->panes - 1 : pane;
+    const Plot stage = {
+        .show = show, .simulation = show->pane[pane].simulation, .pane = pane};
+    const Picture *picture = picture_of(stage.simulation->scene);
+    const Held *held = &show->held;
+    if (held->on && !held->away && held->pane == pane)
         memcpy(bounds, held->bounds, sizeof held->bounds);
     else if (picture->bounds)
-        picture->bounds(stage, bounds);
+        picture->bounds(&stage, bounds);
     else
         memcpy(bounds, picture->around, sizeof picture->around);
 }
@@ -74,7 +72,7 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
         room.y += (int)(WORDS_ROOM * layout->em);
         room.height -= (int)(2 * WORDS_ROOM * layout->em);
     }
-    find_bounds(&stage, bounds);
+    find_bounds(show, pane, bounds);
     stage.camera = camera_create(room, bounds, stretched, &show->lens);
     return stage;
 }
@@ -86,10 +84,8 @@ Camera show_camera(const Show *show, const Layout *layout, int pane)
 
 void show_hold(Show *show, int pane)
 {
-    const Plot stage = {
-        .show = show, .simulation = show->pane[pane].simulation, .pane = pane};
     Held held = {.on = true, .pane = pane};
-    find_bounds(&stage, held.bounds);
+    find_bounds(show, pane, held.bounds);
     show->held = held;
 }
 

@@ -19,21 +19,6 @@ static const double LINE = 1.35; /* ems, of a line of the note */
 static const double SMALL = 0.9; /* ems, size of its letters */
 static const double WIDTH = 17;  /* ems, of it at least */
 
-/* Squared distance of a pixel to a spring. */
-static double spring_distance2(const Plot *stage, const double *at, int s,
-                               double x, double y)
-{
-    const int *e = stage->simulation->system.e + 2 * s;
-    double p[2], q[2], t = 0;
-    plot_place(stage, at + 2 * e[0], p);
-    plot_place(stage, at + 2 * e[1], q);
-    double dx = q[0] - p[0], dy = q[1] - p[1], length2 = dx * dx + dy * dy;
-    if (length2 > 0)
-        t = fmin(fmax(((x - p[0]) * dx + (y - p[1]) * dy) / length2, 0), 1);
-    double ex = p[0] + t * dx - x, ey = p[1] + t * dy - y;
-    return ex * ex + ey * ey;
-}
-
 /* The nearest node, else the nearest spring, within reach of the mouse, which
  * before the first step, on the left or right edge, is that edge; else an
  * obstacle of the options.  A hand takes nodes that are farther away, too. */
@@ -55,7 +40,15 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     if (plot_pick(stage, system->nodes, at, reach, x, y, PICK_NODE, pick))
         return;
     for (int s = 0; s < springs; s++) {
-        double d2 = spring_distance2(stage, at, s, x, y);
+        const int *e = system->e + 2 * s;
+        double p[2], q[2], t = 0;
+        plot_place(stage, at + 2 * e[0], p);
+        plot_place(stage, at + 2 * e[1], q);
+        double dx = q[0] - p[0], dy = q[1] - p[1], length2 = dx * dx + dy * dy;
+        if (length2 > 0)
+            t = fmin(fmax(((x - p[0]) * dx + (y - p[1]) * dy) / length2, 0), 1);
+        double ex = p[0] + t * dx - x, ey = p[1] + t * dy - y;
+        double d2 = ex * ex + ey * ey;
         if (d2 < best && !spring_is_broken(system, s)) {
             best = d2;
             pick->kind = PICK_SPRING;

@@ -94,7 +94,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     room.box.x += (int)(0.9 * em);
     room.box.y += (int)(0.6 * em);
     room.box.width -= (int)(1.8 * em);
-    words_flow(&room, plot->flow, LEGEND_SIZE, 1.6, &line, true);
+    words_flow(&room, plot->flow, LEGEND_SIZE, 1.6, &line);
 }
 
 /* ---- off what is drawn -------------------------------------------------- */
