@@ -5,62 +5,9 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
-#include "scenes/small_scenes.h"
-#include "scenes/scene.h"
 
 static const double TITLE = 2.0; /* ems, height of a title bar; layout.c */
 static const double CODE_LETTER = 0.7; /* ems, a letter of code is wide */
-
-/* f(x + alpha p) - f(x), or E in the landscape. */
-static double descent_difference(const void *function, double alpha)
-{
-    const DescentTrace *space = function;
-    Local there = descent_at(space->simulation, FILTER_NONE,
-                             space->from[0] + alpha * space->p[0],
-                             space->from[1] + alpha * space->p[1]);
-    return there.value - space->value;
-}
-
-const Trace *descent_trace(const Simulation *simulation, DescentTrace *space)
-{
-    const Descent *descent = &simulation->descent;
-    Trace *trace = &space->trace;
-    int last = descent->count - 1;
-    const NewtonRecord *record = &descent->record[last < 0 ? 0 : last];
-    *space = (DescentTrace){.simulation = simulation};
-    *trace = (Trace){.h = simulation->options.timestep,
-                     .tolerance = simulation->options.tolerance,
-                     .updates = descent->count,
-                     .record = descent->record,
-                     .iteration = descent->count,
-                     .projected = -1,
-                     .residual = descent->residual};
-    bool made = last >= 0 && record->alpha > 0;
-    if (last >= 0 && !made) { /* no step along this p was taken */
-        trace->residual = record->residual;
-        trace->given_up = true;
-    }
-    for (int k = 0; k < 2; k++) {
-        space->from[k] = made ? record->from[k] : descent->point[k];
-        space->p[k] = made ? (record->to[k] - record->from[k]) / record->alpha
-                           : descent->direction[k];
-    }
-    if (descent->scalar)
-        space->from[1] = space->p[1] = 0;
-    if (space->p[0] == 0 && space->p[1] == 0)
-        return trace;
-    space->value =
-        descent_at(simulation, FILTER_NONE, space->from[0], space->from[1])
-            .value;
-    trace->difference = descent_difference;
-    trace->function = space;
-    trace->slope = made ? record->slope : descent->slope;
-    trace->line = made ? LINE_NONE : LINE_SOLVE;
-    trace->trials = made ? record->trials : 0;
-    trace->accepted = made;
-    trace->projected = made ? record->projected : -1;
-    return trace;
-}
 
 double trace_alpha(const Trace *trace, int trial)
 {

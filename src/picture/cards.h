@@ -106,10 +106,6 @@ void frame_draw(Paper *paper, const Layout *layout, const Show *show);
 /* Steps that the time line has room for: those there are, at least some. */
 long frame_span(const Show *show);
 
-/* The last update of a descent; before the first one, the one to come.  The
- * residual is that of the present iterate: at the end the one that passes. */
-const Trace *descent_trace(const Simulation *simulation, DescentTrace *space);
-
 /* The step length of trial 1, 2, ... */
 double trace_alpha(const Trace *trace, int trial);
 

@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -94,22 +95,6 @@ static void fill_code(const LecturePage *page, Show *show)
     }
 }
 
-/* Numbers and topics; a page is marked. */
-static void fill_pages(const LecturePage *marked, Show *show)
-{
-    int count = lecture_count();
-    show->page.kind = PAGE_HELP;
-    show->page.title = "The pages of the lecture";
-    show->help_rows = count < LAYOUT_ROWS ? count : LAYOUT_ROWS;
-    for (int i = 0; i < show->help_rows; i++) {
-        const LecturePage *page = &lecture_pages[i];
-        HelpRow *row = &show->help[i];
-        snprintf(row->key, SHOW_VALUE, "%s%d", page == marked ? ">" : "",
-                 i + 1);
-        snprintf(row->text, SHOW_TEXT, "%s", page->topic);
-    }
-}
-
 /* Whether a word stands in a text of words. */
 static bool has_word(const char *words, const char *word)
 {
@@ -126,8 +111,17 @@ void show_lecture(Column column, const LecturePage *left, Show *show)
     const Simulation *simulation = show_pane(show)->simulation;
     const LecturePage *page = simulation->options.page;
     const Picture *picture = picture_of(simulation->scene);
-    if (column == COLUMN_PAGES)
-        fill_pages(page ? page : left, show);
+    if (column == COLUMN_PAGES) {
+        show->page.kind = PAGE_HELP;
+        show->page.title = "The pages of the lecture";
+        show->help_rows = (int)fmin(lecture_count(), LAYOUT_ROWS);
+    }
+    for (int i = 0; column == COLUMN_PAGES && i < show->help_rows; i++) {
+        const LecturePage *row = &lecture_pages[i];
+        snprintf(show->help[i].key, SHOW_VALUE, "%s%d",
+                 row == (page ? page : left) ? ">" : "", i + 1);
+        snprintf(show->help[i].text, SHOW_TEXT, "%s", row->topic);
+    }
     if (!page)
         return;
     show->lecture = page;

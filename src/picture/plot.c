@@ -21,7 +21,6 @@ static const double LINE_ROOM = 1.6;     /* ems, one above the other needs */
 static const double NUMBER_ROOM = 3.1;   /* ems, left of the plot */
 static const double NUMBER_BELOW = 0.25; /* ems, from the plot to a number */
 static const double HEAD = 0.62;         /* ems, length of an arrow's head */
-static const double ARROW_LEAST = 1.5;   /* ems, the longest arrow has */
 
 double plot_round_up(double value)
 {
@@ -382,28 +381,6 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
     canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
                  pixels_wide(plot, width), HEAD * paper->em, colour);
     canvas_clip(&paper->canvas, before);
-}
-
-double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
-                   const double *d, double most, Colour colour)
-{
-    double scale = plot->camera.scale[0], factor = 1, longest = 0;
-    double least = fmin(ARROW_LEAST * plot->em, 0.1 * most);
-    for (int i = 0; i < nodes; i++) {
-        double length = math_hypot(d[2 * i], d[2 * i + 1]) * scale;
-        if (isfinite(length))
-            longest = fmax(longest, length);
-    }
-    if (longest == 0)
-        return 0;
-    if (longest < least)
-        factor = pow(10, ceil(log10(least / longest)));
-    if (longest > most)
-        factor = pow(10, -ceil(log10(longest / most)));
-    for (int i = 0; i < nodes; i += stride)
-        if (math_hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
-            plot_arrow(plot, x + 2 * i, d + 2 * i, factor, 1.6, colour);
-    return factor;
 }
 
 bool plot_pick(const Plot *plot, int count, const double *at, double reach,

@@ -103,13 +103,6 @@ void plot_pin(const Plot *plot, const double *at, double radius);
 void plot_arrow(const Plot *plot, const double *a, const double *d,
                 double factor, double width, Colour colour);
 
-/* Arrows of d [2n] at x [2n], every stride-th node.  A power of ten times as
- * long as they are, so that the longest has at most `most` pixels, and at least
- * 1.5 ems or a tenth of `most`, where that is not so by itself; returns that
- * factor, 0 if there is nothing to draw. */
-double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
-                   const double *d, double most, Colour colour);
-
 /* ---- words (words.c) ---------------------------------------------------- */
 
 /* They are made as printf does, and only where there is room for words. */
@@ -139,21 +132,12 @@ typedef struct Number {
 Number number_with(double value, int digits);
 Number number_of(double value);
 
-/* ---- stages (show.c): what the mouse can drag and switch ------ */
+/* ---- stages (show.c) ---------------------------------------------------- */
 
 /* The stage of a pane; paper NULL: it only tells where things are. */
 Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane);
 
-/* Open rings where the scene's handles are. */
+/* Open rings where the scene's handles are, which the mouse can drag. */
 void stage_handles(const Plot *stage);
-
-/* The scene's switches as chips in the upper right corner. */
-void stage_switches(const Plot *stage);
-
-/* A switch or a handle under pixel (x, y): fills kind and index. */
-bool handles_pick(const Plot *stage, double x, double y, Pick *pick);
-
-/* The guess, and where the step led: over any picture. */
-void stage_prediction(const Plot *stage);
 
 #endif

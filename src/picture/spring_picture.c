@@ -69,23 +69,9 @@ static void spring_coil(Plot *stage, const double *x, Colour colour)
     }
 }
 
-/* The eigenvectors of its block, (q, -q), longer the larger the eigenvalue, red
- * where it is negative. */
-static void spring_eigenvectors(Plot *stage, const double *x,
-                                const SpringFacts *facts, double k)
-{
-    const double value[2] = {facts->along, facts->across};
-    for (int i = 0; i < 2 && facts->length > 0; i++) {
-        double n[2] = {x[i] / facts->length, x[1 - i] / facts->length};
-        n[0] = i ? -n[0] : n[0];
-        for (int end = 0; end < 2; end++)
-            plot_arrow(stage, end ? origin : x, n,
-                       (end ? -1 : 1) * fabs(value[i]) / (4 * k), 3.2,
-                       value[i] < 0 ? COLOUR_WARNING : COLOUR_X);
-    }
-}
-
-/* Shorter than at rest: projection changes its block. */
+/* Shorter than at rest: projection changes its block.  Beside the spring its
+ * force; on a page of them the eigenvectors of the block, (q, -q), longer the
+ * larger the eigenvalue, red where it is negative. */
 void spring_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -100,9 +86,15 @@ void spring_draw(Plot *stage)
         spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     spring_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
-    if (modes && !show->veiled)
-        spring_eigenvectors(stage, x, &facts, simulation->system.k[0]);
-    else if (!modes && facts.length > 0) { /* beside the spring */
+    const double value[2] = {facts.along, facts.across};
+    for (int i = 0; i < 4 && modes && !show->veiled && facts.length > 0; i++) {
+        double n[2] = {x[i / 2] / facts.length, x[1 - i / 2] / facts.length};
+        double size = fabs(value[i / 2]) / (4 * simulation->system.k[0]);
+        n[0] = i / 2 ? -n[0] : n[0];
+        plot_arrow(stage, i % 2 ? origin : x, n, i % 2 ? -size : size, 3.2,
+                   value[i / 2] < 0 ? COLOUR_WARNING : COLOUR_X);
+    }
+    if (!modes && facts.length > 0) {
         double side = SPRING_BESIDE / facts.length;
         const double from[2] = {x[0] - side * x[1], x[1] + side * x[0]};
         plot_arrow(stage, from, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);

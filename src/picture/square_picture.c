@@ -14,8 +14,9 @@
 #include "scenes/pages.h"
 
 enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
-enum { LEAST_CELL = 5 };     /* pixels; smaller cells are drawn as faces */
-enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
+static const double ARROW_LEAST = 1.5; /* ems, the longest arrow has */
+enum { LEAST_CELL = 5 }; /* pixels; smaller cells are drawn as faces */
+enum { NUMBERED = 121 }; /* nodes, at most, whose numbers are shown */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
 static const double ROOM = 1.14;       /* of the stage around the square */
@@ -86,21 +87,37 @@ void square_bounds(const Plot *stage, double bounds[4])
 
 /* ---- what Newton does --------------------------------------------------- */
 
-/* p as arrows that end where a full step leads, if that can be seen. */
+/* p as arrows, of a fine mesh every few nodes, that end where a full step leads
+ * if that can be seen: else a power of ten times as long, so that the longest
+ * fills at most half of the stage. */
 static void draw_direction(const SpringPen *pen)
 {
-    const Box *box = &pen->stage->box;
+    Plot *stage = pen->stage;
     const Trace *trace = pen->pane->trace;
+    double scale = stage->camera.scale[0], factor = 1, longest = 0;
+    double most = 0.5 * fmin(stage->box.width, stage->box.height);
+    double least = fmin(ARROW_LEAST * stage->em, 0.1 * most);
+    int apart = (int)ceil(ARROW_SPACING * stage->paper->unit / pen->spacing);
     if (!trace || !trace->p || trace->line < LINE_SOLVE ||
         trace->line > LINE_SEARCH)
         return;
-    double apart = ceil(ARROW_SPACING * pen->stage->paper->unit / pen->spacing);
-    double factor =
-        plot_arrows(pen->stage, pen->system->nodes, (int)fmax(apart, 1), pen->x,
-                    trace->p, 0.5 * fmin(box->width, box->height), COLOUR_P);
-    if (factor == 0)
+    for (int i = 0; i < pen->system->nodes; i++) {
+        const double *p = trace->p + 2 * i;
+        double length = math_hypot(p[0], p[1]) * scale;
+        longest = isfinite(length) ? fmax(longest, length) : longest;
+    }
+    if (longest == 0)
         return;
-    plot_legend(pen->stage, COLOUR_P, "search direction p%s%s",
+    if (longest < least)
+        factor = pow(10, ceil(log10(least / longest)));
+    if (longest > most)
+        factor = pow(10, -ceil(log10(longest / most)));
+    for (int i = 0; i<pen->system->nodes; i += apart> 1 ? apart : 1) {
+        const double *p = trace->p + 2 * i;
+        if (math_hypot(p[0], p[1]) * factor * scale > 1.5)
+            plot_arrow(stage, pen->x + 2 * i, p, factor, 1.6, COLOUR_P);
+    }
+    plot_legend(stage, COLOUR_P, "search direction p%s%s",
                 factor == 1 ? "" : " \u00d7 ",
                 factor == 1 ? "" : number_of(factor).text);
 }
