@@ -117,28 +117,10 @@ static void find_spring(LawNow *now, int s)
         now->reach = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
 }
 
-/* Of friction all contacts are one, with the mean of their speeds by how they
- * are pressed; the element is the one that is pressed most. */
-static void find_element(LawNow *now, const Law *law, const double *v)
-{
-    const Element *element = &now->element;
-    double t[4], w[4], slip, mean = now->x;
-    now->felt = -element->s;
-    now->x =
-        law->value == near_value ? sqrt(element->s) * now->reach : element->s;
-    if (law->value != slip_value)
-        return;
-    now->felt = now->at.term->kind->element->rub(&now->at, element, t, &slip);
-    element_vectors(element, v, w);
-    for (int i = 0; i < 2 * element->vectors; i++)
-        slip -= t[i] * w[i];
-    mean = now->pressed > 0 ? mean : 0;
-    now->pressed += now->felt;
-    now->x = mean + (fabs(slip) - mean) * now->felt / now->pressed;
-}
-
-/* The law that the page is about, and where a run is on it, most of all.  NULL:
- * the scene has none. */
+/* The law that the page is about, and where a run is on it, most of all.  Of
+ * friction all contacts are one, with the mean of their speeds by how they are
+ * pressed; the element is the one that is pressed most.  NULL: the scene has no
+ * law. */
 static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
 {
     const LecturePage *page = simulation->options.page;
@@ -170,8 +152,20 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
     most->at.term = now.at.term = system_find_term(system, law->source);
     for (ElementWalk walk = elements_from(&now.at, NULL, 0);
          elements_next(&walk);) {
-        now.element = walk.element;
-        find_element(&now, law, v);
+        const Element *element = &walk.element;
+        double t[4], w[4], slip, mean = now.pressed > 0 ? now.x : 0;
+        now.element = *element;
+        now.felt = -element->s;
+        now.x = law->value == near_value ? sqrt(element->s) * now.reach
+                                         : element->s;
+        if (law->value == slip_value) {
+            now.felt = walk.kind->rub(&now.at, element, t, &slip);
+            element_vectors(element, v, w);
+            for (int i = 0; i < 2 * element->vectors; i++)
+                slip -= t[i] * w[i];
+            now.pressed += now.felt;
+            now.x = mean + (fabs(slip) - mean) * now.felt / now.pressed;
+        }
         *most = now.felt > most->felt ? now : *most;
     }
     most->x = law->value == slip_value ? now.x : most->x;

@@ -19,6 +19,7 @@ typedef struct Update {
     int refused;  /* lengths 1, 1/2, ... that the line search did not take */
     int number;   /* of the iterate x0 */
     bool made;
+    bool slopes; /* graphs are of f' and of the tangent q' */
 } Update;
 
 static Local scalar_at(const Simulation *simulation, double x)
@@ -54,28 +55,20 @@ static Update last_update(const Simulation *simulation)
     return update_at(simulation, simulation->descent.count - 1);
 }
 
-/* The function, its derivative and the model, for graphs. */
-static double value_at(const void *update, double x)
+/* The function and its model, for graphs. */
+static double curve_at(const void *data, double x)
 {
-    return scalar_at(((const Update *)update)->simulation, x).value;
+    const Update *update = data;
+    Local at = scalar_at(update->simulation, x);
+    return update->slopes ? at.g[0] : at.value;
 }
 
-static double slope_at(const void *update, double x)
+static double model_at(const void *data, double x)
 {
-    return scalar_at(((const Update *)update)->simulation, x).g[0];
-}
-
-static double model_at(const void *update, double x)
-{
-    const Update *model = update;
-    double d = x - model->x0;
-    return model->f + d * (model->first + 0.5 * d * model->second);
-}
-
-static double tangent_at(const void *update, double x)
-{
-    const Update *model = update;
-    return model->first + (x - model->x0) * model->second;
+    const Update *update = data;
+    double d = x - update->x0, first = update->first, second = update->second;
+    return update->slopes ? first + d * second
+                          : update->f + d * (first + 0.5 * d * second);
 }
 
 /* Iterate i, the present one after all others. */
@@ -89,14 +82,12 @@ static double iterate(const Descent *descent, int i)
 
 /* The model of E or its tangent, its minimum or zero, and from there the way to
  * the curve, where the full step leads. */
-static void draw_model(const Plot *plot, const Update *update, bool slopes,
-                       double width, double radius, Colour colour)
+static void draw_model(const Plot *plot, const Update *update, double width,
+                       double radius, Colour colour)
 {
-    double (*curve)(const void *, double) = slopes ? slope_at : value_at;
-    double (*near)(const void *, double) = slopes ? tangent_at : model_at;
-    const double low[2] = {update->x1, near(update, update->x1)};
-    const double high[2] = {update->x1, curve(update, update->x1)};
-    plot_graph(plot, near, update, width, colour);
+    const double low[2] = {update->x1, model_at(update, update->x1)};
+    const double high[2] = {update->x1, curve_at(update, update->x1)};
+    plot_graph(plot, model_at, update, width, colour);
     plot_line(plot, low, high, 1.2, colour);
     plot_hollow(plot, low, radius, 0.6 * radius, COLOUR_P);
 }
@@ -105,31 +96,29 @@ static void draw_model(const Plot *plot, const Update *update, bool slopes,
  * search looked and went on; discs on the curve, the last one is black, with
  * their numbers below and above in turn, unless there is no room beside the one
  * before. */
-static void draw_search(const Plot *plot, const Update *update, bool slopes,
-                        bool model)
+static void draw_search(const Plot *plot, const Update *update, bool model)
 {
-    double (*curve)(const void *, double) = slopes ? slope_at : value_at;
     const Descent *descent = &update->simulation->descent;
     double x1 = update->x1, used[2] = {-1e9, -1e9}, alpha = 1, p[2];
     bool right = x1 > plot->x.high, left = x1 < plot->x.low;
-    plot_graph(plot, curve, update, 2.4, COLOUR_X);
+    plot_graph(plot, curve_at, update, 2.4, COLOUR_X);
     if (model)
-        draw_model(plot, update, slopes, 1.6, 6, COLOUR_P);
+        draw_model(plot, update, 1.6, 6, COLOUR_P);
     const double edge[2] = {right ? plot->x.high : plot->x.low,
                             0.2 * plot->y.low};
-    if (model && !slopes && isfinite(x1) && (left || right))
+    if (model && !update->slopes && isfinite(x1) && (left || right))
         plot_words(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
                    right ? "" : "\u2190 ", number_of(x1).text,
                    right ? " \u2192" : "");
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (x1 - update->x0);
-        plot_hollow(plot, (double[2]){x, curve(update, x)}, 5, 3.2,
+        plot_hollow(plot, (double[2]){x, curve_at(update, x)}, 5, 3.2,
                     COLOUR_WARNING);
     }
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
         double x = iterate(descent, i);
-        const double at[2] = {x, curve(update, x)};
+        const double at[2] = {x, curve_at(update, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         bool seen = plot_disc(plot, at, last ? 7 : 5.5, colour);
         plot_place(plot, at, p);
@@ -151,9 +140,9 @@ void curve_draw(Plot *stage)
     Plot plot = plot_on(stage, (Axis){.label = "x"}, (Axis){0});
     for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
         Update earlier = update_at(simulation, i);
-        draw_model(&plot, &earlier, false, 1.4, 4, pale);
+        draw_model(&plot, &earlier, 1.4, 4, pale);
     }
-    draw_search(&plot, &update, false, !stage->show->veiled);
+    draw_search(&plot, &update, !stage->show->veiled);
 }
 
 /* The update that is shown, from its iterate to the next one. */
@@ -223,8 +212,10 @@ void tangent_draw(Plot *stage)
     Update update = last_update(simulation);
     const Plot plot[2] = {tangent_plot(stage, 0), tangent_plot(stage, 1)};
     bool asked = stage->show->veiled || (guess->made && !guess->shown);
-    for (int half = 0; half < 2; half++)
-        draw_search(&plot[half], &update, half == 0, update.made || !asked);
+    for (int half = 0; half < 2; half++) {
+        update.slopes = half == 0;
+        draw_search(&plot[half], &update, update.made || !asked);
+    }
     if (!stage->text)
         return;
     stage_handles(&plot[1]);

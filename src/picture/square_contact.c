@@ -38,25 +38,19 @@ Touch square_touch(const SpringPen *pen, const Element *element)
     return touch;
 }
 
-/* Of the contacts of all runs, N. */
-static double largest_force(const SpringPen *pen, int runs)
+void square_contact_forces(const SpringPen *pen, int runs)
 {
-    double most = 0;
+    Plot *stage = pen->stage;
+    double most = 0; /* the largest force, N */
     for (int r = 0; r < runs; r++)
         for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
             Touch touch = square_touch(&pen[r], &at.element);
             most = fmax(most, math_hypot(touch.force[0], touch.force[1]));
         }
-    return isfinite(most) ? most : 0;
-}
-
-void square_contact_forces(const SpringPen *pen, int runs)
-{
-    Plot *stage = pen->stage;
-    double most = largest_force(pen, runs), round = plot_round_up(most);
-    double factor = FORCE_ROOM * stage->em / stage->camera.scale[0] / round;
-    if (!(most > 0))
+    if (most == 0 || !isfinite(most))
         return;
+    double round = plot_round_up(most);
+    double factor = FORCE_ROOM * stage->em / stage->camera.scale[0] / round;
     for (int r = runs - 1; r >= 0; r--)
         for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
             Touch touch = square_touch(&pen[r], &at.element);
