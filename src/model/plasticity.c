@@ -5,22 +5,16 @@
 #include "model/damping.h"
 #include "model/mass_spring_energy.h"
 
-/* fmin and fmax without a call of the library: they are asked for each spring.
- */
-static double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-/* (|e| - Y)_+ */
+/* (|e| - Y)_+, and what of |e| is within Y: without fmin and fmax, which are
+ * calls of the library, for each spring is asked. */
 static double beyond(SpringLaw law, double e)
 {
-    return larger(fabs(e) - law.yield, 0);
+    return fabs(e) > law.yield ? fabs(e) - law.yield : 0;
+}
+
+static double inside(SpringLaw law, double e)
+{
+    return fabs(e) < law.yield ? fabs(e) : law.yield;
 }
 
 /* Where |e| is far beyond Y, e^2 and the square of what is beyond are nearly
@@ -28,7 +22,7 @@ static double beyond(SpringLaw law, double e)
 static double spring_law_value(SpringLaw law, double e)
 {
     double over = beyond(law, e), change = e - law.e_n;
-    double within = smaller(fabs(e), law.yield);
+    double within = inside(law, e);
     double sum =
         within * (fabs(e) - 0.5 * within) + 0.5 * law.hard * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
@@ -36,8 +30,7 @@ static double spring_law_value(SpringLaw law, double e)
 
 double spring_law_slope(SpringLaw law, double e)
 {
-    double within = smaller(fabs(e), law.yield);
-    double tau = copysign(within + law.hard * beyond(law, e), e);
+    double tau = copysign(inside(law, e) + law.hard * beyond(law, e), e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
@@ -174,8 +167,9 @@ static double remainder_along(const Place *at, const double *p, double alpha)
         strain_along(&spring, p, &B, &C);
         double t = alpha * (B + alpha * C), way = fabs(t);
         double start = copysign(1, t) * spring.strain;
-        double from = larger(-law.yield - start, 0);
-        double to = smaller(law.yield - start, way);
+        double from = -law.yield - start, to = law.yield - start;
+        from = from > 0 ? from : 0;
+        to = to < way ? to : way;
         double within = from > 0 && to < way ? 2 * law.yield : to - from;
         double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
         sum += spring.k * spring.l2 *

@@ -250,11 +250,9 @@ static void forward_group(const Panel *panel, int j, double *w)
     const double *a[GROUP];
     double v[GROUP], pivot[GROUP];
     take_group(panel, j, a, pivot);
-#pragma GCC unroll 4
-    for (int q = 0; q < GROUP; q++) {
+    EACH (q, GROUP) {
         v[q] = w[j + q];
-#pragma GCC unroll 4
-        for (int p = 0; p < q; p++)
+        EACH (p, q)
             v[q] -= a[p][j + q] * v[p];
         w[j + q] = v[q] *= pivot[q];
     }
@@ -276,8 +274,7 @@ static void backward_group(const Panel *panel, int j, double *w)
     take_group(panel, j, a, pivot);
     int i = j + GROUP;
     for (; i + TWO <= panel->rows; i += TWO)
-#pragma GCC unroll 4
-        for (int q = 0; q < GROUP; q++)
+        EACH (q, GROUP)
             s[q] += two(a[q] + i) * two(w + i);
     for (int q = 0; q < GROUP; q++)
         v[q] = w[j + q] - (s[q][0] + s[q][1]);
