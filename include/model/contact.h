@@ -98,8 +98,4 @@ bool contact_has_pair(const Contact *contact, const System *system, int node,
 /* m, of a node: 0, a point, but for the centre of the free ball. */
 double contact_node_radius(const Contact *contact, int node);
 
-/* The gap of a pair in positions x [2n] m. */
-Gap contact_pair_gap(const Contact *contact, const double *x, int node,
-                     int obstacle);
-
 #endif

@@ -53,14 +53,6 @@ double contact_node_radius(const Contact *contact, int node)
     return ball->node == node ? ball->radius : 0;
 }
 
-Gap contact_pair_gap(const Contact *contact, const double *x, int node,
-                     int obstacle)
-{
-    const Obstacle *other = &contact->obstacle[obstacle];
-    return contact_gap(other, obstacle_point(other, x), x + 2 * node,
-                       contact_node_radius(contact, node));
-}
-
 /* ---- the term ------------------------------------------------------------ */
 
 static const Barrier *barrier_of(const Place *at)
@@ -83,13 +75,15 @@ static bool get(const Place *at, int i, double way, Element *element)
     int node = i - obstacle * nodes;
     if (!contact_has_pair(contact, at->system, node, obstacle))
         return false;
-    Gap gap = contact_pair_gap(contact, at->x, node, obstacle);
+    const Obstacle *other = &contact->obstacle[obstacle];
+    Gap gap = contact_gap(other, obstacle_point(other, at->x), at->x + 2 * node,
+                          contact_node_radius(contact, node));
     if (gap.d >= contact->barrier.d_hat + way)
         return false;
     element->vectors = 1;
-    element->nodes = contact->obstacle[obstacle].node < 0 ? 1 : 2;
+    element->nodes = other->node < 0 ? 1 : 2;
     element->node[0] = element->block = node;
-    element->node[1] = contact->obstacle[obstacle].node;
+    element->node[1] = other->node;
     element->from = obstacle;
     element->weight = difference;
     element->factor = 1;

@@ -84,19 +84,10 @@ int newton_most_iterations(const Newton *newton)
                : newton->settings.max_iterations;
 }
 
-/* Step length, update, next direction and its test.  What ends the loop besides
- * that is rounding, and the number of iterations.  Without a line search an end
- * above the start is no success.
- *   done  out, what the record tells of the first two */
-static Status iterate(Newton *newton, NewtonRecord *done)
+/* What ends the loop besides the test: rounding, and the number of iterations.
+ * Without a line search an end above the start is no success. */
+static Status newton_limits(Newton *newton, Status status)
 {
-    Status status = step_length(newton);
-    if (!status)
-        status = newton_update(newton);
-    *done = newton->record;
-    if (!status)
-        status =
-            newton->lent ? multigrid_start(newton) : direction_next(newton);
     if (status == STATUS_RUNNING)
         status = rounding_stagnation(newton);
     if (status == STATUS_RUNNING &&
@@ -134,9 +125,19 @@ Status newton_iterate(Newton *newton)
     newton->record.iteration++;
     newton->record.residual = newton->residual;
     newton->record.kind = newton->kind;
-    Status status = newton->working == SOLVER_MULTIGRID
-                        ? multigrid_iterate(newton, &done)
-                        : iterate(newton, &done);
+    Status status;
+    if (newton->working == SOLVER_MULTIGRID) {
+        status = multigrid_iterate(newton, &done);
+    } else {
+        status = step_length(newton);
+        if (!status)
+            status = newton_update(newton);
+        done = newton->record; /* what it tells of these two */
+        if (!status)
+            status =
+                newton->lent ? multigrid_start(newton) : direction_next(newton);
+        status = newton_limits(newton, status);
+    }
     done.status = status;
     done.seconds = clock_now() - start;
     return newton->status = tell(newton, &done);

@@ -246,17 +246,15 @@ static double prescribed_work(const TimeIntegrator *run, double weight)
             if (system->pinned[i / 2])
                 pins += g[i] * u[i] / weight;
     }
-    for (int k = 0; contact && k < contact->obstacles; k++) {
-        const double *v = contact->obstacle[k].v;
-        for (int i = 0; moves(&contact->obstacle[k]) && i < system->nodes;
-             i++) {
-            if (!contact_has_pair(contact, system, i, k))
-                continue;
-            Gap gap = contact_pair_gap(contact, x, i, k);
-            sum += contact_force(&contact->barrier, gap.d) *
-                   (gap.n[0] * v[0] + gap.n[1] * v[1]);
+    at.term = system_find_term(system, &contact_energy);
+    if (at.term)
+        for (ElementWalk walk = elements_from(&at, NULL, 0);
+             elements_next(&walk);) {
+            const double *v = contact->obstacle[walk.element.from].v;
+            const double *n = walk.element.n;
+            sum += contact_force(&contact->barrier, walk.element.s) *
+                   (n[0] * v[0] + n[1] * v[1]);
         }
-    }
     return pins +
            (run->moved * run->h * sum + friction_work_of_obstacles(system, u));
 }

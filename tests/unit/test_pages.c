@@ -947,10 +947,11 @@ TEST(claim_contact)
 static double held_part(const Simulation *simulation)
 {
     const Contact *contact = contact_of(simulation->run[2].system);
+    const Obstacle *slope = &contact->obstacle[0];
     const double *x = simulation->run[2].x, *v = simulation->run[2].v;
     double pressed = 0, held = 0, angle = acos(-1) / 9;
     for (int i = 0; i < simulation->system.nodes; i++) {
-        double d = contact_pair_gap(contact, x, i, 0).d;
+        double d = contact_gap(slope, slope->o, x + 2 * i, 0).d;
         double force = contact_force(&contact->barrier, d);
         double slip = cos(angle) * v[2 * i] + sin(angle) * v[2 * i + 1];
         double a = fmin(fabs(slip) / 1e-3, 1);
