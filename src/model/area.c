@@ -31,28 +31,11 @@ static double make_unit(double v[4], const double instead[4])
     return length;
 }
 
-/* H += w v v^T, all of it. */
-static void add_square(double w, const double v[4], double H[4][4])
-{
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++)
-            H[r][c] += w * v[r] * v[c];
-}
-
-/* (S v_1, S v_2): turned by a quarter, in the same eigenspace of K. */
-static void turn(const double v[4], double turned[4])
-{
-    turned[0] = v[1];
-    turned[1] = -v[0];
-    turned[2] = v[3];
-    turned[3] = -v[2];
-}
-
 /* The Hessian of all I + slope K + second g g^T with g = unit K f: f+ and f-
  * are f's parts in the eigenspaces of K, so it maps the plane of a = f+/|f+|
- * and b = f-/|f-| to itself, and what lies across, a' and b', are eigenvectors
- * with all + slope and all - slope.  In that plane a 2x2 matrix Q is projected.
- */
+ * and b = f-/|f-| to itself, and what lies across, S of their halves, are
+ * eigenvectors with all + slope and all - slope.  In that plane a 2x2 matrix Q
+ * is projected. */
 bool area_hessian(const double f[4], const AreaCurvature *curvature,
                   Filter filter, double H[4][4])
 {
@@ -65,28 +48,25 @@ bool area_hessian(const double f[4], const AreaCurvature *curvature,
                    0.5 * (f[2] - f[1]), 0.5 * (f[3] + f[0])};
     double b[4] = {0.5 * (f[0] - f[3]), 0.5 * (f[1] + f[2]),
                    0.5 * (f[2] + f[1]), 0.5 * (f[3] - f[0])};
-    double plus = curvature->unit * make_unit(a, any_plus), across[4];
+    double plus = curvature->unit * make_unit(a, any_plus);
     double minus = curvature->unit * make_unit(b, any_minus);
     double Q[3] = {curvature->second * plus * plus + c1 + all,
                    -curvature->second * plus * minus,
                    curvature->second * minus * minus - c1 + all};
+    const double across_a[4] = {a[1], -a[0], a[3], -a[2]};
+    const double across_b[4] = {b[1], -b[0], b[3], -b[2]};
     double low = all + c1, high = all - c1;
     bool changed = filter_2x2(filter, Q);
-    for (int i = 0; i < 16; i++)
-        H[i / 4][i % 4] = 0;
-    add_square(Q[0], a, H);
-    add_square(Q[2], b, H);
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++)
-            H[r][c] += Q[1] * (a[r] * b[c] + b[r] * a[c]);
     if (filter_projects(filter)) {
         changed = changed || low < 0 || high < 0;
         low = projected_eigenvalue(filter, low);
         high = projected_eigenvalue(filter, high);
     }
-    turn(b, across);
-    add_square(high, across, H);
-    turn(a, across);
-    add_square(low, across, H);
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++)
+            H[r][c] = Q[0] * a[r] * a[c] + Q[2] * b[r] * b[c] +
+                      Q[1] * (a[r] * b[c] + b[r] * a[c]) +
+                      high * across_b[r] * across_b[c] +
+                      low * across_a[r] * across_a[c];
     return changed;
 }

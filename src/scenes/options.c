@@ -38,11 +38,6 @@ const char *solver_name(int solver)
     return solvers[solver];
 }
 
-static bool touches(const Options *options)
-{
-    return options->grounds + options->balls > 0 || options->ceiling[1] != 0;
-}
-
 /* Of a body: no turn, no velocity, no stretch. */
 static const double body_rest[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
@@ -52,7 +47,9 @@ static const double body_rest[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
     {                                                                          \
         return (found) ? NULL : (why);                                         \
     }
-REASON(nothing_meets, options->self_contact != 0 || touches(options),
+REASON(nothing_meets,
+       options->self_contact != 0 || options->grounds + options->balls > 0 ||
+           options->ceiling[1] != 0,
        "there is nothing to touch; --ground or --ball put it there")
 REASON(no_self_contact, options->self_contact != 0,
        "bodies do not see each other; --self-contact on")
