@@ -86,61 +86,38 @@ static void check_solution(Random *random, Problem *problem, double tolerance)
     }
 }
 
-static void leave(Problem *problem, int trial)
-{
-    (void)problem;
-    (void)trial;
-}
+typedef enum Spoil {
+    NOTHING,
+    NEGATE_ONE,  /* on the diagonal */
+    NEGATE_HALF, /* of the diagonal */
+    EMPTY_ROW,   /* and column 7; the right-hand side is not 0 there */
+    EMPTY_ALL,
+    SMALL_PIVOT, /* [[1e-17, 1], [1, 1]] in the corner: 0 but for rounding, in
+                  * a matrix that is not singular at all */
+    NOT_FINITE,
+    ALL_TINY /* 1 / 1e-310 is infinite */
+} Spoil;
 
-static void negate_one(Problem *problem, int trial)
-{
-    *entry(problem, trial % SIZE, trial % SIZE) *= -1;
-}
-
-static void negate_half(Problem *problem, int trial)
-{
-    for (int i = trial % 2; i < SIZE; i += 2)
-        negate_one(problem, i);
-}
-
-/* Zeros in row and column 7; the right-hand side is not 0 there. */
-static void empty_a_row(Problem *problem, int trial)
-{
-    Sparse *A = &problem->A;
-    (void)trial;
-    for (int c = 0; c < SIZE; c++)
-        for (int s = A->start[c]; s < A->start[c + 1]; s++)
-            if (A->row[s] == 7 || c == 7)
-                A->value[s] = 0;
-}
-
-static void empty_all(Problem *problem, int trial)
-{
-    (void)trial;
-    memset(problem->A.value, 0, (size_t)problem->A.entries * sizeof(double));
-}
-
-/* [[1e-17, 1], [1, 1]] in the corner: a pivot that is 0 but for rounding, in a
- * matrix that is not singular at all. */
-static void make_a_small_pivot(Problem *problem, int trial)
-{
-    (void)trial;
-    *entry(problem, 0, 0) = 1e-17;
-    *entry(problem, 1, 0) = 1;
-}
-
-static void make_one_not_finite(Problem *problem, int trial)
+static void spoil(Problem *problem, Spoil how, int trial)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY};
-    problem->A.value[trial % problem->A.entries] = bad[trial % 3];
-}
-
-/* 1 / 1e-310 is infinite. */
-static void make_all_tiny(Problem *problem, int trial)
-{
-    empty_all(problem, trial);
-    for (int i = 0; i < SIZE; i++)
-        *entry(problem, i, i) = 1e-310;
+    Sparse *A = &problem->A;
+    for (int c = 0; c < SIZE; c++)
+        for (int s = A->start[c]; s < A->start[c + 1]; s++) {
+            double *value = A->value + s;
+            int r = A->row[s];
+            if (r == c && ((how == NEGATE_ONE && c == trial) ||
+                           (how == NEGATE_HALF && c % 2 == trial % 2)))
+                *value = -*value;
+            if (how == EMPTY_ALL || (how == EMPTY_ROW && (r == 7 || c == 7)))
+                *value = 0;
+            if (how == SMALL_PIVOT && c == 0 && r < 2)
+                *value = r == 0 ? 1e-17 : 1;
+            if (how == NOT_FINITE && s == trial % A->entries)
+                *value = bad[trial % 3];
+            if (how == ALL_TINY)
+                *value = r == c ? 1e-310 : 0;
+        }
 }
 
 /* What each kind says of each matrix; and the next one is solved again.  The
@@ -151,23 +128,23 @@ static void make_all_tiny(Problem *problem, int trial)
 TEST(matrices_are_solved_or_named)
 {
     static const struct {
-        void (*spoil)(Problem *, int);
+        Spoil how;
         CholeskyKind kind;
         Status factor, solve;
         double tolerance;
     } rows[] = {
-        {leave, CHOLESKY_DEFINITE, STATUS_OK, STATUS_OK, 1e-14},
-        {leave, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
-        {negate_half, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
-        {make_a_small_pivot, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
-        {negate_one, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
-        {empty_a_row, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
-        {empty_all, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
-        {empty_a_row, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_SINGULAR, 0},
-        {make_one_not_finite, CHOLESKY_DEFINITE, STATUS_NOT_FINITE, 0, 0},
-        {make_one_not_finite, CHOLESKY_INDEFINITE, STATUS_NOT_FINITE, 0, 0},
-        {make_all_tiny, CHOLESKY_DEFINITE, STATUS_OK, STATUS_NOT_FINITE, 0},
-        {make_all_tiny, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_NOT_FINITE, 0},
+        {NOTHING, CHOLESKY_DEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {NOTHING, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {NEGATE_HALF, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {SMALL_PIVOT, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {NEGATE_ONE, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
+        {EMPTY_ROW, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
+        {EMPTY_ALL, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
+        {EMPTY_ROW, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_SINGULAR, 0},
+        {NOT_FINITE, CHOLESKY_DEFINITE, STATUS_NOT_FINITE, 0, 0},
+        {NOT_FINITE, CHOLESKY_INDEFINITE, STATUS_NOT_FINITE, 0, 0},
+        {ALL_TINY, CHOLESKY_DEFINITE, STATUS_OK, STATUS_NOT_FINITE, 0},
+        {ALL_TINY, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_NOT_FINITE, 0},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         Random random = {30 + (uint64_t)i};
@@ -179,7 +156,7 @@ TEST(matrices_are_solved_or_named)
             for (int k = 0; k < SIZE; k++)
                 x[k] = 1;
             problem_fill(&random, &problem);
-            rows[i].spoil(&problem, trial);
+            spoil(&problem, rows[i].how, trial);
             CHECK_STATUS(cholesky_factor(problem.cholesky), rows[i].factor);
             if (rows[i].factor == STATUS_OK)
                 CHECK_STATUS(cholesky_solve(problem.cholesky, x, x),

@@ -156,24 +156,28 @@ static void point_at(const char *place)
     }
 }
 
-static void use_mouse(const char *verb, const char *place)
+/* Returns false if this is nothing that a mouse does. */
+static bool use_mouse(const char *verb, const char *place)
 {
-    bool twice = strcmp(verb, "double") == 0;
-    point_at(place);
-    if (strcmp(verb, "move") == 0)
-        put((Input){.kind = INPUT_MOVE});
-    else if (strcmp(verb, "wheel") == 0)
-        put((Input){.kind = INPUT_WHEEL, .amount = 1});
-    else if (strcmp(verb, "shift") == 0)
-        put((Input){.kind = INPUT_PRESS, .button = BUTTON_BOX});
-    else if (strcmp(verb, "right") == 0)
-        put((Input){.kind = INPUT_PRESS, .button = BUTTON_RIGHT});
-    else if (strcmp(verb, "middle") == 0)
-        put((Input){.kind = INPUT_PRESS, .button = BUTTON_MIDDLE});
-    else
-        put((Input){.kind = verb[0] == 'r' ? INPUT_RELEASE : INPUT_PRESS,
-                    .button = BUTTON_LEFT,
-                    .clicks = twice ? 2 : 1});
+    static const struct {
+        const char *verb;
+        Input input;
+    } deeds[] = {
+        {"press", {.kind = INPUT_PRESS, .button = BUTTON_LEFT, .clicks = 1}},
+        {"double", {.kind = INPUT_PRESS, .button = BUTTON_LEFT, .clicks = 2}},
+        {"release", {.kind = INPUT_RELEASE, .button = BUTTON_LEFT}},
+        {"right", {.kind = INPUT_PRESS, .button = BUTTON_RIGHT}},
+        {"middle", {.kind = INPUT_PRESS, .button = BUTTON_MIDDLE}},
+        {"shift", {.kind = INPUT_PRESS, .button = BUTTON_BOX}},
+        {"move", {.kind = INPUT_MOVE}},
+        {"wheel", {.kind = INPUT_WHEEL, .amount = 1}}};
+    for (size_t i = 0; i < sizeof deeds / sizeof *deeds; i++)
+        if (strcmp(deeds[i].verb, verb) == 0) {
+            point_at(place);
+            put(deeds[i].input);
+            return true;
+        }
+    return false;
 }
 
 static void run_until(long step)
@@ -391,11 +395,9 @@ static void session_line(const char *line)
         check_tables(rest);
     else if (strcmp(verb, "row") == 0)
         check_row(rest);
-    else if (strstr("press double move release right middle wheel shift", verb))
-        use_mouse(verb, rest);
     else if (strstr("mark same other", verb))
         compare(verb, rest);
-    else
+    else if (!use_mouse(verb, rest))
         look(line);
 }
 
