@@ -152,30 +152,22 @@ TEST(another_timestep_begins_anew)
 {
     static const char *const methods[] = {"bdf2", "verlet"};
     for (int m = 0; m < 2; m++) {
-        Simulation simulation, fresh;
-        Options options = line_options("--segments 3 --timestep 1e-3");
-        options.integrator = integrator_method(methods[m]) - integrator_methods;
-        CHECK_STATUS(simulation_create(&options, NULL, NULL, &simulation),
-                     STATUS_OK);
-        for (int i = 0; i < 5; i++)
-            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-        unsigned char *bytes = malloc(state_save(&simulation, NULL));
+        Simulation *used =
+            make_steps(simulate("--segments 3 --timestep 1e-3 --integrator %s",
+                                methods[m]),
+                       5);
+        Simulation *fresh = simulate(
+            "--segments 3 --timestep 2e-3 --integrator %s", methods[m]);
+        unsigned char *bytes = malloc(state_save(used, NULL));
         CHECK(bytes != NULL);
-        state_save(&simulation, bytes);
-        options.timestep = 2e-3;
-        CHECK_STATUS(simulation_create(&options, NULL, NULL, &fresh),
-                     STATUS_OK);
-        state_restore(bytes, &fresh);
-        fresh.run[0].memory_h = 0;
-        simulation_set(&simulation, OPTION_SLOT(timestep), 2e-3);
-        for (int i = 0; i < 3; i++) {
-            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-            CHECK_STATUS(simulation_step(&fresh), STATUS_OK);
-            CHECK(state_hash(&simulation, 1) == state_hash(&fresh, 1));
-        }
+        state_save(used, bytes);
+        state_restore(bytes, fresh);
         free(bytes);
-        simulation_free(&simulation);
-        simulation_free(&fresh);
+        fresh->run[0].memory_h = 0;
+        simulation_set(used, OPTION_SLOT(timestep), 2e-3);
+        for (int i = 0; i < 3; i++)
+            CHECK(state_hash(make_steps(used, 1), 1) ==
+                  state_hash(make_steps(fresh, 1), 1));
     }
 }
 
