@@ -337,40 +337,6 @@ static Real flattest(const Simulation *simulation, Real *energy)
     return least;
 }
 
-/* The nearest point and edge of which it is no end; how fast those slide that
- * are nearer than `reach`, in the mean by how hard they press.  Every pair is
- * tried. */
-static Real nearest(const Simulation *simulation, Real reach, Real *slip)
-{
-    const System *system = &simulation->system;
-    const double *x = simulation->run[0].x, *v = simulation->run[0].v;
-    Real least = INFINITY, pressed = 0, sum = 0;
-    for (int k = 0; k < system->nodes * system->springs; k++) {
-        int p = k % system->nodes, s = k / system->nodes;
-        int a = system->e[2 * s], b = system->e[2 * s + 1];
-        Real q[2], e[2], w[2], n[2];
-        for (int c = 0; c < 2; c++) {
-            q[c] = (Real)x[2 * p + c] - x[2 * a + c];
-            e[c] = (Real)x[2 * b + c] - x[2 * a + c];
-        }
-        Real r = (q[0] * e[0] + q[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]);
-        r = fminl(fmaxl(r, 0), 1);
-        for (int c = 0; c < 2; c++) {
-            n[c] = q[c] - r * e[c];
-            w[c] = v[2 * p + c] - (1 - r) * v[2 * a + c] - r * v[2 * b + c];
-        }
-        Real d = hypotl(n[0], n[1]);
-        if (p == a || p == b || !(d < reach))
-            continue;
-        least = fminl(least, d);
-        Real S = powl(d / reach, 2), force = d * (1 / S - 1 - logl(S));
-        pressed += force;
-        sum += force * fabsl(n[0] * w[1] - n[1] * w[0]) / d;
-    }
-    *slip = sum / pressed;
-    return least;
-}
-
 /* The strain of the spring that flowed most, or the part of its strength of the
  * one nearest to breaking; its force in the same unit, its plastic strain. */
 static Real most_loaded(const System *system, const double *x,
@@ -416,7 +382,7 @@ static void tell_law(const Simulation *simulation)
         /* by differences over a ten thousandth of d to either side */
         near("law force", c / reach * (1 / s - 1 - logl(s)), 1e-2L);
     } else if (strcmp(law, "near") == 0) {
-        at = nearest(simulation, reach, &slip);
+        at = exact_nearest(simulation, reach, &slip);
         near("gap", 1e3L * at, 1e-10L);
         s = powl(at / reach, 2);
         c /= 8;
@@ -424,7 +390,7 @@ static void tell_law(const Simulation *simulation)
         near("law force", 2 * c * at / reach / reach * (1 / s - 1 - logl(s)),
              1e-2L);
     } else if (strcmp(law, "rub") == 0) {
-        near("gap", 1e3L * nearest(simulation, reach, &at), 1e-10L);
+        near("gap", 1e3L * exact_nearest(simulation, reach, &at), 1e-10L);
         Real gone = 0; /* the upper block, whose nodes come last */
         for (int i = system->nodes; i < 2 * system->nodes; i += 2)
             gone += ((Real)x[i] - o->body[1][0]) / (system->nodes / 2);

@@ -40,8 +40,10 @@ static Simulation *open_page(const char *name, const char *more)
     const LecturePage *page = lecture_find(name);
     assert_non_null(page);
     updates.count = 0;
-    return simulate_watched(keep_record, NULL, "%s%s%s", page->line,
-                            more[0] ? " " : "", more);
+    Simulation *simulation = simulate_watched(
+        keep_record, NULL, "%s%s%s", page->line, more[0] ? " " : "", more);
+    simulation->options.page = page;
+    return simulation;
 }
 
 /* The numbers in what a page says, in their order: what a claim's test holds,
@@ -80,15 +82,18 @@ static double total_mass(const System *system)
     return sum;
 }
 
-/* What a page's texts know by this name when it opens. */
-static double known(const char *name, const char *fact)
+/* What a page's texts know by this name now, and when it opens. */
+static double known_now(Simulation *simulation, const char *fact)
 {
     Show show;
-    Simulation *simulation = open_page(name, "");
-    simulation->options.page = lecture_find(name);
     show_create(simulation, &show);
     show_lecture(COLUMN_CARDS, NULL, &show);
     return show_number(&show, fact);
+}
+
+static double known(const char *name, const char *fact)
+{
+    return known_now(open_page(name, ""), fact);
 }
 
 TEST(claim_solid)
@@ -126,7 +131,6 @@ TEST(claim_mesh)
         sheared[i] = x[i] + sin(turn) * (x[i + 1] + 0.5);
         sheared[i + 1] = cos(turn) * (x[i + 1] + 0.5);
     }
-    simulation->options.page = lecture_find("mesh");
     CHECK(system_potential(system, sheared) > 1e3);
     exhibit_flip(simulation, 2);
     exhibit_flip(simulation, 3);
@@ -151,15 +155,13 @@ TEST(claim_mesh)
     }
 }
 
-/* The place of the middle, m. */
-static void centre(const Simulation *simulation, double c[2])
+/* The middle of a body, m. */
+static void middle_of(const Simulation *simulation, int body, double x[2])
 {
-    const System *system = &simulation->system;
-    c[0] = c[1] = 0;
-    for (int i = 0; i < 2 * system->nodes; i++)
-        c[i % 2] += system->m[i / 2] * simulation->run[0].x[i];
-    c[0] /= total_mass(system);
-    c[1] /= total_mass(system);
+    int each = simulation->mesh.nodes / simulation->mesh.bodies;
+    x[0] = x[1] = 0;
+    for (int i = 2 * each * body; i < 2 * each * (body + 1); i++)
+        x[i % 2] += simulation->run[0].x[i] / each;
 }
 
 TEST(claim_equation)
@@ -181,9 +183,9 @@ TEST(claim_equation)
         if (i / 5 % 4 && i % 5 % 4)
             CHECK_NEAR(hypot(g[2 * i], g[2 * i + 1]), 0, 1e-13 * scale);
     CHECK_NEAR(hypot(sum[0], sum[1]), 0, 1e-13 * scale);
-    centre(simulation, before);
+    middle_of(simulation, 0, before);
     double start = simulation_energies(simulation, 0).total;
-    centre(make_steps(simulation, 50), after);
+    middle_of(make_steps(simulation, 50), 0, after);
     CHECK_NEAR(simulation_energies(simulation, 0).total, start, 1e-6 * start);
     CHECK_NEAR(hypot(after[0] - before[0], after[1] - before[1]), 0, 1e-14);
 }
@@ -928,12 +930,8 @@ TEST(claim_contact)
             nearest = fmin(nearest, fmin(x[i + 1] + 0.5, 1.1 - fabs(x[i])));
         if (step + 1 != lecture_find("contact")->picture)
             continue;
-        Show show; /* the force that its card names */
         double s = nearest / 0.01;
-        simulation->options.page = lecture_find("contact");
-        show_create(simulation, &show);
-        show_lecture(COLUMN_CARDS, NULL, &show);
-        CHECK_NEAR(show_number(&show, "law force"),
+        CHECK_NEAR(known_now(simulation, "law force"),
                    125 / 0.01 * (1 / s - 1 - log(s)), 1);
         first = nearest;
     }
@@ -1012,7 +1010,6 @@ TEST(claim_inelastic)
     CHECK_NEAR(start, 8225, 1e-9);
     for (int step = 0; step < 300; step++) {
         if (step % 60 == 0 && step <= 60) { /* rounding is no flow */
-            simulation->options.page = lecture_find("inelastic");
             Show show;
             show_create(simulation, &show);
             show_know(&show);
@@ -1062,15 +1059,6 @@ TEST(claim_return)
     CHECK(turned_over(simulation) > 80);
 }
 
-/* The middle of a body, m. */
-static void middle_of(const Simulation *simulation, int body, double x[2])
-{
-    int each = simulation->mesh.nodes / simulation->mesh.bodies;
-    x[0] = x[1] = 0;
-    for (int i = 2 * each * body; i < 2 * each * (body + 1); i++)
-        x[i % 2] += simulation->run[0].x[i] / each;
-}
-
 /* Steps that converge, at the end of which nothing is turned or passed. */
 static Simulation *bodies_after(const char *name, const char *more, int steps)
 {
@@ -1082,28 +1070,6 @@ static Simulation *bodies_after(const char *name, const char *more, int steps)
     }
     CHECK(simulation->unconverged == 0);
     return simulation;
-}
-
-/* The least distance of a node from a spring of another body, m. */
-static double nearest_spring(const Simulation *simulation)
-{
-    const System *system = &simulation->system;
-    const double *x = simulation->run[0].x;
-    int each = simulation->mesh.nodes / simulation->mesh.bodies;
-    double least = INFINITY;
-    for (int i = 0; i < system->nodes; i++)
-        for (int s = 0; s < system->springs; s++) {
-            const double *a = x + 2 * system->e[2 * s], *p = x + 2 * i;
-            const double *b = x + 2 * system->e[2 * s + 1];
-            double e[2] = {b[0] - a[0], b[1] - a[1]};
-            double part = ((p[0] - a[0]) * e[0] + (p[1] - a[1]) * e[1]) /
-                          (e[0] * e[0] + e[1] * e[1]);
-            part = fmin(fmax(part, 0), 1);
-            if (system->e[2 * s] / each != i / each)
-                least = fmin(least, hypot(p[0] - a[0] - part * e[0],
-                                          p[1] - a[1] - part * e[1]));
-        }
-    return least;
 }
 
 TEST(claim_bodies)
@@ -1118,8 +1084,9 @@ TEST(claim_bodies)
     CHECK_NEAR(stack->options.timestep * 400, 4, 1e-12);
     Simulation *again = open_page("bodies", "");
     double nearest = 1, shown = 1;
+    Real slip;
     for (int step = 1; step <= 400; step++) {
-        double now = nearest_spring(make_steps(again, 1));
+        double now = (double)exact_nearest(make_steps(again, 1), 0.05, &slip);
         nearest = fmin(nearest, now);
         if (step == lecture_find("bodies")->picture)
             shown = now;
@@ -1366,7 +1333,6 @@ TEST(words_of_all_pages_have_one_size)
                                    {900, 900},  {1024, 768}, {1400, 1050}};
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         Simulation *simulation = open_page(page->name, "");
-        simulation->options.page = page;
         for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
             int width = sizes[s][0], height = sizes[s][1];
             Show show;
@@ -1419,7 +1385,6 @@ TEST(letters_are_seen_from_the_back_row)
                      STATUS_OK);
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         Simulation *simulation = open_page(page->name, "");
-        simulation->options.page = page;
         for (int i = 0; i < 4; i++) {
             Column column = i < 2 ? COLUMN_CARDS : (Column)(i - 1);
             int s = (int)(page - lecture_pages + i) % 3;
