@@ -29,9 +29,9 @@ static void pretty_key(char key[SHOW_VALUE])
 static void fill_help(Show *show)
 {
     static const char *const mouse[][2] = {
-        {"drag", "pulls the square by a node; paused: places it"},
+        {"drag", "pulls a node; paused: places it"},
         {"", "a pin, a ground, a ball: moves it"},
-        {"Shift+drag", "paused: a box; its nodes go together"},
+        {"Shift+drag", "paused: a box of nodes to place"},
         {"drag an edge", "of the paused square: stretch"},
         {"right click", "pins a node, or frees it"},
         {"wheel", "zooms, or changes a number"},
