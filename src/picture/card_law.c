@@ -219,6 +219,21 @@ static bool flowed_one_way(const LawNow *now, double from[2], double to[2])
     return ep != 0 && fabs(away) <= 1e-9 * most;
 }
 
+bool law_way(const Simulation *simulation, double way[2])
+{
+    const LecturePage *page = simulation->options.page;
+    const SquareMesh *mesh = &simulation->mesh;
+    const Options *options = &simulation->options;
+    int last = mesh->bodies - 1, nodes = mesh->nodes / mesh->bodies;
+    double v = options->body[last][3], sum = 0;
+    for (int i = last * nodes; i < mesh->nodes; i++)
+        sum += simulation->run[0].x[2 * i];
+    way[0] = sum / nodes - options->body[last][0];
+    way[0] = fabs(way[0]) < 1e-9 ? 0 : way[0];
+    way[1] = v * v / (2 * options->friction * options->gravity);
+    return page && page->law && strcmp(page->law, "rub") == 0;
+}
+
 void law_facts(const Simulation *simulation, Facts *facts)
 {
     LawNow now;
@@ -249,18 +264,10 @@ void law_facts(const Simulation *simulation, Facts *facts)
     Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
         fact(facts, energies.row[i].name, energies.row[i].value);
-    const SquareMesh *mesh = &simulation->mesh;
-    int last = mesh->bodies - 1, nodes = mesh->nodes / mesh->bodies;
-    double sum = 0;
-    for (int i = last * nodes; i < mesh->nodes; i++)
-        sum += simulation->run[0].x[2 * i];
-    const Options *options = &simulation->options;
-    double v = options->body[last][3], gone = sum / nodes;
-    if (law->kind != &self_friction_energy)
-        return;
-    gone -= options->body[last][0];
-    fact(facts, "gone", fabs(gone) < 1e-9 ? 0 : gone);
-    fact(facts, "rigid", v * v / (2 * options->friction * options->gravity));
+    double way[2];
+    bool slides = law_way(simulation, way);
+    fact(facts, "gone", slides ? way[0] : NAN);
+    fact(facts, "rigid", slides ? way[1] : NAN);
 }
 
 /* The dots of all runs, and of several which they are, those that lie together

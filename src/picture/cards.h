@@ -67,6 +67,10 @@ typedef struct LawGap {
 } LawGap;
 bool law_gap(const Simulation *simulation, LawGap *gap);
 
+/* How far the last body has slid, m, and how far a rigid one would; false: the
+ * page is not about that. */
+bool law_way(const Simulation *simulation, double way[2]);
+
 /* A quantity of a history at this time, or at the last point before it, J; what
  * is only rounding beside the others, at that time and at the beginning, is 0;
  * infinite where the present energies are no numbers, NaN where there is no

@@ -44,12 +44,26 @@ static Box envelope_box(const Plot *stage, int column, int row)
                  (int)ceil(p[1]) - top - 1};
 }
 
+/* Where elasticity is so many times as stiff as inertia: h^2 k = ratio m. */
+static void draw_ratio(const Plot *plot, double ratio)
+{
+    double m = plot->simulation->system.m[0];
+    const double k[2] = {1e-6, 1e15};
+    double ends[2][2];
+    for (int i = 0; i < 2; i++) {
+        ends[i][0] = fmin(fmax(sqrt(ratio * m / k[i]), 1e-9), 1e3);
+        ends[i][1] = ratio * m / (ends[i][0] * ends[i][0]);
+    }
+    plot_dashes(plot, ends[0], ends[1], 1.4, NULL, COLOUR_TEXT);
+    plot_words(plot, 1, ends[1], COLOUR_TEXT, "%s", number_of(ratio).text);
+}
+
 /* The cells lie on the axes' lines; the chosen one has a dark border. */
 void envelope_draw(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.map;
-    plot_on(stage, (Axis){.log = true, .label = "h in s"},
-            (Axis){.log = true, .label = "k in J/m\u00b2"});
+    Plot plot = plot_on(stage, (Axis){.log = true, .label = "h in s"},
+                        (Axis){.log = true, .label = "k in J/m\u00b2"});
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++)
             canvas_fill(&stage->paper->canvas, envelope_box(stage, column, row),
@@ -58,6 +72,13 @@ void envelope_draw(Plot *stage)
                 box_inset(envelope_box(stage, map->column, map->row), -1),
                 envelope_colour(&map->cell[map->row][map->column]),
                 COLOUR_TEXT);
+    for (int power = -8; power <= 16; power += 8)
+        draw_ratio(&plot, pow(10, power));
+    double at[2];
+    plot_place(&plot, (double[2]){2e-9, 1e-3}, at);
+    if (map->cell[3][0].undone)
+        paper_panel(stage->paper, FACE_BOLD, 1, COLOUR_TEXT, at[0], at[1],
+                    ALIGN_LEFT, "h \u03b5 is farther than it wants to move");
 }
 
 void envelope_pick(const Plot *stage, double x, double y, Pick *pick)

@@ -20,23 +20,22 @@ static double place_of(const Simulation *simulation, const RacePoint *point)
 void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.parts;
-    bounds[0] = over_h ? -4.5 : -6.3;
-    bounds[1] = over_h ? -11 : -10;
+    bounds[0] = over_h ? -4.8 : -7.6;
+    bounds[1] = over_h ? -9 : -10;
     bounds[2] = over_h ? -1.9 : 0.3;
-    bounds[3] = over_h ? 6 : 3; /* below the switch */
+    bounds[3] = over_h ? 2.5 : 3; /* below the switch */
 }
 
-/* The points of each method joined, hollow where it explodes later.  Over run
- * time the names of the methods, each at its last point; over h, where they
- * would lie on each other, and the table has their colours, how steep errors of
- * order 1, 2 and 4 are. */
+/* The points of each method joined, hollow where it explodes later, and its
+ * name beside the last one, of explicit methods over run time beside the first;
+ * over h how steep errors of order 1, 2 and 4 are, too. */
 void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Race *race = &simulation->exhibit.race;
-    double last[RACE_METHODS][2]; /* its newest point, or NaN */
+    double named[RACE_METHODS][2]; /* NaN: it has no point */
     bool over_h = simulation->exhibit.parts;
-    bool wide = stage->text && stage->box.width > NAMED * stage->em && !over_h;
+    bool wide = stage->text && stage->box.width > NAMED * stage->em;
     Plot plot = plot_on(
         stage,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
@@ -48,47 +47,57 @@ void race_draw(Plot *stage)
     }
     for (int method = 0; method < RACE_METHODS; method++) {
         Colour colour = colour_of(race_method(method)->name);
-        last[method][0] = last[method][1] = NAN;
+        bool first = !over_h && !race_method(method)->implicit;
+        double last[2] = {NAN, NAN};
+        named[method][0] = named[method][1] = NAN;
         for (int i = method; i < race->count; i += RACE_METHODS) {
             const RacePoint *point = &race->point[i];
             const double now[2] = {place_of(simulation, point), point->error};
             if (!(point->error > 0))
                 continue;
-            plot_line(&plot, last[method], now, 2.2, colour);
+            plot_line(&plot, last, now, 2.2, colour);
             plot_hollow(&plot, now, 5, point->stable ? 0 : 3, colour);
-            memcpy(last[method], now, sizeof now);
+            memcpy(last, now, sizeof now);
+            if (!first || isnan(named[method][0]))
+                memcpy(named[method], now, sizeof now);
         }
     }
     for (int order = 1; over_h && order <= 4; order *= 2) {
-        const double from[2] = {5e-5, 0.1}, wide = 8;
+        const double from[2] = {2.5e-5, 0.03}, wide = 4.5;
         const double to[2] = {from[0] * wide, from[1] * pow(wide, order)};
         plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
+        plot_words(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
-    for (int i = RACE_METHODS - 1; i >= 0 && wide; i--) {
-        double x = last[i][0], y = last[i][1];
-        plot_words(&plot, 3, (double[6]){x, y, 2 * x, y, x, 0.1 * y},
+    for (int i = 0; i < RACE_METHODS && wide; i++) {
+        double x = named[i][0], y = named[i][1], low = 0.35 * y;
+        double to = over_h || !race_method(i)->implicit ? 0.6 * x : 1.6 * x;
+        plot_words(&plot, 4, (double[8]){x, y, to, y, to, low, to, 0.1 * y},
                    colour_of(race_method(i)->name), "%s",
                    race_method(i)->label);
     }
 }
 
-/* The quickest stable run that is near, of an explicit method and of an
- * implicit one. */
+/* The quickest run that is near: a stable one of an explicit method and of an
+ * implicit one, and an explicit one that explodes later. */
 void race_facts(const Simulation *simulation, Facts *facts)
 {
-    static const char *const names[2][2] = {{"explicit", "explicit ms"},
-                                            {"implicit", "implicit ms"}};
-    for (int i = 0; i < 2; i++) {
+    static const char *const names[3][3] = {
+        {"explicit", "explicit ms", "explicit h"},
+        {"implicit", "implicit ms", "implicit h"},
+        {"hollow", "hollow ms", "hollow h"}};
+    for (int i = 0; i < 3; i++) {
         const Race *race = &simulation->exhibit.race;
         const RacePoint *best = NULL, *at = race->point;
         for (; at < race->point + race->count; at++)
-            if (at->method->implicit == i && at->stable && at->error <= NEAR &&
-                (!best || at->seconds < best->seconds))
+            if (at->method->implicit == (i == 1) && at->stable == (i < 2) &&
+                at->error <= NEAR && (!best || at->seconds < best->seconds))
                 best = at;
         fact_words(facts, names[i][0], best ? best->method->label : NULL);
         fact(facts, names[i][1], best ? 1e3 * best->seconds : NAN);
+        fact(facts, names[i][2], best ? 1e3 * best->h : NAN);
         fact_when(facts, i ? "" : "no explicit", !best);
     }
+    fact_when(facts, simulation->exhibit.parts ? "over h" : "", true);
     fact(facts, "methods", RACE_METHODS);
     fact_when(facts, "failed", simulation->status);
 }
@@ -137,7 +146,8 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
              shown->implicit ? NAN : 1e3 * race_stable(race, method), 3, " ms");
 }
 
-/* As many columns as there is room for; those of a star begin with others. */
+/* As many columns as there is room for: over h first those of halving it, else
+ * what the picture does not show. */
 void table_draw(const Plot *card)
 {
     static const char heads[COLUMNS][CELL] = {"",       "error, m", "h/2",
@@ -152,10 +162,9 @@ void table_draw(const Plot *card)
                                                 "\u00d7 8.9\u00b710^{\u22128}",
                                                 "stable h\u2007",
                                                 "0.0055 ms"};
-    static const int order[2][COLUMNS] = {{0, 1, 8, 7, 6, 2, 3, 4, 5},
-                                          {0, 1, 2, 3, 4, 5, 6, 7, 8}};
-    const Show *show = card->show;
-    const int *next = order[show->lecture && show->lecture->star];
+    static const int order[2][COLUMNS] = {{0, 1, 6, 7, 2, 3, 4, 5, 8},
+                                          {0, 2, 3, 4, 5, 1, 6, 7, 8}};
+    const int *next = order[card->simulation->exhibit.parts != 0];
     Paper *paper = card->paper;
     Box inside = card->box;
     char cell[COLUMNS][CELL];

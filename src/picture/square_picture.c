@@ -410,6 +410,33 @@ static void draw_lens(const SpringPen *pen)
     canvas_clip(canvas, before);
 }
 
+/* How far a body has slid, from its left edge at the start, and how far a rigid
+ * one would. */
+static void draw_way(const Plot *stage)
+{
+    static const double ABOVE = 0.04; /* m, of the body */
+    const Simulation *simulation = stage->simulation;
+    const double *x = simulation->run[0].x;
+    double way[2], from[2] = {INFINITY, -INFINITY};
+    if (!stage->show->lecture || stage->show->veiled ||
+        !law_way(simulation, way))
+        return;
+    int nodes = simulation->mesh.nodes / simulation->mesh.bodies;
+    for (int i = simulation->mesh.nodes - nodes; i < simulation->mesh.nodes;
+         i++) {
+        from[0] = fmin(from[0], x[2 * i] - way[0]);
+        from[1] = fmax(from[1], x[2 * i + 1] + ABOVE);
+    }
+    const double words[2] = {from[0] + way[1], from[1] + 2 * ABOVE};
+    for (int i = 0; i < 2; i++) {
+        double at = from[0] + i * way[1];
+        plot_dashes(stage, (double[2]){at, from[1] - 3 * ABOVE},
+                    (double[2]){at, words[1]}, 1.4, NULL, COLOUR_TEXT);
+    }
+    plot_arrow(stage, from, (double[2]){way[0], 0}, 1, 2, COLOUR_P);
+    plot_words(stage, 1, words, COLOUR_P, "gone %s m", number_of(way[0]).text);
+}
+
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
 void square_draw(Plot *stage)
@@ -461,6 +488,7 @@ void square_draw(Plot *stage)
         draw_numbers(pen);
     if (pen->range > 0)
         draw_colours(pen);
+    draw_way(stage);
     draw_lens(pen);
 }
 
