@@ -2,7 +2,7 @@
  *
  *   frames  FOLDER/frame_000000.png, ...: the number is that of the step
  *   vtk     FOLDER/step_000000.vtu, ... and their list, steps.pvd
- * and tables (table.h), which begin at step 0:
+ * and tables (output.h), which begin at step 0:
  *   states    step,time,node,x,y,vx,vy of every node at every step; nodes of
  *             run 0 first, those of run 1 numbered on
  *   log       a row a Newton update, see newton.h
@@ -23,7 +23,7 @@
 #define ELASTO_RECORDING_H
 
 #include "picture/canvas.h"
-#include "play/table.h"
+#include "play/output.h"
 #include "scenes/simulation.h"
 
 typedef struct Film {

@@ -203,26 +203,6 @@ Status script_add(Script *script, long step, const Command *command,
     return STATUS_OK;
 }
 
-/* One line of the file; an empty one adds nothing. */
-static Status read_line(char *text, Script *script, char *message, size_t size)
-{
-    Command command;
-    char *end = NULL;
-    text[strcspn(text, "#\r\n")] = '\0';
-    while (isspace((unsigned char)*text))
-        text++;
-    if (*text == '\0')
-        return STATUS_OK;
-    errno = 0;
-    long step = strtol(text, &end, 10);
-    if (!isdigit((unsigned char)*text) || errno ||
-        !isspace((unsigned char)*end))
-        return refuse((Refusal){message, size},
-                      "a line is STEP COMMAND, the step a number");
-    Status status = command_parse(end, &command, message, size);
-    return status ? status : script_add(script, step, &command, 0);
-}
-
 Status script_read(const char *name, Script *script, char *message, size_t size)
 {
     char *text = NULL, why[600] = "", shown[80];
@@ -235,8 +215,23 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
     FILE *file = fopen(name, "r");
     Status status = STATUS_OK;
     long number = 0;
-    for (; file && !status && getline(&text, &room, file) >= 0; number++)
-        status = read_line(text, script, why, sizeof why);
+    for (; file && !status && getline(&text, &room, file) >= 0; number++) {
+        Command command;
+        char *line = text + strspn(text, blanks), *end;
+        line[strcspn(line, "#\r\n")] = '\0';
+        if (*line == '\0')
+            continue;
+        errno = 0;
+        long step = strtol(line, &end, 10);
+        if (!isdigit((unsigned char)*line) || errno ||
+            !isspace((unsigned char)*end))
+            status = refuse((Refusal){why, sizeof why},
+                            "a line is STEP COMMAND, the step a number");
+        else
+            status = command_parse(end, &command, why, sizeof why);
+        if (!status)
+            status = script_add(script, step, &command, 0);
+    }
     if (!file || (!status && !feof(file)))
         status = refuse(told, "--script: %s: %s", shown, strerror(errno));
     else if (status == STATUS_INVALID_INPUT)

@@ -100,16 +100,6 @@ static Status check_number(Player *player, const Command *command)
         command_row(command->kind)->word, count - 1, command->number);
 }
 
-/* Later steps that a change has left behind. */
-static void tell_left(Player *player, long step, long newest)
-{
-    const Branch *branch = &player->past.branch[player->past.now];
-    if (!branch->fresh && step < newest)
-        append(player->note, sizeof player->note,
-               "%ssteps %ld ... %ld: Ctrl+Z leads back",
-               player->note[0] ? "; " : "", step + 1, newest);
-}
-
 /* What a key means here, so that a script of it leads to the same place. */
 static Command meant_by(const Player *player, const Command *asked)
 {
@@ -201,8 +191,11 @@ Status player_obey(Player *player, const Command *asked)
         Status shown = player_work(player);
         status = status ? status : shown;
     }
-    if (noted && past->now > now && command.kind != COMMAND_REDO)
-        tell_left(player, step, newest);
+    if (noted && past->now > now && command.kind != COMMAND_REDO &&
+        !past->branch[past->now].fresh && step < newest) /* later steps */
+        append(player->note, sizeof player->note,
+               "%ssteps %ld ... %ld: Ctrl+Z leads back",
+               player->note[0] ? "; " : "", step + 1, newest);
     if (noted && player->journal.count == at + 1 &&
         status == STATUS_INVALID_INPUT)
         player->journal.count = at;

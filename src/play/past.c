@@ -923,14 +923,10 @@ void past_free(Past *past)
     drop_branches(past, 0);
     free(past->branch);
     free(past->along);
-    past->branch = NULL;
-    past->along = NULL;
-    past->room = 0;
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free_simulation(&past->machine[p]);
         rounds_free(&past->machine[p].rounds);
         free(past->machine[p].records.row);
-        past->machine[p].records = (Records){0};
     }
-    past->now = -1;
+    *past = (Past){.now = -1};
 }
