@@ -42,8 +42,7 @@ void output_discard(Output *output);
 /* Whether this name means standard output. */
 bool output_is_standard(const char *name);
 
-/* ---- tables ----------------------------------------------------------------
- */
+/* ---- tables -------------------------------------------------------------- */
 
 /* Rows of numbers as a file.  The end of its name says how:
  *

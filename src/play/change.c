@@ -204,8 +204,7 @@ Status obey_cell(Player *player, const Command *command)
     return envelope_visit(simulation, column, row);
 }
 
-/* ---- while it goes on ------------------------------------------------------
- */
+/* ---- while it goes on ---------------------------------------------------- */
 
 /* In all panes. */
 static Status change_all(Player *player, const Command *change)

@@ -23,7 +23,7 @@ const char *output_reason(Status status)
                                         : strerror(errno ? errno : EIO);
 }
 
-/* ---- opening ------------------------------------------------------------ */
+/* ---- opening ------------------------------------------------------------- */
 
 /* NAME.part as a stream that nobody else writes, with the permissions of the
  * file whose place it will take (info, or NULL: there is none). */
@@ -82,7 +82,7 @@ Status output_open(const char *name, Output *output)
     return status ? output_close(output, status) : STATUS_OK;
 }
 
-/* ---- its end ------------------------------------------------------------ */
+/* ---- its end ------------------------------------------------------------- */
 
 /* Every call that can tell of a failed write is asked; errno tells why.  A
  * second descriptor holds the lock until the file has its name. */
@@ -120,8 +120,7 @@ void output_discard(Output *output)
     errno = reason;
 }
 
-/* ---- arrays for numpy ------------------------------------------------------
- */
+/* ---- arrays for numpy ---------------------------------------------------- */
 
 /* A zip file (PKWARE: APPNOTE 6.3) of arrays (numpy: NEP 1), stored as they
  * are.  All sizes have 64 bits, those of the format's first version say so with
@@ -269,8 +268,7 @@ static void npz_write(const Table *table, FILE *file)
     PUT(&zip, TWO(0x06054b50), TWO(0), TWO(ALL), TWO(ALL), TWO(ALL), 0);
 }
 
-/* ---- rows ------------------------------------------------------------------
- */
+/* ---- rows ---------------------------------------------------------------- */
 
 void table_columns(Table *table, const char *names)
 {

@@ -118,8 +118,7 @@ static const struct {
     {offsetof(Options, vtk), "step:whole,time", NULL, add_step},
 };
 
-/* ---- pictures ---------------------------------------------------------------
- */
+/* ---- pictures ------------------------------------------------------------ */
 
 /* libpng's simplified writer wants red, green and blue of each pixel; it leaves
  * errno of a failed write alone. */
@@ -156,8 +155,7 @@ Status png_file_write(const char *name, const Canvas *canvas)
                : output_close(&output, png_write(output.file, canvas, false));
 }
 
-/* ---- ParaView
- * ---------------------------------------------------------------- */
+/* ---- ParaView ------------------------------------------------------------ */
 
 /* A step is an unstructured grid in XML: points are the nodes of all runs, in
  * the order of the states, with velocity (m/s) and run; cells are the springs

@@ -57,7 +57,7 @@ static bool find_sdl(void)
     return found;
 }
 
-/* ---- opening and closing ------------------------------------------------ */
+/* ---- opening and closing ------------------------------------------------- */
 
 /* Whether SDL's video shows what is drawn; if not, SDL's error tells why.
  * Without XDG_RUNTIME_DIR Wayland's library would write a line of its own to
@@ -125,7 +125,7 @@ void window_close(void)
         sdl.Quit();
 }
 
-/* ---- what it shows ------------------------------------------------------ */
+/* ---- what it shows ------------------------------------------------------- */
 
 void window_set_title(const char *title)
 {
@@ -170,7 +170,7 @@ Status window_show(const Canvas *canvas)
     return shown ? STATUS_OK : STATUS_SCREEN_FAILED;
 }
 
-/* ---- keys --------------------------------------------------------------- */
+/* ---- keys ---------------------------------------------------------------- */
 
 /* "Ctrl+", "Shift+", "Tab+" in front of the key's own name.  Signs and digits
  * come as texts, wherever a keyboard has them; Tab is told when it comes up
@@ -205,7 +205,7 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
              tab_held ? "Tab+" : "", sdl.GetKeyName(key));
 }
 
-/* ---- mouse and window --------------------------------------------------- */
+/* ---- mouse and window ---------------------------------------------------- */
 
 /* Uncovered, resized, left or closed. */
 static InputKind change_of_window(const SDL_WindowEvent *event)

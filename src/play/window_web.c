@@ -11,7 +11,7 @@
 #include "play/recording.h"
 #include "play/view.h"
 
-/* ---- what the page does ------------------------------------------------- */
+/* ---- what the page does -------------------------------------------------- */
 
 /* clang-format off */
 EM_JS(void, window_size, (int *size), {
@@ -71,7 +71,7 @@ Status window_show(const Canvas *canvas)
     return STATUS_OK;
 }
 
-/* ---- what the page tells ------------------------------------------------ */
+/* ---- what the page tells ------------------------------------------------- */
 
 enum { INPUTS = 256 };
 
