@@ -5,7 +5,6 @@
 #include "base/mathematics.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/scene.h"
 
 static const double STILL = 1000;      /* times as high as what is shown now */
 static const double LOG_FROM = 1e6;    /* times the energy at the beginning */

@@ -1,9 +1,7 @@
 #include <math.h>
-#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/small_scenes.h"
 
 enum { LINE_POINTS = 161 };
 

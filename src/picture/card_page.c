@@ -1,11 +1,7 @@
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/pages.h"
 
 /* What a page says, one below the other: a head, and lines of a text. */
 typedef struct Words {

@@ -1,7 +1,6 @@
 #include "picture/cards.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/colour_map.h"

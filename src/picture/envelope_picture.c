@@ -2,7 +2,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/small_scenes.h"
 
 /* From few updates (light) to many (dark), by powers of two. */
 enum { ENVELOPE_SHADES = 6 };

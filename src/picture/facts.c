@@ -10,8 +10,6 @@
 #include "model/neo_hookean.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/scene.h"
-#include "scenes/small_scenes.h"
 
 /* ---- what is known ------------------------------------------------------- */
 

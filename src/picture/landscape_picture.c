@@ -1,12 +1,10 @@
 /* E over the position of one free node: Newton's path on it, update by update
  * (landscape), and the path of its minimiser over h (dial). */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
 /* J s^2; both valleys have their bottom below 1. */

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "picture/cards.h"
-#include "scenes/scene.h"
 
 /* Sizes in ems, the size of the texts. */
 static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;

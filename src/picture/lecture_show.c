@@ -4,7 +4,6 @@
 
 #include "picture/cards.h"
 #include "scenes/listing.h"
-#include "scenes/scene.h"
 
 /* Where Algorithm 3's lines are in step_forward of lecture.c. */
 static const char *const line_texts[LINE_COUNT] = {

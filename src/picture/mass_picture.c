@@ -3,7 +3,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
 enum { TRAIL = 256, MASS_GUESSES = 6, MASS_AHEAD = 50 };

@@ -4,7 +4,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/small_scenes.h"
 
 static const double NAMED = 36;    /* ems, for names beside the lines */
 static const double NEAR = 0.01;   /* m, the error that is asked for */

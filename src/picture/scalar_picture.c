@@ -1,11 +1,9 @@
 /* Newton in one unknown: f with its quadratic models (overshoot), and g with
  * its tangents above E with its parabolas (tangent). */
 #include <math.h>
-#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/small_scenes.h"
 
 static const double TANGENT_REACH = 3; /* m, x from -3 to 3 at least */
 

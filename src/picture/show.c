@@ -5,7 +5,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/scene.h"
 #include "base/mathematics.h"
 
 static const double WORDS_ROOM = 1.8;  /* ems, of a legend or a label */

@@ -4,7 +4,6 @@
 #include "model/mass_spring_energy.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
 enum { SPRING_COILS = 12 };

@@ -1,7 +1,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "model/contact.h"
 #include "model/friction.h"
 #include "picture/colour_map.h"
 #include "picture/square_pen.h"

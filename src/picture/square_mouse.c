@@ -5,15 +5,12 @@
 
 #include "base/mathematics.h"
 #include "model/contact.h"
-#include "model/fracture.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
 #include "picture/cards.h"
-#include "picture/square_pen.h"
-#include "scenes/scene.h"
 
 static const double LINE = 1.35; /* ems, of a line of the note */
 static const double SMALL = 0.9; /* ems, size of its letters */

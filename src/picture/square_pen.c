@@ -3,11 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/fracture.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
-#include "scenes/scene.h"
 
 enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
 

@@ -6,9 +6,7 @@
 #define ELASTO_SQUARE_PEN_H
 
 #include "model/contact.h"
-#include "picture/picture.h"
 #include "picture/plot.h"
-#include "scenes/simulation.h"
 
 /* One run of a pane, and what does not change from spring to spring.  Widths
  * and radii in units of the paper. */

@@ -6,12 +6,9 @@
 #include "picture/colour_map.h"
 #include "model/fracture.h"
 #include "model/mass_spring_energy.h"
-#include "picture/plot.h"
 #include "picture/square_pen.h"
 #include "base/mathematics.h"
 #include "scenes/control.h"
-#include "scenes/scene.h"
-#include "scenes/pages.h"
 
 enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
 static const double ARROW_LEAST = 1.5; /* ems, the longest arrow has */
