@@ -26,11 +26,6 @@ static SpringFacts facts_at(const double d[2], const System *system)
     return facts;
 }
 
-static SpringFacts facts_of_spring(const Simulation *simulation)
-{
-    return facts_at(simulation->run[0].x, &simulation->system);
-}
-
 /* The energies at a signed length along d. */
 static double energy_over(const void *system, double d)
 {
@@ -77,7 +72,7 @@ void spring_draw(Plot *stage)
     const Show *show = stage->show;
     const double *x = simulation->run[0].x;
     double l = sqrt(simulation->system.l2[0]);
-    SpringFacts facts = facts_of_spring(simulation);
+    SpringFacts facts = facts_at(x, &simulation->system);
     bool projects = facts.across < 0 && !show->veiled;
     bool modes = show->lecture && show->lecture->modes;
     spring_circle(stage, l, COLOUR_FAINT, "l");
@@ -134,7 +129,7 @@ void length_facts(const Simulation *simulation, Facts *facts)
                                             {"Pxx", "Pxy", "Pyy"}};
     const double *d = simulation->run[0].x, k = simulation->system.k[0];
     double l2 = simulation->system.l2[0], H[3];
-    SpringFacts now = facts_of_spring(simulation);
+    SpringFacts now = facts_at(simulation->run[0].x, &simulation->system);
     double along = 2 * now.along, across = 2 * now.across; /* of its block */
     Filter filter =
         simulation->options.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
@@ -174,7 +169,7 @@ void length_facts(const Simulation *simulation, Facts *facts)
 void profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
-    SpringFacts now = facts_of_spring(card->simulation);
+    SpringFacts now = facts_at(card->simulation->run[0].x, system);
     bool both = card->simulation->exhibit.parts;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_over : energy_over)(system, 0);
