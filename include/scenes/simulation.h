@@ -74,7 +74,7 @@ void simulation_free(Simulation *simulation);
 
 /* For a scene's create: what its options say to Newton's method; and run 0, 1,
  * ... of it, as time_integrator_create makes it. */
-NewtonSettings newton_settings_of(const Options *options);
+void newton_settings_take(const Options *options, NewtonSettings *settings);
 Status simulation_start(Simulation *simulation, int run,
                         const IntegratorMethod *method, System *system,
                         const double *x, const double *v);

@@ -107,13 +107,8 @@ static Status change_run(Simulation *simulation, int r, const Options *before)
     if (options->stiffness != before->stiffness)
         run->memory_h = 0;
     run->h = options->timestep;
-    if (run->newton) {
-        NewtonSettings *own = &run->newton->settings, had = *own;
-        *own = newton_settings_of(options);
-        own->averaged = had.averaged;
-        own->observer = had.observer;
-        own->user = had.user;
-    }
+    if (run->newton)
+        newton_settings_take(options, &run->newton->settings);
     return status;
 }
 

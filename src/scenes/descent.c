@@ -328,12 +328,10 @@ Status create_landscape(Simulation *simulation)
     Status status =
         small_system(&simulation->system, LANDSCAPE_PINS, LANDSCAPE_MASS,
                      LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
-    if (status)
-        return status;
     memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
            sizeof LANDSCAPE_TARGET);
     simulation->exhibit.parts = PART_BOTH;
-    return begin_descent(simulation, x);
+    return status ? status : begin_descent(simulation, x);
 }
 
 /* ---- the dial ------------------------------------------------------------ */

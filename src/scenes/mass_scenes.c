@@ -35,10 +35,9 @@ static Status create_orbit(Simulation *simulation, double omega2,
     const Options *options = &simulation->options;
     bool chosen = options->integrator >= 0;
     Status status = small_system(&simulation->system, 0, 1, 0, 0);
-    if (status)
-        return status;
-    status = pull_set(&simulation->system, &central_field,
-                      &(Pull){.k = omega2}); /* of 1 kg */
+    if (!status)
+        status = pull_set(&simulation->system, &central_field,
+                          &(Pull){.k = omega2}); /* of 1 kg */
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     memcpy(simulation->exhibit.began, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.began + 2, v, 2 * sizeof *v);
@@ -119,9 +118,8 @@ Status create_spring(Simulation *simulation)
     const double v[4] = {0};
     Status status =
         small_system(system, 1, SPRING_MASS, SPRING_LENGTH, SPRING_STIFFNESS);
-    if (status)
-        return status;
     simulation->runs = 1;
-    return simulation_start(simulation, 0, options_method(options), system, x,
-                            v);
+    return status ? status
+                  : simulation_start(simulation, 0, options_method(options),
+                                     system, x, v);
 }

@@ -15,24 +15,24 @@
  * thousands. */
 enum { MAX_NEWTON_ITERATIONS = 10000 };
 
-NewtonSettings newton_settings_of(const Options *options)
+void newton_settings_take(const Options *options, NewtonSettings *settings)
 {
-    return (NewtonSettings){.h = options->timestep,
-                            .tolerance = options->tolerance,
-                            .solver = options->solver,
-                            .minimum = options->minimum,
-                            .filter = options->filter,
-                            .search = options->line_search,
-                            .max_iterations = MAX_NEWTON_ITERATIONS};
+    settings->h = options->timestep;
+    settings->tolerance = options->tolerance;
+    settings->solver = options->solver;
+    settings->minimum = options->minimum;
+    settings->filter = options->filter;
+    settings->search = options->line_search;
+    settings->max_iterations = MAX_NEWTON_ITERATIONS;
 }
 
 Status simulation_start(Simulation *simulation, int run,
                         const IntegratorMethod *method, System *system,
                         const double *x, const double *v)
 {
-    NewtonSettings settings = newton_settings_of(&simulation->options);
-    settings.observer = simulation->observer;
-    settings.user = simulation->user;
+    NewtonSettings settings = {.observer = simulation->observer,
+                               .user = simulation->user};
+    newton_settings_take(&simulation->options, &settings);
     return time_integrator_create(method, system, &settings, x, v,
                                   &simulation->run[run]);
 }
@@ -49,19 +49,18 @@ Status simulation_create(const Options *options, NewtonObserver observer,
         if ((unsigned)options->flips >> i & 1 && options->scene->parts[i])
             exhibit_flip(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
-        if (simulation->run[r].x) /* dissipation is counted from here on */
-            simulation->start[r] =
-                -simulation_energies(simulation, r).dissipated;
+        simulation->start[r] = /* dissipation is counted from here on */
+            -simulation_energies(simulation, r).dissipated;
     return status;
 }
 
 void simulation_free(Simulation *simulation)
 {
-    for (int i = 0; i < SIMULATION_MAX_RUNS; i++)
+    for (int i = 0; i < SIMULATION_MAX_RUNS; i++) {
         time_integrator_free(&simulation->run[i]);
-    system_free(&simulation->system);
-    for (int i = 0; i < SIMULATION_MAX_RUNS; i++)
         system_free(&simulation->more[i]);
+    }
+    system_free(&simulation->system);
     *simulation = (Simulation){0};
 }
 

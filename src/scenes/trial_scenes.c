@@ -13,7 +13,8 @@ static Status trial_run(const Options *options, const IntegratorMethod *method,
                         System *system, const TimeIntegrator *from, long steps,
                         TimeIntegrator *run)
 {
-    const NewtonSettings settings = newton_settings_of(options);
+    NewtonSettings settings = {0};
+    newton_settings_take(options, &settings);
     Status worst = time_integrator_create(method, system, &settings, from->x,
                                           from->v, run);
     bool goes_on = worst == STATUS_OK;
@@ -57,10 +58,9 @@ Status create_race(Simulation *simulation)
 {
     long finest = (long)RACE_FIRST_STEPS << (RACE_STEP_SIZES - 1);
     Status status = create_square(simulation);
-    if (status)
-        return status;
-    status = run_to_end(simulation, integrator_method("verlet"),
-                        RACE_FINER * finest, &simulation->run[1]);
+    if (!status)
+        status = run_to_end(simulation, integrator_method("verlet"),
+                            RACE_FINER * finest, &simulation->run[1]);
     if (status == STATUS_NOT_FINITE) { /* nothing to compare with */
         simulation->done = true;
         simulation->status = status;
