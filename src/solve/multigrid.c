@@ -8,10 +8,8 @@
 #include "solve/tiles.h"
 #include "solve/v_cycle.h"
 
-/* Newton's directions: the remainder falls to this share of its norm, in at
- * most so many V-cycles. */
+/* Newton's directions: the remainder falls to this share of its norm. */
 static const double ENOUGH = 0.3;
-enum { MAX_CYCLES = 60 };
 
 /* Tiles relax once so many directions are done and the gradient's bound falls
  * by less than this factor; and go on while a sweep lowers E by more than PACE
@@ -148,15 +146,13 @@ static Status pass_test(Newton *newton)
         return STATUS_OK;
     if (!(mg->bound <= fmin(worth, mg->test_below)))
         return STATUS_RUNNING;
-    VEnd end = {TESTED, length, MAX_CYCLES};
-    v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p);
-    end = (VEnd){REFINED, 0, MAX_CYCLES};
+    v_solve(&mg->cycle, mg->g, mg->square, TESTED, length, false, mg->p);
     do {
         last = now;
         now = grid_remainder(&mg->grid, mg->g, mg->p, mg->rest, &largest);
         mg->directed = v_decides(&mg->grid, largest, now, length);
         if (!mg->directed)
-            v_solve(&mg->cycle, 1, mg->rest, now, end, true, mg->p);
+            v_solve(&mg->cycle, mg->rest, now, REFINED, 0, true, mg->p);
     } while (!mg->directed && now < 0.25 * last);
     mg->test_below = mg->bound / 2;
     newton->kind = RESIDUAL_ESTIMATE;
@@ -247,11 +243,10 @@ static Status iterate(Newton *newton)
     NewtonRecord *record = &newton->record;
     const double bound = mg->bound, unit = mg->grid.energy;
     Quartic along;
-    VEnd end = {ENOUGH, 0, MAX_CYCLES};
     record->kind = RESIDUAL_ESTIMATE;
     if (!mg->directed)
         record->residual =
-            v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p) /
+            v_solve(&mg->cycle, mg->g, mg->square, ENOUGH, 0, false, mg->p) /
             (newton->settings.h * mg->grid.length);
     grid_along(&mg->grid, mg->g, mg->p, along.q);
     for (int i = 0; i < 4; i++)

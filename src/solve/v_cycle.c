@@ -476,18 +476,21 @@ bool v_decides(const Grid *grid, double largest, double square, double length)
     return fabs(largest - length) >= sqrt(2 / grid->lightest * square);
 }
 
-FAST double v_solve(VCycle *cycle, double sign, const double *a, double square,
-                    VEnd end, bool adds, double *p)
+/* At most so many V-cycles for one direction. */
+enum { MAX_CYCLES = 60 };
+
+FAST double v_solve(VCycle *cycle, const double *a, double square, double share,
+                    double length, bool adds, double *p)
 {
     const Grid *grid = cycle->grid;
     const int numbers = 2 * grid->rows.plane;
     double unit = unit_of(sqrt(square * grid->lightest)), largest = 0;
-    double last = 0, alpha = 1, rest = INFINITY;
+    double last = 0, alpha = 1;
     set_up(cycle);
     for (int i = 0; i < 3; i++)
         memset((float *[]){cycle->p, cycle->d, cycle->Ad}[i], 0,
                (size_t)numbers * sizeof(float));
-    const double take = sign * unit, give = 1 / unit, old = adds;
+    const double take = adds ? unit : -unit, give = 1 / unit, old = adds;
     for (int q = 0; q < numbers; q += WIDE_LANES) {
         float *const b = cycle->level->b + q;
         const double *const from = a + q;
@@ -495,7 +498,7 @@ FAST double v_solve(VCycle *cycle, double sign, const double *a, double square,
             FEW(b, e) =
                 narrow(take * PAIR(from, e), take * PAIR(from, e + PAIRED));
     }
-    for (int i = 0; i < end.cycles; i++) {
+    for (int i = 0; i < MAX_CYCLES; i++) {
         double sums[2];
         v_cycle(cycle, sums);
         double xb = sums[0], beta = i > 0 ? xb / last : 0;
@@ -504,11 +507,11 @@ FAST double v_solve(VCycle *cycle, double sign, const double *a, double square,
             break;
         last = xb;
         alpha = xb / bend;
-        rest =
+        double rest =
             advance(cycle, (float)alpha, (float)beta, &largest) / (unit * unit);
         largest /= unit;
-        if (rest <= end.share * end.share * square ||
-            (end.length > 0 && v_decides(grid, largest, rest, end.length)))
+        if (rest <= share * share * square ||
+            (length > 0 && v_decides(grid, largest, rest, length)))
             break;
     }
     const float *const found = cycle->p;

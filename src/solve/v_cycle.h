@@ -39,25 +39,20 @@ typedef struct VCycle {
     long cycles;       /* since somebody has set it to 0 */
 } VCycle;
 
-/* Where conjugate gradients may end. */
-typedef struct VEnd {
-    double share;  /* the remainder, in the norm M^-1, fell to so much of it */
-    double length; /* > 0: or whether the largest |p_x| + |p_y| is above this
-                      is certain, see v_decides */
-    int cycles;    /* or so many V-cycles */
-} VEnd;
-
 void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle);
 
 /* Masses and pins, from the grid's. */
 void v_cycle_read_system(VCycle *cycle);
 
-/* p = about sign H^-1 a; or, where it adds, p += it.
+/* p = about -H^-1 a; or, where it adds, p += H^-1 a.
  *   a       [2 planes] anything at pins
  *   square  |a|_(M^-1)^2
+ *   share   it may end where the remainder, in that norm, fell to so much of
+ * it, length  > 0: or where it is certain whether the largest |p_x| + |p_y| is
+ *           above this, see v_decides
  * Returns the largest |p_x| + |p_y| of the nodes, as p will be. */
-double v_solve(VCycle *cycle, double sign, const double *a, double square,
-               VEnd end, bool adds, double *p);
+double v_solve(VCycle *cycle, const double *a, double square, double share,
+               double length, bool adds, double *p);
 
 /* Whether the largest |p_x| + |p_y| of the exact direction is on the same side
  * of `length` as this one: H - M is positive semi-definite, so the error is at
