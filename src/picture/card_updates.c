@@ -14,57 +14,54 @@ static int updates_made(const Trace *trace)
     return before ? trace->iteration : trace->updates;
 }
 
-/* E of masses and springs at x, J s^2: its parts, and their sum. */
-static void values_at(const System *system, const Trace *trace, const double *x,
-                      double value[3])
-{
-    value[0] =
-        inertia_energy_value(system->nodes, x, trace->x_tilde, system->m);
-    value[1] = trace->h * trace->h * system_potential(system, x);
-    value[2] = value[0] + value[1];
-}
-
-/* Along the line from x_tilde through x: why neither is lowest where one part
- * is. */
-static void draw_way(const Plot *card, const System *system, const Trace *trace,
-                     const double *x)
+/* E and its parts along the line from x_tilde through x: why neither is lowest
+ * where one part is.  Returns E at x, J s^2. */
+static double draw_way(const Plot *card, const System *system,
+                       const Trace *trace, const double *x)
 {
     enum { POINTS = 39, AIM = 6, NOW = 26 }; /* t = 0, 1 */
-    static const int named[] = {18, 15, 34};
-    static const double lower[] = {1, 0.72, 1};
-    static const char *const names[] = {"inertia", "h\u00b2 P", "E"};
-    static const Colour colours[] = {COLOUR_X_TILDE, COLOUR_SHADED, COLOUR_X};
-    double t[POINTS], part[3][POINTS], value[3];
+    static const struct {
+        const char *name;
+        Colour colour;
+        int named;    /* at this point, or */
+        double lower; /* so many times as high */
+    } parts[] = {{"inertia", COLOUR_X_TILDE, 18, 1},
+                 {"h\u00b2 P", COLOUR_SHADED, 15, 0.72},
+                 {"E", COLOUR_X, 34, 1}};
+    double t[POINTS], part[3][POINTS];
+    const double *aim = trace->x_tilde;
     size_t count = 2 * (size_t)system->nodes;
     double *at = malloc(count * sizeof *at);
     if (!at)
-        return;
+        return NAN;
     for (int i = 0; i < POINTS; i++) {
         t[i] = 0.05 * (i - AIM);
         for (size_t c = 0; c < count; c++)
-            at[c] = trace->x_tilde[c] + t[i] * (x[c] - trace->x_tilde[c]);
-        values_at(system, trace, at, value);
-        for (int k = 0; k < 3; k++)
-            part[k][i] = value[k];
+            at[c] = aim[c] + t[i] * (x[c] - aim[c]);
+        part[0][i] = inertia_energy_value(system->nodes, at, aim, system->m);
+        part[1][i] = trace->h * trace->h * system_potential(system, at);
+        part[2][i] = part[0][i] + part[1][i];
     }
     free(at);
-    double high = fmax(part[2][AIM], part[2][NOW]);
-    Plot plot =
-        plot_create(card, (Axis){t[0], t[POINTS - 1], false, false, "t"},
-                    (Axis){0, 1.4 * high, false, false, "J s\u00b2"});
+    const double *E = part[2];
+    Plot plot = plot_create(
+        card, (Axis){t[0], t[POINTS - 1], false, false, "t"},
+        (Axis){0, 1.4 * fmax(E[AIM], E[NOW]), false, false, "J s\u00b2"});
     for (int k = 0; k < 3; k++)
-        plot_curve(&plot, POINTS, t, part[k], k < 2 ? 1.6 : 2.4, colours[k]);
-    for (int i = AIM; i <= NOW; i += NOW - AIM)
-        plot_disc(&plot, (double[2]){t[i], part[2][i]}, 5,
-                  colours[i > AIM ? 2 : 0]);
-    for (int i = AIM; i <= NOW; i += NOW - AIM)
-        plot_words(&plot, 1, (double[2]){t[i], part[2][i]},
-                   colours[i > AIM ? 2 : 0], i > AIM ? "{x}: %s" : "{xt}: %s",
-                   number_with(part[2][i], 4).text);
-    for (int k = 0; k < 3; k++)
-        plot_words(&plot, 1,
-                   (double[2]){t[named[k]], lower[k] * part[k][named[k]]},
-                   colours[k], "%s", names[k]);
+        plot_curve(&plot, POINTS, t, part[k], k < 2 ? 1.6 : 2.4,
+                   parts[k].colour);
+    for (int i = AIM; i <= NOW; i += NOW - AIM) {
+        Colour colour = i == AIM ? COLOUR_X_TILDE : COLOUR_X;
+        plot_disc(&plot, (double[2]){t[i], E[i]}, 5, colour);
+        plot_words(&plot, 1, (double[2]){t[i], E[i]}, colour, "%s: %s",
+                   i == AIM ? "{xt}" : "{x}", number_with(E[i], 4).text);
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = parts[k].named;
+        plot_words(&plot, 1, (double[2]){t[i], parts[k].lower * part[k][i]},
+                   parts[k].colour, "%s", parts[k].name);
+    }
+    return E[NOW];
 }
 
 /* From the start of the step on, a point an update. */
@@ -99,22 +96,19 @@ void values_draw(const Plot *card)
 {
     const Pane *pane = show_pane(card->show);
     const Trace *trace = pane->trace;
-    const System *system = &card->simulation->system;
-    double value[3];
-    Plot half = *card;
+    bool wide = card->box.width > 36 * card->em;
+    Plot left = *card, right = *card;
     if (!trace || !trace->x_tilde) {
         cards_hint(card, "N makes a step");
         return;
     }
-    bool wide = card->box.width > 36 * card->em;
-    half.box.width = (int)((wide ? 0.52 : 1) * card->box.width);
-    draw_way(&half, system, trace, pane_x(pane));
-    if (!wide)
-        return;
-    values_at(system, trace, pane_x(pane), value);
-    half.box.x = card->box.x + half.box.width + paper_pixels(card->paper, 1);
-    half.box.width = card->box.x + card->box.width - half.box.x;
-    draw_values(&half, trace, value[2]);
+    left.box.width = (int)((wide ? 0.52 : 1) * card->box.width);
+    int taken = left.box.width + paper_pixels(card->paper, 1);
+    right.box.x += taken;
+    right.box.width -= taken;
+    double E = draw_way(&left, &card->simulation->system, trace, pane_x(pane));
+    if (wide)
+        draw_values(&right, trace, E);
 }
 
 /* A row of the table, 0: its heads; with what is known at this line. */
