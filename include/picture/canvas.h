@@ -88,9 +88,6 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
 void canvas_disc(Canvas *canvas, double x, double y, double radius,
                  Colour colour);
 
-/* Copies a picture onto this one, corner at (x, y). */
-void canvas_copy(Canvas *canvas, const Canvas *from, int x, int y);
-
 /* A stencil: mask [width height] holds coverages 0 ... 255. */
 void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
                     const uint8_t *mask, Colour colour);

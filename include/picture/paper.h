@@ -9,18 +9,12 @@
 
 #include "picture/text.h"
 
-enum { PAPER_MAP_OF = 17 };
-
 typedef struct Paper {
     Canvas canvas;
     Text *text;   /* NULL: no font, nothing is written */
     double em;    /* pixels */
     double unit;  /* pixels */
     double least; /* ems, no letter but scripts is smaller */
-    /* The contours of the landscape, kept from frame to frame, and all that
-     * they depend on. */
-    Canvas map;
-    double map_of[PAPER_MAP_OF];
 } Paper;
 
 /* White paper of this size in pixels, ready for the em that its layout has;

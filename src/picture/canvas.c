@@ -403,15 +403,6 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
     canvas_ring(canvas, x, y, 0.5 * radius, radius, colour);
 }
 
-void canvas_copy(Canvas *canvas, const Canvas *from, int x, int y)
-{
-    Box box = touched(canvas->clip, x, y, x + from->width, y + from->height);
-    for (int j = box.y; j < box.y + box.height; j++)
-        memcpy(canvas_row(canvas, j) + box.x,
-               canvas_row(from, j - y) + (box.x - x),
-               (size_t)box.width * sizeof *from->pixels);
-}
-
 void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
                     const uint8_t *mask, Colour colour)
 {

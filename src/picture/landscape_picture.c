@@ -12,7 +12,7 @@ static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-/* ---- the map, drawn once for a view of it ------------------------------- */
+/* ---- the map ------------------------------------------------------------ */
 
 /* How far the next contour is; value over the factor. */
 static double contour_distance(double value)
@@ -42,11 +42,14 @@ static void draw_ground(const Plot *plot)
     Canvas *canvas = &plot->paper->canvas;
     double metre = 1 / plot->camera.scale[0], e = level_factor(simulation);
     double reach = 0.5 + 0.5 * fmax(1, 0.6 * plot->paper->unit);
-    for (int j = 0; j < plot->box.height; j += 2)
-        for (int i = 0; i < plot->box.width; i += 2) {
+    const Box *box = &plot->box;
+    Box before = canvas_clip(canvas, *box);
+    canvas_fill(canvas, *box, COLOUR_WHITE);
+    for (int j = box->y; j < box->y + box->height; j += 2)
+        for (int i = box->x; i < box->x + box->width; i += 2) {
             Local E = descent_at(simulation, FILTER_NONE,
-                                 plot->x.low + (i + 1) * metre,
-                                 plot->y.high - (j + 1) * metre);
+                                 plot->x.low + (i - box->x + 1) * metre,
+                                 plot->y.high - (j - box->y + 1) * metre);
             double right = E.g[0] * metre / e, up = E.g[1] * metre / e;
             double slope = sqrt(right * right + up * up);
             if (!(E.H[0] > 0 && E.H[0] * E.H[2] > E.H[1] * E.H[1]))
@@ -62,6 +65,7 @@ static void draw_ground(const Plot *plot)
                             alpha | (COLOUR_GREY & 0xffffff));
             }
         }
+    canvas_clip(canvas, before);
 }
 
 /* What contours are of, J s^2, along a ray from x_tilde. */
@@ -89,8 +93,7 @@ static void name_levels(const Plot *plot)
     }
 }
 
-/* The map as it was kept, or drawn and kept; the springs, the pins and x_tilde.
- */
+/* The map, the springs, the pins and x_tilde. */
 static Plot draw_map(const Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -98,44 +101,8 @@ static Plot draw_map(const Plot *stage)
     const Exhibit *exhibit = &simulation->exhibit;
     const double *x = simulation->run[0].x;
     Plot plot = plot_on(stage, (Axis){.label = "x in m"}, (Axis){0});
-    Plot map = plot;
-    const Camera *camera = &plot.camera;
-    Paper *paper = plot.paper, small = *paper;
-    const Box box = plot.box;
     bool elastic = exhibit->parts != PART_INERTIA;
-    const double of[PAPER_MAP_OF] = {camera->scale[0],
-                                     camera->scale[1],
-                                     camera->origin[0],
-                                     camera->origin[1],
-                                     box.width,
-                                     box.height,
-                                     system->k[0],
-                                     system->l2[0],
-                                     system->m[0],
-                                     exhibit->target[0],
-                                     exhibit->target[1],
-                                     exhibit->parts,
-                                     simulation->run[0].h,
-                                     x[2],
-                                     x[3],
-                                     x[4],
-                                     x[5]};
-    if (memcmp(paper->map_of, of, sizeof of) != 0) {
-        memset(paper->map_of, 0, sizeof of);
-        canvas_free(&paper->map);
-    }
-    if (!paper->map.pixels &&
-        canvas_create(box.width, box.height, &paper->map) == STATUS_OK) {
-        small.canvas = paper->map;
-        map.paper = &small;
-        map.box.x = map.box.y = 0;
-        map.camera.origin[0] -= box.x;
-        map.camera.origin[1] -= box.y;
-        draw_ground(&map);
-        memcpy(paper->map_of, of, sizeof of);
-    }
-    if (paper->map.pixels)
-        canvas_copy(&paper->canvas, &paper->map, box.x, box.y);
+    draw_ground(&plot);
     if (plot.text && stage->show->lecture)
         name_levels(&plot);
     if (elastic)

@@ -22,7 +22,6 @@ void paper_free(Paper *paper)
         return;
     canvas_free(&paper->canvas);
     text_free(paper->text);
-    canvas_free(&paper->map);
     *paper = (Paper){0};
 }
 
