@@ -12,8 +12,7 @@
 #include "picture/colour_map.h"
 #include "picture/cards.h"
 
-static const double LINE = 1.35; /* ems, of a line of the note */
-static const double SMALL = 0.9; /* ems, size of its letters */
+static const double SMALL = 0.9; /* ems, size of the note's letters */
 static const double WIDTH = 17;  /* ems, of it at least */
 
 /* The nearest node, else the nearest spring, within reach of the mouse, which
@@ -81,11 +80,14 @@ static void draw_note(const Plot *stage, const Facts *facts, const char *text)
     Plot note = *stage;
     Box *box = &note.box;
     double middle = stage->box.x + 0.5 * stage->box.width, mouse[2];
-    double wide = WIDTH * paper->em, high = 0;
+    double wide = WIDTH * paper->em, high = 0, air = 0.2;
+    double size = fmax(SMALL, paper->least);
     int margin = paper_pixels(paper, 0.7);
     for (TextLine line = text_of(facts, text); text_next(&line);) {
-        wide = fmax(wide, paper_width(paper, line.face, SMALL, line.words));
-        high += LINE * paper->em;
+        wide = fmax(wide, paper_width(paper, line.face, size, line.words));
+        high += paper_paragraph(paper, line.face, size, line.colour, *box, 0,
+                                line.words) +
+                paper_pixels(paper, air * size);
     }
     plot_place(stage, stage->show->hover.point, mouse);
     box->width = (int)wide + 2 * margin;
