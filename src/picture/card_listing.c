@@ -28,7 +28,11 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
     int wide = paper_width(paper, FACE_REGULAR, 0.88 * size, value.words);
     Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
     Box room = {box.x + indent, box.y,
-                box.width - indent - paper_pixels(paper, 1.4), box.height};
+                box.width - indent - wide - paper_pixels(paper, 1.4),
+                box.height};
+    bool both = paper_width(paper, FACE_REGULAR, paper->least, words.words) <=
+                room.width;
+    room.width += both ? 0 : wide;
     if (lit)
         canvas_fill(&paper->canvas, box, COLOUR_LIT);
     snprintf(digits, sizeof digits, "%d", number);
@@ -43,7 +47,7 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
                           (int)fmax(1, 1.3 * paper->unit)},
                     COLOUR_GREY);
     box.width -= paper_pixels(paper, 0.6);
-    if (text <= room.width - wide)
+    if (both)
         paper_fit(paper, FACE_REGULAR, 0.88 * size,
                   lit ? COLOUR_TEXT : COLOUR_FAINT, box, ALIGN_RIGHT,
                   value.words);
