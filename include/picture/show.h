@@ -321,6 +321,11 @@ void show_describe(Show *show);
 /* The number that texts know by this name now; NaN: none. */
 double show_number(Show *show, const char *name);
 
+/* A page's text as plain words, with the numbers that it has at its start, as
+ * far as it is known; out [size].  Returns OK, OUT_OF_MEMORY, ... */
+Status show_plain(const LecturePage *page, const char *text, char *out,
+                  size_t size);
+
 /* What the history of this scene's picture shows of the state now.  row out;
  * returns how many. */
 int show_sample(const Simulation *simulation, Energy row[HISTORY_SERIES]);

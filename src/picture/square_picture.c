@@ -17,7 +17,8 @@ enum { NUMBERED = 121 }; /* nodes, at most, whose numbers are shown */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
 static const double ROOM = 1.14;       /* of the stage around the square */
-static const double LENS = 12;         /* ems, the side of a lens, at most */
+static const double LENS = 12;         /* ems, the side of a lens, at most; */
+static const double PAIR = 17;         /* of one with a point and an edge */
 enum { LENS_SIZES = 3 };
 static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
 
@@ -361,6 +362,44 @@ static void draw_kinds(const SpringPen *pen)
     }
 }
 
+/* From the end of the edge to the other one e, to the point q, and how the last
+ * step changed both, four times as long. */
+static void draw_pair(const Plot *lens, const int pair[3])
+{
+    static const char *const names[2][2] = {{"q", "dq \u00d7 4"},
+                                            {"e", "de \u00d7 4"}};
+    const TimeIntegrator *run = &lens->simulation->run[0];
+    const double *a = run->x + 2 * pair[1], *v = run->v + 2 * pair[1];
+    double h = 4 * lens->simulation->options.timestep;
+    for (int i = 0; i < 2; i++) {
+        const double *b = run->x + 2 * pair[2 * i],
+                     *w = run->v + 2 * pair[2 * i];
+        const double d[2] = {b[0] - a[0], b[1] - a[1]};
+        const double change[2] = {h * (w[0] - v[0]), h * (w[1] - v[1])};
+        const double at[2][2] = {{a[0] + 0.6 * d[0], a[1] + 0.6 * d[1]},
+                                 {b[0] + change[0], b[1] + change[1]}};
+        plot_arrow(lens, a, d, 1, 2, COLOUR_TEXT);
+        plot_arrow(lens, b, change, 1, 2, COLOUR_ALPHA);
+        for (int k = 0; k < 2; k++)
+            plot_words(lens, 1, at[k], k ? COLOUR_ALPHA : COLOUR_TEXT, "%s",
+                       names[i][k]);
+    }
+}
+
+/* All of a pair, with air around it. */
+static void pair_bounds(const double *x, const int pair[3], double bounds[4])
+{
+    for (int c = 0; c < 2; c++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int i = 0; i < 3; i++) {
+            low = fmin(low, x[2 * pair[i] + c]);
+            high = fmax(high, x[2 * pair[i] + c]);
+        }
+        bounds[c] = 1.3 * low - 0.3 * high;
+        bounds[c + 2] = 1.3 * high - 0.3 * low;
+    }
+}
+
 /* The gap of the page's law so large that it is seen, in the corner of the
  * stage, below its legend, where a lens hides least, right ones first; a
  * smaller one where it would hide something in all of them. */
@@ -376,8 +415,9 @@ static void draw_lens(const SpringPen *pen)
     if (!pen->show->lecture || pen->show->veiled ||
         lens.box.width < 2 * LENS * lens.em || !law_gap(pen->simulation, &gap))
         return;
+    double most = gap.pair[0] < 0 ? LENS : PAIR;
     for (int i = 0; i < 4 * LENS_SIZES; i++) {
-        int side = (int)((LENS - 2 * (i / 4)) * lens.em);
+        int side = (int)((most - 2 * (i / 4)) * lens.em);
         int left = i & 2 ? air : stage.width - side - air;
         int top = i & 1 ? stage.height - side - 2 * air : 2 * air;
         Box box = {stage.x + left, stage.y + top, side, side};
@@ -390,6 +430,8 @@ static void draw_lens(const SpringPen *pen)
     for (int c = 0; c < 4; c++)
         bounds[c] = 0.5 * (gap.foot[c % 2] + gap.node[c % 2]) +
                     (c < 2 ? -1.2 : 1.2) * gap.d_hat;
+    if (gap.pair[0] >= 0)
+        pair_bounds(pen->x, gap.pair, bounds);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
     canvas_card(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
     Box before = canvas_clip(canvas, box_inset(lens.box, 1));
@@ -401,6 +443,8 @@ static void draw_lens(const SpringPen *pen)
     square_springs(&near);
     square_nodes(&near);
     plot_line(&lens, gap.foot, gap.node, 3, COLOUR_P);
+    if (gap.pair[0] >= 0)
+        draw_pair(&lens, gap.pair);
     snprintf(words, sizeof words, "d = %s mm", number_of(1e3 * gap.d).text);
     paper_panel(lens.paper, FACE_BOLD, 1, COLOUR_P, lens.box.x + 0.6 * lens.em,
                 lens.box.y + 0.4 * lens.em, ALIGN_LEFT, words);

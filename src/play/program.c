@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/clock.h"
+#include "picture/show.h"
 #include "scenes/one_line.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
@@ -36,31 +37,37 @@ static int check_output(void)
 }
 
 /* What a presenter says, page by page, and when it begins, min. */
-static void print_notes(void)
+static Status print_notes(void)
 {
     double begins = 0;
+    char ask[512];
+    Status status = STATUS_OK;
     for (int i = 0; lecture_pages[i].name; i++) {
         const LecturePage *page = &lecture_pages[i];
         printf("%2d  %s\n    from minute %g, %g min\n    %s\n", i + 1,
                page->topic, begins, page->minutes, page->notes);
-        if (page->ask)
-            printf("    Ask: %s\n", page->ask);
+        if (page->ask && !status)
+            status = show_plain(page, page->ask, ask, sizeof ask);
+        if (page->ask && !status)
+            printf("    Ask: %s\n", ask);
         begins += page->minutes;
     }
     printf("%g min in all\n", begins);
+    return status;
 }
 
 /* --help, --version, --notes, --lecture --list, --list.  Returns the exit code;
  * PROGRAM_PLAYS: none of them was asked for. */
 static int print_information(const Options *options)
 {
+    Status status = STATUS_OK;
     errno = 0;
     if (options->help)
         options_help(stdout);
     else if (options->version)
         puts("elasto " ELASTO_VERSION);
     else if (options->notes)
-        print_notes();
+        status = print_notes();
     else if (!options->list)
         return PROGRAM_PLAYS;
     else if (options->page)
@@ -70,7 +77,8 @@ static int print_information(const Options *options)
     else
         for (const Scene *scene = scenes; scene->name; scene++)
             printf("%-12s %s\n", scene->name, scene->sentence);
-    return check_output();
+    return status ? tell(EXIT_FAILED, "%s", status_text(status))
+                  : check_output();
 }
 
 /* What a user can do about a failure. */
