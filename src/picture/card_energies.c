@@ -193,35 +193,17 @@ void energies_draw(const Plot *card)
     draw_curves(&plot, curves, curve);
 }
 
-/* A row of the budget: its bar from one energy to another, J. */
-static void draw_bar(const Plot *card, int row, int rows, const double ends[3],
-                     const Energy *energy, Colour colour)
-{
-    static const double NAME = 7, VALUE = 5.2; /* ems */
-    Paper *paper = card->paper;
-    int high = card->box.height / rows, y = card->box.y + row * high;
-    int left = card->box.x + paper_pixels(paper, NAME);
-    double wide = card->box.width - paper_pixels(paper, NAME + VALUE);
-    double from = wide * fmin(ends[0], ends[1]) / ends[2];
-    double to = wide * fmax(ends[0], ends[1]) / ends[2];
-    int at = left + (int)from, air = paper_pixels(paper, 0.1);
-    canvas_fill(&paper->canvas,
-                (Box){at, y + air, (int)(to - from) + 1, high - 2 * air},
-                colour);
-    paper_write(paper, FACE_REGULAR, 1, colour, card->box.x, y, ALIGN_LEFT,
-                "%s", energy->name);
-    paper_write(paper, FACE_REGULAR, 1, colour, card->box.x + card->box.width,
-                y, ALIGN_RIGHT, "%s J", number_of(energy->value).text);
-}
-
 /* What there was at the start and what gravity and hand have added since; then
  * where it is: each bar begins where the one before ended. */
 void budget_draw(const Plot *card)
 {
+    static const double NAME = 7, VALUE = 5.2; /* ems */
+    Paper *paper = card->paper;
+    const Box *box = &card->box;
     Energies energies = simulation_energies(card->simulation, 0);
     Energy all = {"start + work", 0};
-    const Energy *shown[HISTORY_SERIES];
-    int rows = 0;
+    const Energy *shown[HISTORY_SERIES + 1] = {&all};
+    int rows = 1, air = paper_pixels(paper, 0.1);
     for (int i = 1; i < energies.rows; i++) {
         const Energy *row = &energies.row[i];
         if (strcmp(row->name, "gravity") == 0 || strcmp(row->name, "work") == 0)
@@ -229,13 +211,24 @@ void budget_draw(const Plot *card)
         shown[rows++] = row;
         all.value += row->value;
     }
-    double ends[3] = {0, all.value, fmax(all.value, 1e-300)};
-    draw_bar(card, 0, rows + 1, ends, &all, colour_of("total"));
+    int left = box->x + paper_pixels(paper, NAME), high = box->height / rows;
+    double wide = box->width - paper_pixels(paper, NAME + VALUE);
+    double most = fmax(all.value, 1e-300), begin = 0;
     for (int i = 0; i < rows; i++) {
-        ends[1] = (i ? ends[1] : 0) + shown[i]->value;
-        draw_bar(card, i + 1, rows + 1, ends, shown[i],
-                 colour_of(shown[i]->name));
-        ends[0] = ends[1];
+        double end = begin + shown[i]->value;
+        double from = wide * fmin(begin, end) / most;
+        double to = wide * fmax(begin, end) / most;
+        int y = box->y + i * high;
+        Colour colour = colour_of(i ? shown[i]->name : "total");
+        canvas_fill(&paper->canvas,
+                    (Box){left + (int)from, y + air, (int)(to - from) + 1,
+                          high - 2 * air},
+                    colour);
+        paper_write(paper, FACE_REGULAR, 1, colour, box->x, y, ALIGN_LEFT, "%s",
+                    shown[i]->name);
+        paper_write(paper, FACE_REGULAR, 1, colour, box->x + box->width, y,
+                    ALIGN_RIGHT, "%s J", number_of(shown[i]->value).text);
+        begin = i ? end : 0;
     }
 }
 

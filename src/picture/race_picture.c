@@ -9,12 +9,6 @@ static const double NAMED = 36;    /* ems, for names beside the lines */
 static const double NEAR = 0.01;   /* m, the error that is asked for */
 static const double FINEST = 1e-8; /* m, what tolerance and reference leave */
 
-/* Across: run time, or h where that is switched on. */
-static double place_of(const Simulation *simulation, const RacePoint *point)
-{
-    return simulation->exhibit.parts ? point->h : point->seconds;
-}
-
 /* Powers of ten. */
 void race_bounds(const Plot *stage, double bounds[4])
 {
@@ -51,7 +45,8 @@ void race_draw(Plot *stage)
         named[method][0] = named[method][1] = NAN;
         for (int i = method; i < race->count; i += RACE_METHODS) {
             const RacePoint *point = &race->point[i];
-            const double now[2] = {place_of(simulation, point), point->error};
+            const double now[2] = {over_h ? point->h : point->seconds,
+                                   point->error};
             if (!(point->error > 0))
                 continue;
             plot_line(&plot, last, now, 2.2, colour);

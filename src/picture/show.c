@@ -132,23 +132,6 @@ static void stage_switches(const Plot *stage)
     }
 }
 
-/* A switch or a handle under pixel (x, y): fills kind and index. */
-static bool handles_pick(const Plot *stage, double x, double y, Pick *pick)
-{
-    double at[SCENE_MAX_HANDLES][2];
-    Switch out[SCENE_MAX_SWITCHES];
-    int switches = exhibit_switches(stage->simulation, out);
-    int handles = exhibit_handles(stage->simulation, at);
-    for (int i = 0; i < switches && stage->text; i++)
-        if (box_contains(switch_box(stage, i), x, y)) {
-            pick->kind = PICK_SWITCH;
-            pick->index = i;
-            return true;
-        }
-    return plot_pick(stage, handles, *at, HANDLE_REACH, x, y, PICK_HANDLE,
-                     pick);
-}
-
 /* The guess is a cross; along x alone a line from top to bottom, too; and where
  * the step led: over any picture. */
 static void stage_prediction(const Plot *stage)
@@ -186,7 +169,18 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
     const Picture *picture = picture_of(stage.simulation->scene);
     pick.pane = hit.index;
     camera_world(&stage.camera, x, y, pick.point);
-    if (!picture->own_handles && handles_pick(&stage, x, y, &pick))
+    double at[SCENE_MAX_HANDLES][2];
+    Switch out[SCENE_MAX_SWITCHES];
+    int handles = exhibit_handles(stage.simulation, at);
+    int switches = exhibit_switches(stage.simulation, out);
+    for (int i = 0; i < switches && stage.text && !picture->own_handles; i++)
+        if (box_contains(switch_box(&stage, i), x, y)) {
+            pick.kind = PICK_SWITCH;
+            pick.index = i;
+            return pick;
+        }
+    if (!picture->own_handles &&
+        plot_pick(&stage, handles, *at, HANDLE_REACH, x, y, PICK_HANDLE, &pick))
         return pick;
     pick.kind = picture->places ? PICK_PLACE : PICK_NONE;
     if (picture->pick)
