@@ -36,26 +36,24 @@ static double make_unit(double v[4], const double instead[4])
  * and b = f-/|f-| to itself, and what lies across, S of their halves, are
  * eigenvectors with all + slope and all - slope.  In that plane a 2x2 matrix Q
  * is projected. */
-bool area_hessian(const double f[4], const AreaCurvature *curvature,
-                  Filter filter, double H[4][4])
+bool area_hessian(const double f[4], double unit, double all, double slope,
+                  double second, Filter filter, double H[4][4])
 {
     static const double any_plus[4] = {0, 0.7071067811865476,
                                        -0.7071067811865476, 0};
     static const double any_minus[4] = {0, 0.7071067811865476,
                                         0.7071067811865476, 0};
-    double all = curvature->all, c1 = curvature->slope;
     double a[4] = {0.5 * (f[0] + f[3]), 0.5 * (f[1] - f[2]),
                    0.5 * (f[2] - f[1]), 0.5 * (f[3] + f[0])};
     double b[4] = {0.5 * (f[0] - f[3]), 0.5 * (f[1] + f[2]),
                    0.5 * (f[2] + f[1]), 0.5 * (f[3] - f[0])};
-    double plus = curvature->unit * make_unit(a, any_plus);
-    double minus = curvature->unit * make_unit(b, any_minus);
-    double Q[3] = {curvature->second * plus * plus + c1 + all,
-                   -curvature->second * plus * minus,
-                   curvature->second * minus * minus - c1 + all};
+    double plus = unit * make_unit(a, any_plus);
+    double minus = unit * make_unit(b, any_minus);
+    double Q[3] = {second * plus * plus + slope + all, -second * plus * minus,
+                   second * minus * minus - slope + all};
     const double across_a[4] = {a[1], -a[0], a[3], -a[2]};
     const double across_b[4] = {b[1], -b[0], b[3], -b[2]};
-    double low = all + c1, high = all - c1;
+    double low = all + slope, high = all - slope;
     bool changed = filter_2x2(filter, Q);
     if (filter_projects(filter)) {
         changed = changed || low < 0 || high < 0;

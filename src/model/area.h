@@ -23,13 +23,9 @@ void area_along(const double f[4], double unit, const double P[4], double *J1,
 double area_reach(const double f[4], double unit, double most,
                   const double P[4]);
 
-/* A Hessian all I + slope K + second (unit K f)(unit K f)^T. */
-typedef struct AreaCurvature {
-    double all, slope, second, unit;
-} AreaCurvature;
-
-/* H [4][4] out, filtered.  Returns whether an eigenvalue was changed. */
-bool area_hessian(const double f[4], const AreaCurvature *curvature,
-                  Filter filter, double H[4][4]);
+/* H = all I + slope K + second (unit K f)(unit K f)^T, [4][4] out, filtered.
+ * Returns whether an eigenvalue was changed. */
+bool area_hessian(const double f[4], double unit, double all, double slope,
+                  double second, Filter filter, double H[4][4]);
 
 #endif

@@ -71,11 +71,9 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
 {
     const Cells *cells = at->term->data;
     double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->area);
-    const AreaCurvature curvature = {
-        .slope = cells->c / CELL_J_HAT * barrier_slope(s) * q,
-        .second = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s),
-        .unit = q};
-    return area_hessian(element->v, &curvature, filter, H);
+    double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
+    double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
+    return area_hessian(element->v, q, 0, slope, bend, filter, H);
 }
 
 static double reach(const Place *at, const Element *element, const double P[4])

@@ -2,14 +2,9 @@
 
 #include <math.h>
 
-static const ElementKind *kind_of(const Place *at)
-{
-    return at->term->kind->element;
-}
-
 ElementWalk elements_from(const Place *at, const double *p, double alpha)
 {
-    const ElementKind *kind = kind_of(at);
+    const ElementKind *kind = at->term->kind->element;
     double most = 0;
     for (int i = 0; p && i < 2 * at->system->nodes; i++)
         most = fabs(p[i]) > most ? fabs(p[i]) : most;
@@ -67,20 +62,22 @@ static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
  */
 static int entries_of_a_block(const Place *at)
 {
-    int node[3], nodes = kind_of(at)->nodes(at, 0, node);
+    int node[3], nodes = at->term->kind->element->nodes(at, 0, node);
     return nodes * (2 * nodes + 1);
 }
 
 long long elements_entries(const Place *at)
 {
-    return (long long)entries_of_a_block(at) * kind_of(at)->blocks(at);
+    return (long long)entries_of_a_block(at) *
+           at->term->kind->element->blocks(at);
 }
 
 void elements_pattern(const Place *at, Triplets *triplets)
 {
-    int node[3], blocks = kind_of(at)->blocks(at);
+    const ElementKind *kind = at->term->kind->element;
+    int node[3], blocks = kind->blocks(at);
     for (int b = 0; b < blocks; b++) {
-        int nodes = kind_of(at)->nodes(at, b, node);
+        int nodes = kind->nodes(at, b, node);
         for (int i = 0; i < PARTS; i++)
             if (part[i][1] < nodes)
                 term_add_block(at->system, node[part[i][0]], node[part[i][1]],

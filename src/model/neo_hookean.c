@@ -74,11 +74,9 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
     const NeoHookean *data = at->term->data;
     double J = element->s, mu = data->mu;
     double bend = (data->lambda * (1 - math_log(J)) + mu) / (J * J);
-    const AreaCurvature curvature = {.all = data->area * mu,
-                                     .slope = data->area * slope_in_J(data, J),
-                                     .second = data->area * bend,
-                                     .unit = 1};
-    return area_hessian(element->v, &curvature, filter, H);
+    return area_hessian(element->v, 1, data->area * mu,
+                        data->area * slope_in_J(data, J), data->area * bend,
+                        filter, H);
 }
 
 /* With J + alpha J1 + alpha^2 J2 = J (1 + z), and ln(1 + z) less its part of

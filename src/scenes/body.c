@@ -98,8 +98,7 @@ static Status create_system(const Options *options, System *system)
             return STATUS_OUT_OF_MEMORY;
     }
     double m = options->density * shape.side * shape.side / nodes;
-    if (!square)
-        m *= (double)shape.rows / shape.segments;
+    m *= (double)shape.rows / shape.segments;
     for (int i = 0; i < system->nodes; i++)
         system->m[i] = m;
     square_mesh_springs(&shape, system->e);
