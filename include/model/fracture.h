@@ -22,7 +22,6 @@ typedef struct Candidate {
 
 typedef struct Fracture {
     double strength;      /* s_c > 0, a strain */
-    int broken;           /* springs so far, without slits of the scene */
     Candidate *candidate; /* [springs] room */
     unsigned char *taken; /* [nodes] one of its springs broke in this step */
 } Fracture;

@@ -31,11 +31,10 @@ typedef struct Slide {
 
 /* The term's data. */
 typedef struct Friction {
-    double slip_speed;      /* eps_v, m/s > 0 */
-    double e;               /* m, eps_v h */
-    const TermKind *source; /* the contacts */
-    int slides, room;       /* contacts of this step */
-    Slide slide[];          /* [room] */
+    double slip_speed; /* eps_v, m/s > 0 */
+    double e;          /* m, eps_v h */
+    int slides, room;  /* contacts of this step */
+    Slide slide[];     /* [room] */
 } Friction;
 
 /* sum of W over the contacts at x_n, with obstacles and between bodies; data:

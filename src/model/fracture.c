@@ -66,7 +66,6 @@ static void end(const TermStep *step)
             continue;
         *i = *j = 1;
         system->k[s] = 0;
-        fracture->broken++;
     }
     system_lose(system, step->term->kind,
                 energy - system_potential(system, step->x));

@@ -85,9 +85,10 @@ static double slid(const Slide *slide, const double *u)
 /* The term whose elements rub here; a place that asks it. */
 static Place place_of_source(const Place *at)
 {
-    const Friction *friction = at->term->data;
+    bool obstacles = at->term->kind == &friction_energy;
     Place source = *at;
-    source.term = system_find_term(at->system, friction->source);
+    source.term = system_find_term(
+        at->system, obstacles ? &contact_energy : &self_contact_energy);
     return source;
 }
 
@@ -244,7 +245,5 @@ Status friction_set(System *system, const TermKind *kind, bool wanted,
     if (!friction)
         return STATUS_OUT_OF_MEMORY;
     friction->slip_speed = slip_speed;
-    friction->source =
-        kind == &friction_energy ? &contact_energy : &self_contact_energy;
     return STATUS_OK;
 }

@@ -33,17 +33,14 @@ static void pass_system(Cursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = system_data(system, &plastic_energy);
-    Fracture *breaks = system_data(system, &fracture);
     Contact *contact = contact_of(system);
     PASS(system->lost);
     if (plasticity) {
         pass(cursor, plasticity->ep, springs);
         pass(cursor, plasticity->kappa, springs);
     }
-    if (breaks) {
+    if (system_find_term(system, &fracture))
         pass(cursor, system->k, springs);
-        PASS(breaks->broken);
-    }
     if (contact)
         pass(cursor, contact->obstacle,
              (size_t)contact->obstacles * sizeof *contact->obstacle);
