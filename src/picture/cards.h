@@ -47,7 +47,7 @@ extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
 extern StageSample square_sample, mass_sample;
 extern CardDraw page_draw, listing_draw, search_draw, prints_draw, line_draw,
     residual_draw, values_draw, updates_draw, energies_draw, budget_draw,
-    radius_draw, law_draw, spy_draw, profile_draw, table_draw, cell_draw;
+    radius_draw, law_draw, spy_draw, profile_draw, table_draw;
 extern CardNeeds page_needs, listing_needs;
 
 /* The size of its letters in ems: the same for all pages that fit. */

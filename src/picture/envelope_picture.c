@@ -123,24 +123,3 @@ void envelope_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "undone cell", !cell->worst && cell->undone);
     fact_when(facts, "converged cell", !cell->worst && !cell->undone);
 }
-
-/* The square of the cell after its steps, fitted into the card. */
-void cell_draw(const Plot *card)
-{
-    const System *system = &card->simulation->system;
-    const double *x = card->simulation->run[0].x;
-    double bounds[4] = {-0.5, -0.5, 0.5, 0.5};
-    Plot stage = *card;
-    if (!x)
-        return;
-    for (int i = 0; i < system->nodes; i++)
-        for (int k = 0; k < 2; k++) {
-            bounds[k] = fmin(bounds[k], x[2 * i + k]);
-            bounds[2 + k] = fmax(bounds[2 + k], x[2 * i + k]);
-        }
-    stage.box = box_inset(card->box, paper_pixels(card->paper, 0.6));
-    stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
-    plot_springs(&stage, system, x, 1.2, COLOUR_X);
-    for (int i = 0; i < system->nodes; i++)
-        plot_disc(&stage, x + 2 * i, 3, COLOUR_X);
-}

@@ -5,7 +5,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double NAMED = 36;    /* ems, for names beside the lines */
+static const double NAMED = 45;    /* ems, for names beside the lines */
 static const double NEAR = 0.01;   /* m, the error that is asked for */
 static const double FINEST = 1e-8; /* m, what tolerance and reference leave */
 
@@ -57,10 +57,11 @@ void race_draw(Plot *stage)
         }
     }
     for (int order = 1; over_h && order <= 4; order *= 2) {
-        const double from[2] = {2.5e-5, 0.03}, wide = 4.5;
-        const double to[2] = {from[0] * wide, from[1] * pow(wide, order)};
+        const double from[2] = {2.5e-5, 0.03}, way = 4.5;
+        const double to[2] = {from[0] * way, from[1] * pow(way, order)};
         plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
-        plot_words(&plot, 1, to, COLOUR_GREY, "order %d", order);
+        if (wide)
+            plot_words(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
     for (int i = 0; i < RACE_METHODS && wide; i++) {
         double x = named[i][0], y = named[i][1], low = 0.35 * y;

@@ -395,8 +395,8 @@ static void pair_bounds(const double *x, const int pair[3], double bounds[4])
             low = fmin(low, x[2 * pair[i] + c]);
             high = fmax(high, x[2 * pair[i] + c]);
         }
-        bounds[c] = 1.3 * low - 0.3 * high;
-        bounds[c + 2] = 1.3 * high - 0.3 * low;
+        bounds[c] = 1.45 * low - 0.45 * high;
+        bounds[c + 2] = 1.45 * high - 0.45 * low;
     }
 }
 
@@ -415,7 +415,8 @@ static void draw_lens(const SpringPen *pen)
     if (!pen->show->lecture || pen->show->veiled ||
         lens.box.width < 2 * LENS * lens.em || !law_gap(pen->simulation, &gap))
         return;
-    double most = gap.pair[0] < 0 ? LENS : PAIR;
+    bool paired = gap.pair[0] >= 0 && lens.box.width > 3 * PAIR * lens.em;
+    double most = paired ? PAIR : LENS;
     for (int i = 0; i < 4 * LENS_SIZES; i++) {
         int side = (int)((most - 2 * (i / 4)) * lens.em);
         int left = i & 2 ? air : stage.width - side - air;
@@ -430,7 +431,7 @@ static void draw_lens(const SpringPen *pen)
     for (int c = 0; c < 4; c++)
         bounds[c] = 0.5 * (gap.foot[c % 2] + gap.node[c % 2]) +
                     (c < 2 ? -1.2 : 1.2) * gap.d_hat;
-    if (gap.pair[0] >= 0)
+    if (paired)
         pair_bounds(pen->x, gap.pair, bounds);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
     canvas_card(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
@@ -443,7 +444,7 @@ static void draw_lens(const SpringPen *pen)
     square_springs(&near);
     square_nodes(&near);
     plot_line(&lens, gap.foot, gap.node, 3, COLOUR_P);
-    if (gap.pair[0] >= 0)
+    if (paired)
         draw_pair(&lens, gap.pair);
     snprintf(words, sizeof words, "d = %s mm", number_of(1e3 * gap.d).text);
     paper_panel(lens.paper, FACE_BOLD, 1, COLOUR_P, lens.box.x + 0.6 * lens.em,
