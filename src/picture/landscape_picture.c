@@ -76,6 +76,7 @@ static void name_levels(const Plot *plot)
     const double *from = simulation->exhibit.target;
     double e = level_factor(simulation), before = NAN, place[2];
     double apart = 1.3 * plot->em / plot->camera.scale[0], last = 0;
+    const Box inside = box_inset(plot->box, (int)plot->em);
     for (double way = 0; way < 3; way += pace) {
         const double x[2] = {from[0] + way * ray[0], from[1] + way * ray[1]};
         double value =
@@ -83,7 +84,8 @@ static void name_levels(const Plot *plot)
         plot_place(plot, x, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
-                way > last + apart && place[1] < plot->box.height) {
+                way > last + apart &&
+                box_contains(inside, place[0], place[1])) {
                 paper_panel(plot->paper, FACE_REGULAR, 0.85, COLOUR_FAINT,
                             place[0], place[1] - 0.6 * plot->em, ALIGN_CENTRE,
                             number_of(map_levels[k] * e).text);
@@ -239,6 +241,7 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     name_parts(parts, facts);
     fact_when(facts, "both", parts == PART_BOTH);
     fact_when(facts, "elastic", parts != PART_INERTIA);
+    fact_when(facts, "inertial", parts != PART_ELASTICITY);
     const LecturePage *page = simulation->options.page;
     bool pulls = page && page->forces;
     fact_when(facts, "pulls", pulls);
