@@ -216,6 +216,8 @@ for k, one in enumerate(sets):
     same("v", velocity[:, :2], [s["vx"][at], s["vy"][at]])
     same("springs", springs, [p["i"][whole], p["j"][whole]])
     same("strain", strain[:lines], p["strain"][whole])
+    sides = {frozenset(spring) for spring in springs}
+    all(frozenset(t[[a, a - 1]]) in sides for t in corners for a in range(3)) or bad("a triangle of broken springs")
     float(one.get("timestep")) == float(s["time"][at][0]) or bad("time")
     x = numbers(data.GetPoints().GetData())
     e, f = x[corners[:, 1]] - x[corners[:, 0]], x[corners[:, 2]] - x[corners[:, 0]]

@@ -401,62 +401,6 @@ TEST(breaking_books_its_energy)
 
 /* ---- laws of a scene --------------------------------------------------- */
 
-static void turn(double *p, double angle)
-{
-    double x = p[0], y = p[1];
-    p[0] = cos(angle) * x - sin(angle) * y;
-    p[1] = sin(angle) * x + cos(angle) * y;
-}
-
-/* Turned with its obstacles and gravity, mirrored, or with k, kappa and m times
- * 16 (powers of two leave all bits) a scene is the same. */
-TEST(directions_do_not_matter)
-{
-    static const char plain[] = "dent --tolerance 1e-8 --segments 8";
-    static const struct {
-        double angle;
-        bool mirror;
-        const char *more, *both;
-        double tolerance;
-    } rows[] = {
-        {0.6457718232379019, false, "", "", 1e-9},
-        {0, true, "--velocity -0.02,-2", "", 1e-9},
-        {0, false, "--stiffness 3.2e6 --density 16000 --barrier 0.01,1.28e7",
-         "", 0},
-        {0.6457718232379019, false, "", "--damping 0.002", 1e-9},
-        {0, true, "--velocity -0.02,-2", "--damping 0.002", 1e-9},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        double angle = rows[i].angle;
-        Simulation *one = simulate("%s %s", plain, rows[i].both);
-        Simulation *other =
-            simulate("%s %s %s", plain, rows[i].both, rows[i].more);
-        Contact *contact = contact_of(&other->system);
-        turn(other->system.gravity, angle);
-        for (int k = 0; k < contact->obstacles; k++) {
-            turn(contact->obstacle[k].o, angle);
-            turn(contact->obstacle[k].n, angle);
-        }
-        for (size_t c = 0; c < other->run[0].size; c += 2) {
-            turn(other->run[0].x + c, angle);
-            turn(other->run[0].v + c, angle);
-        }
-        make_steps(one, 150);
-        make_steps(other, 150);
-        for (int node = 0; node < 81; node++) {
-            int image = (8 - node / 9) * 9 + node % 9;
-            const double *p = one->run[0].x + 2 * node;
-            double at[2] = {rows[i].mirror ? -p[0] : p[0], p[1]};
-            const double *got =
-                other->run[0].x + 2 * (rows[i].mirror ? image : node);
-            turn(at, angle);
-            CHECK_NEAR(got[0], at[0], rows[i].tolerance);
-            CHECK_NEAR(got[1], at[1], rows[i].tolerance);
-        }
-        CHECK(energy_now(one, 0, "plastic") > 1);
-    }
-}
-
 /* A ceiling of 50 m/s comes in parts, each from a place that is allowed; one
  * that would crush the square to nothing is stopped, and the step says so. */
 TEST(a_fast_ceiling_comes_in_parts)

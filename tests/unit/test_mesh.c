@@ -1,6 +1,6 @@
-/* The square: nodes, springs and numbering as on the slides; how it starts,
- * falls and hangs: gravity in every integrator, pinned nodes, turned and thrown
- * starts, and the text of --pin.
+/* The square: nodes, springs and numbering as on the slides; how it starts and
+ * hangs: pinned nodes, turned and thrown starts, and the text of --pin.  (How it
+ * falls is for test_integrators.)
  */
 #include "test.h"
 
@@ -171,71 +171,6 @@ TEST(order_keeps_the_factor_small)
 }
 
 enum { STEPS = 25 };
-
-/* A point that falls: height and velocity at t_n and before. */
-typedef struct Fall {
-    Real y, v, last_y, last_v;
-} Fall;
-
-/* One step of the method itself for the acceleration a, which does not depend
- * on the position: the formulas of the methods, not of this program. */
-static void fall_step(const char *method, int step, Real h, Real a, Fall *fall)
-{
-    Real y = fall->y, v = fall->v;
-    fall->v = v + h * a;
-    if (strcmp(method, "bdf2") == 0 && step > 0) {
-        fall->v = (4 * v - fall->last_v) / 3 + 2 * h / 3 * a;
-        fall->y = (4 * y - fall->last_y) / 3 + 2 * h / 3 * fall->v;
-    } else if (strcmp(method, "bdf2") == 0 || strstr(method, "d-euler") ||
-               strstr(method, "symplectic")) {
-        fall->y = y + h * (strstr(method, "forward") ? v : fall->v);
-    } else { /* exact for a parabola */
-        fall->y = y + h * v + h * h / 2 * a;
-    }
-    fall->last_y = y;
-    fall->last_v = v;
-}
-
-/* Mean height or velocity upwards over the nodes, all of one mass. */
-static Real mean(const Simulation *simulation, const double *values)
-{
-    Real sum = 0;
-    for (int i = 0; i < simulation->system.nodes; i++)
-        sum += values[2 * i + 1];
-    return sum / simulation->system.nodes;
-}
-
-/* A thrown square falls as its method says: at rest as one piece, stretched and
- * turned as a whole, since the springs' work does not move the centre of mass.
- * 1e-9: a hundred roundings of numbers of size 1. */
-TEST(a_square_falls_as_the_method_says)
-{
-    for (const IntegratorMethod *row = integrator_methods; row->name; row++)
-        for (int rest = 0; rest < 2; rest++) {
-            double from[2 * 16];
-            Simulation *simulation = simulate(
-                "square --segments 3 --stretch %g --turn 30 --at 0.3,2 "
-                "--velocity 1.5,2.5 --gravity 9.81 --timestep 0.002 "
-                "--tolerance 1e-6 --integrator %s",
-                rest ? 1 : 1.2, row->name);
-            const TimeIntegrator *run = &simulation->run[0];
-            Fall fall = {mean(simulation, run->x), 2.5L, 0, 0};
-            CHECK_NEAR(fall.y, 2, 1e-15);
-            memcpy(from, run->x, sizeof from);
-            for (int step = 0; step < STEPS; step++) {
-                make_steps(simulation, 1);
-                fall_step(row->name, step, 0.002L, -9.81L, &fall);
-                CHECK_NEAR(mean(simulation, run->x), fall.y, 1e-9);
-                CHECK_NEAR(mean(simulation, run->v), fall.v, 1e-9);
-                for (int i = 0; i < 16 && rest; i++) {
-                    double along = run->x[2 * i] - from[2 * i];
-                    CHECK_NEAR(along, 1.5 * run->clock, 1e-9);
-                    CHECK_NEAR(run->x[2 * i + 1] - from[2 * i + 1], fall.y - 2,
-                               1e-9);
-                }
-            }
-        }
-}
 
 /* What hangs evenly around the height 0 has no energy there. */
 TEST(a_square_begins_at_the_height_0)

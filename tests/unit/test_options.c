@@ -270,14 +270,6 @@ TEST(the_row_has_its_places_and_paces)
     assert_string_equal(names, "tolerance line-search ");
     options = parse_good(""); /* nothing to rub on, no damping */
     CHECK(options_row(&options, found) == (int)count - 3);
-    static const char *const units[][2] = {{"stiffness", "J/m\u00b2"},
-                                           {"gravity", "m/s\u00b2"},
-                                           {"turn", "\u00b0"},
-                                           {"filter", ""}};
-    for (int i = 0; i < 4; i++) {
-        option_unit(option_find(units[i][0]), text, sizeof text);
-        assert_string_equal(text, units[i][1]);
-    }
 }
 
 /* A piece of a random line, at the end of its words.  word [80] in/out */
