@@ -470,7 +470,7 @@ static void check_state(Watch *watch, Status status)
         if (!isfinite(run->x[i]) || !isfinite(run->v[i]))
             blame(watch, "the state is not finite");
         if (run->system->pinned && run->system->pinned[i / 2] &&
-            !run->system->pin_v && run->x[i] != watch->x[i])
+            !run->system->pin_v && (run->x[i] != watch->x[i] || run->v[i] != 0))
             blame(watch, "a pinned node moved");
     }
     check_walls(watch, run->x);

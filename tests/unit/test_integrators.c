@@ -199,36 +199,6 @@ TEST(free_flight_is_straight)
 
 /* ---- the table --------------------------------------------------------- */
 
-/* h far above the limit: it overflows at last, and says so; |d|^4 does so at
- * once.  The state of the last good step stays. */
-TEST(overflow_changes_nothing)
-{
-    static const char *const lines[] = {
-        "--integrator forward-euler --timestep 1",
-        "--integrator symplectic-euler --timestep 1", "--stretch 1e160"};
-    for (int i = 0; i < 3; i++) {
-        Simulation *square = simulate("%s", lines[i]);
-        TimeIntegrator *run = &square->run[0];
-        Status status = STATUS_OK;
-        for (long step = 0; step < 100 && !status; step++) {
-            double x[2 * 25], v[2 * 25];
-            memcpy(x, run->x, sizeof x);
-            memcpy(v, run->v, sizeof v);
-            status = simulation_step(square);
-            if (!status)
-                continue;
-            CHECK_SAME_BITS(run->x, x, 2 * 25);
-            CHECK_SAME_BITS(run->v, v, 2 * 25);
-            CHECK(run->steps == step && square->steps == step);
-            CHECK((step > 0) == (i < 2) && square->unconverged == 0);
-        }
-        CHECK_STATUS(status, STATUS_NOT_FINITE);
-        CHECK(!status_is_unconverged(status));
-        for (size_t c = 0; c < run->size; c++)
-            CHECK(isfinite(run->x[c]) && isfinite(run->v[c]));
-    }
-}
-
 /* After a step that ran off, Verlet asks for the acceleration again: what it
  * remembered was that of a place where it never came to be. */
 TEST(a_failed_step_is_not_remembered)

@@ -1,6 +1,6 @@
 /* The square: nodes, springs and numbering as on the slides; how it starts and
- * hangs: pinned nodes, turned and thrown starts, and the text of --pin.  (How it
- * falls is for test_integrators.)
+ * hangs: turned and thrown starts, and the text of --pin.  (How it falls is for
+ * test_integrators, that pins stay for stress.)
  */
 #include "test.h"
 
@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/self_contact.h"
 #include "scenes/body.h"
 
 /* A centred grid, column by column from below; springs as the slide's four
@@ -109,49 +108,6 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     CHECK(seen == 12 && twice == BODIES * 2 * 2.5 * 1.5);
 }
 
-/* Of two cells beside each other, with some springs of the first one broken: ab
- * bc dc ad ac bd.  bc is the second one's ad. */
-TEST(the_boundary_is_that_of_what_is_solid)
-{
-    static const struct {
-        int broken[6], edges, points;
-    } rows[] = {
-        {{0}, 6, 6},
-        {{0, 0, 0, 0, 1, 0}, 6, 6}, /* the other diagonal will do */
-        {{0, 0, 0, 0, 0, 1}, 6, 6},
-        {{0, 1, 0, 0, 0, 0}, 6, 6}, /* a crack between them: abd, and b'c'a' */
-        {{1, 0, 0, 0, 0, 0}, 5, 6}, /* a is of no triangle */
-        {{0, 0, 0, 0, 1, 1}, 4, 6}, /* d and a are threads' ends */
-        {{0, 0, 1, 0, 1, 0}, 7, 6}, /* abd is left, */
-        {{0, 0, 1, 0, 0, 1}, 4, 6}, /* but bca is not taken alone */
-        {{1, 1, 1, 1, 1, 1}, 3, 6},
-    };
-    const SquareMesh mesh = square_mesh_shape(2, 1, 2, 1);
-    double x[12];
-    for (int i = 0; i < 6; i++)
-        square_mesh_place(&mesh, i, x + 2 * i);
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const Barrier barrier = {0.01, 1};
-        int node[4], spring[6];
-        System system;
-        CHECK_STATUS(system_create(6, mesh.springs, &system), STATUS_OK);
-        square_mesh_springs(&mesh, system.e);
-        square_mesh_cell(&mesh, 0, node, spring);
-        for (int s = 0; s < mesh.springs; s++)
-            system.k[s] = system.l2[s] = 1;
-        for (int k = 0; k < 6; k++)
-            system.k[spring[k]] = !rows[i].broken[k];
-        CHECK_STATUS(self_contact_set(&system, &mesh, &barrier, 0), STATUS_OK);
-        Place at = place_at(&system, x, NULL, x);
-        at.term = system_find_term(&system, &self_contact_energy);
-        CHECK(self_contact_energy.value(&at) == 0);
-        const Boundary *boundary = &self_contact_of(&system)->boundary;
-        CHECK_NEAR(boundary->edges, rows[i].edges, 0);
-        CHECK_NEAR(boundary->points, rows[i].points, 0);
-        system_free(&system);
-    }
-}
-
 /* Entries of the factor of a square. */
 static double factor_entries(int segments)
 {
@@ -170,36 +126,12 @@ TEST(order_keeps_the_factor_small)
     CHECK_AT_MOST(ours, 6 * factor_entries(12));
 }
 
-enum { STEPS = 25 };
-
 /* What hangs evenly around the height 0 has no energy there. */
 TEST(a_square_begins_at_the_height_0)
 {
     for (int n = 2; n <= 60; n++) {
         Simulation *simulation = simulate("hang --segments %d", n);
         CHECK_NEAR(simulation_energies(simulation, 0).gravity, 0, 0);
-    }
-}
-
-/* Not by a bit, in any method, also where the square is thrown. */
-TEST(pinned_nodes_do_not_move)
-{
-    for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
-        double x[2 * 16];
-        Simulation *simulation = simulate(
-            "square --segments 3 --stretch 1.2 --velocity 1,-2 --gravity "
-            "9.81 --timestep 0.002 --pin 0,15,7,top-corners "
-            "--integrator %s",
-            row->name);
-        const TimeIntegrator *run = &simulation->run[0];
-        memcpy(x, run->x, sizeof x);
-        make_steps(simulation, STEPS);
-        for (int i = 0; i < 16; i++) {
-            bool pinned = i == 0 || i == 3 || i == 7 || i == 15;
-            CHECK(pinned == (run->x[2 * i + 1] == x[2 * i + 1]));
-            CHECK(!pinned || run->x[2 * i] == x[2 * i]);
-            CHECK(!pinned || (run->v[2 * i] == 0 && run->v[2 * i + 1] == 0));
-        }
     }
 }
 
