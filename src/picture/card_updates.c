@@ -124,16 +124,15 @@ static void draw_update(const Plot *card, double y, int row,
     char cell[COLUMNS][96] = {""};
     if (row > 0)
         snprintf(cell[0], sizeof *cell, "%d", row);
-    if (row > 0 && line >= LINE_PROJECT)
+    if (line >= LINE_PROJECT)
         snprintf(cell[1], sizeof *cell, "%d", update->projected);
-    if (row > 0 && line >= LINE_SOLVE)
+    if (line >= LINE_SOLVE)
         snprintf(cell[2], sizeof *cell, "%s %s \u03b5",
                  number_of(update->residual).text,
                  update->residual > trace->tolerance ? ">" : "\u2264");
-    if (row > 0 && line >= LINE_SEARCH &&
-        (line > LINE_SEARCH || trace->accepted))
+    if (line > LINE_SEARCH || (line == LINE_SEARCH && trace->accepted))
         snprintf(cell[3], sizeof *cell, "%s", number_of(update->alpha).text);
-    if (row > 0 && line >= LINE_UPDATE)
+    if (line >= LINE_UPDATE)
         snprintf(cell[4], sizeof *cell, "%s", number_of(update->change).text);
     for (int c = 0; c < COLUMNS; c++)
         paper_write(card->paper, row ? FACE_REGULAR : FACE_BOLD, 1, COLOUR_TEXT,

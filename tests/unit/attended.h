@@ -22,7 +22,8 @@ static inline void begin_script(const char *script, const char *line)
 {
     static Options options[OPTIONS_MAX_PANES];
     static char name[] = "/tmp/elasto-test-XXXXXX";
-    char copy[256], message[256] = "";
+    static char copy[256]; /* the options point into it */
+    char message[256] = "";
     char *argv[32] = {(char[]){"elasto"}, (char[]){"--script"}, name,
                       (char[]){"--headless"}, (char[]){"--quiet"}};
     int argc = 5, count = 1;
