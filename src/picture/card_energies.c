@@ -194,7 +194,8 @@ void energies_draw(const Plot *card)
 }
 
 /* What there was at the start and what gravity and hand have added since; then
- * where it is: each bar begins where the one before ended. */
+ * where it is: each bar begins where the one before ended, inside of the first
+ * one's ends.  What is only rounding is 0. */
 void budget_draw(const Plot *card)
 {
     static const double NAME = 7, VALUE = 5.2; /* ems */
@@ -215,9 +216,10 @@ void budget_draw(const Plot *card)
     double wide = box->width - paper_pixels(paper, NAME + VALUE);
     double most = fmax(all.value, 1e-300), begin = 0;
     for (int i = 0; i < rows; i++) {
-        double end = begin + shown[i]->value;
-        double from = wide * fmin(begin, end) / most;
-        double to = wide * fmax(begin, end) / most;
+        double value =
+            fabs(shown[i]->value) < 1e-12 * most ? 0 : shown[i]->value;
+        double end = fmin(fmax(begin + value / most, 0), 1);
+        double from = wide * fmin(begin, end), to = wide * fmax(begin, end);
         int y = box->y + i * high;
         Colour colour = colour_of(i ? shown[i]->name : "total");
         canvas_fill(&paper->canvas,
@@ -227,7 +229,7 @@ void budget_draw(const Plot *card)
         paper_write(paper, FACE_REGULAR, 1, colour, box->x, y, ALIGN_LEFT, "%s",
                     shown[i]->name);
         paper_write(paper, FACE_REGULAR, 1, colour, box->x + box->width, y,
-                    ALIGN_RIGHT, "%s J", number_of(shown[i]->value).text);
+                    ALIGN_RIGHT, "%s J", number_of(value).text);
         begin = i ? end : 0;
     }
 }
