@@ -93,7 +93,7 @@ void rounds_free(Rounds *rounds);
 /* From one place to the next (way 1) or to the one before (-1).
  *   fine   how small a pace: 1 whole updates, 2 lines
  *   place  index in rounds->place
- * Returns the index; -1 or rounds->places where it leaves the step. */
+ * Returns the index; the same one where there is no other in this step. */
 int rounds_walk(const Rounds *rounds, int fine, int place, int way);
 
 /* The last place of this round that is not behind this line; where there is no

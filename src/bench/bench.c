@@ -1,8 +1,6 @@
 /* bench.c - the program elasto-bench: run time against error, and how long
  * steps and frames take. */
 #include "bench/bench.h"
-#include "base/clock.h"
-#include "picture/picture.h"
 
 #include <SDL_version.h>
 #include <cholmod.h>
@@ -11,6 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+
+#include "base/clock.h"
+#include "picture/picture.h"
 
 /* Processor time of this thread, s: what a busy machine changes least. */
 static double cpu_now(void)

@@ -259,14 +259,12 @@ void rounds_end(Rounds *rounds, const Options *options)
 
 int rounds_walk(const Rounds *rounds, int fine, int place, int way)
 {
-    Line line;
-    do {
-        place += way;
-        if (place < 0 || place >= rounds->places)
-            return place;
-        line = rounds->place[place].line;
-    } while (fine < 2 && line != LINE_START && line != LINE_TEST &&
-             line != LINE_END);
+    for (int i = place + way; 0 <= i && i < rounds->places; i += way) {
+        Line line = rounds->place[i].line;
+        if (fine == 2 || line == LINE_START || line == LINE_TEST ||
+            line == LINE_END)
+            return i;
+    }
     return place;
 }
 

@@ -198,41 +198,38 @@ static bool is_rigid(const Simulation *simulation)
                simulation->options.tolerance;
 }
 
-/* What stands still although forces are left, or may be. */
-static void tell_tolerance(Player *player)
-{
-    const Simulation *simulation = player_simulation(player);
-    double tolerance = simulation->options.tolerance, needed;
-    double h = simulation->options.timestep;
-    if (simulation_is_loose(simulation, &needed))
-        player_note(
-            player,
-            "within the tolerance, perhaps not at rest: bodies may hang "
-            "or freeze unless \u03b5 is at most %.3g m/s",
-            needed);
-    else
-        player_note(player,
-                    "within the tolerance, not at rest: \u03b5 = %.3g m/s lets "
-                    "%.3g m pass in each step of %.4g s; a smaller one goes on",
-                    tolerance, tolerance * h, h);
-}
-
-/* Why cells may stay folded, too. */
+/* It is in balance, and why cells may stay folded; or what stands still
+ * although forces are left, or may be. */
 static void tell_rest(Player *player)
 {
     const Past *past = &player->past;
+    const Simulation *simulation = player_simulation(player);
+    double tolerance = simulation->options.tolerance, needed;
+    double h = simulation->options.timestep;
     int folded = 0;
     for (int p = 0; p < past_panes(past); p++) {
         Pane pane = {.simulation = &past->machine[p].simulation};
         if (past_ended(past, p, past->step) < 0)
             folded += pane_folded(&pane);
     }
-    player_note(player,
-                folded ? "at rest, with folded cells: springs alone do "
-                         "not mind, cells on (A) forbids it; pull a node, "
-                         "or R begins again"
-                       : "at rest, as far as \u03b5 tells; pull a node, change "
-                         "a number, or R begins again");
+    if (player->mode == MODE_REST)
+        player_note(
+            player,
+            folded ? "at rest, with folded cells: springs alone do "
+                     "not mind, cells on (A) forbids it; pull a node, "
+                     "or R begins again"
+                   : "at rest, as far as \u03b5 tells; pull a node, change "
+                     "a number, or R begins again");
+    else if (simulation_is_loose(simulation, &needed))
+        player_note(player,
+                    "within the tolerance, perhaps not at rest: bodies may "
+                    "hang or freeze unless \u03b5 is at most %.3g m/s",
+                    needed);
+    else
+        player_note(player,
+                    "within the tolerance, not at rest: \u03b5 = %.3g m/s lets "
+                    "%.3g m pass in each step of %.4g s; a smaller one goes on",
+                    tolerance, tolerance * h, h);
 }
 
 /* Nothing has moved for a step: it is in balance; or, so says a second step
@@ -270,10 +267,8 @@ static void judge(Player *player)
     else if (ended || (bad && !player->warned))
         player->mode = MODE_END;
     player->warned = player->warned || bad;
-    if (player->mode == MODE_REST)
+    if (player->mode >= MODE_HELD)
         tell_rest(player);
-    else if (player->mode == MODE_HELD)
-        tell_tolerance(player);
     else if (player->rigid == DRIFT_STEPS)
         player_note(player, "nothing deforms any more: free as it is, it "
                             "drifts on; pull a node, right click pins one, R "
@@ -322,10 +317,8 @@ static bool walk(Player *player, int way)
         if (*place < 0)
             continue;
         int next = rounds_walk(rounds, player->fine, *place, way);
-        bool inside = 0 <= next && next < rounds->places;
-        if (inside)
-            *place = next;
-        moved = moved || inside;
+        moved = moved || next != *place;
+        *place = next;
     }
     return moved;
 }
