@@ -58,43 +58,6 @@ TEST(residuals_are_what_they_are_called)
           seen[1][RESIDUAL_BOUND] > 0);
 }
 
-/* A step that ends like this is made all the same: the state is finite and E is
- * not higher than at the start.  Without projection some directions point
- * uphill. */
-TEST(what_does_not_converge_says_why)
-{
-    static const struct {
-        const char *line;
-        int iterations, steps;
-        Status status;
-    } rows[] = {
-        {"--segments 3", 1, 1, STATUS_ITERATION_LIMIT},
-        {"--filter none --timestep 0.02 --stretch 0.5", 50, 1,
-         STATUS_NOT_DESCENT},
-        {"--segments 3 --tolerance 1e-30", 50, 5, STATUS_ROUNDING_LIMIT}};
-    for (int i = 0; i < 3; i++) {
-        Simulation *simulation = simulate("%s", rows[i].line);
-        TimeIntegrator *run = &simulation->run[0];
-        run->newton->settings.max_iterations = rows[i].iterations;
-        for (int step = 1; step <= rows[i].steps; step++) {
-            double x_n[LARGEST], zero[LARGEST] = {0};
-            memcpy(x_n, run->x, run->size * sizeof *x_n);
-            CHECK_STATUS(simulation_step(simulation), rows[i].status);
-            Moment moment = {.E = run->newton->at.E};
-            moment.E.x_n = x_n;
-            CHECK_AT_MOST(wide_energy(&moment, run->newton->at.u),
-                          wide_energy(&moment, zero));
-            for (size_t c = 0; c < run->size; c++)
-                CHECK(isfinite(run->x[c]) && isfinite(run->v[c]));
-            CHECK(simulation->steps == step && run->steps == step);
-            CHECK(simulation->unconverged == step);
-        }
-        CHECK(status_is_unconverged(rows[i].status));
-        CHECK_AT_MOST(simulation_counters(simulation).iterations,
-                      rows[i].iterations * rows[i].steps);
-    }
-}
-
 /* ---- two nodes ----------------------------------------------------------- */
 
 /* A spring of 1 m and k J/m^2 between two nodes; the pair of the test before is

