@@ -244,27 +244,20 @@ static void draw_mass_lesson(Plot *stage)
         if (k > 0)
             plot_line(stage, from, guess, 1.4, COLOUR_GREY);
         plot_hollow(stage, guess, 5, 3, COLOUR_GREY);
-        bool apart =
-            math_hypot(guess[0] - step.new_x[0], guess[1] - step.new_x[1]) *
-                stage->camera.scale[0] >
-            1.5 * stage->em;
-        if (apart)
+        double away =
+            math_hypot(guess[0] - step.new_x[0], guess[1] - step.new_x[1]);
+        if (away * stage->camera.scale[0] > 1.5 * stage->em)
             plot_words(stage, 1, guess, COLOUR_FAINT, "%d", k + 1);
     }
     bool symplectic = !step.by_old_v && !implicit;
-    double x[2], v[2];
-    memcpy(x, step.x, sizeof x);
-    memcpy(v, step.v, sizeof v);
-    for (int k = 0; k < MASS_AHEAD && symplectic; k++) {
-        memcpy(from, x, sizeof from);
+    for (int k = 0; k < MASS_AHEAD && symplectic && h >= 2; k++) {
+        memcpy(from, step.x, sizeof from);
         for (int i = 0; i < 2; i++) {
-            v[i] -= h * x[i];
-            x[i] += h * v[i];
+            step.v[i] -= h * step.x[i];
+            step.x[i] += h * step.v[i];
         }
-        if (h >= 2)
-            plot_line(stage, from, x, 1, COLOUR_GREY);
-        if (h >= 2)
-            plot_hollow(stage, x, 4, 2.4, COLOUR_GREY);
+        plot_line(stage, from, step.x, 1, COLOUR_GREY);
+        plot_hollow(stage, step.x, 4, 2.4, COLOUR_GREY);
     }
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const double across[2] = {(step.new_x[0] - turn * step.x[0]) / reach,

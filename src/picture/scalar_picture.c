@@ -167,7 +167,6 @@ void scalar_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "curvature", update.second);
     fact(facts, "direction", p);
     fact(facts, "E", update.f);
-    fact(facts, "next E", scalar_at(simulation, next).value);
     fact_when(facts, "highest", update.second <= 0);
 }
 

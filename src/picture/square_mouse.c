@@ -80,14 +80,13 @@ static void draw_note(const Plot *stage, const Facts *facts, const char *text)
     Plot note = *stage;
     Box *box = &note.box;
     double middle = stage->box.x + 0.5 * stage->box.width, mouse[2];
-    double wide = WIDTH * paper->em, high = 0, air = 0.2;
-    double size = fmax(SMALL, paper->least);
+    double size = fmax(SMALL, paper->least), wide = WIDTH * paper->em, high = 0;
     int margin = paper_pixels(paper, 0.7);
     for (TextLine line = text_of(facts, text); text_next(&line);) {
         wide = fmax(wide, paper_width(paper, line.face, size, line.words));
         high += paper_paragraph(paper, line.face, size, line.colour, *box, 0,
                                 line.words) +
-                paper_pixels(paper, air * size);
+                paper_pixels(paper, 0.2 * size);
     }
     plot_place(stage, stage->show->hover.point, mouse);
     box->width = (int)wide + 2 * margin;

@@ -285,10 +285,11 @@ static void draw_arrows(const SpringPen *pen, const double *d, double factor,
     double longest = 1e-300, most = 0.9 * pen->simulation->mesh.spacing;
     for (int i = 0; i < nodes; i++)
         longest = fmax(longest, math_hypot(d[2 * i], d[2 * i + 1]));
-    char scale[40] = "";
+    char scale[80] = "";
     if (factor == 0) {
         factor = most / longest;
-        snprintf(scale, sizeof scale, ", at most %.0f N", longest);
+        snprintf(scale, sizeof scale, ", at most %s N",
+                 number_of(longest).text);
     }
     for (int i = 0; i < nodes; i++) {
         double length = math_hypot(d[2 * i], d[2 * i + 1]);
@@ -584,13 +585,11 @@ void square_facts(const Simulation *simulation, Facts *facts)
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
     const LecturePage *page = options->page;
-    double start[2 * NUMBERED], mode[2 * SIMULATION_MODE_NODES], mass = 0;
+    double start[2 * NUMBERED], mode[2 * SIMULATION_MODE_NODES];
     int n = (int)options->segments, nodes = system->nodes, shorter = 0;
     const double *x = simulation->run[0].x;
     if (!page)
         return;
-    for (int i = 0; i < nodes; i++)
-        mass += system->m[i];
     for (int s = 0; s < system->springs; s++) {
         const double *a = x + 2 * system->e[2 * s];
         const double *b = x + 2 * system->e[2 * s + 1];
@@ -598,7 +597,7 @@ void square_facts(const Simulation *simulation, Facts *facts)
         shorter += d[0] * d[0] + d[1] * d[1] < (1 - 1e-9) * system->l2[s];
     }
     fact(facts, "masses", nodes);
-    fact(facts, "mass", mass);
+    fact(facts, "mass", nodes * system->m[0]);
     fact(facts, "node mass", system->m[0]);
     fact(facts, "places", 4 * (nodes + 2.0 * system->springs));
     fact(facts, "short", shorter);

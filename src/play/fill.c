@@ -28,23 +28,20 @@ static void pretty_key(char key[SHOW_VALUE])
 
 static void fill_help(Show *show)
 {
-    static const char *const mouse[][2] = {
-        {"drag", "pulls a node; paused: places it"},
-        {"", "a pin, a ground, a ball: moves it"},
-        {"Shift+drag", "paused: a box of nodes to place"},
-        {"drag an edge", "of the paused square: stretch"},
-        {"right click", "pins a node, or frees it"},
-        {"wheel", "zooms, or changes a number"},
-        {"middle drag", "moves the picture"},
-        {"double click", "a ball; on a number: default"},
-        {"digits", "open a lit number; Enter, Esc"},
-        {"1 \u2026 9", "a scene; G shows all"},
+    static const HelpRow mouse[] = {
+        {"drag", "pulls a node; paused: places it", false},
+        {"", "a pin, a ground, a ball: moves it", false},
+        {"Shift+drag", "paused: a box of nodes to place", false},
+        {"drag an edge", "of the paused square: stretch", false},
+        {"right click", "pins a node, or frees it", false},
+        {"wheel", "zooms, or changes a number", false},
+        {"middle drag", "moves the picture", false},
+        {"double click", "a ball; on a number: default", false},
+        {"digits", "open a lit number; Enter, Esc", false},
+        {"1 \u2026 9", "a scene; G shows all", false},
     };
-    HelpRow *row = show->help;
-    for (size_t i = 0; i < sizeof mouse / sizeof *mouse; i++, row++) {
-        snprintf(row->key, SHOW_VALUE, "%s", mouse[i][0]);
-        snprintf(row->text, SHOW_TEXT, "%s", mouse[i][1]);
-    }
+    HelpRow *row = show->help + sizeof mouse / sizeof *mouse;
+    memcpy(show->help, mouse, sizeof mouse);
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
         const CommandRow *command = command_row((CommandKind)kind);
         if (!command->label)

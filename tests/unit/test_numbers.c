@@ -446,6 +446,23 @@ static void tell_fastest(Real omega, Real h)
     near("growth", grows, 2e-4L * grows * half / sqrtl(half * half - 1));
 }
 
+/* -g, of all nodes and of the last one. */
+static void tell_forces(const System *system, const Real *g)
+{
+    int balanced = 0, size = 2 * system->nodes;
+    Real longest = 0;
+    for (int i = 0; i < size; i += 2) {
+        balanced += hypotl(g[i], g[i + 1]) < 1e-8L;
+        longest = fmaxl(longest, hypotl(g[i], g[i + 1]));
+    }
+    is("balanced", balanced);
+    near("longest", longest, 1e-9L * (1 + longest));
+    for (int i = size - 2; i < size; i++) {
+        near("f", -g[i], 1e-9L * (1 + fabsl(g[i])));
+        near("a", -g[i] / system->m[i / 2], 1e-11L * (1 + fabsl(g[i])));
+    }
+}
+
 /* Its mesh, its fastest oscillation, and the force on its last node. */
 static void tell_page(const Simulation *simulation)
 {
@@ -484,14 +501,7 @@ static void tell_page(const Simulation *simulation)
     if (size > UNKNOWNS)
         return;
     exact_derivatives(&E, NULL, x, g, H);
-    int balanced = 0;
-    for (int i = 0; i < size; i += 2)
-        balanced += hypotl(g[i], g[i + 1]) < 1e-8L;
-    is("balanced", balanced);
-    for (int i = size - 2; i < size; i++) {
-        near("f", -g[i], 1e-9L * (1 + fabsl(g[i])));
-        near("a", -g[i] / system->m[i / 2], 1e-11L * (1 + fabsl(g[i])));
-    }
+    tell_forces(system, g);
     if (!o->page->modes)
         return;
     double start[UNKNOWNS];
@@ -797,7 +807,6 @@ static void tell_search(const Simulation *simulation)
     is("digits", fmaxl(0, floorl(-log10l(fabsl(p[0] / to[0])))));
     is("curvature", E[2]);
     near("E", E[0], 1e-14L);
-    near("next E", trial, 1e-9L * fabsl(trial));
     tell_iterate(simulation);
     if (!scalar)
         tell_landscape(simulation);
