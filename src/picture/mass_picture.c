@@ -70,15 +70,14 @@ int mass_sample(const Simulation *simulation, Energy *row)
 void circle_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const double start[2] = {1, 0}, half[2] = {0.5, 0};
     plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
               COLOUR_GRID);
-    plot_line(stage, origin, start, 1.2, COLOUR_GREY);
+    plot_line(stage, origin, (double[2]){1, 0}, 1.2, COLOUR_GREY);
     if (stage->show->lecture && !stage->show->veiled)
         plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
                      true, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
-    plot_words(stage, 1, half, COLOUR_FAINT, "1 m");
+    plot_words(stage, 1, (double[2]){0.5, 0}, COLOUR_FAINT, "1 m");
     draw_trails(stage, false);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, simulation->run[r].x, 7, run_colour(simulation, r));

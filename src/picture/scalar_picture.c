@@ -48,11 +48,6 @@ static Update update_at(const Simulation *simulation, int i)
     return update;
 }
 
-static Update last_update(const Simulation *simulation)
-{
-    return update_at(simulation, simulation->descent.count - 1);
-}
-
 /* The function and its model, for graphs. */
 static double curve_at(const void *data, double x)
 {
@@ -134,7 +129,7 @@ void curve_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
-    Update update = last_update(simulation);
+    Update update = update_at(simulation, simulation->descent.count - 1);
     Plot plot = plot_on(stage, (Axis){.label = "x"}, (Axis){0});
     for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
         Update earlier = update_at(simulation, i);
@@ -146,7 +141,7 @@ void curve_draw(Plot *stage)
 /* The update that is shown, from its iterate to the next one. */
 void scalar_facts(const Simulation *simulation, Facts *facts)
 {
-    Update update = last_update(simulation);
+    Update update = update_at(simulation, simulation->descent.count - 1);
     double x = update.x0, p = update.x1 - update.x0;
     double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
     bool tangent = simulation->scene->picture == PICTURE_TANGENT;
@@ -206,7 +201,7 @@ void tangent_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const Prediction *guess = &simulation->prediction;
     const double target[2] = {simulation->exhibit.target[0], 0};
-    Update update = last_update(simulation);
+    Update update = update_at(simulation, simulation->descent.count - 1);
     const Plot plot[2] = {tangent_plot(stage, 0), tangent_plot(stage, 1)};
     bool asked = stage->show->veiled || (guess->made && !guess->shown);
     for (int half = 0; half < 2; half++) {

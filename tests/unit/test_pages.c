@@ -166,7 +166,7 @@ static void middle_of(const Simulation *simulation, int body, double x[2])
 
 TEST(claim_equation)
 {
-    says("equation", "25 9 0 36 25 40 50");
+    says("equation", "0 36 25 40 50");
     CHECK(known("equation", "balanced") == 9);
     double g[50] = {0}, sum[2] = {0}, scale = 0, before[2], after[2];
     Simulation *simulation = open_page("equation", "");
