@@ -37,13 +37,11 @@ static inline void begin_script(const char *script, const char *line)
     for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
         argv[argc++] = word;
     for (int i = 0; i < count; i++) {
-        CHECK_STATUS(
-            options_parse(argc, argv, i, &options[i], message, sizeof message),
-            STATUS_OK);
+        CHECK_OK(
+            options_parse(argc, argv, i, &options[i], message, sizeof message));
         count = options[0].panes;
     }
-    CHECK_STATUS(player_create(options, count, "elasto", &stop, &player),
-                 STATUS_OK);
+    CHECK_OK(player_create(options, count, "elasto", &stop, &player));
     unlink(name);
 }
 
@@ -54,7 +52,7 @@ static inline void begin(const char *line)
 
 static inline void end(void)
 {
-    CHECK_STATUS(player_finish(&player), STATUS_OK);
+    CHECK_OK(player_finish(&player));
     player_free(&player);
 }
 
@@ -62,8 +60,7 @@ static inline Status obey(const char *line)
 {
     Command command;
     char message[128];
-    CHECK_STATUS(command_parse(line, &command, message, sizeof message),
-                 STATUS_OK);
+    CHECK_OK(command_parse(line, &command, message, sizeof message));
     return player_obey(&player, &command);
 }
 
@@ -71,14 +68,14 @@ static inline Status obey(const char *line)
 static inline void obey_all(const char *const *lines)
 {
     for (; *lines; lines++)
-        CHECK_STATUS(obey(*lines), STATUS_OK);
+        CHECK_OK(obey(*lines));
 }
 
 /* Runs until it pauses by itself, as it must within some hundred steps. */
 static inline void run_until_it_pauses(void)
 {
     if (player_stands(&player))
-        CHECK_STATUS(obey("play"), STATUS_OK);
+        CHECK_OK(obey("play"));
     for (int i = 0; i < 3000 && !player_stands(&player); i++) {
         Status status = player_step(&player);
         CHECK(!status || status_is_unconverged(status));

@@ -23,7 +23,7 @@ typedef struct Problem {
 
 static void problem_create(CholeskyKind kind, Problem *problem)
 {
-    CHECK_STATUS(triplets_create(SIZE, ENTRIES, &problem->triplets), STATUS_OK);
+    CHECK_OK(triplets_create(SIZE, ENTRIES, &problem->triplets));
     for (int i = 0; i < SIZE; i++) {
         triplets_add(&problem->triplets, i, i);
         if (i % GRID > 0)
@@ -31,10 +31,8 @@ static void problem_create(CholeskyKind kind, Problem *problem)
         if (i >= GRID)
             triplets_add(&problem->triplets, i, i - GRID);
     }
-    CHECK_STATUS(sparse_create(&problem->triplets, &problem->A, problem->slot),
-                 STATUS_OK);
-    CHECK_STATUS(cholesky_create(&problem->A, kind, &problem->cholesky),
-                 STATUS_OK);
+    CHECK_OK(sparse_create(&problem->triplets, &problem->A, problem->slot));
+    CHECK_OK(cholesky_create(&problem->A, kind, &problem->cholesky));
 }
 
 static void problem_free(Problem *problem)
@@ -75,8 +73,7 @@ static void check_solution(Random *random, Problem *problem, double tolerance)
         b[i] = x[1][i] = random_uniform(random, -1, 1);
     dense_from_sparse(&problem->A, A);
     for (int k = 0; k < 2; k++) {
-        CHECK_STATUS(cholesky_solve(problem->cholesky, k ? x[k] : b, x[k]),
-                     STATUS_OK);
+        CHECK_OK(cholesky_solve(problem->cholesky, k ? x[k] : b, x[k]));
         for (int i = 0; i < SIZE; i++) {
             Real sum = 0;
             for (int j = 0; j < SIZE; j++)
@@ -164,7 +161,7 @@ TEST(matrices_are_solved_or_named)
             if (rows[i].tolerance > 0)
                 check_solution(&random, &problem, rows[i].tolerance);
             problem_fill(&random, &problem);
-            CHECK_STATUS(cholesky_factor(problem.cholesky), STATUS_OK);
+            CHECK_OK(cholesky_factor(problem.cholesky));
             check_solution(&random, &problem, 1e-14);
         }
         CHECK(cholesky_factor_entries(problem.cholesky) >= problem.A.entries);

@@ -44,7 +44,7 @@ static uint32_t pixel(int frame, int x, int y)
 static Film open_film(const char *name)
 {
     Film film;
-    CHECK_STATUS(film_open(name, &film), STATUS_OK);
+    CHECK_OK(film_open(name, &film));
     return film;
 }
 
@@ -53,15 +53,15 @@ static void make_film(const char *name, int frames)
 {
     Canvas canvas;
     Film film = open_film(name);
-    CHECK_STATUS(canvas_create(WIDTH, HEIGHT, &canvas), STATUS_OK);
+    CHECK_OK(canvas_create(WIDTH, HEIGHT, &canvas));
     for (int i = 0; i < frames; i += i == 4 ? 2 : 1) {
         for (int k = 0; k < WIDTH * HEIGHT; k++)
             canvas.pixels[k] = pixel(i, k % WIDTH, k / WIDTH);
-        CHECK_STATUS(film_add(&film, &canvas, i == 4 ? 2 : 1), STATUS_OK);
+        CHECK_OK(film_add(&film, &canvas, i == 4 ? 2 : 1));
     }
     CHECK(film.frames == frames);
     CHECK(access(name, F_OK) != 0); /* not before it is whole */
-    CHECK_STATUS(film_close(&film), STATUS_OK);
+    CHECK_OK(film_close(&film));
     canvas_free(&canvas);
 }
 
@@ -143,13 +143,13 @@ TEST(sizes_may_change)
     Film film = open_film("sizes.apng");
     for (int i = 0; i < 3; i++) {
         Canvas canvas;
-        CHECK_STATUS(canvas_create(20 + 9 * i, 30 - 9 * i, &canvas), STATUS_OK);
+        CHECK_OK(canvas_create(20 + 9 * i, 30 - 9 * i, &canvas));
         for (int k = 0; k < canvas.width * canvas.height; k++)
             canvas.pixels[k] = 0xff121212u;
-        CHECK_STATUS(film_add(&film, &canvas, 1), STATUS_OK);
+        CHECK_OK(film_add(&film, &canvas, 1));
         canvas_free(&canvas);
     }
-    CHECK_STATUS(film_close(&film), STATUS_OK);
+    CHECK_OK(film_close(&film));
     assert_int_equal(read_film("sizes.apng", 20, 30, bytes, 3), 3);
     for (int i = 0; i < 3 * 30; i++) /* rows */
         for (int k = 0; k < 3 * 20; k++)
@@ -162,7 +162,7 @@ TEST(sizes_may_change)
 TEST(ffmpeg_dies_by_its_own)
 {
     Canvas canvas;
-    CHECK_STATUS(canvas_create(WIDTH, HEIGHT, &canvas), STATUS_OK);
+    CHECK_OK(canvas_create(WIDTH, HEIGHT, &canvas));
     Film film = open_film("dead.mp4");
     CHECK(unlink("dead.mp4.part") == 0 && mkdir("dead.mp4.part", 0700) == 0);
     Status status = STATUS_OK;

@@ -414,7 +414,7 @@ TEST(no_font_is_no_failure)
     TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     canvas_clear(&canvas, 0xffffffff);
     setenv("ELASTO_FONT", "", 1);
-    CHECK_STATUS(text_create(&none), STATUS_OK);
+    CHECK_OK(text_create(&none));
     CHECK(none == NULL);
     CHECK(text_draw(none, &canvas, &style, 0, 0, ALIGN_LEFT, "abc") == 36);
     CHECK(ink(0, 0, 60) == 0);

@@ -76,7 +76,7 @@ TEST(every_allocation_may_fail)
     share_with_cholmod();
     for (size_t l = 0; l < sizeof lines / sizeof *lines; l++) {
         const Options options = line_options(lines[l]);
-        CHECK_STATUS(run_once(&options), STATUS_OK);
+        CHECK_OK(run_once(&options));
         long total = allocations;
         CHECK(total > 20);
         for (long i = 0; i < 2 * total; i++) {

@@ -79,7 +79,7 @@ static void pull(double times)
                  .strength = times * body->m[node] / (H * H),
                  .cell = 1.0 / body->segments,
                  .side = 1};
-    CHECK_STATUS(pull_set(body, &hand_energy, &hand), STATUS_OK);
+    CHECK_OK(pull_set(body, &hand_energy, &hand));
 }
 
 /* ---- whole steps ------------------------------------------------------- */
@@ -176,18 +176,17 @@ TEST(bits_depend_on_the_step_alone)
         begin_problem(64, 1.4);
         if (pins)
             disturb(&random, true);
-        CHECK_STATUS(multigrid_create(64, &multigrid[0]), STATUS_OK);
+        CHECK_OK(multigrid_create(64, &multigrid[0]));
         for (int n = 0; n < (pins ? 2 : 9); n++) {
             bool stiffer = n > 0 && n % 2 == 0;
             for (int s = 0; stiffer && s < body->springs; s++)
                 body->k[s] *= s % 2 ? 1.1 : 1.2;
             if (stiffer)
                 system_changed(body, false);
-            CHECK_STATUS(multigrid_create(64, &multigrid[1]), STATUS_OK);
+            CHECK_OK(multigrid_create(64, &multigrid[1]));
             for (int i = 0; i < 2; i++) {
                 newton->multigrid = multigrid[i];
-                CHECK_STATUS(newton_minimise(newton, x_n, NULL, H * H),
-                             STATUS_OK);
+                CHECK_OK(newton_minimise(newton, x_n, NULL, H * H));
                 if (i > 0)
                     CHECK_SAME_BITS(at->u, first, size);
                 memcpy(first, at->u, (size_t)size * sizeof *first);
@@ -375,7 +374,7 @@ TEST(multigrid_leaves_saddles)
         Newton *newton = square->run[0].newton;
         for (int step = 0; step < 20; step++) {
             make_steps(square, 1);
-            CHECK_STATUS(direction_bends_up(newton, 1), STATUS_OK);
+            CHECK_OK(direction_bends_up(newton, 1));
         }
         const NewtonCounters *did = &newton->counters;
         CHECK(did->saddles > 0 && did->taken_back == 0);

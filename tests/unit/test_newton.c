@@ -70,7 +70,7 @@ static void make_pair(double m0, double m1, double k)
     newton_free(&newton);
     system_free(&pair);
     memset(&newton, 0, sizeof newton);
-    CHECK_STATUS(system_create(2, 1, &pair), STATUS_OK);
+    CHECK_OK(system_create(2, 1, &pair));
     pair.e[1] = 1;
     pair.l2[0] = 1;
     pair.k[0] = k;
@@ -84,7 +84,7 @@ static void watch_pair(double h, double tolerance, Filter filter)
                                      .tolerance = tolerance,
                                      .filter = filter,
                                      .max_iterations = 100};
-    CHECK_STATUS(newton_create(&pair, &settings, &newton), STATUS_OK);
+    CHECK_OK(newton_create(&pair, &settings, &newton));
 }
 
 /* Both nodes in one point, h = 1: the Hessian is [[m0 - 2, 2], [2, m1 - 2]],
@@ -313,8 +313,7 @@ TEST(an_end_that_bends_down_is_left)
                                           i % 2 ? "multigrid" : "newton");
         for (int step = 0; step < 3; step++) {
             make_steps(simulation, 1);
-            CHECK_STATUS(direction_bends_up(simulation->run[0].newton, 101.1),
-                         STATUS_OK);
+            CHECK_OK(direction_bends_up(simulation->run[0].newton, 101.1));
         }
     }
 }

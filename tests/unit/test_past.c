@@ -41,7 +41,7 @@ static void begin_past(const char *line)
     const Command restart = {.kind = COMMAND_RESTART};
     Options options = line_options(line);
     past_create(true, true, &past);
-    CHECK_STATUS(past_begin(&past, &options, 1, 0, &restart), STATUS_OK);
+    CHECK_OK(past_begin(&past, &options, 1, 0, &restart));
 }
 
 /* Shows this step, also a new one. */
@@ -62,7 +62,7 @@ static Status try_edit(const Command *command, bool again, int gesture)
 static void edit(CommandKind kind, long number, double x, double y)
 {
     const Command command = {.kind = kind, .number = number, .x = x, .y = y};
-    CHECK_STATUS(try_edit(&command, false, 0), STATUS_OK);
+    CHECK_OK(try_edit(&command, false, 0));
 }
 
 /* "timestep 0.01" */
@@ -71,9 +71,8 @@ static void set_option(const char *text, bool again)
     char line[96], message[128];
     Command command;
     snprintf(line, sizeof line, "set %s", text);
-    CHECK_STATUS(command_parse(line, &command, message, sizeof message),
-                 STATUS_OK);
-    CHECK_STATUS(try_edit(&command, again, 0), STATUS_OK);
+    CHECK_OK(command_parse(line, &command, message, sizeof message));
+    CHECK_OK(try_edit(&command, again, 0));
 }
 
 enum { STEPS = 48 };
@@ -168,7 +167,7 @@ TEST(a_pane_that_has_ended_comes_back)
     options[1] = line_options("square --timestep 0.008");
     for (int few = 0; few < 2; few++) {
         past_create(true, true, &past);
-        CHECK_STATUS(past_begin(&past, options, 2, 0, &restart), STATUS_OK);
+        CHECK_OK(past_begin(&past, options, 2, 0, &restart));
         past.limit = few ? 5 * past.bytes : PAST_BYTES;
         for (long step = 0; step <= STEPS; step++) {
             past_aim(&past, step, false);
@@ -213,32 +212,32 @@ TEST(a_gesture_is_undone_as_a_whole)
     run(0, 3, hash);
     const double *x = past.machine[0].simulation.run[0].x;
     Command grab = {.kind = COMMAND_GRAB, .number = 5, .x = x[10], .y = x[11]};
-    CHECK_STATUS(try_edit(&grab, false, 7), STATUS_OK);
+    CHECK_OK(try_edit(&grab, false, 7));
     for (long step = 4; step <= 8; step++) {
         Command drag = {.kind = COMMAND_DRAG, .x = 0.1 * (double)step, .y = 1};
-        CHECK_STATUS(try_edit(&drag, false, 7), STATUS_OK);
+        CHECK_OK(try_edit(&drag, false, 7));
         hash[step] = show(step);
     }
     CHECK(past.branches == 2);
     check_all_steps(8, hash);
     show(8);
     past_undo(&past, -1);
-    CHECK_STATUS(past_finish(&past), STATUS_OK);
+    CHECK_OK(past_finish(&past));
     CHECK(past.step == 3 && hash_now() == hash[3] && past_newest(&past) == 3);
     past_undo(&past, 1);
-    CHECK_STATUS(past_finish(&past), STATUS_OK);
+    CHECK_OK(past_finish(&past));
     CHECK(past.step == 8 && hash_now() == hash[8]);
     const Command add = {.kind = COMMAND_ADD_PANE};
-    CHECK_STATUS(past_edit(&past, &add, 0, 0, false, 0), STATUS_OK);
+    CHECK_OK(past_edit(&past, &add, 0, 0, false, 0));
     past_undo(&past, -1);
-    CHECK_STATUS(try_edit(&grab, false, 7), STATUS_OK); /* goes on with it: */
-    CHECK(!past_undo(&past, 1)); /* the panes were of another end */
+    CHECK_OK(try_edit(&grab, false, 7)); /* goes on with it: */
+    CHECK(!past_undo(&past, 1));         /* the panes were of another end */
     past_free(&past);
     begin_past("arrows --integrator backward-euler");
     show(1);
     for (int i = 1; i <= 3; i++) {
         Command drag = {.kind = COMMAND_HANDLE, .x = i, .y = 0.5};
-        CHECK_STATUS(try_edit(&drag, false, 7), STATUS_OK);
+        CHECK_OK(try_edit(&drag, false, 7));
         CHECK(past.branches == 2);
     }
     uint64_t dragged = hash_now();
@@ -269,7 +268,7 @@ static void visit(long step, bool again)
 {
     bool fresh = step > past_newest(&past);
     past_aim(&past, step, again);
-    CHECK_STATUS(past_finish(&past), STATUS_OK);
+    CHECK_OK(past_finish(&past));
     CHECK(past.step == step);
     look(fresh);
 }
@@ -283,7 +282,7 @@ static void visit_in_part(Random *random)
     for (int k = random_below(random, 9); k > 0 && past.works; k--)
         past_iterate(&past);
     past_aim(&past, past.step, false);
-    CHECK_STATUS(past_finish(&past), STATUS_OK);
+    CHECK_OK(past_finish(&past));
     look(past_newest(&past) > newest);
 }
 
@@ -305,8 +304,7 @@ static Command random_edit(Random *random, int kind)
     bool mesh = simulation->scene->needs & NEEDS_MESH;
     int all = contact_of(&simulation->system) ? 7 : mesh ? 9 : 2;
     snprintf(line, sizeof line, "set %s", settings[random_below(random, all)]);
-    CHECK_STATUS(command_parse(line, &edit, message, sizeof message),
-                 STATUS_OK);
+    CHECK_OK(command_parse(line, &edit, message, sizeof message));
     if (kind < 2)
         return edit;
     edit = (Command){.number = node};
@@ -332,15 +330,14 @@ static void change_at_random(Random *random, int gesture)
     bool all = kind > 1 || one >= panes;
     bool again = kind < 2 && past.step > 0 && random_below(random, 3) == 0;
     const Command edit = random_edit(random, kind);
-    CHECK_STATUS(past_edit(&past, &edit, all ? 0 : one, all ? panes : one + 1,
-                           again, gesture),
-                 STATUS_OK);
+    CHECK_OK(past_edit(&past, &edit, all ? 0 : one, all ? panes : one + 1,
+                       again, gesture));
     const double *x = past.machine[0].simulation.run[0].x;
     CHECK(edit.kind != COMMAND_HANDLE || (x[0] == edit.x && x[1] == edit.y));
     if (past.now != now)
         memcpy(truth[past.now], truth[now], sizeof *truth);
     past_aim(&past, past.step, false);
-    CHECK_STATUS(past_finish(&past), STATUS_OK);
+    CHECK_OK(past_finish(&past));
     look(true); /* a node that was pinned has stopped */
     if (again)
         visit(past.step + 1, false);
@@ -353,7 +350,7 @@ static void change_panes(int panes)
                                               : COMMAND_END_PANE};
     if (panes < 1 || panes > PANES)
         return;
-    CHECK_STATUS(past_edit(&past, &edit, 0, 0, false, 0), STATUS_OK);
+    CHECK_OK(past_edit(&past, &edit, 0, 0, false, 0));
     memcpy(truth[past.now], truth[now], sizeof *truth);
     for (int step = 0; step <= LAST && panes > had; step++)
         truth[past.now][step][had] = truth[now][step][had - 1];
@@ -363,7 +360,7 @@ static void change_panes(int panes)
 static void undo_at_random(int way)
 {
     if (past_undo(&past, way)) {
-        CHECK_STATUS(past_finish(&past), STATUS_OK);
+        CHECK_OK(past_finish(&past));
         look(false);
     }
 }
@@ -398,7 +395,7 @@ static void play_at_random(const char *line, uint64_t seed, size_t states)
     while (past_undo(&past, -1))
         continue;
     do {
-        CHECK_STATUS(past_finish(&past), STATUS_OK);
+        CHECK_OK(past_finish(&past));
         for (long step = past_newest(&past); step >= 0; step--)
             visit(step, false);
         for (long step = 0; step <= past_newest(&past); step++)
@@ -432,8 +429,7 @@ TEST(commands_are_written_as_they_are_read)
         if (!command_row((CommandKind)kind)->word)
             continue;
         command_format(&command, line, sizeof line);
-        CHECK_STATUS(command_parse(line, &read, message, sizeof message),
-                     STATUS_OK);
+        CHECK_OK(command_parse(line, &read, message, sizeof message));
         command_format(&read, again, sizeof again);
         CHECK(read.kind == command.kind && strcmp(line, again) == 0);
     }

@@ -71,7 +71,7 @@ static Canvas *white_canvas(int width, int height)
 {
     static Canvas canvas;
     canvas_free(&canvas);
-    CHECK_STATUS(canvas_create(width, height, &canvas), STATUS_OK);
+    CHECK_OK(canvas_create(width, height, &canvas));
     CHECK(canvas.pixels[0] == COLOUR_WHITE);
     return &canvas;
 }
@@ -458,7 +458,7 @@ TEST(png_files_are_whole)
     int earlier = mkstemp(name);
     CHECK(write(earlier, "an earlier file", 15) == 15);
     close(earlier);
-    CHECK_STATUS(png_file_write(name, canvas), STATUS_OK);
+    CHECK_OK(png_file_write(name, canvas));
     CHECK(!has_part(name));
     Canvas again = read_png(name);
     assert_int_equal(again.width, 37);
@@ -479,12 +479,12 @@ TEST(outputs_replace_at_the_end)
     remove(name);
     for (int round = 0; round < 3; round++) { /* new, replaced, discarded */
         char text[8] = "";
-        CHECK_STATUS(output_open(name, &output), STATUS_OK);
+        CHECK_OK(output_open(name, &output));
         fprintf(output.file, "%d\n", round);
         CHECK(has_part(name) && (access(name, F_OK) == 0) == (round > 0));
         if (round == 2)
             output_discard(&output);
-        CHECK_STATUS(output_close(&output, STATUS_OK), STATUS_OK);
+        CHECK_OK(output_close(&output, STATUS_OK));
         FILE *file = fopen(name, "r");
         CHECK(file && fgets(text, sizeof text, file));
         fclose(file);
@@ -495,7 +495,7 @@ TEST(outputs_replace_at_the_end)
     }
     remove(name);
     umask(before);
-    CHECK_STATUS(output_open("/dev/full", &output), STATUS_OK);
+    CHECK_OK(output_open("/dev/full", &output));
     fputs("text", output.file);
     CHECK_STATUS(output_close(&output, STATUS_OK), STATUS_FILE_FAILED);
     assert_int_equal(errno, ENOSPC);

@@ -20,7 +20,7 @@ static double way_that_is_left(void)
     obey_all(
         (const char *const[]){"set timestep 0.01", "set tolerance 1e-9", NULL});
     for (int step = 0; step < 400; step++) {
-        CHECK_STATUS(player_step(&player), STATUS_OK);
+        CHECK_OK(player_step(&player));
         for (int i = 0; i < size; i++)
             far = fmax(far, fabs(simulation->run[0].x[i] - start[i]));
     }
@@ -34,9 +34,9 @@ static void compare_with_plain_run(const char *line)
     const TimeIntegrator *run = &player_simulation(&player)->run[0];
     simulation_from_line(line, NULL, NULL, &plain);
     for (int i = 0; i < 5; i++)
-        CHECK_STATUS(player_step(&player), STATUS_OK);
+        CHECK_OK(player_step(&player));
     for (long i = 0; i < player.past.step; i++)
-        CHECK_STATUS(simulation_step(&plain), STATUS_OK);
+        CHECK_OK(simulation_step(&plain));
     CHECK_SAME_BITS(plain.run[0].x, run->x, (int)run->size);
     CHECK_SAME_BITS(plain.run[0].v, run->v, (int)run->size);
     simulation_free(&plain);
@@ -101,7 +101,7 @@ TEST(the_curve_goes_through_the_step)
         int rough = 0, seen = 0;
         begin(lines[i]);
         for (int step = 0; step < 90; step++) {
-            CHECK_STATUS(obey("step"), STATUS_OK);
+            CHECK_OK(obey("step"));
             const Rounds *rounds = &machine(0)->rounds;
             for (int place = 0; place < rounds->places; place++) {
                 Trace trace;
@@ -165,7 +165,7 @@ TEST(curves_are_made_for_who_looks)
             if (step > 0 && way == 2)
                 trace.difference(trace.function, 0.625 * trace.first);
             CHECK(way == 0 || !past_drawn(&player.past));
-            CHECK_STATUS(obey("step"), STATUS_OK);
+            CHECK_OK(obey("step"));
             rounds_trace(rounds, -1, &trace);
         }
         last[way] = trace.difference(trace.function, 0.625 * trace.first);
@@ -194,7 +194,7 @@ TEST(scripts_wait_while_it_runs)
     begin_script("0 pause\n9 step\n", "square --segments 2");
     signal(SIGALRM, give_up);
     alarm(600); /* s; it takes milliseconds */
-    CHECK_STATUS(player_run(&player), STATUS_OK);
+    CHECK_OK(player_run(&player));
     alarm(0);
     CHECK(!stop && player.past.step == 1 && player_stands(&player));
     end();
@@ -204,7 +204,7 @@ TEST(scripts_wait_while_it_runs)
 static void work_off(void)
 {
     while (player.past.works)
-        CHECK_STATUS(player_frame(&player), STATUS_OK);
+        CHECK_OK(player_frame(&player));
 }
 
 /* A step that takes long is made a frame's time at a time: what concerns the
@@ -216,20 +216,20 @@ TEST(a_long_step_is_made_in_slices)
     const char *line = "--segments 110 --solver newton";
     Simulation plain;
     simulation_from_line(line, NULL, NULL, &plain);
-    CHECK_STATUS(simulation_step(&plain), STATUS_OK);
+    CHECK_OK(simulation_step(&plain));
     begin(line);
     player.draws = true;
     player.size[0] = 320;
     player.size[1] = 200;
     player.window = true;
-    CHECK_STATUS(player_draw(&player), STATUS_OK);
+    CHECK_OK(player_draw(&player));
     uint64_t start = player_hash(&player);
     obey_all((const char *const[]){"next", "colours", "next", NULL});
     static const char *const typed[] = {"Tab", "1", "Q", "Escape"};
     for (int i = 0; i < 4; i++) {
         Input input = {.kind = INPUT_KEY};
         strcpy(input.key, typed[i]);
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+        CHECK_OK(player_input(&player, &input));
     }
     CHECK(player.past.works && player.past.step == 0 && !player.quit);
     work_off();
@@ -259,13 +259,13 @@ TEST(time_goes_on_while_a_node_is_pulled)
     begin("square --segments 2");
     player.draws = player.window = true;
     player.size[0] = player.size[1] = 200;
-    CHECK_STATUS(player_draw(&player), STATUS_OK);
+    CHECK_OK(player_draw(&player));
     obey_all((const char *const[]){"play", "grab 3", NULL});
     for (int frame = 1; frame <= 1000 && player.past.step < 20; frame++) {
         const Command drag = {.kind = COMMAND_DRAG, .x = 0.001 * frame};
-        CHECK_STATUS(player_obey(&player, &drag), STATUS_OK);
+        CHECK_OK(player_obey(&player, &drag));
         player.due = 0; /* as if the last one were long ago */
-        CHECK_STATUS(player_frame(&player), STATUS_OK);
+        CHECK_OK(player_frame(&player));
     }
     CHECK(player.past.step == 20);
     end();
@@ -285,7 +285,7 @@ TEST(curves_span_what_is_known)
 {
     begin("square --segments 1 --stretch 1 --gravity 9.81");
     for (int newest = 1; newest <= 2100; newest++) {
-        CHECK_STATUS(obey("step"), STATUS_OK);
+        CHECK_OK(obey("step"));
         if (newest % 300)
             continue;
         const History *history = history_now();

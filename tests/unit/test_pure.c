@@ -27,11 +27,10 @@ static void disturb(const Options *options, Simulation *used)
     bool pinned = used->system.pinned[last];
     bool damps = used->run[0].method->at_end && used->system.springs > 0;
     simulation_set(used, OPTION_SLOT(timestep), 2 * options->timestep);
-    CHECK_STATUS(simulation_pin(used, last, !pinned), STATUS_OK);
-    CHECK_STATUS(simulation_hold(used, 0, 0.1, 0.2), STATUS_OK);
+    CHECK_OK(simulation_pin(used, last, !pinned));
+    CHECK_OK(simulation_hold(used, 0, 0.1, 0.2));
     if (damps)
-        CHECK_STATUS(simulation_set(used, OPTION_SLOT(damping), 1e8),
-                     STATUS_OK);
+        CHECK_OK(simulation_set(used, OPTION_SLOT(damping), 1e8));
     simulation_step(used);
     if (damps) {
         const Newton *newton = used->run[0].newton;
@@ -40,11 +39,9 @@ static void disturb(const Options *options, Simulation *used)
         CHECK(newton->rounding.stiffest == stiffest);
     }
     if (damps)
-        CHECK_STATUS(
-            simulation_set(used, OPTION_SLOT(damping), options->damping),
-            STATUS_OK);
-    CHECK_STATUS(simulation_hold(used, -1, 0, 0), STATUS_OK);
-    CHECK_STATUS(simulation_pin(used, last, pinned), STATUS_OK);
+        CHECK_OK(simulation_set(used, OPTION_SLOT(damping), options->damping));
+    CHECK_OK(simulation_hold(used, -1, 0, 0));
+    CHECK_OK(simulation_pin(used, last, pinned));
     simulation_set(used, OPTION_SLOT(timestep), options->timestep);
 }
 
@@ -57,7 +54,7 @@ static void check_step(const Options *options, Simulation *used,
     unsigned char *bytes = malloc(size);
     Simulation fresh;
     CHECK(bytes != NULL);
-    CHECK_STATUS(simulation_create(options, NULL, NULL, &fresh), STATUS_OK);
+    CHECK_OK(simulation_create(options, NULL, NULL, &fresh));
     for (int i = 0; i < 3; i++) {
         static const char *const after[] = {"none", "other steps",
                                             "other settings"};

@@ -92,7 +92,7 @@ TEST(landscape_is_downhill_from_everywhere)
         CHECK(!convex || simulation->descent.slope < 0);
         simulation_set(simulation, OPTION_SLOT(filter),
                        i % 2 ? FILTER_CLAMP : FILTER_ON_DEMAND);
-        CHECK_STATUS(run_to_end(simulation, 100), STATUS_OK);
+        CHECK_OK(run_to_end(simulation, 100));
         check_path(simulation);
         CHECK(!descent_bends_down(simulation, x[0], x[1]));
         free_all_begun();
@@ -129,10 +129,9 @@ TEST(mass_is_dragged)
         for (int i = 0; i < 2; i++)
             CHECK_NEAR(later[i], v[i], 1e-15);
         make_steps(one, 1);
-        CHECK_STATUS(simulation_set(one, OPTION_SLOT(integrator),
-                                    integrator_method("symplectic-euler") -
-                                        integrator_methods),
-                     STATUS_OK);
+        CHECK_OK(simulation_set(one, OPTION_SLOT(integrator),
+                                integrator_method("symplectic-euler") -
+                                    integrator_methods));
     }
 }
 
@@ -177,7 +176,7 @@ TEST(landscape_minimises_what_it_shows)
 
 static const EnvelopeCell *visit(Simulation *map, int column, int row)
 {
-    CHECK_STATUS(envelope_visit(map, column, row), STATUS_OK);
+    CHECK_OK(envelope_visit(map, column, row));
     return &map->exhibit.map.cell[row][column];
 }
 
@@ -351,7 +350,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     CHECK(system->nodes == 18);
     make_steps(scene, 1);
     CHECK(self->pairs == 0);
-    CHECK_STATUS(incremental_potential_grow(&newton->at, &grown), STATUS_OK);
+    CHECK_OK(incremental_potential_grow(&newton->at, &grown));
     CHECK(!grown);
     for (int i = 9; i < 18; i++)
         u[2 * i + 1] = -0.2 + 0.5 * self->d_hat;
@@ -362,7 +361,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
                                   newton->at.p, Hp);
     for (int i = 0; i < 36; i++)
         CHECK_NEAR(Hp[i], -newton->at.g[i], 1e-10);
-    CHECK_STATUS(incremental_potential_grow(&newton->at, &grown), STATUS_OK);
+    CHECK_OK(incremental_potential_grow(&newton->at, &grown));
     CHECK(!grown);
 }
 
@@ -392,8 +391,7 @@ TEST(no_node_is_placed_in_another_body)
     for (int i = 0; i < 2; i++)
         CHECK_STATUS(simulation_place(scene, 25, 0, -2 * i, NULL, true),
                      STATUS_INVALID_INPUT);
-    CHECK_STATUS(simulation_place(scene, 25, -0.5, 0.55, NULL, true),
-                 STATUS_OK);
+    CHECK_OK(simulation_place(scene, 25, -0.5, 0.55, NULL, true));
     CHECK(exact_crossings(&scene->system, scene->run[0].x) == 0);
 }
 
@@ -403,7 +401,7 @@ TEST(a_pin_set_by_hand_stays)
     Simulation *scene = simulate("tear --segments 6");
     const double *x = scene->run[0].x;
     double left = x[0], at[2] = {x[2 * 17], x[2 * 17 + 1]};
-    CHECK_STATUS(simulation_pin(scene, 17, true), STATUS_OK);
+    CHECK_OK(simulation_pin(scene, 17, true));
     make_steps(scene, 10);
     CHECK_SAME_BITS(scene->run[0].x + 2 * 17, at, 2);
     CHECK_NEAR(scene->run[0].x[0], left - 0.2 * 10 * 0.002, 1e-14);

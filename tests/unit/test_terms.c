@@ -86,11 +86,10 @@ static void make_contact(const Row *row, Random *random, Case *c)
         c->x_n[axis] = it.o[axis] + d * it.n[axis];
         c->x_n[2 + axis] = it.o[axis] + (it.node < 0 ? 9 * it.n[axis] : 0);
     }
-    CHECK_STATUS(contact_set(&c->system, &barrier, 1, &it), STATUS_OK);
+    CHECK_OK(contact_set(&c->system, &barrier, 1, &it));
     if (row->rubs)
-        CHECK_STATUS(friction_set(&c->system, &friction_energy, true,
-                                  random_logarithmic(random, 0.02, 50)),
-                     STATUS_OK);
+        CHECK_OK(friction_set(&c->system, &friction_energy, true,
+                              random_logarithmic(random, 0.02, 50)));
 }
 
 /* The numbers of an option that brings a term alone. */
@@ -101,15 +100,14 @@ static void set_option(const OptionRow *option, Random *random,
     for (int i = 0; i < 8; i++)
         number[i] = random_uniform(random, fmax(option->low, -3),
                                    fmin(option->high, 3));
-    CHECK_STATUS(option->term->set(system, mesh, number), STATUS_OK);
+    CHECK_OK(option->term->set(system, mesh, number));
 }
 
 static void make_grid(const Row *row, Random *random, Case *c)
 {
     int n = row->shape == CORNER ? 1 : 2;
     const SquareMesh mesh = square_mesh_shape(n, n, 1, 1);
-    CHECK_STATUS(system_create(mesh.nodes, mesh.springs, &c->system),
-                 STATUS_OK);
+    CHECK_OK(system_create(mesh.nodes, mesh.springs, &c->system));
     for (int i = 0; i < mesh.nodes; i++)
         square_mesh_place(&mesh, i, c->x_n + 2 * i);
     square_mesh_springs(&mesh, c->system.e);
@@ -119,10 +117,8 @@ static void make_grid(const Row *row, Random *random, Case *c)
     }
     const double material[3] = {1, random_logarithmic(random, 0.1, 10),
                                 random_uniform(random, 0, 0.49)};
-    CHECK_STATUS(row->solid
-                     ? neo_hookean_energy.set(&c->system, &mesh, material)
-                     : cells_set(&c->system, &mesh, 5),
-                 STATUS_OK);
+    CHECK_OK(row->solid ? neo_hookean_energy.set(&c->system, &mesh, material)
+                        : cells_set(&c->system, &mesh, 5));
     if (row->option)
         set_option(row->option, random, &mesh, &c->system);
     if (row->shape == GRID && !row->solid && random_below(random, 2))
@@ -143,8 +139,7 @@ static void make_pair(const Row *row, Random *random, Case *c)
 {
     const Barrier barrier = {.d_hat = 0.2, .c = 24};
     const SquareMesh mesh = square_mesh_shape(1, 1, 1, 2);
-    CHECK_STATUS(system_create(mesh.nodes, mesh.springs, &c->system),
-                 STATUS_OK);
+    CHECK_OK(system_create(mesh.nodes, mesh.springs, &c->system));
     square_mesh_springs(&mesh, c->system.e);
     for (int s = 0; s < mesh.springs; s++)
         c->system.k[s] = c->system.l2[s] = 1;
@@ -161,11 +156,10 @@ static void make_pair(const Row *row, Random *random, Case *c)
         x[0] = 0.5 + away + cos(angle) * right - sin(angle) * high;
         x[1] = up + sin(angle) * right + cos(angle) * high;
     }
-    CHECK_STATUS(self_contact_set(&c->system, &mesh, &barrier, 0.7), STATUS_OK);
+    CHECK_OK(self_contact_set(&c->system, &mesh, &barrier, 0.7));
     if (row->rubs)
-        CHECK_STATUS(friction_set(&c->system, &self_friction_energy, true,
-                                  random_logarithmic(random, 0.02, 50)),
-                     STATUS_OK);
+        CHECK_OK(friction_set(&c->system, &self_friction_energy, true,
+                              random_logarithmic(random, 0.02, 50)));
 }
 
 /* Nodes, springs and contacts of the row, at x_n. */
@@ -184,7 +178,7 @@ static void make_shape(const Row *row, Random *random, Case *c)
         make_grid(row, random, c);
         return;
     }
-    CHECK_STATUS(system_create(2, row->shape == SPRING, &c->system), STATUS_OK);
+    CHECK_OK(system_create(2, row->shape == SPRING, &c->system));
     for (int i = 0; i < 4; i++)
         c->x_n[i] = random_uniform(random, -1, 1);
     if (row->shape != SPRING) {
@@ -205,8 +199,8 @@ static void set_pulls(Random *random, double strength, System *system)
                       .k = 3 * strength,
                       .target = {random_uniform(random, -2, 2),
                                  random_uniform(random, -2, 2)}};
-    CHECK_STATUS(pull_set(system, &central_field, &all), STATUS_OK);
-    CHECK_STATUS(pull_set(system, &hand_energy, &one), STATUS_OK);
+    CHECK_OK(pull_set(system, &central_field, &all));
+    CHECK_OK(pull_set(system, &hand_energy, &one));
 }
 
 /* What else the row has: pulls, flow, damping. */
@@ -215,7 +209,7 @@ static void add_terms(const Row *row, Random *random, System *system)
     if (row->pull > 0)
         set_pulls(random, row->pull, system);
     if (row->yield > 0) {
-        CHECK_STATUS(plastic_energy.set(system, NULL, &row->yield), STATUS_OK);
+        CHECK_OK(plastic_energy.set(system, NULL, &row->yield));
         Plasticity *flow = system_data(system, &plastic_energy);
         for (int s = 0; s < system->springs; s++) {
             flow->ep[s] = random_uniform(random, -0.3, 0.3);
@@ -223,7 +217,7 @@ static void add_terms(const Row *row, Random *random, System *system)
         }
     }
     if (row->damping > 0)
-        CHECK_STATUS(damping.set(system, NULL, &row->damping), STATUS_OK);
+        CHECK_OK(damping.set(system, NULL, &row->damping));
 }
 
 /* Random u that all terms allow, and two directions. */
@@ -268,9 +262,8 @@ static void make_case(const Row *row, Random *random, Case *c)
     c->h = random_logarithmic(random, 1e-3, 1);
     for (int i = 0; i < system->terms; i++)
         if (system->term[i].kind->begin)
-            CHECK_STATUS(system->term[i].kind->begin(&(TermStep){
-                             system, &system->term[i], c->x_n, c->u, c->h}),
-                         STATUS_OK);
+            CHECK_OK(system->term[i].kind->begin(
+                &(TermStep){system, &system->term[i], c->x_n, c->u, c->h}));
     c->at = place_at(system, c->x_n, c->u, c->x);
     c->at.w = random_logarithmic(random, 0.1, 10);
     make_place(row, random, c);
@@ -474,9 +467,8 @@ static void projection(Case *c, Random *random)
     Spot spot = {.at = &c->at, .h = c->h, .p = c->p, .q = c->q};
     Sparse A;
     bool grown;
-    CHECK_STATUS(incremental_potential_grow(&iterate, &grown), STATUS_OK);
-    CHECK_STATUS(incremental_potential_pattern(&c->system, &A, &slot),
-                 STATUS_OK);
+    CHECK_OK(incremental_potential_grow(&iterate, &grown));
+    CHECK_OK(incremental_potential_pattern(&c->system, &A, &slot));
     CHECK(incremental_potential_hessian(&iterate, FILTER_NONE, slot, &A) == 0);
     dense_from_sparse(&A, plain);
     double Hq[SIZE], scale = 0;

@@ -109,7 +109,7 @@ void random_system(Random *random, SpringState state, System *system, double *x)
 {
     int n = 3 + random_below(random, MAX_NODES - 2);
     int springs = n + random_below(random, MAX_SPRINGS - n + 1);
-    CHECK_STATUS(system_create(n, springs, system), STATUS_OK);
+    CHECK_OK(system_create(n, springs, system));
     for (int i = 0; i < n; i++) {
         x[2 * i] = random_uniform(random, -1, 1);
         x[2 * i + 1] = random_uniform(random, -1, 1);
@@ -178,8 +178,7 @@ void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation)
 {
     const Options options = line_options(line);
-    CHECK_STATUS(simulation_create(&options, observer, user, simulation),
-                 STATUS_OK);
+    CHECK_OK(simulation_create(&options, observer, user, simulation));
 }
 
 Simulation *simulate_watched(NewtonObserver observer, void *user,
@@ -229,7 +228,7 @@ Status simulation_hold(Simulation *simulation, int node, double x, double y)
 Simulation *make_steps(Simulation *simulation, int count)
 {
     for (int i = 0; i < count; i++)
-        CHECK_STATUS(simulation_step(simulation), STATUS_OK);
+        CHECK_OK(simulation_step(simulation));
     return simulation;
 }
 

@@ -27,6 +27,7 @@
 
 #define CHECK_STATUS(got, expected)                                            \
     check_status(#got, (got), (expected), __FILE__, __LINE__)
+#define CHECK_OK(got) CHECK_STATUS(got, STATUS_OK)
 
 /* got > 0 and the like, with both numbers in the message. */
 #define CHECK(condition) check_true((condition), #condition, __FILE__, __LINE__)
