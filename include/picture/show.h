@@ -321,8 +321,9 @@ void show_describe(Show *show);
 /* The number that texts know by this name now; NaN: none. */
 double show_number(Show *show, const char *name);
 
-/* A page's text as plain words, with the numbers that it has at its start, as
- * far as it is known; out [size].  Returns OK, OUT_OF_MEMORY, ... */
+/* The first line of a page's text with the numbers that it has at its start, as
+ * far as it is known, and "x^{0}" as "x^0"; out [size].  Returns OK,
+ * OUT_OF_MEMORY, ... */
 Status show_plain(const LecturePage *page, const char *text, char *out,
                   size_t size);
 

@@ -61,9 +61,6 @@ int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
  * "elastic", ...; that of all text for any other. */
 Colour colour_named(const char *name, size_t length);
 
-/* Letters and scripts as plain text, "x^{0}" as "x^0"; out [size]. */
-void text_plain(const char *markup, char *out, size_t size);
-
 /* Whether this brace of a text belongs to the markup. */
 bool text_is_markup(const char *text, const char *brace);
 

@@ -195,15 +195,8 @@ bool law_gap(const Simulation *simulation, LawGap *gap)
         gap->node[c] = now.at.x[2 * now.element.node[0] + c];
         gap->foot[c] = gap->node[c] - gap->d * now.element.n[c];
     }
-    const int *node = now.element.node;
-    bool far = math_hypot(gap->node[0] - now.at.x[2 * node[1]],
-                          gap->node[1] - now.at.x[2 * node[1] + 1]) >
-               math_hypot(gap->node[0] - now.at.x[2 * node[2]],
-                          gap->node[1] - now.at.x[2 * node[2] + 1]);
     for (int i = 0; i < 3; i++)
-        gap->pair[i] = law->value != near_value ? -1
-                       : i > 0 && far           ? node[3 - i]
-                                                : node[i];
+        gap->pair[i] = law->value == near_value ? now.element.node[i] : -1;
     return true;
 }
 

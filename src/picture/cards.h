@@ -64,8 +64,7 @@ void law_facts(const Simulation *simulation, Facts *facts);
  * node.  Returns false where there is none that is below d_hat. */
 typedef struct LawGap {
     double foot[2], node[2], d, d_hat;
-    int pair[3]; /* of two bodies: the node, the edge's nearer end, the other
-                    one; else -1 */
+    int pair[3]; /* of two bodies: the node, the edge's ends; else -1 */
 } LawGap;
 bool law_gap(const Simulation *simulation, LawGap *gap);
 

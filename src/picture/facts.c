@@ -284,7 +284,12 @@ Status show_plain(const LecturePage *page, const char *text, char *out,
     if (!status) {
         show_create(&simulation, &show);
         show_know(&show);
-        text_plain(text_first(&show.pane->facts, text).words, out, size);
+        char *to = out;
+        TextLine line = text_first(&show.pane->facts, text);
+        for (const char *at = line.words; *at && to < out + size - 1; at++)
+            if (!strchr("{}", *at))
+                *to++ = *at;
+        *to = '\0';
     }
     simulation_free(&simulation);
     return status;

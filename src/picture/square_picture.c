@@ -373,8 +373,8 @@ static void draw_pair(const Plot *lens, const int pair[3])
     const double *a = run->x + 2 * pair[1], *v = run->v + 2 * pair[1];
     double h = 4 * lens->simulation->options.timestep;
     for (int i = 0; i < 2; i++) {
-        const double *b = run->x + 2 * pair[2 * i],
-                     *w = run->v + 2 * pair[2 * i];
+        const double *b = run->x + 2 * pair[2 * i];
+        const double *w = run->v + 2 * pair[2 * i];
         const double d[2] = {b[0] - a[0], b[1] - a[1]};
         const double change[2] = {h * (w[0] - v[0]), h * (w[1] - v[1])};
         const double at[2][2] = {{a[0] + 0.6 * d[0], a[1] + 0.6 * d[1]},
@@ -384,20 +384,6 @@ static void draw_pair(const Plot *lens, const int pair[3])
         for (int k = 0; k < 2; k++)
             plot_words(lens, 1, at[k], k ? COLOUR_ALPHA : COLOUR_TEXT, "%s",
                        names[i][k]);
-    }
-}
-
-/* All of a pair, with air around it. */
-static void pair_bounds(const double *x, const int pair[3], double bounds[4])
-{
-    for (int c = 0; c < 2; c++) {
-        double low = INFINITY, high = -INFINITY;
-        for (int i = 0; i < 3; i++) {
-            low = fmin(low, x[2 * pair[i] + c]);
-            high = fmax(high, x[2 * pair[i] + c]);
-        }
-        bounds[c] = 1.45 * low - 0.45 * high;
-        bounds[c + 2] = 1.45 * high - 0.45 * low;
     }
 }
 
@@ -429,11 +415,12 @@ static void draw_lens(const SpringPen *pen)
             lens.box = box;
         least = fmin(least, cost);
     }
+    const double *a = paired ? pen->x + 2 * gap.pair[1] : gap.foot;
+    const double *b = paired ? pen->x + 2 * gap.pair[2] : gap.node;
+    double reach =
+        paired ? 0.7 * math_hypot(b[0] - a[0], b[1] - a[1]) : 1.2 * gap.d_hat;
     for (int c = 0; c < 4; c++)
-        bounds[c] = 0.5 * (gap.foot[c % 2] + gap.node[c % 2]) +
-                    (c < 2 ? -1.2 : 1.2) * gap.d_hat;
-    if (paired)
-        pair_bounds(pen->x, gap.pair, bounds);
+        bounds[c] = 0.5 * (a[c % 2] + b[c % 2]) + (c < 2 ? -reach : reach);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
     canvas_card(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
     Box before = canvas_clip(canvas, box_inset(lens.box, 1));

@@ -276,22 +276,6 @@ static int find_letter(const char *string)
     return i;
 }
 
-void text_plain(const char *markup, char *out, size_t size)
-{
-    size_t used = 0;
-    while (*markup && used + 8 < size) {
-        int letter = find_letter(markup);
-        const char *shown = letter < LETTERS ? letters[letter].shown : markup;
-        size_t length = letter < LETTERS ? strlen(shown) : 1;
-        if (letter < LETTERS || !strchr("{}", *markup)) {
-            memcpy(out + used, shown, length);
-            used += length;
-        }
-        markup += letter < LETTERS ? strlen(letters[letter].name) : 1;
-    }
-    out[used] = '\0';
-}
-
 /* The word that begins here, and its brace; WORDS: none does. */
 static int find_word(const char *string, const char **brace)
 {
