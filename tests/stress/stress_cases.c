@@ -1,10 +1,7 @@
 /* The cases that have a name: places where floating point is known to bite. */
 #include "stress.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* So many steps of a command line, with one solver or the other; where it

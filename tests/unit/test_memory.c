@@ -4,8 +4,6 @@
  */
 #include "test.h"
 
-#include <stdlib.h>
-
 #include <SuiteSparse_config.h>
 
 void *__real_malloc(size_t size);

@@ -1,11 +1,10 @@
 /* The square: nodes, springs and numbering as on the slides; how it starts and
  * hangs: turned and thrown starts, and the text of --pin.  (How it falls is for
- * test_integrators, that pins stay for stress.)
+ * test_laws, that pins stay for stress.)
  */
 #include "test.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/body.h"

@@ -6,9 +6,7 @@
 #include "test.h"
 #include "stress.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "model/fracture.h"

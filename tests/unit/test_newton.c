@@ -5,7 +5,6 @@
 #include "stress.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "model/contact.h"

@@ -10,7 +10,6 @@
 
 #include <math.h>
 
-#include "model/cells.h"
 #include "model/fracture.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"

@@ -10,7 +10,6 @@
 #include "model/contact.h"
 #include "model/fracture.h"
 #include "model/plasticity.h"
-#include "oracle.h"
 #include "base/mathematics.h"
 #include "picture/cards.h"
 #include "picture/font.h"

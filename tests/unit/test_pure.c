@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/control.h"
-
 enum { STEPS = 36 }; /* no multiple of 37 */
 
 /* The state after the next step; bytes out. */

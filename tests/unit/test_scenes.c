@@ -12,7 +12,6 @@
 
 #include "model/damping.h"
 #include "model/self_contact.h"
-#include "scenes/control.h"
 
 /* Steps until the scene is done, at most `limit`; the status of the last. */
 static Status run_to_end(Simulation *simulation, int limit)

@@ -1,7 +1,6 @@
 /* Frames: what is drawn of a Show, where, and what the mouse finds there. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "picture/cards.h"

@@ -4,7 +4,6 @@
 #include "test.h"
 #include "stress.h"
 
-#include <stdio.h>
 #include <string.h>
 
 TEST(named_cases_keep_the_promise)

@@ -9,8 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scenes/control.h"
-
 /* What the program prints as its state after so many steps. */
 static uint64_t program_hash(const char *line, int steps)
 {

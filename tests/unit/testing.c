@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/pull_energy.h"
-
 /* ---- checks ------------------------------------------------------------ */
 
 enum { MAX_RUNS = 1024 };
