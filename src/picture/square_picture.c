@@ -285,19 +285,15 @@ static void draw_arrows(const SpringPen *pen, const double *d, double factor,
     double longest = 1e-300, most = 0.9 * pen->simulation->mesh.spacing;
     for (int i = 0; i < nodes; i++)
         longest = fmax(longest, math_hypot(d[2 * i], d[2 * i + 1]));
-    char scale[80] = "";
-    if (factor == 0) {
+    if (factor == 0)
         factor = most / longest;
-        snprintf(scale, sizeof scale, ", at most %s N",
-                 number_of(longest).text);
-    }
     for (int i = 0; i < nodes; i++) {
         double length = math_hypot(d[2 * i], d[2 * i + 1]);
         plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i,
                    fmin(factor, most / fmax(length, 1e-300)), 2.6, colour);
     }
     plot_legend(pen->stage, colour, "%s%s", word,
-                factor * longest > 1.001 * most ? ", cut" : scale);
+                factor * longest > 1.001 * most ? ", cut" : "");
 }
 
 /* Where nodes that nobody has moved begin: the rest shape, stretched. */

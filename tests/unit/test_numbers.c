@@ -449,13 +449,9 @@ static void tell_fastest(Real omega, Real h)
 static void tell_forces(const System *system, const Real *g)
 {
     int balanced = 0, size = 2 * system->nodes;
-    Real longest = 0;
-    for (int i = 0; i < size; i += 2) {
+    for (int i = 0; i < size; i += 2)
         balanced += hypotl(g[i], g[i + 1]) < 1e-8L;
-        longest = fmaxl(longest, hypotl(g[i], g[i + 1]));
-    }
     is("balanced", balanced);
-    near("longest", longest, 1e-9L * (1 + longest));
     for (int i = size - 2; i < size; i++) {
         near("f", -g[i], 1e-9L * (1 + fabsl(g[i])));
         near("a", -g[i] / system->m[i / 2], 1e-11L * (1 + fabsl(g[i])));
