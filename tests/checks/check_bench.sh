@@ -54,20 +54,11 @@ verdict readme_figure_has_all_methods "$(for name in $methods; do
     grep -q "$name, " "$root/tests/data/work_precision.svg" || echo "$name is missing"
 done)"
 
-# Bad usage: exit 2 and one line on standard error.
-misuse() { # code options...
-    want=$1
-    shift
-    "$program" "$@" >out 2>error </dev/null
-    code=$?
-    [ $code -eq "$want" ] && [ "$(wc -l <error)" -eq 1 ] ||
-        echo "$*: exit $code: $(cat error)"
-}
 verdict bad_usage_is_one_line "$(
-    misuse 2
-    misuse 2 solvers
-    misuse 2 work --fast
-    misuse 2 steps --quick work
+    refuses 2 . "$program"
+    refuses 2 . "$program" solvers
+    refuses 2 . "$program" work --fast
+    refuses 2 . "$program" steps --quick work
 )"
 
 exit $failed

@@ -26,15 +26,10 @@ verdict one_line_compiles_it "$(
         echo 'what it made does not run'
 )"
 
-# ends CODE ARGUMENT...: with this exit code and one line on standard error.
-ends() {
+ends() { # CODE ARGUMENT...
     code=$1
     shift
-    "$lecture" "$@" >out 2>err
-    got=$?
-    [ "$got" = "$code" ] || echo "lecture $*: exit code $got, not $code"
-    { read -r said && ! read -r more && [ "${said#lecture: }" != "$said" ]; } \
-        <err || echo "lecture $*: $(wc -l <err) lines on standard error"
+    refuses "$code" '^lecture: ' "$lecture" "$@"
 }
 verdict bad_arguments_end_with_2 "$(
     for argument in --help foo k k= =1 k=1x 'k= ' k=nan k=inf rho=0 h=-1 \
@@ -44,9 +39,9 @@ verdict bad_arguments_end_with_2 "$(
 )"
 verdict the_line_names_value_and_range "$(
     ends 2 n_seg=0
-    grep -q "n_seg=0.*from 1 to 1000" err || cat err
+    grep -q "n_seg=0.*from 1 to 1000" error || cat error
     ends 2 side=2
-    grep -q "side=2.*side_len rho k" err || cat err
+    grep -q "side=2.*side_len rho k" error || cat error
 )"
 verdict what_does_not_end_is_ended "$(
     ends 1 steps=1 n_seg=1 tol=1e-30
@@ -56,8 +51,8 @@ verdict what_does_not_end_is_ended "$(
 
 if [ -w /dev/full ]; then
     full() {
-        "$lecture" steps=3 >/dev/full 2>err
-        [ $? = 1 ] && grep -q 'standard output: No space' err || cat err
+        "$lecture" steps=3 >/dev/full 2>error
+        [ $? = 1 ] && grep -q 'standard output: No space' error || cat error
         ends 1 steps=3 states=/dev/full
         [ -c /dev/full ] && [ ! -e /dev/full.part ] || echo '/dev/full is gone'
     }
@@ -100,7 +95,7 @@ verdict tables_are_elasto_s "$(
 )"
 
 verdict without_a_screen_it_draws_pictures "$(
-    "$lecture" states=drawn >out 2>err || echo "failed: $(tail -n 1 err)"
+    "$lecture" states=drawn >out 2>error || echo "failed: $(tail -n 1 error)"
     grep -q '^no screen: 100 pictures go to lecture_pictures/$' out ||
         echo 'it does not say so'
     [ "$(ls lecture_pictures | grep -c '^step_[0-9]*\.bmp$')" = 101 ] ||
@@ -114,8 +109,8 @@ verdict without_a_screen_it_draws_pictures "$(
 )"
 verdict pictures_that_cannot_be_written_fail "$(
     mkdir closed && : >closed/lecture_pictures && cd closed &&
-        "$lecture" >out 2>err
-    [ $? = 1 ] && grep -q '^lecture: cannot write' err || cat err
+        "$lecture" >out 2>error
+    [ $? = 1 ] && grep -q '^lecture: cannot write' error || cat error
 )"
 
 missing=$(missing_program Xvfb xdotool)

@@ -74,11 +74,9 @@ verdict runs_go_on_from_their_tables "$(
     done
 )"
 
-# refused LINE WORDS [TABLE]: exit 2 and a line with these words.
-refused() {
-    "$elasto" --headless --state "${3:-table}" $1 2>error >out
-    [ $? = 2 ] && [ "$(wc -l <error)" = 1 ] && grep -q -- "$2" error ||
-        echo "$1: $(cat error)"
+refused() { # LINE WORDS [TABLE]
+    # shellcheck disable=SC2086
+    refuses 2 "$2" "$elasto" --headless --state "${3:-table}" $1
 }
 # A cell that is pressed in at a corner: both triangles of a solid are well, one
 # of the four that springs have is not.

@@ -38,6 +38,17 @@ has_ended() {
     ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"
 }
 
+# refuses CODE WORDS COMMAND...: it ends with this code and says one line with
+# these words.
+refuses() {
+    expected=$1 words=$2
+    shift 2
+    "$@" >out 2>error </dev/null
+    code=$?
+    [ $code = "$expected" ] && [ "$(wc -l <error)" -eq 1 ] &&
+        grep -q -e "$words" error || echo "$*: exit $code: $(cat error)"
+}
+
 # A folder of its own, without a screen; it goes at the end.
 work_apart() {
     elasto=$(realpath "${ELASTO:-build/elasto}")

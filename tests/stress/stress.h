@@ -147,8 +147,6 @@ bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
 /* Processor time that is left until SIGPROF; 0: as much as it takes. */
 void stress_limit(long seconds);
 
-/* ---- the list of cases (stress_cases.c) -------------------------------- */
-
 typedef struct StressCase {
     const char *name;
     bool slow; /* only in `make stress` */
