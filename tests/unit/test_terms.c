@@ -584,10 +584,31 @@ static void row_is_right(void **state)
     CHECK(looked > 1000);
 }
 
+/* -M^-1 grad P, by each node's own mass; 1e-12: rounding. */
+static void accelerations_are_forces_over_masses(void **unused)
+{
+    (void)unused;
+    Random random = {77};
+    System system;
+    double x[MAX_SIZE], a[MAX_SIZE];
+    random_system(&random, SPRINGS_MIXED, &system, x);
+    Place at = place_at(&system, x, NULL, x);
+    system_acceleration(&system, x, a);
+    for (int i = 0; i < 2 * system.nodes; i++) {
+        double one[MAX_SIZE] = {0};
+        one[i] = 1;
+        Spot spot = {.at = &at, .p = one};
+        Real force = -oracle_energy(&spot, NULL).p;
+        CHECK_NEAR(a[i] * system.m[i / 2], force, 1e-12L * spot.size.p);
+    }
+    system_free(&system);
+}
+
 int main(void)
 {
     static Row all[ROWS + OPTIONS_MOST];
-    static struct CMUnitTest tests[ROWS + OPTIONS_MOST];
+    static struct CMUnitTest tests[ROWS + OPTIONS_MOST + 1] = {
+        cmocka_unit_test(accelerations_are_forces_over_masses)};
     int count = ROWS;
     memcpy(all, rows, sizeof rows);
     for (const OptionRow *option = option_rows; option->name; option++)
@@ -597,7 +618,8 @@ int main(void)
                                  .far = 1e3,
                                  .option = option};
     for (int i = 0; i < count; i++)
-        tests[i] =
+        tests[1 + i] =
             (struct CMUnitTest){all[i].name, row_is_right, NULL, NULL, &all[i]};
-    return _cmocka_run_group_tests("terms", tests, (size_t)count, NULL, NULL);
+    return _cmocka_run_group_tests("terms", tests, 1 + (size_t)count, NULL,
+                                   NULL);
 }
