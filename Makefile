@@ -233,7 +233,7 @@ help:
 	@echo 'make handout    write the lecture as build/handout.html'
 	@echo 'make bench      measure run time against error (TABLES=work);'
 	@echo '                make figures: draw what it measured'
-	@echo 'make stress     named cases, random scenes, faults: ten minutes;'
+	@echo 'make stress     named cases, random scenes, faults: half an hour;'
 	@echo '                same-bits, mutants, analyse: tests/README.md'
 	@echo 'make install    to $$(DESTDIR)$$(PREFIX)/bin; make uninstall'
 	@echo 'make clean      remove build/'

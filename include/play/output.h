@@ -97,7 +97,10 @@ Status table_check(const Table *table);
  * be taken back, and new rows follow.  Returns OK, FILE_FAILED. */
 Status table_cut(Table *table, long last);
 
-/* Writes the rest and gives the file its name (output_close), or leaves it as
+/* Writes all rows that are left; table_check says whether it could. */
+void table_end(Table *table);
+
+/* Behind its end: gives the file its name (output_close), or leaves it as
  * NAME.part, or takes it away; OK too if it is not open. */
 typedef enum Keep { KEEP_WHOLE, KEEP_PART, KEEP_NOTHING } Keep;
 Status table_close(Table *table, Keep keep);

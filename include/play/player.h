@@ -193,8 +193,9 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
 Status player_open_page(Player *player);
 
 /* Finishes the files and frees all but the numbers that the summary needs.
- * Returns OK, OUT_OF_MEMORY or FILE_FAILED. */
-Status player_finish(Player *player);
+ *   status  how the run ended; a failure leaves its files as NAME.part
+ * Returns it, or what failed then: OUT_OF_MEMORY, FILE_FAILED. */
+Status player_finish(Player *player, Status status);
 void player_free(Player *player);
 
 /* Writes the lecture as an HTML file to options->handout; it appears when it is

@@ -112,8 +112,8 @@ Status recording_states(Recording *recording,
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane);
 
-/* Closes everything, whatever happened before: a run that fails keeps what it
- * wrote. */
+/* Closes everything, whatever happened before.  Where recording->keep says so,
+ * or one of the files fails, all of them stay NAME.part. */
 Status recording_close(Recording *recording);
 
 /* One picture as a PNG file, whole or not at all (output.h); or into a stream.

@@ -52,9 +52,9 @@ static Status start_ffmpeg(Film *film, const Canvas *canvas)
     film->width = canvas->width;
     film->height = canvas->height;
     snprintf(line, sizeof line,
-             "exec $(command -v setsid) ffmpeg -loglevel quiet -y -f rawvideo "
-             "-pixel_format bgr0 -video_size %dx%d -framerate %d -i pipe:0 %s "
-             "-f %s \"file:$ELASTO_FILM\" >/dev/null 2>&1",
+             "exec $(command -v setsid) ffmpeg -loglevel quiet -xerror -y "
+             "-f rawvideo -pixel_format bgr0 -video_size %dx%d -framerate %d "
+             "-i pipe:0 %s -f %s \"file:$ELASTO_FILM\" >/dev/null 2>&1",
              film->width, film->height, film->kind->rate, film->kind->words,
              film->kind->end + 1);
     if (setenv("ELASTO_FILM", film->output.temporary, 1))

@@ -365,12 +365,17 @@ Status table_cut(Table *table, long last)
     return table_check(table);
 }
 
+void table_end(Table *table)
+{
+    if (table->rows && !table_check(table) && fflush(table->rows) == 0)
+        table->format(table, table->output.file);
+    if (table->output.file)
+        fflush(table->output.file);
+}
+
 Status table_close(Table *table, Keep keep)
 {
     Status status = table_check(table);
-    if (table->rows && !status && fflush(table->rows) == 0)
-        table->format(table, table->output.file);
-    status = table_check(table);
     if (table->rows)
         fclose(table->rows);
     table->rows = NULL;

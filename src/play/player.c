@@ -320,16 +320,19 @@ static void close_view(Player *player)
     player->draws = false;
 }
 
-Status player_finish(Player *player)
+Status player_finish(Player *player, Status status)
 {
-    Status rest = STATUS_OK;
+    Recording *recording = &player->recording;
     if (player->past.branches > 0) {
-        rest = player_write_rest(player);
+        Status rest = player_write_rest(player);
+        status = status ? status : rest;
         player_label_panes(player);
     }
     close_view(player);
-    Status closed = recording_close(&player->recording);
-    return rest ? rest : closed;
+    if (status && !recording->keep)
+        recording->keep = KEEP_PART;
+    Status closed = recording_close(recording);
+    return status ? status : closed;
 }
 
 void player_free(Player *player)

@@ -1,8 +1,10 @@
 #include "play/player.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -183,7 +185,8 @@ static void print_summary(FILE *file, const Player *player)
             print(file, "simulated time", "%g s", simulation_time(simulation));
         print_newton(file, simulation);
         if (in_time) {
-            print(file, "energy at start", "%.9g J", simulation->start[0]);
+            print(file, "energy at start", "%.9g J",
+                  simulation->start[0] + 0.0); /* no -0 */
             print(file, "energy at end", "%.9g J",
                   simulation_energies(simulation, 0).total);
         }
@@ -208,12 +211,11 @@ static void print_summary(FILE *file, const Player *player)
 
 int program_end(Player *player, Status status)
 {
-    if (status && player->past.machine[0].simulation.steps == 0 &&
-        !player->recording.keep)
-        player->recording.keep = KEEP_PART;
-    Status closed = player_finish(player);
-    if (!status)
-        status = closed;
+    /* While the panes still stand where a step failed. */
+    int failed = status ? report_failure(player, status) : EXIT_FINE;
+    status = player_finish(player, status);
+    if (failed)
+        return failed;
     if (status)
         return report_failure(player, status);
     errno = 0;
@@ -252,17 +254,40 @@ static void join_line(int argc, char **argv, char *line, size_t size)
     }
 }
 
-/* Whether two names of the command line are one file or folder.  Only devices
- * may be meant twice; what does not exist yet is kept apart by its lock. */
+/* Where a file is or will be, without links. */
+static void resolve(const char *name, char path[2 * PATH_MAX])
+{
+    const char *slash = strrchr(name, '/'), *last = slash ? slash + 1 : name;
+    char folder[PATH_MAX];
+    if (realpath(name, path))
+        return;
+    snprintf(folder, sizeof folder, "%.*s.", (int)(last - name), name);
+    if (!realpath(folder, path))
+        path[0] = '\0';
+    append(path, 2 * PATH_MAX, "/%s", path[0] ? last : name);
+}
+
+/* Whether the other one is this file or its NAME.part. */
+static bool leads_to(const char *path, const char *other)
+{
+    size_t length = strlen(path);
+    return strncmp(path, other, length) == 0 &&
+           (!other[length] || strcmp(other + length, ".part") == 0);
+}
+
+/* Whether two names of the command line are in each other's way.  Only devices
+ * may be meant twice. */
 static bool is_same_file(const char *one, const char *other)
 {
-    struct stat first, second;
+    struct stat info;
+    char path[2][2 * PATH_MAX];
     if (output_is_standard(one) && output_is_standard(other))
         return true;
-    if (stat(one, &first) || stat(other, &second))
-        return strcmp(one, other) == 0;
-    return !S_ISCHR(first.st_mode) && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
+    if (stat(one, &info) == 0 && S_ISCHR(info.st_mode))
+        return false;
+    resolve(one, path[0]);
+    resolve(other, path[1]);
+    return leads_to(path[0], path[1]) || leads_to(path[1], path[0]);
 }
 
 /* What an option names: a file or folder, or NULL. */

@@ -456,18 +456,28 @@ Status recording_cut(Recording *recording, long step)
     return status;
 }
 
-/* Film and all tables, also if one of them fails; the first failure counts. */
+/* All tables are ended before the first file is given its name, and behind a
+ * failure none is; the first failure counts. */
 Status recording_close(Recording *recording)
 {
-    Status first = recording->keep ? STATUS_OK : recording_end_film(recording);
-    film_close(&recording->film);
+    Keep *keep = &recording->keep;
+    for (int t = 0; t < RECORDING_TABLES; t++)
+        table_end(&recording->table[t]);
+    Status first = check_tables(recording);
+    if (*keep || first) {
+        recording->film.reason = "the run failed";
+        film_close(&recording->film);
+        recording->film.reason = NULL;
+    } else
+        first = recording_end_film(recording);
     for (int t = 0; t < RECORDING_TABLES; t++) {
         Table *table = &recording->table[t];
         char name[RECORDING_NAME_SIZE] = "";
         if (table->output.name)
             snprintf(name, sizeof name, "%s", table->output.name);
-        Status status =
-            note(recording, table_close(table, recording->keep), name);
+        if (first && !*keep)
+            *keep = KEEP_PART;
+        Status status = note(recording, table_close(table, *keep), name);
         first = first ? first : status;
     }
     return first;

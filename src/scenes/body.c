@@ -375,10 +375,13 @@ static Status check_places(const System *system, const double *x, Refusal told)
     return STATUS_OK;
 }
 
-/* Balls and a ceiling that are some. */
+/* Grounds, balls and a ceiling that are some. */
 static Status check_numbers(const Options *options, Refusal told)
 {
     const double *ceiling = options->ceiling;
+    for (int i = 0; i < options->grounds; i++)
+        if (options->ground[i][0] == 0 && options->ground[i][1] == 0)
+            return refuse(told, "--ground: its normal NX,NY is 0,0");
     if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2])))
         return refuse(told, "--ceiling: V is %g; it must be below 0",
                       ceiling[1]);

@@ -113,15 +113,17 @@ static bool find_array(FILE *file, const char *name, const char *kind,
         if (length >= sizeof text || fread(text, 1, length, file) < length)
             return false;
         const char *sizes = strchr(text, '(');
+        char behind = ')';
         int found =
-            sizes ? sscanf(sizes, "(%ld, %ld", &shape[0], &shape[1]) : 0;
+            sizes ? sscanf(sizes, "(%ld, %ld%c", &shape[0], &shape[1], &behind)
+                  : 0;
         if (found == 1) {
             shape[1] = shape[0];
             shape[0] = 1;
         }
-        return found > 0 && strstr(text, kind) && strstr(text, ": False") &&
-               shape[0] > 0 && shape[0] < MOST && shape[1] > 0 &&
-               shape[1] < MOST;
+        return found > 0 && behind == ')' && strstr(text, kind) &&
+               strstr(text, ": False") && shape[0] > 0 && shape[0] < MOST &&
+               shape[1] > 0 && shape[1] < MOST;
     }
     return false;
 }
@@ -140,9 +142,13 @@ static bool read_arrays(Start *start)
     start->has_step = found;
     for (int k = 0; k < 4 && found; k++) {
         double value;
-        if (!find_array(start->file, names[k], "<f8", shape))
+        long before[2] = {shape[0], shape[1]};
+        if (!find_array(start->file, names[k], "<f8", shape) ||
+            (k > 0 && memcmp(shape, before, sizeof shape) != 0))
             return false;
         row = start->step < 0 ? shape[0] - 1 : row;
+        if (row >= shape[0])
+            return false;
         start->count = (int)shape[1];
         if (fseek(start->file, row * shape[1] * 8, SEEK_CUR))
             return false;
@@ -167,8 +173,8 @@ Status start_table_read(const char *name, double step, int nodes, int run,
     if (!start.file || ferror(start.file))
         snprintf(why, sizeof why, "%s", strerror(errno));
     else if (!whole && arrays)
-        strcpy(why, "it has no arrays x, y, vx, vy as --states writes them, "
-                    "and numpy.savez");
+        strcpy(why, "x, y, vx, vy must be arrays of one shape, of finite "
+                    "little-endian doubles, not compressed (numpy.savez)");
     else if (!whole)
         snprintf(why, sizeof why,
                  "line %ld is not one that --states writes, "

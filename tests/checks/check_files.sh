@@ -143,10 +143,48 @@ films() {
     run 0 --speed 0.25 --size 97x64 --film slow.gif # each four times
     [ "$(frames slow.gif)" = 12 ] || echo "slow: $(frames slow.gif) frames"
     run 1 --film a.gif --frames /dev/null/d
+    echo precious >z.gif
     run 1 --film z.gif --stretch 1e160 --size 97x64 # its first step fails
-    [ "$(frames z.gif)" = 1 ] || echo 'no first frame'
+    [ "$(frames z.gif.part)" = 1 ] || echo 'no first frame'
+    precious z.gif 'a failed run'
+    rm z.gif.part
+    for name in f.mp4 f.webm; do
+        (
+            ulimit -f 8
+            run 1 --steps 60 --film $name
+        )
+        [ ! -e $name ] || echo "half of $name"
+    done
+    rm -f ./*.part
     no_parts films
     rm -f ./*.gif a.mp4
+}
+# Whichever of its files a run fails in, all stay beside what stands there: a
+# picture after step 2, a step after many, an array at the end.
+failed_runs() {
+    mkdir -p fr/frame_000003.png
+    ln -s /dev/full full.npz
+    while read -r last words line; do
+        for name in s.csv e.npz f.gif; do
+            echo precious >$name
+        done
+        # shellcheck disable=SC2086
+        run 1 --size 97x64 --states s.csv --energies e.npz --film f.gif $line
+        grep -q "^elasto: $words" error || cat error
+        for name in s.csv e.npz f.gif; do
+            precious $name "$line"
+        done
+        [ "$(tail -n 1 s.csv.part | cut -d, -f1,3)" = "$last,8" ] &&
+            [ "$(tail -c 22 e.npz.part | head -c 2)" = PK ] &&
+            [ "$(frames f.gif.part)" = $((last + 1)) ] ||
+            echo "$line: $(tail -n 1 s.csv.part) $(frames f.gif.part)"
+        rm -f ./*.part
+    done <<'END'
+3 fr/frame_000003.png: --steps 9 --frames fr
+5 step.6.failed: --steps 50 --integrator symplectic-euler --timestep 0.1
+2 full.npz: --springs full.npz
+END
+    rm -rf fr full.npz s.csv e.npz f.gif
 }
 # Ctrl+C goes to the whole group, ffmpeg too.
 stopped_films() {
@@ -167,6 +205,7 @@ stopped_films() {
 }
 if command -v ffprobe >/dev/null; then
     verdict films_have_every_frame "$(films)"
+    verdict failed_runs_leave_parts "$(failed_runs)"
     verdict stopped_films_play "$(stopped_films)"
 else
     echo 'skipped films_have_every_frame: no ffmpeg'

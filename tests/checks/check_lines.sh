@@ -44,8 +44,12 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|--states and --log are one file|--states chain --log k.csv
 2|--log and --script are one file|--log k.csv --script chain
 2|--frames and --vtk are one file|--frames d --vtk d/
-1|written already|--headless --states new --log d/../new
-1|n.npz: it is being written already|--headless --states n.npz --springs ./n.npz
+2|--states and --log are one file|--states new --log d/../new
+2|--states and --springs are one file|--states n.npz --springs ./n.npz
+2|are one file|--states new --log new.part
+2|are one file|--states d/new.part --log ./d/new
+2|are one file|--states link --log k.csv.part
+2|--ground: its normal|--ground 0,0,0,0
 2|--springs.*'circle' has no square|circle --springs n.csv
 2|--vtk.*'spring'|spring --vtk n
 2|.mp4, .webm, .gif or .apng|--headless --film n.avi
@@ -153,6 +157,8 @@ log NR > 1 && !($6 > 0 && $4 == 0)
 log NR > 1 && !($6 < 0)
 0|24|landscape --start 1,1
 NR == 2 && $0 != "0,0,0,1,1,0,0"
+0|50|square --steps 1 --stretch 1
+summary /^energy at start.* -0 J/
 3|150|unprojected --steps 5
 log $4 == 0 && $6 > 0 { n = 1 } END { if (!n) print "no direction uphill" }
 0|150|square --steps 5 --timestep 0.001 --integrator forward-euler

@@ -100,7 +100,7 @@ verdict other_tables_are_refused "$(
     done
     head -c 1500 table.npz >part.npz
     mv part.npz table.npz
-    refused '' 'it has no arrays x, y, vx, vy' table.npz
+    refused '' 'x, y, vx, vy must be arrays of one shape' table.npz
     refused '--segments 5' 'last step has 25 nodes, the body 36'
     refused '--ground 0,1,0,0' 'would begin at a distance of'
     refused '--states table' 'are one file'
@@ -184,6 +184,28 @@ arrays() {
     run landscape --steps 3 --states s.npz --log l.NPZ && compare_arrays
 }
 verdict_of numpy_reads_the_same_numbers numpy arrays
+
+# Arrays of other shapes or kinds are no start.
+starts() {
+    "$python" -c '
+import numpy as np
+x = np.repeat(np.arange(5.0), 5)
+y, v, three = np.tile(np.arange(5.0), 5), 0 * x, np.array([x, x, x])
+def save(name, save=np.savez, **other):
+    save(name + ".npz", **{**dict(x=x, y=y, vx=v, vy=v), **other})
+save("good")
+save("short", y=y[:9])
+save("deep", x=x.reshape(1, 25, 1))
+save("steps", step=np.arange(3), x=three, y=three[:2], vx=three, vy=three)
+save("packed", np.savez_compressed)
+save("single", x=x.astype("f4"))'
+    run --steps 0 --state good.npz
+    for name in short deep packed single; do
+        refused '' 'must be arrays of one shape' $name.npz
+    done
+    refused '--state-step 1' 'must be arrays of one shape' steps.npz
+}
+verdict_of numpy_starts_have_one_shape numpy starts
 
 # Each step by VTK: points, velocities, springs that are whole, their strain.
 grids() {

@@ -52,7 +52,7 @@ static inline void begin(const char *line)
 
 static inline void end(void)
 {
-    CHECK_OK(player_finish(&player));
+    CHECK_OK(player_finish(&player, STATUS_OK));
     player_free(&player);
 }
 
