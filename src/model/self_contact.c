@@ -1,5 +1,6 @@
 #include "model/self_contact.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -153,6 +154,19 @@ static void measure(const SelfContact *self, Element *element)
     element->s = (d / self->d_hat) * (d / self->d_hat);
 }
 
+/* Whether so little is left of d that the rounding of positions may already
+ * have put the point on the other side, which d does not tell: such a place is
+ * not allowed. */
+static bool is_lost(const SelfContact *self, const Element *element,
+                    const double *x)
+{
+    double size = 0;
+    for (int i = 0; i < 6; i++)
+        size = fmax(size, fabs(x[2 * element->node[i / 2] + i % 2]));
+    double least = 16 * DBL_EPSILON * size / self->d_hat;
+    return !(element->s > least * least);
+}
+
 /* Point i and, where it is asked for again, the next edge.  `way` is in the
  * boxes; without one what is not near has no force. */
 static bool get(const Place *at, int i, double way, Element *element)
@@ -173,6 +187,8 @@ static bool get(const Place *at, int i, double way, Element *element)
         measure(self, element);
         if (!boundary->moves && element->s >= 1)
             continue;
+        if (is_lost(self, element, at->x))
+            element->s = 0;
         element->block = boundary->moves ? -1 : block_of(self, pair);
         return true;
     }

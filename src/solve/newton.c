@@ -169,7 +169,8 @@ static void move_centre(Newton *newton)
  * nodes alike, lowers E, and conserves linear momentum to rounding.  The second
  * move removes the rounding errors of the first, which is long where springs
  * are stiff beyond the digits of the masses.  If E has risen even so, all nodes
- * make the centre's way from x_n instead.
+ * make the centre's way from x_n instead; where contacts have so little way
+ * left that even this rounding is too much, nothing is moved.
  *
  * The change of E is the sum of the changes, each of which is exact along its
  * line; or the difference of E at end and start, where E was so high in between
@@ -181,10 +182,18 @@ void newton_finish(Newton *newton)
     Status before = newton->status;
     bool usable = !before || status_is_unconverged(before);
     if (usable && system_is_free(newton->system)) {
+        size_t bytes = 2 * (size_t)newton->system->nodes * sizeof *at->u;
+        memcpy(newton->u_trial, at->u, bytes);
+        memcpy(newton->x_trial, at->x, bytes);
         move_centre(newton);
         move_centre(newton);
-        if (before != STATUS_DIVERGED &&
-            !rounding_is_low(newton, at->u, at->x)) {
+        if (!incremental_potential_allowed(&at->E, at->u, at->x)) {
+            memcpy(at->u, newton->u_trial, bytes);
+            memcpy(at->x, newton->x_trial, bytes);
+            newton->status = STATUS_ROUNDING_LIMIT;
+            newton->size = INFINITY;
+        } else if (before != STATUS_DIVERGED &&
+                   !rounding_is_low(newton, at->u, at->x)) {
             for (int i = 0; i < 2 * newton->system->nodes; i++)
                 at->u[i] = 0;
             move_centre(newton);

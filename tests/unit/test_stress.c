@@ -51,36 +51,51 @@ TEST(what_was_wrong_once_is_right)
     static const struct {
         int steps;
         const char *line;
+        Verdict worst; /* it may have */
     } rows[] = {
         /* step 9 begins at rest, after an end that was looked at for a saddle:
          * the test there is of the projected Hessian again */
-        {10, "square --segments 4 --side 0.9 --timestep 0.787 --material "
-             "neo-hookean --young 5.39e+04 --poisson 0.337 --body "
-             "0,0,349,-1.05,-4.92,0.822,1.14 --body "
-             "1.6,-0.26,293,-8.4,-0.252 --body 0.267,1.6,41.8,6.37,-0.279 "
-             "--self-friction 1.21 --pin top-corners --tolerance 1.37e-05 "
-             "--filter clamp"},
+        {10,
+         "square --segments 4 --side 0.9 --timestep 0.787 --material "
+         "neo-hookean --young 5.39e+04 --poisson 0.337 --body "
+         "0,0,349,-1.05,-4.92,0.822,1.14 --body "
+         "1.6,-0.26,293,-8.4,-0.252 --body 0.267,1.6,41.8,6.37,-0.279 "
+         "--self-friction 1.21 --pin top-corners --tolerance 1.37e-05 "
+         "--filter clamp",
+         VERDICT_CONVERGED},
         /* the beam folds at its notch, whose faces touch in the first step */
-        {1, "bend --segments 16 --stiffness 1.52e+04 --timestep 0.787 "
-            "--tolerance 3.96e-06 --friction 0.61 --cells off --yield 0.0124 "
-            "--hardening 1.71 --barrier 0.00139,2.69e+05"},
+        {1,
+         "bend --segments 16 --stiffness 1.52e+04 --timestep 0.787 "
+         "--tolerance 3.96e-06 --friction 0.61 --cells off --yield 0.0124 "
+         "--hardening 1.71 --barrier 0.00139,2.69e+05",
+         VERDICT_CONVERGED},
         /* the second step begins where springs have just flowed and V'' jumps:
          * either side is right */
-        {3, EDGE "0.6336"},
-        {3, EDGE "0.6686"},
-        {3, EDGE "0.6904"},
-        {3, EDGE "0.7034"},
+        {3, EDGE "0.6336", VERDICT_CONVERGED},
+        {3, EDGE "0.6686", VERDICT_CONVERGED},
+        {3, EDGE "0.6904", VERDICT_CONVERGED},
+        {3, EDGE "0.7034", VERDICT_CONVERGED},
         /* in step 6 all move alike, so that what springs add to H p is far
          * smaller than the entries of H, and their rounding, times p */
-        {6, "tear --segments 2 --stiffness 9.25e6 --timestep 0.772 "
-            "--tolerance 1.8e-4 --yield 0.0415 --hardening 0.101"},
+        {6,
+         "tear --segments 2 --stiffness 9.25e6 --timestep 0.772 "
+         "--tolerance 1.8e-4 --yield 0.0415 --hardening 0.101",
+         VERDICT_CONVERGED},
+        /* a soft barrier is used up to where rounding decides on which side of
+         * an edge a point is, of an update and of the centre's last move */
+        {1,
+         "square --segments 4 --material neo-hookean --young 1e9 --timestep "
+         "0.02 --body 0,0,0,20,0 --body 1.45,0.1,5,-20,0 --tolerance 1e-6 "
+         "--barrier 1e-6,1",
+         VERDICT_REPORTED},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         Tally tally = {0};
         char reason[512] = "";
-        if (stress_run(rows[i].line, rows[i].steps, &tally, reason))
+        if (stress_run(rows[i].line, rows[i].steps, &tally, reason) >
+            rows[i].worst)
             fail_msg("%s: %s", rows[i].line, reason);
-        CHECK(tally.judged >= rows[i].steps);
+        CHECK(rows[i].worst || tally.judged >= rows[i].steps);
     }
 }
 
