@@ -109,12 +109,30 @@ void player_leave_step(Player *player)
     }
 }
 
+/* Another scene has a camera and cards of its own. */
+static void enter_scene(Player *player)
+{
+    const Options *options = player_settings(player);
+    char title[128];
+    player->scene = options->scene;
+    player->speed = player_first_speed(options);
+    player->show.lens = LENS_FITS;
+    player->closed = 0;
+    player->large = -1;
+    player_deselect(player);
+    player->show.hover = (Pick){.kind = PICK_NONE};
+    player->mouse.drag = COMMAND_NONE;
+    snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
+             options->scene->name);
+    if (player->window)
+        window_set_title(title);
+}
+
 /* The past is another one behind some step; where time stands still that is
- * drawn anew, too.  Another scene has a camera and cards of its own. */
+ * drawn anew, too. */
 static Status follow(Player *player)
 {
     Past *past = &player->past;
-    char title[128];
     long same = past->same;
     past->same = LONG_MAX;
     player->changed = true;
@@ -123,21 +141,8 @@ static Status follow(Player *player)
     player->still = player->rigid = 0;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
-    const Options *options = player_settings(player);
-    if (options->scene != player->scene) {
-        player->scene = options->scene;
-        player->speed = player_first_speed(options);
-        player->show.lens = LENS_FITS;
-        player->closed = 0;
-        player->large = -1;
-        player_deselect(player);
-        player->show.hover = (Pick){.kind = PICK_NONE};
-        player->mouse.drag = COMMAND_NONE;
-        snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
-                 options->scene->name);
-        if (player->window)
-            window_set_title(title);
-    }
+    if (player_settings(player)->scene != player->scene)
+        enter_scene(player);
     if (player->written <= same)
         return STATUS_OK;
     player->written = same;
@@ -478,21 +483,28 @@ Status player_work(Player *player)
     return status;
 }
 
+/* A node that was held when this step was shown, long ago; it is undone by
+ * itself. */
+static Status let_go(Player *player)
+{
+    const Command release = {.kind = COMMAND_RELEASE};
+    int gesture = player->gesture, panes = past_panes(&player->past);
+    if (past_control(&player->past, 0)->hand < 0 || player->holds)
+        return STATUS_OK;
+    player->gesture = ++player->gestures;
+    Status status = player_change(player, &release, 0, panes, false);
+    player->gesture = gesture;
+    return status;
+}
+
 Status player_show(Player *player, long step, Then then)
 {
     Past *past = &player->past;
-    const Command release = {.kind = COMMAND_RELEASE};
-    int gesture = player->gesture;
-    bool new = step > past_newest(past);
-    Status status = new ? record_step(player) : STATUS_OK;
-    player->holds = player->holds && new;
-    if (!status && new &&past_control(past, 0)->hand >= 0 && !player->holds) {
-        /* It was held when this step was shown, long ago; that it is let go is
-         * undone by itself. */
-        player->gesture = ++player->gestures;
-        status = player_change(player, &release, 0, past_panes(past), false);
-        player->gesture = gesture;
-    }
+    bool known = step <= past_newest(past);
+    Status status = known ? STATUS_OK : record_step(player);
+    player->holds = player->holds && !known;
+    if (!status && !known)
+        status = let_go(player);
     if (status)
         return status;
     player_leave_step(player);

@@ -287,13 +287,12 @@ Status multigrid_iterate(Newton *newton, NewtonRecord *done)
     bool last = done->iteration + 1 >= newton_most_iterations(newton);
     bool small = fabs(done->change) <= SMALL_CHANGE * -mg->largest;
     bool many = done->iteration >= HANDED_ITERATIONS;
-    bool stuck = status != STATUS_OK;
-    if (last || small || many || status != STATUS_RUNNING ||
-        newton->settings.observer)
+    bool runs = status == STATUS_RUNNING;
+    if (last || small || many || !runs || newton->settings.observer)
         grid_write_state(&mg->grid, &newton->at); /* else nobody looks at it */
-    if (status ==
-        STATUS_RUNNING) /* or it has come to its end without the test */
-        stuck = many || (small && rounding_hides(newton, done->change));
+    /* It has come to its end without passing the test. */
+    bool stuck = runs ? many || (small && rounding_hides(newton, done->change))
+                      : status != STATUS_OK;
     status = status == STATUS_OK ? direction_judges_end(newton) : status;
     if (stuck || status == STATUS_NOT_A_MINIMUM)
         status = take_back(newton, status);
