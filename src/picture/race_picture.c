@@ -90,7 +90,8 @@ void race_facts(const Simulation *simulation, Facts *facts)
         fact_words(facts, names[i][0], best ? best->method->label : NULL);
         fact(facts, names[i][1], best ? 1e3 * best->seconds : NAN);
         fact(facts, names[i][2], best ? 1e3 * best->h : NAN);
-        fact_when(facts, i ? "" : "no explicit", !best);
+        fact_when(facts, i ? "" : "no explicit",
+                  !best && race->count == RACE_METHODS * RACE_STEP_SIZES);
     }
     fact_when(facts, simulation->exhibit.parts ? "over h" : "", true);
     fact(facts, "methods", RACE_METHODS);

@@ -333,8 +333,9 @@ TEST(claim_opening)
 
 TEST(claim_closing)
 {
-    says("closing", "0.966 0.335 0.4 0.2 1 2 0.966 0.335");
+    says("closing", "0.2 0.966 0.335 0.4 0.2 1 2 0.966 0.335");
     Simulation *simulation = open_page("closing", "");
+    CHECK_NEAR(simulation->options.timestep, 0.2, 0);
     const double *x = simulation->descent.point;
     CHECK_NEAR(x[0], -0.4, 0);
     CHECK_NEAR(x[1], -0.2, 0);
