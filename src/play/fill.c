@@ -288,6 +288,7 @@ static void fill_time(Player *player)
     double time = 0; /* that of panes that have ended stands still */
     for (int p = 0; p < past_panes(past); p++)
         time = fmax(time, simulation_time(&past->machine[p].simulation));
+    show->paused = player_stands(player);
     const LecturePage *page = player_settings(player)->page;
     if (page && page->writes) { /* its steps are springs */
         long last = player_simulation(player)->system.springs - 1;
@@ -303,7 +304,6 @@ static void fill_time(Player *player)
     if (!turn && player->speed != 0)
         append(text, SHOW_TEXT, "   %.4g steps a frame",
                ldexp(1, player->speed));
-    show->paused = player_stands(player);
     bool drifts = !show->paused && player->rigid >= DRIFT_STEPS;
     snprintf(show->state, SHOW_VALUE, "%s",
              player->mode == MODE_HELD   ? "within \u03b5"
