@@ -18,26 +18,40 @@
 
 #include "base/status.h"
 
+enum {
+    OUTPUT_NAME = 4096 + 64,       /* bytes: the longest path and a bit more */
+    OUTPUT_TOLD = OUTPUT_NAME + 64 /* and why it failed */
+};
+
+/* A zeroed one is not open. */
 typedef struct Output {
-    FILE *file;      /* NULL: not open */
-    char *name;      /* as it was given, for messages */
-    char *target;    /* where it shall stand, no link; NULL: written directly */
-    char *temporary; /* where it is written, with a target */
+    FILE *file;                  /* NULL: not open */
+    char name[OUTPUT_NAME];      /* as it was given, for messages */
+    char target[OUTPUT_NAME];    /* where it shall stand, no link */
+    char temporary[OUTPUT_NAME]; /* where it is written; "": directly */
+    char *told; /* [OUTPUT_TOLD] out, not owned: "NAME: why", if it is "" when
+                   something fails; or NULL */
 } Output;
 
-/* Opens it.  Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
-Status output_open(const char *name, Output *output);
+/* What becomes of a file at its end: it gets its name, stays NAME.part as far
+ * as it got, or goes.  What stood under the name stays but for the first. */
+typedef enum Keep { KEEP_WHOLE, KEEP_PART, KEEP_NOTHING } Keep;
+
+/* Opens it.  Returns OK, FILE_FAILED (told, and errno tells why). */
+Status output_open(const char *name, char *told, Output *output);
+
+/* Flushes and closes it, if it is open; its name can still be read.  Returns
+ * OK, FILE_FAILED (it is NAME.part then). */
+Status output_close(Output *output, Keep keep);
+
+/* Tells of a failure, and why, or NULL: what the status says, of FILE_FAILED
+ * errno.  Returns the status; output_fail: FILE_FAILED. */
+Status output_tell(char *told, const char *name, Status status,
+                   const char *why);
+Status output_fail(const Output *output, const char *why);
 
 /* Why something failed: after FILE_FAILED what errno means here. */
 const char *output_reason(Status status);
-
-/* Flushes, closes, renames; OK too if it is not open.  After FILE_FAILED, or
- * where this status is no OK, which it returns then, what stood under the name
- * before still does, and NAME.part as far as it got. */
-Status output_close(Output *output, Status status);
-
-/* Closes it, if it is open, and removes what was written. */
-void output_discard(Output *output);
 
 /* Whether this name means standard output. */
 bool output_is_standard(const char *name);
@@ -83,26 +97,24 @@ struct Table {
  * does not fall, the next one its time where there are places. */
 void table_columns(Table *table, const char *names);
 
-/* Opens it; CSV has its line of names then.
- * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
-Status table_open(const char *name, Table *table);
+/* Opens it; CSV has its line of names then.  Returns as output_open. */
+Status table_open(const char *name, char *told, Table *table);
 
 /* One row, value [columns]; whether it could be written table_check says. */
 void table_add(Table *table, const double *value);
 
-/* FILE_FAILED if something could not be written so far, else OK. */
+/* Returns FILE_FAILED (told) if something could not be written so far, else OK;
+ * OK too if it is not open, as all that follow. */
 Status table_check(const Table *table);
 
 /* Takes back the rows of later steps; below 0: of all.  From a pipe nothing can
- * be taken back, and new rows follow.  Returns OK, FILE_FAILED. */
+ * be taken back, and new rows follow.  Returns as table_check. */
 Status table_cut(Table *table, long last);
 
-/* Writes all rows that are left; table_check says whether it could. */
-void table_end(Table *table);
+/* Writes all rows that are left.  Returns as table_check. */
+Status table_end(Table *table);
 
-/* Behind its end: gives the file its name (output_close), or leaves it as
- * NAME.part, or takes it away; OK too if it is not open. */
-typedef enum Keep { KEEP_WHOLE, KEEP_PART, KEEP_NOTHING } Keep;
+/* Behind its end.  Returns as output_close. */
 Status table_close(Table *table, Keep keep);
 
 /* Goes through the rows of a table with a format: row [columns] out, from the

@@ -202,10 +202,11 @@ void player_free(Player *player);
  * whole.
  *   player   workspace; it must stay where it is
  *   stop     in, not 0 ends it after the present page: INTERRUPTED
- * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno), INTERRUPTED, or how a page
- * could not be drawn. */
+ *   told     as of output_open
+ * Returns OK, OUT_OF_MEMORY, FILE_FAILED, INTERRUPTED, or how a page could not
+ * be drawn. */
 Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
-                     Player *player);
+                     char *told, Player *player);
 
 /* ---- the program --------------------------------------------------------- */
 

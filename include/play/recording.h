@@ -31,35 +31,30 @@ typedef struct Film {
     int width, height; /* pixels; those of the first frame */
     long frames;       /* so far */
     Output output;
-    FILE *pipe;         /* to ffmpeg; NULL: it does not run */
-    const char *reason; /* why it failed, if errno does not say it; or NULL */
+    FILE *pipe; /* to ffmpeg; NULL: it does not run */
 } Film;
 
 /* Begins a film; nothing is written before the first frame.
  *   name  in, its end says the kind
+ *   told  as of output_open
  *   film  out; end it with film_close in any case
- * Returns OK, INVALID_INPUT (no such kind, or no ffmpeg: film->reason),
- * OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
-Status film_open(const char *name, Film *film);
+ * Returns OK, INVALID_INPUT (no such kind, or no ffmpeg), FILE_FAILED. */
+Status film_open(const char *name, char *told, Film *film);
 
 /* The next frame; what is beyond the size of the first one is cut off, what is
  * missing is white.  shown: so many times, at least 1.
- * Returns OK, OUT_OF_MEMORY, FILE_FAILED (film->reason or errno). */
+ * Returns OK, FILE_FAILED. */
 Status film_add(Film *film, const Canvas *canvas, int shown);
 
-/* Ends it; OK too if it was not begun.  A film without a frame is a failure,
- * and leaves nothing.  film->reason is then still there.  Returns OK,
+/* Ends it; OK too if it does not run.  A film without a frame is a failure,
+ * and leaves nothing.  Its frames and name can still be read.  Returns OK,
  * FILE_FAILED. */
-Status film_close(Film *film);
+Status film_close(Film *film, Keep keep);
 
-/* Whether it was begun. */
 static inline bool film_runs(const Film *film)
 {
-    return film->output.name != NULL;
+    return film->output.file != NULL;
 }
-
-/* Room for the longest path, and for a file's name behind it. */
-enum { RECORDING_NAME_SIZE = 4096 + 64 };
 
 typedef enum RecordingTable {
     RECORDING_STATES,
@@ -74,19 +69,17 @@ typedef struct Recording {
     const char *folder;            /* of the frames, or NULL: none */
     long frames;                   /* written */
     Film film;                     /* of the frames */
-    char film_told[512];           /* the last that ended: frames, name; "" */
     const char *vtk;               /* folder of steps, or NULL */
     int panes;                     /* when it was opened */
     Table table[RECORDING_TABLES]; /* not open: not written */
     bool tables;                   /* any is open */
     bool standard;                 /* one of them is standard output */
-    Keep keep;                     /* set: how tables end, and films */
-    char message[RECORDING_NAME_SIZE + 64]; /* the first failure; "" */
+    char message[OUTPUT_TOLD];     /* the first failure; "" */
 } Recording;
 
-/* Opens what options->frames, film and the tables ask for; makes the folder.
+/* Opens what options->frames, film and the tables ask for; makes the folders.
  *   recording  out; close it in any case
- * Returns OK, OUT_OF_MEMORY, FILE_FAILED, as all functions here do, or
+ * Returns OK, FILE_FAILED, OUT_OF_MEMORY, as all functions here do, or
  * INVALID_INPUT; the message says why. */
 Status recording_open(const Options *options, int panes, Recording *recording);
 
@@ -94,10 +87,6 @@ Status recording_open(const Options *options, int panes, Recording *recording);
  * shall stand in a film. */
 Status recording_frame(Recording *recording, const Canvas *canvas, long step,
                        int shown);
-
-/* Begins a film, or ends it. */
-Status recording_film(Recording *recording, const char *name);
-Status recording_end_film(Recording *recording);
 
 /* Takes back the rows of later steps; below 0: of all. */
 Status recording_cut(Recording *recording, long step);
@@ -112,14 +101,14 @@ Status recording_states(Recording *recording,
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane);
 
-/* Closes everything, whatever happened before.  Where recording->keep says so,
- * or one of the files fails, all of them stay NAME.part. */
-Status recording_close(Recording *recording);
+/* Closes everything, whatever happened before.  Where one of the files fails,
+ * or has failed, none gets its name. */
+Status recording_close(Recording *recording, Keep keep);
 
 /* One picture as a PNG file, whole or not at all (output.h); or into a stream.
  *   small  the file is worth more than the time it takes
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
-Status png_file_write(const char *name, const Canvas *canvas);
+Status png_file_write(const char *name, char *told, const Canvas *canvas);
 Status png_write(FILE *file, const Canvas *canvas, bool small);
 
 #endif

@@ -254,7 +254,7 @@ static bool is_covered(const ScriptLine *line)
 Status script_write(const char *name, const Script *script)
 {
     Output output;
-    Status status = output_open(name, &output);
+    Status status = output_open(name, NULL, &output);
     if (status)
         return status;
     errno = 0;
@@ -273,7 +273,7 @@ Status script_write(const char *name, const Script *script)
         command_format(&command, line, sizeof line);
         fprintf(output.file, "%ld %s\n", at->step, line);
     }
-    return output_close(&output, STATUS_OK);
+    return output_close(&output, KEEP_WHOLE);
 }
 
 const Command *script_due(Script *script, long step, bool waits)

@@ -21,32 +21,31 @@ static const struct FilmKind {
     {NULL, 0, NULL},
 };
 
-Status film_open(const char *name, Film *film)
+Status film_open(const char *name, char *told, Film *film)
 {
-    const char *end = strrchr(name, '.');
+    const char *end = strrchr(name, '.'), *why = NULL;
     *film = (Film){.kind = film_kinds};
     while (film->kind->end &&
            (!end || end == name || strcmp(end, film->kind->end)))
         film->kind++;
     if (!film->kind->end)
-        film->reason = "its name does not end in .mp4, .webm, .gif or .apng";
+        why = "its name does not end in .mp4, .webm, .gif or .apng";
     else if (system("command -v ffmpeg >/dev/null 2>&1") != 0)
-        film->reason =
-            "a film needs the program ffmpeg: apt-get install ffmpeg; "
-            "--frames DIR needs nothing";
-    if (film->reason)
-        return STATUS_INVALID_INPUT;
-    Status status = output_open(name, &film->output);
-    if (status || film->output.temporary)
-        return status;
-    output_discard(&film->output);
-    film->reason = "a film is a regular file";
-    return STATUS_INVALID_INPUT;
+        why = "a film needs the program ffmpeg: apt-get install ffmpeg; "
+              "--frames DIR needs nothing";
+    else if (output_open(name, told, &film->output))
+        return STATUS_FILE_FAILED;
+    else if (!film->output.temporary[0])
+        why = "a film is a regular file";
+    if (!why)
+        return STATUS_OK;
+    output_close(&film->output, KEEP_NOTHING);
+    return output_tell(told, name, STATUS_INVALID_INPUT, why);
 }
 
 /* With the first frame, whose size the film has.  ffmpeg's words go nowhere; a
  * session of its own keeps Ctrl+C from it: the film ends when the pipe does. */
-static Status start_ffmpeg(Film *film, const Canvas *canvas)
+static void start_ffmpeg(Film *film, const Canvas *canvas)
 {
     char line[512];
     film->width = canvas->width;
@@ -57,21 +56,19 @@ static Status start_ffmpeg(Film *film, const Canvas *canvas)
              "-i pipe:0 %s -f %s \"file:$ELASTO_FILM\" >/dev/null 2>&1",
              film->width, film->height, film->kind->rate, film->kind->words,
              film->kind->end + 1);
-    if (setenv("ELASTO_FILM", film->output.temporary, 1))
-        return STATUS_OUT_OF_MEMORY;
-    film->pipe = popen(line, "we");
-    if (!film->pipe)
-        return STATUS_FILE_FAILED;
-    setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* as much as a pipe takes */
-    return STATUS_OK;
+    if (setenv("ELASTO_FILM", film->output.temporary, 1) == 0)
+        film->pipe = popen(line, "we");
+    if (film->pipe)
+        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* what a pipe takes */
 }
 
 Status film_add(Film *film, const Canvas *canvas, int shown)
 {
     const Colour white = 0xffffffffu;
-    Status status = film->pipe ? STATUS_OK : start_ffmpeg(film, canvas);
-    if (status)
-        return status;
+    if (!film->pipe)
+        start_ffmpeg(film, canvas);
+    if (!film->pipe)
+        return output_fail(&film->output, NULL);
     int both = canvas->width < film->width ? canvas->width : film->width;
     for (int i = 0; i < shown * film->height; i++) {
         int y = i % film->height, there = y < canvas->height ? both : 0;
@@ -83,25 +80,25 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
     film->frames += shown;
     if (!ferror(film->pipe))
         return STATUS_OK;
-    film->reason = "ffmpeg ended before the film did";
-    return STATUS_FILE_FAILED;
+    return output_fail(&film->output, "ffmpeg ended before the film did");
 }
 
-Status film_close(Film *film)
+Status film_close(Film *film, Keep keep)
 {
-    struct stat info = {0};
-    bool well = film->pipe && pclose(film->pipe) == 0;
+    Output *output = &film->output;
+    struct stat info;
+    Status status = STATUS_OK;
     if (!film_runs(film))
         return STATUS_OK;
-    bool full = stat(film->output.temporary, &info) == 0 && info.st_size > 0;
-    if (!film->reason && film->frames == 0)
-        film->reason = "no frame was drawn for it";
-    else if (!film->reason && (!well || !full))
-        film->reason = "ffmpeg could not write it";
-    Status status = film->reason ? STATUS_FILE_FAILED : STATUS_OK;
-    if (!full)
-        output_discard(&film->output);
-    status = output_close(&film->output, status);
-    *film = (Film){.reason = film->reason};
-    return status;
+    bool well = film->pipe && pclose(film->pipe) == 0;
+    bool full = stat(output->temporary, &info) == 0 && info.st_size > 0;
+    if (!well || !full)
+        status = output_fail(output, film->frames == 0
+                                         ? "no frame was drawn for it"
+                                         : "ffmpeg could not write it");
+    film->pipe = NULL;
+    Status closed = output_close(output, !full    ? KEEP_NOTHING
+                                         : status ? KEEP_PART
+                                                  : keep);
+    return status ? status : closed;
 }

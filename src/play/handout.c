@@ -94,11 +94,11 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
 }
 
 Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
-                     Player *player)
+                     char *told, Player *player)
 {
     Output output;
     const Listing *head = listing_find("src/play/handout.html");
-    Status status = output_open(options->handout, &output);
+    Status status = output_open(options->handout, told, &output);
     FILE *file = output.file;
     if (status)
         return status;
@@ -127,7 +127,6 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
         player_free(player);
     }
     fputs("</body>\n</html>\n", file);
-    if (status)
-        output_discard(&output);
-    return output_close(&output, status);
+    Status closed = output_close(&output, status ? KEEP_NOTHING : KEEP_WHOLE);
+    return status ? status : closed;
 }

@@ -23,29 +23,39 @@ const char *output_reason(Status status)
                                         : strerror(errno ? errno : EIO);
 }
 
+Status output_tell(char *told, const char *name, Status status, const char *why)
+{
+    if (told && !told[0])
+        snprintf(told, OUTPUT_TOLD, "%s: %s", name,
+                 why ? why : output_reason(status));
+    return status;
+}
+
+Status output_fail(const Output *output, const char *why)
+{
+    return output_tell(output->told, output->name, STATUS_FILE_FAILED, why);
+}
+
 /* ---- opening ------------------------------------------------------------- */
 
 /* NAME.part as a stream that nobody else writes, with the permissions of the
- * file whose place it will take (info, or NULL: there is none). */
-static Status open_temporary(const char *name, Output *output,
-                             const struct stat *info)
+ * file whose place it will take (info, or NULL: there is none).  NULL: errno
+ * tells why not. */
+static FILE *open_temporary(const struct stat *info, Output *output)
 {
-    output->target = info ? realpath(name, NULL) : strdup(name);
-    if (!output->target)
-        return errno == ENOMEM ? STATUS_OUT_OF_MEMORY : STATUS_FILE_FAILED;
-    if (info && access(name, W_OK))
-        return STATUS_FILE_FAILED; /* somebody protected it */
-    size_t size = strlen(output->target) + sizeof ".part";
-    output->temporary = malloc(size);
-    if (!output->temporary)
-        return STATUS_OUT_OF_MEMORY;
-    snprintf(output->temporary, size, "%s.part", output->target);
+    if (!info)
+        memcpy(output->target, output->name, sizeof output->name);
+    else if (!realpath(output->name, output->target) ||
+             access(output->name, W_OK)) /* somebody protected it */
+        return NULL;
+    snprintf(output->temporary, OUTPUT_NAME, "%.4096s.part", output->target);
     int file = open(output->temporary,
                     O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0)
-        return STATUS_FILE_FAILED;
+        return NULL;
     struct stat ours, there; /* another run may have taken the name away before
                                 the lock was ours */
+    FILE *stream = NULL;
     bool alone =
         (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
         fstat(file, &ours) == 0 && lstat(output->temporary, &there) == 0 &&
@@ -53,71 +63,55 @@ static Status open_temporary(const char *name, Output *output,
     errno = alone ? errno : EBUSY;
     if (alone && ftruncate(file, 0) == 0 &&
         (!info || fchmod(file, info->st_mode & 0777) == 0))
-        output->file = fdopen(file, "w+b");
+        stream = fdopen(file, "w+b");
     int reason = errno;
-    if (!output->file)
+    if (!stream)
         close(file);
     errno = reason;
-    return output->file ? STATUS_OK : STATUS_FILE_FAILED;
+    return stream;
 }
 
-Status output_open(const char *name, Output *output)
+Status output_open(const char *name, char *told, Output *output)
 {
     struct stat info;
     bool standard = output_is_standard(name);
     bool exists = !standard && stat(name, &info) == 0;
-    bool unknown = !standard && !exists && errno != ENOENT;
-    Status status = STATUS_OK;
-    *output = (Output){.name = strdup(standard ? "standard output" : name)};
-    if (!output->name)
-        return STATUS_OUT_OF_MEMORY;
+    *output = (Output){.told = told};
+    snprintf(output->name, sizeof output->name, "%s",
+             standard ? "standard output" : name);
     if (standard)
         output->file = stdout;
     else if (exists && !S_ISREG(info.st_mode))
         output->file = fopen(name, "wb");
-    else if (!unknown)
-        status = open_temporary(name, output, exists ? &info : NULL);
-    if (!output->file && !status)
-        status = STATUS_FILE_FAILED;
-    return status ? output_close(output, status) : STATUS_OK;
+    else if (exists || errno == ENOENT) /* so the name is not too long */
+        output->file = open_temporary(exists ? &info : NULL, output);
+    return output->file ? STATUS_OK : output_fail(output, NULL);
 }
 
 /* ---- its end ------------------------------------------------------------- */
 
-/* Every call that can tell of a failed write is asked; errno tells why.  A
- * second descriptor holds the lock until the file has its name. */
-Status output_close(Output *output, Status status)
+/* Every call that can tell of a failed write is asked.  A second descriptor
+ * holds the lock until the file has its name. */
+Status output_close(Output *output, Keep keep)
 {
     FILE *file = output->file;
-    int before = errno;
-    int lock = file && output->temporary ? dup(fileno(file)) : -1;
-    bool whole = !status;
-    if (file) {
-        whole = !ferror(file) && whole;
-        whole = fflush(file) == 0 && whole;
-        if (file != stdout)
-            whole = fclose(file) == 0 && whole;
-        if (output->temporary && whole)
-            whole = rename(output->temporary, output->target) == 0;
-    }
-    int reason = status ? before : errno;
+    bool beside = output->temporary[0];
+    if (!file)
+        return STATUS_OK;
+    int lock = beside ? dup(fileno(file)) : -1;
+    bool whole = !ferror(file);
+    whole = fflush(file) == 0 && whole;
+    if (file != stdout)
+        whole = fclose(file) == 0 && whole;
+    if (beside && keep == KEEP_NOTHING)
+        remove(output->temporary);
+    else if (beside && keep == KEEP_WHOLE && whole)
+        whole = rename(output->temporary, output->target) == 0;
+    Status status = whole ? STATUS_OK : output_fail(output, NULL);
     if (lock >= 0)
         close(lock);
-    free(output->name);
-    free(output->target);
-    free(output->temporary);
-    *output = (Output){0};
-    errno = reason;
-    return status || whole ? status : STATUS_FILE_FAILED;
-}
-
-void output_discard(Output *output)
-{
-    int reason = errno;
-    if (output->temporary)
-        remove(output->temporary);
-    output_close(output, STATUS_INTERRUPTED);
-    errno = reason;
+    output->file = NULL;
+    return status;
 }
 
 /* ---- arrays for numpy ---------------------------------------------------- */
@@ -287,25 +281,26 @@ void table_columns(Table *table, const char *names)
     }
 }
 
-Status table_open(const char *name, Table *table)
+Status table_open(const char *name, char *told, Table *table)
 {
     const char *end = strrchr(name, '.');
     table->format = !end                           ? NULL
                     : strcasecmp(end, ".npz") == 0 ? npz_write
                     : strcasecmp(end, ".pvd") == 0 ? pvd_write
                                                    : NULL;
-    Status status = output_open(name, &table->output);
+    Status status = output_open(name, told, &table->output);
     if (status)
         return status;
     table->rows = table->format ? tmpfile() : NULL;
     if (table->format && !table->rows) {
-        output_discard(&table->output);
-        return STATUS_FILE_FAILED;
+        status = output_fail(&table->output, NULL);
+        output_close(&table->output, KEEP_NOTHING);
+        return status;
     }
     for (int c = 0; c < table->columns && !table->rows; c++)
         fprintf(table->output.file, "%s%c", table->column[c].name,
                 c + 1 < table->columns ? ',' : '\n');
-    table->head = table->output.temporary ? ftell(table->output.file) : 0;
+    table->head = table->output.temporary[0] ? ftell(table->output.file) : 0;
     return table_check(table);
 }
 
@@ -334,7 +329,7 @@ Status table_check(const Table *table)
     FILE *file = table->output.file;
     bool failed =
         (file && ferror(file)) || (table->rows && ferror(table->rows));
-    return failed ? STATUS_FILE_FAILED : STATUS_OK;
+    return failed ? output_fail(&table->output, NULL) : STATUS_OK;
 }
 
 bool table_next(const Table *table, double *row)
@@ -347,42 +342,34 @@ Status table_cut(Table *table, long last)
 {
     double row[TABLE_COLUMNS];
     FILE *file = table->rows ? table->rows : table->output.file;
-    if (!file)
-        return STATUS_OK;
-    if (!table->rows && !table->output.temporary)
+    if (!file || (!table->rows && !table->output.temporary[0]))
         return table_check(table);
-    long end = table->rows ? 0 : table->head;
+    long end = table->head;
     bool whole = fseek(file, end, SEEK_SET) == 0;
     while (whole &&
            (table->rows ? table_next(table, row)
                         : fscanf(file, "%lf%*[^\n]%*c", row) == 1) &&
            row[0] <= (double)last)
         end = ftell(file);
-    if (!whole || fseek(file, end, SEEK_SET) ||
-        fflush(file) || /* what it has read */
-        ftruncate(fileno(file), end))
-        return STATUS_FILE_FAILED;
-    return table_check(table);
+    whole = whole && fseek(file, end, SEEK_SET) == 0 &&
+            fflush(file) == 0 && /* what it has read */
+            ftruncate(fileno(file), end) == 0;
+    return whole ? table_check(table) : output_fail(&table->output, NULL);
 }
 
-void table_end(Table *table)
+Status table_end(Table *table)
 {
-    if (table->rows && !table_check(table) && fflush(table->rows) == 0)
+    if (table->rows && !ferror(table->rows) && fflush(table->rows) == 0)
         table->format(table, table->output.file);
     if (table->output.file)
         fflush(table->output.file);
+    return table_check(table);
 }
 
 Status table_close(Table *table, Keep keep)
 {
-    Status status = table_check(table);
     if (table->rows)
         fclose(table->rows);
     table->rows = NULL;
-    if (keep == KEEP_NOTHING)
-        output_discard(&table->output);
-    if (keep && !status)
-        status = STATUS_INTERRUPTED;
-    status = output_close(&table->output, status);
-    return status == STATUS_INTERRUPTED ? STATUS_OK : status;
+    return output_close(&table->output, keep);
 }

@@ -322,23 +322,23 @@ static void close_view(Player *player)
 
 Status player_finish(Player *player, Status status)
 {
-    Recording *recording = &player->recording;
     if (player->past.branches > 0) {
         Status rest = player_write_rest(player);
         status = status ? status : rest;
         player_label_panes(player);
     }
+    Keep keep = player->written < 0 ? KEEP_NOTHING
+                : status            ? KEEP_PART
+                                    : KEEP_WHOLE;
     close_view(player);
-    if (status && !recording->keep)
-        recording->keep = KEEP_PART;
-    Status closed = recording_close(recording);
+    Status closed = recording_close(&player->recording, keep);
     return status ? status : closed;
 }
 
 void player_free(Player *player)
 {
     close_view(player);
-    recording_close(&player->recording);
+    recording_close(&player->recording, KEEP_NOTHING);
     past_free(&player->past);
     player_leave_step(player);
     player_close_sheet(player);

@@ -201,8 +201,9 @@ static void print_summary(FILE *file, const Player *player)
     if (recording->folder)
         print(file, "frames written", "%ld, in %s/", recording->frames,
               recording->folder);
-    if (recording->film_told[0])
-        print(file, "film", "%s", recording->film_told);
+    if (recording->film.frames > 0)
+        print(file, "film", "%ld frames, in %s", recording->film.frames,
+              recording->film.output.name);
     print(file, "state hash", "%016llx",
           (unsigned long long)player_hash(player));
 }
@@ -319,7 +320,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
                   Player *player)
 {
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
-    char message[512], line[1024];
+    char message[OUTPUT_TOLD] = "", line[1024];
     *player = (Player){0};
     if (argc == 3 && strcmp(argv[1], "--help") == 0 &&
         strcmp(argv[2], "commands") == 0) {
@@ -344,14 +345,13 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     if (check_files(options, (Refusal){message, sizeof message}))
         return tell(EXIT_MISUSED, "%s", message);
     if (options->handout) {
-        Status status = handout_write(options, stop, player);
+        message[0] = '\0';
+        Status status = handout_write(options, stop, message, player);
         *player = (Player){0};
-        return !status ? EXIT_FINE
-                       : tell(EXIT_FAILED, "%s: %s", options->handout,
-                              output_reason(status));
+        output_tell(message, options->handout, status, NULL);
+        return status ? tell(EXIT_FAILED, "%s", message) : EXIT_FINE;
     }
     join_line(argc, argv, line, sizeof line);
     Status status = player_create(options, options->panes, line, stop, player);
-    player->recording.keep = status ? KEEP_NOTHING : KEEP_WHOLE;
     return status ? program_end(player, status) : PROGRAM_PLAYS;
 }

@@ -11,20 +11,6 @@
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 
-/* Tells of the first failure; returns status. */
-static Status note(Recording *recording, Status status, const char *name)
-{
-    const char *why = recording->film.reason;
-    if (!status || recording->message[0])
-        return status;
-    if (!why)
-        why = output_reason(status);
-    snprintf(recording->message, sizeof recording->message, "%s: %s", name,
-             why);
-    recording->film.reason = NULL;
-    return status;
-}
-
 /* ---- kinds of tables ----------------------------------------------------- */
 
 /* A run at a step: what the rows of a table are about. */
@@ -146,13 +132,18 @@ Status png_write(FILE *file, const Canvas *canvas, bool small)
                              : STATUS_FILE_FAILED;
 }
 
-Status png_file_write(const char *name, const Canvas *canvas)
+Status png_file_write(const char *name, char *told, const Canvas *canvas)
 {
     Output output;
-    Status status = output_open(name, &output);
-    return status
-               ? status
-               : output_close(&output, png_write(output.file, canvas, false));
+    Status status = output_open(name, told, &output);
+    if (status)
+        return status;
+    status = png_write(output.file, canvas, false);
+    if (!status)
+        return output_close(&output, KEEP_WHOLE);
+    output_tell(told, name, status, NULL);
+    output_close(&output, KEEP_PART);
+    return status;
 }
 
 /* ---- ParaView ------------------------------------------------------------ */
@@ -262,13 +253,13 @@ static int put_numbers(FILE *file, const Part *part, int parts, Array array)
 }
 
 /* One step, `count` simulations as they are, whole or not at all. */
-static Status vtk_write(const char *name, const Simulation *const *simulation,
-                        int count)
+static Status vtk_write(const char *name, char *told,
+                        const Simulation *const *simulation, int count)
 {
     Part part[PARTS];
     Output output;
     int parts = 0, nodes = 0;
-    Status status = output_open(name, &output);
+    Status status = output_open(name, told, &output);
     FILE *file = output.file;
     if (status)
         return status;
@@ -293,7 +284,7 @@ static Status vtk_write(const char *name, const Simulation *const *simulation,
         fputs("</DataArray>\n", file);
     }
     fputs("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", file);
-    return output_close(&output, STATUS_OK);
+    return output_close(&output, KEEP_WHOLE);
 }
 
 void pvd_write(const Table *table, FILE *file)
@@ -308,26 +299,7 @@ void pvd_write(const Table *table, FILE *file)
     fputs("</Collection>\n</VTKFile>\n", file);
 }
 
-/* ---- films, and all together --------------------------------------------- */
-
-Status recording_film(Recording *recording, const char *name)
-{
-    return note(recording, film_open(name, &recording->film), name);
-}
-
-Status recording_end_film(Recording *recording)
-{
-    char name[RECORDING_NAME_SIZE] = "";
-    Film *film = &recording->film;
-    long frames = film->frames;
-    if (film_runs(film))
-        snprintf(name, sizeof name, "%s", film->output.name);
-    Status status = film_close(film);
-    if (!status && frames > 0)
-        snprintf(recording->film_told, sizeof recording->film_told,
-                 "%ld frames, in %s", frames, name);
-    return note(recording, status, name);
-}
+/* ---- all together -------------------------------------------------------- */
 
 /* Opens a table, if there is one; of a folder's steps it is their list.  The
  * ledger has all that a scene may have, and of several panes a row says which.
@@ -336,7 +308,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
 {
     Table *table = &recording->table[t];
     const char *name = *(char *const *)((const char *)options + kinds[t].file);
-    char list[RECORDING_NAME_SIZE];
+    char list[OUTPUT_NAME];
     if (!name)
         return STATUS_OK;
     snprintf(list, sizeof list, "%s/steps.pvd", name);
@@ -355,7 +327,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
         table_columns(table, "work,dissipated,run:place");
     else if (recording->panes > 1)
         table_columns(table, kinds[t].pane);
-    return note(recording, table_open(name, table), name);
+    return table_open(name, recording->message, table);
 }
 
 Status recording_open(const Options *options, int panes, Recording *recording)
@@ -363,12 +335,13 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     *recording = (Recording){
         .folder = options->frames, .vtk = options->vtk, .panes = panes};
     const char *const folder[] = {options->frames, options->vtk};
+    char *told = recording->message;
     Status status = STATUS_OK;
     for (int i = 0; i < 2 && !status; i++) /* the first file shows if it is */
         if (folder[i] && mkdir(folder[i], 0777) && errno != EEXIST)
-            status = note(recording, STATUS_FILE_FAILED, folder[i]);
+            status = output_tell(told, folder[i], STATUS_FILE_FAILED, NULL);
     if (!status && options->film)
-        status = recording_film(recording, options->film);
+        status = film_open(options->film, told, &recording->film);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
         status = open_table(options, recording, t);
     return status;
@@ -378,27 +351,13 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
                        int shown)
 {
     Film *film = &recording->film;
-    char name[RECORDING_NAME_SIZE];
-    if (film_runs(film)) {
-        Status status = film_add(film, canvas, shown);
-        if (status)
-            return note(recording, status, film->output.name);
-    }
-    if (!recording->folder)
-        return STATUS_OK;
+    char name[OUTPUT_NAME];
+    Status status = film_runs(film) ? film_add(film, canvas, shown) : STATUS_OK;
+    if (status || !recording->folder)
+        return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
     recording->frames++;
-    return note(recording, png_file_write(name, canvas), name);
-}
-
-/* Whether all tables so far were written. */
-static Status check_tables(Recording *recording)
-{
-    Status status = STATUS_OK;
-    for (int t = 0; t < RECORDING_TABLES && !status; t++)
-        status = note(recording, table_check(&recording->table[t]),
-                      recording->table[t].output.name);
-    return status;
+    return png_file_write(name, recording->message, canvas);
 }
 
 Status recording_states(Recording *recording,
@@ -406,13 +365,12 @@ Status recording_states(Recording *recording,
                         long step)
 {
     Moment at = {.step = (double)step};
-    char name[RECORDING_NAME_SIZE];
+    char name[OUTPUT_NAME];
     Status status = STATUS_OK;
     if (recording->vtk) {
         snprintf(name, sizeof name, "%s/" VTK_FILE, recording->vtk, step);
-        status = note(recording, vtk_write(name, simulation, count), name);
+        status = vtk_write(name, recording->message, simulation, count);
     }
-    errno = status ? errno : 0;
     for (int i = 0; i < count && !status; i++)
         for (int r = 0; r < simulation[i]->runs; r++) {
             at.simulation = simulation[i];
@@ -427,7 +385,9 @@ Status recording_states(Recording *recording,
             at.nodes += at.run->system->nodes;
             at.springs += at.run->system->springs;
         }
-    return status ? status : check_tables(recording);
+    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+        status = table_check(&recording->table[t]);
+    return status;
 }
 
 Status recording_update(Recording *recording, const NewtonRecord *record,
@@ -439,46 +399,30 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
                     record->change,       record->projected, record->factorised,
                     record->shift,        record->status,    record->seconds,
                     record->solver,       record->kind,      pane};
-    if (!log->output.file)
-        return STATUS_OK;
-    errno = 0;
-    table_add(log, row);
-    return check_tables(recording);
+    if (log->output.file)
+        table_add(log, row);
+    return table_check(log);
 }
 
 Status recording_cut(Recording *recording, long step)
 {
     Status status = STATUS_OK;
-    for (int t = 0; t < RECORDING_TABLES && !status; t++) {
-        Table *table = &recording->table[t];
-        status = note(recording, table_cut(table, step), table->output.name);
-    }
+    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+        status = table_cut(&recording->table[t], step);
     return status;
 }
 
-/* All tables are ended before the first file is given its name, and behind a
- * failure none is; the first failure counts. */
-Status recording_close(Recording *recording)
+/* All tables are ended before the first file is given its name. */
+Status recording_close(Recording *recording, Keep keep)
 {
-    Keep *keep = &recording->keep;
+    bool failed = recording->message[0];
     for (int t = 0; t < RECORDING_TABLES; t++)
-        table_end(&recording->table[t]);
-    Status first = check_tables(recording);
-    if (*keep || first) {
-        recording->film.reason = "the run failed";
-        film_close(&recording->film);
-        recording->film.reason = NULL;
-    } else
-        first = recording_end_film(recording);
+        failed = table_end(&recording->table[t]) || failed;
+    keep = failed && !keep ? KEEP_PART : keep;
+    failed = film_close(&recording->film, keep) || failed;
     for (int t = 0; t < RECORDING_TABLES; t++) {
-        Table *table = &recording->table[t];
-        char name[RECORDING_NAME_SIZE] = "";
-        if (table->output.name)
-            snprintf(name, sizeof name, "%s", table->output.name);
-        if (first && !*keep)
-            *keep = KEEP_PART;
-        Status status = note(recording, table_close(table, *keep), name);
-        first = first ? first : status;
+        keep = failed && !keep ? KEEP_PART : keep;
+        failed = table_close(&recording->table[t], keep) || failed;
     }
-    return first;
+    return failed ? STATUS_FILE_FAILED : STATUS_OK;
 }

@@ -320,7 +320,7 @@ Status obey_shot(Player *player, const Command *command)
     free_name(player, ".png", name, sizeof name);
     if (paper) {
         player_paint(player, paper);
-        status = png_file_write(name, &paper->canvas);
+        status = png_file_write(name, NULL, &paper->canvas);
     }
     if (status)
         player_note(player, "not saved: %s", output_reason(status));
@@ -332,21 +332,24 @@ Status obey_shot(Player *player, const Command *command)
 /* Begins a film of all that is drawn, or ends it. */
 Status obey_film(Player *player, const Command *command)
 {
-    char name[80];
-    Recording *recording = &player->recording;
-    bool ends = film_runs(&recording->film);
+    char name[80], told[OUTPUT_TOLD] = "";
+    Film *film = &player->recording.film;
+    bool ends = film_runs(film);
     if (!player->draws)
         return player_refuse(player, "nothing is drawn that could be filmed");
     free_name(player, ".mp4", name, sizeof name);
+    film->output.told = told;
     Status status =
-        ends ? recording_end_film(recording) : recording_film(recording, name);
+        ends ? film_close(film, KEEP_WHOLE) : film_open(name, told, film);
+    film->output.told = player->recording.message;
     player->sampled = -1; /* the present frame is the first, or drawn again */
     if (status)
-        player_note(player, "no film: %s", recording->message);
+        player_note(player, "no film: %s", told);
+    else if (ends)
+        player_note(player, "film ends: %ld frames, in %s", film->frames,
+                    film->output.name);
     else
-        player_note(player, "%s%s", ends ? "film ends: " : "filming ",
-                    ends ? recording->film_told : name);
-    recording->message[0] = '\0';
+        player_note(player, "filming %s", name);
     return STATUS_OK;
 }
 

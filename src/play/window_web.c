@@ -125,16 +125,15 @@ void window_wait(int milliseconds)
 
 /* ---- films --------------------------------------------------------------- */
 
-Status film_open(const char *name, Film *film)
+Status film_open(const char *name, char *told, Film *film)
 {
     *film = (Film){0};
-    if (!page_films()) {
-        film->reason = "this browser makes no films of a page";
-        return STATUS_INVALID_INPUT;
-    }
-    film->output.name = strdup(name);
-    if (!film->output.name)
-        return STATUS_OUT_OF_MEMORY;
+    if (!page_films())
+        return output_tell(told, name, STATUS_INVALID_INPUT,
+                           "this browser makes no films of a page");
+    film->output.file = stdout; /* which nobody writes: it runs */
+    film->output.told = told;
+    snprintf(film->output.name, OUTPUT_NAME, "%s", name);
     page_film(name);
     return STATUS_OK;
 }
@@ -146,13 +145,12 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
     return STATUS_OK;
 }
 
-Status film_close(Film *film)
+Status film_close(Film *film, Keep keep)
 {
-    bool empty = film->frames == 0;
     if (!film_runs(film))
         return STATUS_OK;
-    page_film_end(!empty);
-    free(film->output.name);
-    *film = (Film){.reason = empty ? "no frame was drawn" : NULL};
-    return empty ? STATUS_FILE_FAILED : STATUS_OK;
+    page_film_end(film->frames > 0);
+    film->output.file = NULL;
+    return film->frames > 0 ? STATUS_OK
+                            : output_fail(&film->output, "no frame was drawn");
 }

@@ -74,7 +74,8 @@ arrays() {
     run 0 --states s.npz
     cmp copy s.npz
     ln -s /dev/full full.npz
-    run 1 --states full.npz
+    ln -s /dev/full also.npz
+    run 1 --states full.npz --springs also.npz # the first is told
     grep -q '^elasto: full.npz: No space left' error || cat error
     echo precious >k.npz
     run 1 --states k.npz --stretch 1e160
