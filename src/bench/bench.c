@@ -82,21 +82,22 @@ static const double first_error = 1e-2;
 
 typedef struct Problem {
     const Motion *motion;
-    Simulation simulation; /* at the start; its system is that of all runs */
-    double *exact;         /* [4n] m, m/s, at the end; then [4n] room */
+    Simulation simulation; /* Verlet's; its system is that of all runs */
+    /* [4n] m, m/s, x and v: at the start, where they really end, room. */
+    double *start, *exact, *room;
 } Problem;
 
 /* One run, or the fastest of several equal ones. */
 typedef struct Rung {
     long steps;
     double tolerance, seconds;
-    double error; /* m, root mean square over the masses */
+    double error; /* m, root mean square over the masses, which are alike */
     bool failed;  /* not finite, not converged, or gone by a side */
 } Rung;
 
-/* The fastest method for a target. */
+/* The fastest run that comes below a target. */
 typedef struct Best {
-    const char *name;
+    const char *name; /* of its method; NULL: none does */
     double ms;
 } Best;
 
@@ -106,54 +107,37 @@ typedef struct Best {
  * O(H^12) (Gragg 1965).  Lagrange: the polynomial in 1/n^2 through all results
  * has at 0 the sum over j of w_j times result j, with w_j = product over i of
  * n_j^2 / (n_j^2 - n_i^2). */
-static Status find_exact(Problem *problem)
+static Status find_exact(const Problem *problem)
 {
     enum { COLUMNS = 6 };
     const Motion *motion = problem->motion;
-    System *system = &problem->simulation.system;
+    TimeIntegrator run = problem->simulation.run[0]; /* the same arrays */
+    size_t both = 2 * run.size, bytes = both * sizeof *problem->exact;
     /* Eight springs at a node, each of 2k (3 |d|^2 / l2 - 1) at most: by
      * Gershgorin omega^2 is below twice their sum over m. */
     double along =
-        2 * system->k[0] * (3 * motion->stretch * motion->stretch - 1);
-    double omega = sqrt(2 * 8 * along / system->m[0]);
+        2 * run.system->k[0] * (3 * motion->stretch * motion->stretch - 1);
+    double omega = sqrt(2 * 8 * along / run.system->m[0]);
     long intervals = 1 + (long)(motion->time * omega);
     double H = motion->time / (double)intervals;
-    const TimeIntegrator *begin = &problem->simulation.run[0];
-    TimeIntegrator run;
-    Status status = time_integrator_create(
-        integrator_method("verlet"), system,
-        &(NewtonSettings){.h = H, .tolerance = 1}, begin->x, begin->v, &run);
-    size_t both = 2 * run.size; /* v is behind x */
-    double *start = problem->exact + both;
-    if (!status)
-        memcpy(problem->exact, run.x, both * sizeof *start);
+    Status status = STATUS_OK;
+    memcpy(problem->exact, problem->start, bytes);
     for (long k = 0; k < intervals && !status; k++) {
-        memcpy(start, problem->exact, both * sizeof *start);
+        memcpy(problem->room, problem->exact, bytes);
         for (int j = 1; j <= COLUMNS && !status; j++) {
             double weight = 1;
             for (int i = 1; i <= COLUMNS; i++)
                 weight *= i == j ? 1 : (double)(j * j) / (j * j - i * i);
-            memcpy(run.x, start, both * sizeof *start);
+            memcpy(run.x, problem->room, bytes); /* v is behind x */
             run.memory_h = 0;
             run.h = H / j;
             for (int step = 0; step < j && !status; step++)
                 status = time_integrator_step(&run);
             for (size_t i = 0; i < both; i++)
-                problem->exact[i] += weight * (run.x[i] - start[i]);
+                problem->exact[i] += weight * (run.x[i] - problem->room[i]);
         }
     }
-    time_integrator_free(&run);
     return status;
-}
-
-/* sqrt(sum m |x - exact|^2 / sum m), m; all masses are alike. */
-static double error_of(const Problem *problem, const TimeIntegrator *run)
-{
-    double sum = 0;
-    for (size_t i = 0; i < run->size; i++)
-        sum +=
-            (run->x[i] - problem->exact[i]) * (run->x[i] - problem->exact[i]);
-    return sqrt(2 * sum / (double)run->size);
 }
 
 static Status create_problem(const Motion *motion, int segments,
@@ -168,14 +152,20 @@ static Status create_problem(const Motion *motion, int segments,
     Status status = simulation_create(&options, NULL, NULL, simulation);
     if (status)
         return status;
+    size_t both = 2 * simulation->run[0].size;
+    problem->start = malloc(3 * both * sizeof *problem->start);
+    if (!problem->start)
+        return STATUS_OUT_OF_MEMORY;
+    problem->exact = problem->start + both;
+    problem->room = problem->exact + both;
     const double *x = simulation->run[0].x;
-    double *v = simulation->run[0].v;
-    for (int i = 0; i < simulation->system.nodes; i++) {
-        v[2 * i] = -motion->spin * x[2 * i + 1];
-        v[2 * i + 1] = motion->spin * x[2 * i];
+    for (size_t i = 0; i < both / 2; i += 2) {
+        double *start = problem->start + i, *v = start + both / 2;
+        memcpy(start, x + i, 2 * sizeof *x);
+        v[0] = -motion->spin * x[i + 1];
+        v[1] = motion->spin * x[i];
     }
-    problem->exact = malloc(8 * (size_t)simulation->system.nodes * sizeof *v);
-    return problem->exact ? find_exact(problem) : STATUS_OUT_OF_MEMORY;
+    return find_exact(problem);
 }
 
 /* From nothing to the end, once. */
@@ -187,41 +177,21 @@ static Status run_once(const Problem *problem, const IntegratorMethod *method,
                                .solver = SOLVER_MULTIGRID,
                                .max_iterations = MAX_UPDATES};
     System system = problem->simulation.system; /* the same arrays */
-    const TimeIntegrator *begin = &problem->simulation.run[0];
+    size_t size = problem->simulation.run[0].size;
     TimeIntegrator run;
-    double start = cpu_now();
-    Status status = time_integrator_create(method, &system, &settings, begin->x,
-                                           begin->v, &run);
+    double start = cpu_now(), sum = 0;
+    Status status =
+        time_integrator_create(method, &system, &settings, problem->start,
+                               problem->start + size, &run);
     while (!status && run.steps < rung->steps)
         status = time_integrator_step(&run);
     rung->seconds = cpu_now() - start;
-    if (status != STATUS_OUT_OF_MEMORY) {
-        rung->error = error_of(problem, &run);
-        rung->failed =
-            status || !(rung->error < problem->simulation.options.side);
-        status = STATUS_OK;
-    }
+    for (size_t i = 0; run.x && i < run.size; i++)
+        sum += pow(run.x[i] - problem->exact[i], 2);
     time_integrator_free(&run);
-    return status;
-}
-
-/* Where a method comes below an error between two rungs, `last` or none before
- * it, its time is interpolated. */
-static void find_best(const Rung *last, const Rung *now, const char *name,
-                      Best best[TARGETS])
-{
-    for (int t = 0; t < TARGETS; t++) {
-        double ms = 1e3 * now->seconds;
-        if (now->error > targets[t] || last->error <= targets[t])
-            continue;
-        if (isfinite(last->error))
-            ms = 1e3 * last->seconds *
-                 pow(now->seconds / last->seconds,
-                     log(last->error / targets[t]) /
-                         log(last->error / now->error));
-        if (ms < best[t].ms)
-            best[t] = (Best){name, ms};
-    }
+    rung->error = sqrt(2 * sum / (double)size);
+    rung->failed = status || !(rung->error < problem->simulation.options.side);
+    return status == STATUS_OUT_OF_MEMORY ? status : STATUS_OK;
 }
 
 /* What a minimisation leaves undone in a step is a change of velocity of at
@@ -235,7 +205,7 @@ static Status climb(bool quick, const Problem *problem,
     int segments = problem->simulation.options.segments;
     double longest = quick ? 0.01 : segments / 64.0 + 0.25;
     double enough = quick ? 1e-5 : 1e-8, expected = first_error;
-    Rung last = {.error = INFINITY}, now = {.failed = true};
+    Rung now = {.failed = true};
     for (long steps = FIRST_STEPS; now.failed || now.error >= enough;
          steps *= 2) {
         double fastest = INFINITY;
@@ -252,10 +222,9 @@ static Status climb(bool quick, const Problem *problem,
                method->name, method->implicit ? "multigrid" : "none",
                method->order, steps, now.tolerance, now.seconds,
                fmin(now.error, 1e300), now.failed);
-        if (!now.failed) {
-            find_best(&last, &now, method->name, best);
-            last = now;
-        }
+        for (int t = 0; t < TARGETS && !now.failed; t++)
+            if (now.error <= targets[t] && 1e3 * fastest < best[t].ms)
+                best[t] = (Best){method->name, 1e3 * fastest};
         if (2 * fastest > longest)
             break;
         expected = fmin(now.failed ? first_error : now.error, first_error) /
@@ -303,7 +272,7 @@ static Status measure_work(bool quick)
             if (!status)
                 status = climb_all(quick, &problem);
             simulation_free(&problem.simulation);
-            free(problem.exact);
+            free(problem.start);
         }
     return status;
 }
