@@ -99,217 +99,6 @@ static Vec2 *draw_points(int n, double size)
     return x;
 }
 
-/* A square with n_seg segments, or for 0 a single short spring, bent out of
- * shape; each node and each spring has numbers of its own. */
-static Solid draw_solid(int n_seg)
-{
-    Solid solid = square(1.2, n_seg ? n_seg : 1, 300, 2e3);
-    if (n_seg == 0) {
-        solid.nodes = 2;
-        solid.springs = 1;
-        solid.e[0] = (Spring){0, 1, 0.7, 1500};
-    }
-    for (int i = 0; i < solid.nodes; i++) {
-        solid.x[i] = add(solid.x[i], mul(0.2, draw_points(1, 1)[0]));
-        solid.v[i] = draw_points(1, 0.5)[0];
-        solid.m[i] *= 1.5 + 0.5 * draw_number();
-    }
-    for (int s = 0; s < solid.springs; s++) {
-        solid.e[s].k *= 1.5 + 0.5 * draw_number();
-        solid.e[s].l2 *= 1.2 + 0.2 * draw_number();
-    }
-    return solid;
-}
-
-/* A Hessian of n rows without entries. */
-static cholmod_triplet new_triplets(int n)
-{
-    int most = 40 * n;
-    return (cholmod_triplet){.nrow = (size_t)n,
-                             .ncol = (size_t)n,
-                             .nzmax = (size_t)most,
-                             .i = allocate(most, sizeof(int)),
-                             .j = allocate(most, sizeof(int)),
-                             .x = allocate(most, sizeof(double)),
-                             .stype = 1};
-}
-
-/* What a function has added to a Hessian, in rows of SIDE numbers. */
-static void put_matrix(const cholmod_triplet *H, double *result)
-{
-    int n = (int)H->nrow;
-    for (size_t t = 0; t < H->nnz; t++) {
-        int row = ((int *)H->i)[t], column = ((int *)H->j)[t];
-        double value = ((double *)H->x)[t];
-        if (row < 0 || row > column || column >= n) {
-            say("an entry stands in row %d, column %d of a matrix with %d "
-                "rows, upper triangle; add_entry looks at that",
-                row, column, n);
-            return;
-        }
-        result[row * SIDE + column] += value;
-        if (row != column)
-            result[column * SIDE + row] += value;
-    }
-}
-
-/* What was added to g, which held `before`. */
-static void put_sum(const Vec2 *g, const Vec2 *before, int nodes,
-                    double *result)
-{
-    for (int i = 0; i < 2 * nodes; i++)
-        result[i] = (&g->x)[i] - (&before->x)[i];
-}
-
-static void put_state(const Solid *solid, double *result)
-{
-    memcpy(result, solid->x, (size_t)solid->nodes * sizeof(Vec2));
-    memcpy(result + SIDE, solid->v, (size_t)solid->nodes * sizeof(Vec2));
-}
-
-/* ---- the eleven functions ----------------------------------------- */
-/* Each is called on small case number `trial`, and its numbers are put into
- * result, which holds zeros. */
-#define AS(name) ((__typeof__(&name))function)
-
-static void play_inertia_val(Function *function, int trial, double *result)
-{
-    Solid solid = draw_solid(2);
-    Vec2 *x_tilde = draw_points(solid.nodes, 0.7);
-    *result = AS(inertia_val)(&solid, solid.x, x_tilde);
-}
-
-static void play_inertia_grad(Function *function, int trial, double *result)
-{
-    Solid solid = draw_solid(2);
-    Vec2 *x_tilde = draw_points(NODES, 0.7), *before = draw_points(NODES, 900);
-    Vec2 g[NODES];
-    memcpy(g, before, sizeof g);
-    AS(inertia_grad)(&solid, solid.x, x_tilde, g);
-    put_sum(g, before, solid.nodes, result);
-}
-
-static void play_inertia_hess(Function *function, int trial, double *result)
-{
-    Solid solid = draw_solid(2);
-    cholmod_triplet H = new_triplets(2 * solid.nodes);
-    AS(inertia_hess)(&solid, &H);
-    put_matrix(&H, result);
-}
-
-static void play_make_psd(Function *function, int trial, double *result)
-{
-    static const double shift[] = {0, -300, 1000, 0}, scale[] = {1, 1e-3, 1, 0};
-    double a[4][4];
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c <= r; c++)
-            a[r][c] = a[c][r] =
-                scale[trial] * (300 * draw_number() + (r == c) * shift[trial]);
-    AS(make_psd)(a);
-    for (int r = 0; r < 4; r++)
-        memcpy(result + r * SIDE, a[r], sizeof a[r]);
-}
-
-static void play_spring_val(Function *function, int trial, double *result)
-{
-    Solid solid = draw_solid(trial);
-    *result = AS(spring_val)(&solid, solid.x);
-}
-
-static void play_spring_grad(Function *function, int trial, double *result)
-{
-    Solid solid = draw_solid(trial);
-    Vec2 *before = draw_points(NODES, 900), g[NODES];
-    memcpy(g, before, sizeof g);
-    AS(spring_grad)(&solid, solid.x, 0.3, g);
-    put_sum(g, before, solid.nodes, result);
-}
-
-static void play_spring_hess(Function *function, int trial, double *result)
-{
-    Solid solid = draw_solid(trial);
-    cholmod_triplet H = new_triplets(2 * solid.nodes);
-    AS(spring_hess)(&solid, solid.x, 0.3, &H);
-    put_matrix(&H, result);
-}
-
-/* Along Newton's direction, along one far too long, along none; and where E is
- * 0, and every step raises it. */
-static void play_line_search(Function *function, int trial, double *result)
-{
-    static const double length[] = {1, 50, 0};
-    Solid solid = draw_solid(trial < 3 ? 2 : 0);
-    Vec2 *x_tilde = draw_points(NODES, 0.7), *p = draw_points(NODES, 1);
-    Vec2 *x_new = draw_points(NODES, 1), x[NODES] = {{0, 0}, {1, 0}};
-    if (trial < 3) {
-        search_dir(&solid, solid.x, x_tilde, 0.02, p);
-        for (int i = 0; i < NODES; i++)
-            p[i] = mul(length[trial], p[i]);
-        memcpy(x, solid.x, sizeof x);
-    } else {
-        solid.e[0].l2 = 1;
-        memcpy(x_tilde, x, sizeof x);
-        p[0] = (Vec2){0, 1};
-        p[1] = (Vec2){0, 0};
-    }
-    memcpy(solid.x, x, (size_t)solid.nodes * sizeof *x);
-    result[0] = AS(line_search)(&solid, solid.x, p, x_tilde, 0.02, x_new);
-    memcpy(result + 1, x_new, NODES * sizeof *x_new);
-    if (memcmp(x, solid.x, (size_t)solid.nodes * sizeof *x) != 0)
-        say("it changes x: only x_new is to be written");
-}
-
-static void play_residual(Function *function, int trial, double *result)
-{
-    Solid solid = draw_solid(2);
-    Vec2 *p = draw_points(NODES, 1);
-    p[solid.nodes / 2] = (Vec2){-1.5, -1.2}; /* the largest sum: both below 0 */
-    *result = AS(residual)(&solid, p, 0.03);
-}
-
-/* One of the lecture's first steps, and one that needs alpha < 1. */
-static void play_step_forward(Function *function, int trial, double *result)
-{
-    Solid solid = square(1, 2, 1000, 1e5);
-    FILE *table = tmpfile();
-    double h = trial ? 0.05 : 0.004, tol = trial ? 1e-4 : 1e-2;
-    for (int i = 0; i < solid.nodes; i++) {
-        solid.x[i].x *= trial ? 0.4 : 1.4;
-        solid.x[i].y += trial ? 0.05 * draw_number() : 0;
-        solid.v[i] = draw_points(1, 1)[0];
-    }
-    AS(step_forward)(&solid, h, tol, 1, table);
-    put_state(&solid, result);
-    rewind(table);
-    for (double *to = result + 2 * SIDE; to + 4 <= result + MOST; to += 4)
-        if (fscanf(table, "%lf,%lf,%lf,%lf", to, to + 1, to + 2, to + 3) != 4)
-            break;
-    fclose(table);
-    strcpy(shared->doing, "with table = NULL: ");
-    AS(step_forward)(&solid, h, tol, 2, NULL);
-    shared->doing[0] = '\0';
-}
-
-static void play_explicit_euler(Function *function, int trial, double *result)
-{
-    Solid solid = draw_solid(2);
-    AS(explicit_euler)(&solid, 0.01, trial == 1);
-    put_state(&solid, result);
-}
-
-/* Twenty steps of the stretched square with all of the student's functions. */
-static void play_steps(Function *function, int trial, double *result)
-{
-    Solid solid = square(1, 2, 1000, 1e5);
-    for (int i = 0; i < solid.nodes; i++)
-        solid.x[i].x *= 1.4;
-    for (int step = 1; step <= 20; step++)
-        AS(step_forward)(&solid, 0.004, 1e-6, step, NULL);
-    put_state(&solid, result);
-}
-
-/* ---- the tasks ---------------------------------------------------- */
-
 /* What the numbers of a result are. */
 typedef enum Kind { NUMBER, POINTS, MATRIX, SEARCH, STATE } Kind;
 
@@ -317,45 +106,224 @@ typedef struct Task {
     int number; /* of the student's function */
     const char *name;
     Function *truth;
-    void (*play)(Function *function, int trial, double *result);
     Kind kind;
     const char *trials[5]; /* what is said of each case, then NULL */
+    int steps;             /* of step_forward; the first writes a table */
     unsigned needs;        /* the tasks whose functions it calls */
 } Task;
 
+/* A small case: what the functions read and write. */
+typedef struct Case {
+    Solid solid;
+    Vec2 *x_tilde, *p;
+    Vec2 x[NODES], x_new[NODES]; /* x: solid.x as it was */
+    Vec2 *g, g_before[NODES];    /* it adds to what g holds */
+    double block[4][4];          /* of make_psd */
+    int row[40 * SIDE], column[40 * SIDE];
+    double value[40 * SIDE];
+    cholmod_triplet H; /* of these */
+    double h, tol;
+} Case;
+
+/* A square, or a single short spring, bent out of shape; each node and each
+ * spring has numbers of its own. */
+static void draw_solid(int trial, Solid *solid)
+{
+    *solid = square(1.2, trial == 2 ? 1 : 2, 300, 2e3);
+    if (trial == 1) {
+        solid->nodes = 2;
+        solid->springs = 1;
+        solid->e[0] = (Spring){0, 1, 0.7, 1500};
+    }
+    for (int i = 0; i < solid->nodes; i++) {
+        solid->x[i] = add(solid->x[i], mul(0.2, draw_points(1, 1)[0]));
+        solid->v[i] = draw_points(1, 0.5)[0];
+        solid->m[i] *= 1.5 + 0.5 * draw_number();
+    }
+    for (int s = 0; s < solid->springs; s++) {
+        solid->e[s].k *= 1.5 + 0.5 * draw_number();
+        solid->e[s].l2 *= 1.2 + 0.2 * draw_number();
+    }
+}
+
+/* One of the lecture's first steps, and one that needs alpha < 1. */
+static void draw_start(int trial, Case *c)
+{
+    c->solid = square(1, 2, 1000, 1e5);
+    c->h = trial ? 0.05 : 0.004;
+    c->tol = trial ? 1e-4 : 1e-2;
+    for (int i = 0; i < c->solid.nodes; i++) {
+        c->solid.x[i].x *= trial ? 0.4 : 1.4;
+        c->solid.x[i].y += trial ? 0.05 * draw_number() : 0;
+        c->solid.v[i] = draw_points(1, 1)[0];
+    }
+}
+
+/* Along Newton's direction, along one far too long, along none; and where E is
+ * 0, and every step raises it. */
+static void draw_search(int trial, Case *c)
+{
+    static const double length[] = {1, 50, 0, 0};
+    search_dir(&c->solid, c->solid.x, c->x_tilde, c->h, c->p);
+    for (int i = 0; i < c->solid.nodes; i++)
+        c->p[i] = mul(length[trial], c->p[i]);
+    if (trial == 3) { /* node 4 is in the middle, at 0 */
+        c->solid = square(1.2, 2, 300, 2e3);
+        memcpy(c->x_tilde, c->solid.x, NODES * sizeof(Vec2));
+        c->p[4] = (Vec2){0, 1};
+    }
+}
+
+static void draw_case(const Task *task, int trial, Case *c)
+{
+    static const double shift[] = {0, -300, 1000, 0}, scale[] = {1, 1e-3, 1, 0};
+    bool searches = task->number == TASK_line_search;
+    for (int r = 0; r < 4 && task->number == TASK_make_psd; r++)
+        for (int k = 0; k <= r; k++)
+            c->block[r][k] = c->block[k][r] =
+                scale[trial] * (300 * draw_number() + (r == k) * shift[trial]);
+    c->h = 0.02;
+    if (task->number == TASK_step_forward)
+        draw_start(trial, c);
+    else
+        draw_solid(searches ? 0 : trial, &c->solid);
+    c->x_tilde = draw_points(NODES, 0.7);
+    c->p = draw_points(NODES, 1);
+    c->p[1] = (Vec2){-1.5, -1.2}; /* the largest sum: both below 0 */
+    c->g = draw_points(NODES, 900);
+    memcpy(c->g_before, c->g, sizeof c->g_before);
+    if (searches)
+        draw_search(trial, c);
+    memcpy(c->x, c->solid.x, (size_t)c->solid.nodes * sizeof *c->x);
+    c->H = (cholmod_triplet){.nrow = 2 * (size_t)c->solid.nodes,
+                             .ncol = 2 * (size_t)c->solid.nodes,
+                             .nzmax = 40 * SIDE,
+                             .i = c->row,
+                             .j = c->column,
+                             .x = c->value,
+                             .stype = 1};
+}
+
+/* What was added to a Hessian, in rows of SIDE numbers. */
+static void put_matrix(const Case *c, double *result)
+{
+    int n = (int)c->H.nrow;
+    for (size_t t = 0; t < c->H.nnz; t++) {
+        int row = c->row[t], column = c->column[t];
+        if (row < 0 || row > column || column >= n) {
+            say("an entry stands in row %d, column %d of a matrix with %d "
+                "rows, upper triangle; add_entry looks at that",
+                row, column, n);
+            return;
+        }
+        result[row * SIDE + column] += c->value[t];
+        if (row != column)
+            result[column * SIDE + row] += c->value[t];
+    }
+}
+
+/* What a function has left in its case; its result has the rest already. */
+static void put_result(const Task *task, const Case *c, FILE *table,
+                       double *result)
+{
+    size_t bytes = (size_t)c->solid.nodes * sizeof(Vec2);
+    for (int r = 0; r < 4 && task->number == TASK_make_psd; r++)
+        memcpy(result + r * SIDE, c->block[r], sizeof c->block[r]);
+    if (task->number != TASK_make_psd && task->kind == MATRIX)
+        put_matrix(c, result);
+    for (int i = 0; i < 2 * c->solid.nodes && task->kind == POINTS; i++)
+        result[i] = (&c->g->x)[i] - (&c->g_before->x)[i];
+    if (task->kind == SEARCH)
+        memcpy(result + 1, c->x_new, bytes);
+    if (task->kind == SEARCH && memcmp(c->x, c->solid.x, bytes) != 0)
+        say("it changes x: only x_new is to be written");
+    if (task->kind != STATE)
+        return;
+    memcpy(result, c->solid.x, bytes);
+    memcpy(result + SIDE, c->solid.v, bytes);
+    rewind(table);
+    for (double *to = result + 2 * SIDE; to + 4 <= result + MOST; to += 4)
+        if (fscanf(table, "%lf,%lf,%lf,%lf", to, to + 1, to + 2, to + 3) != 4)
+            break;
+}
+
+/* Calls a function on a small case; its numbers come into result, which holds
+ * zeros. */
+static void play(const Task *task, int trial, Function *function,
+                 double *result)
+{
+#define AS(name) ((__typeof__(&name))function)
+    static Case c;
+    FILE *table = tmpfile();
+    c = (Case){.h = 0};
+    draw_case(task, trial, &c);
+    strcpy(shared->doing, task->trials[trial]);
+    Solid *solid = &c.solid;
+    if (task->number == TASK_inertia_val)
+        *result = AS(inertia_val)(solid, solid->x, c.x_tilde);
+    else if (task->number == TASK_inertia_grad)
+        AS(inertia_grad)(solid, solid->x, c.x_tilde, c.g);
+    else if (task->number == TASK_inertia_hess)
+        AS(inertia_hess)(solid, &c.H);
+    else if (task->number == TASK_make_psd)
+        AS(make_psd)(c.block);
+    else if (task->number == TASK_spring_val)
+        *result = AS(spring_val)(solid, solid->x);
+    else if (task->number == TASK_spring_grad)
+        AS(spring_grad)(solid, solid->x, 0.3, c.g);
+    else if (task->number == TASK_spring_hess)
+        AS(spring_hess)(solid, solid->x, 0.3, &c.H);
+    else if (task->number == TASK_line_search)
+        *result =
+            AS(line_search)(solid, solid->x, c.p, c.x_tilde, c.h, c.x_new);
+    else if (task->number == TASK_residual)
+        *result = AS(residual)(solid, c.p, 0.03);
+    else if (task->number == TASK_explicit_euler)
+        AS(explicit_euler)(solid, 0.01, trial == 1);
+    for (int step = 1; step <= task->steps; step++) {
+        if (step > 1)
+            strcpy(shared->doing, "with table = NULL: ");
+        AS(step_forward)(solid, c.h, c.tol, step, step > 1 ? NULL : table);
+    }
+    strcpy(shared->doing, task->trials[trial]);
+    put_result(task, &c, table, result);
+    fclose(table);
+}
+
+/* ---- the tasks ---------------------------------------------------- */
+
 #define BIT(name)  (1u << TASK_##name)
-#define TASK(name) TASK_##name, #name, (Function *)name, play_##name
+#define TASK(name) TASK_##name, #name, (Function *)name
 
 static const Task tasks[] = {
-    {TASK(inertia_val), NUMBER, {""}, 0},
-    {TASK(inertia_grad), POINTS, {""}, 0},
-    {TASK(inertia_hess), MATRIX, {""}, 0},
+    {TASK(inertia_val), NUMBER, {""}},
+    {TASK(inertia_grad), POINTS, {""}},
+    {TASK(inertia_hess), MATRIX, {""}},
     {TASK(make_psd),
      MATRIX,
      {"", "with three small negative eigenvalues: ",
       "a matrix without negative eigenvalues has to stay as it is: ",
-      "of zeros: "},
-     0},
-    {TASK(spring_val), NUMBER, {"", "", ""}, 0},
-    {TASK(spring_grad), POINTS, {"", "", ""}, 0},
-    {TASK(spring_hess), MATRIX, {"", "", ""}, BIT(make_psd)},
+      "of zeros: "}},
+    {TASK(spring_val), NUMBER, {"", "", ""}},
+    {TASK(spring_grad), POINTS, {"", "", ""}},
+    {TASK(spring_hess), MATRIX, {"", "", ""}, .needs = BIT(make_psd)},
     {TASK(line_search),
      SEARCH,
      {"along Newton's direction: ", "along a direction that is too long: ",
       "along p = 0, where E stays the same: ", "where no step lowers E: "},
-     BIT(inertia_val) | BIT(spring_val)},
-    {TASK(residual), NUMBER, {""}, 0},
-    {TASK(step_forward), STATE, {"", ""}, BIT(step_forward) - 1},
+     .needs = BIT(inertia_val) | BIT(spring_val)},
+    {TASK(residual), NUMBER, {""}},
+    {TASK(step_forward), STATE, {"", ""}, 2, BIT(step_forward) - 1},
     {TASK(explicit_euler),
      STATE,
      {"forward Euler: ", "symplectic Euler: "},
-     BIT(spring_grad)},
+     .needs = BIT(spring_grad)},
     {TASK_step_forward,
      "twenty steps",
      (Function *)step_forward,
-     play_steps,
      STATE,
      {""},
+     20,
      2 * BIT(step_forward) - 1}};
 enum { CHECKS = sizeof tasks / sizeof *tasks };
 
@@ -401,7 +369,7 @@ static bool take(const Task *task, int trial, Function *function,
     memset(result, 0, MOST * sizeof *result);
     if (setjmp(gave_up))
         return false;
-    task->play(function, trial, result);
+    play(task, trial, function, result);
     return true;
 }
 
@@ -459,7 +427,6 @@ static void check(const Task *task, int errors)
         dup2(nowhere, STDERR_FILENO);
         shared->must_end = !take(task, t, task->truth, truth);
         dup2(errors, STDERR_FILENO);
-        strcpy(shared->doing, task->trials[t]);
         take(task, t, student[task->number], yours);
         if (shared->must_end)
             say("it goes on: after 64 halvings FAIL(1, ...)");
