@@ -173,8 +173,8 @@ $(B)/listing_text.c: $(LISTED) $(PAGES) $(CARDS) src/scenes/text.awk \
 	  sed 's/[\\"]/\\&/g; s/.*/"&",/' $$file; echo '};'; done; \
 	  echo 'const Listing listings[] = {'; n=0; \
 	  for file in $(LISTED); do n=$$((n + 1)); echo "$(LISTED_ROW)"; done; \
-	  echo '{NULL, 0, NULL}};'; $(READ) -f src/scenes/pages.awk $(PAGES) && \
-	  $(READ) -f src/picture/cards.awk $(CARDS); \
+	  echo '{NULL, 0, NULL}};'; $(READ) -f src/scenes/pages.awk $(PAGES); \
+	  pages=$$?; $(READ) -f src/picture/cards.awk $(CARDS) && [ $$pages = 0 ]; \
 	  } >$@.new && mv $@.new $@
 
 $(B)/listing_text.o: $(B)/listing_text.c $(B)/flags

@@ -84,8 +84,7 @@ BEGIN {
 { begin_word(kind, "no row has begun") }
 
 END {
-    if (failed)
-        exit 1
     end_row()
     print lists "const Picture pictures[PICTURE_COUNT] = {\n" rows "};"
+    exit failed
 }

@@ -70,8 +70,7 @@ BEGIN {
 { begin_word(page, "no page has begun") }
 
 END {
-    if (!failed)
-        end_page()
-    if (!failed)
-        print "{.name = NULL}};"
+    end_page()
+    print "{.name = NULL}};"
+    exit failed
 }

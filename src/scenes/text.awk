@@ -1,11 +1,11 @@
 # text.awk - what pages.awk and cards.awk, which stand behind it, read alike: words
 # at the beginning of a line, with the lines that go on with them.
 
+# What is wrong is said, all of it; the last END then ends with 1.
 function fail(line, why)
 {
     print FILENAME ":" line ": " why > "/dev/stderr"
     failed = 1
-    exit 1
 }
 
 function quoted(text)
