@@ -292,7 +292,8 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
                                  at[i][1]};
         char words[40] = "";
         for (int k = i; k < runs; k++)
-            if (!(with >> k & 1) && fabs(at[i][0] - at[k][0]) < 0.5 * across) {
+            if (!(with >> k & 1) && !isnan(now[k].x) &&
+                fabs(at[i][0] - at[k][0]) < 0.5 * across) {
                 with |= 1 << k;
                 snprintf(words + strlen(words), sizeof words - strlen(words),
                          "%s%s", words[0] ? ", " : "", names[k]);

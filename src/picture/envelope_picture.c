@@ -111,9 +111,11 @@ void envelope_facts(const Simulation *simulation, Facts *facts)
     facts->colour[1] = envelope_shade(3);
     facts->colour[2] = COLOUR_UNDONE;
     facts->colour[3] = COLOUR_REFUSED;
-    fact(facts, "known", known);
+    bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
+    fact_when(facts, all ? "all runs" : "some runs", true);
+    fact(facts, "known", known > 1 ? known : NAN);
     fact(facts, "converged", converged);
-    fact(facts, "undone", undone);
+    fact(facts, "undone", known > 1 ? undone : NAN);
     fact(facts, "h", h);
     fact(facts, "k", envelope_stiffness(map->row));
     fact(facts, "passing", h * simulation->options.tolerance);

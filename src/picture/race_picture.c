@@ -80,8 +80,9 @@ void race_facts(const Simulation *simulation, Facts *facts)
         {"explicit", "explicit ms", "explicit h"},
         {"implicit", "implicit ms", "implicit h"},
         {"hollow", "hollow ms", "hollow h"}};
+    const Race *race = &simulation->exhibit.race;
+    bool all = race->count == RACE_METHODS * RACE_STEP_SIZES;
     for (int i = 0; i < 3; i++) {
-        const Race *race = &simulation->exhibit.race;
         const RacePoint *best = NULL, *at = race->point;
         for (; at < race->point + race->count; at++)
             if (at->method->implicit == (i == 1) && at->stable == (i < 2) &&
@@ -90,9 +91,13 @@ void race_facts(const Simulation *simulation, Facts *facts)
         fact_words(facts, names[i][0], best ? best->method->label : NULL);
         fact(facts, names[i][1], best ? 1e3 * best->seconds : NAN);
         fact(facts, names[i][2], best ? 1e3 * best->h : NAN);
-        fact_when(facts, i ? "" : "no explicit",
-                  !best && race->count == RACE_METHODS * RACE_STEP_SIZES);
+        fact_when(facts, i ? "" : "no explicit", !best && all);
     }
+    bool failed = false;
+    for (int i = 0; i < race->count; i++)
+        failed = failed || isnan(race->point[i].error);
+    fact_when(facts, "failed run", failed);
+    fact_when(facts, all ? "all runs" : "some runs", !simulation->status);
     fact_when(facts, simulation->exhibit.parts ? "over h" : "", true);
     fact(facts, "methods", RACE_METHODS);
     fact_when(facts, "failed", simulation->status);
@@ -135,7 +140,7 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
         point = half;
     }
     if (shown->implicit)
-        snprintf(cell[7], CELL, "any h");
+        snprintf(cell[7], CELL, "(any h)");
     else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
         snprintf(cell[7], CELL, "none");
     put_cell(cell[7], CELL, "",

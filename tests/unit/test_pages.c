@@ -911,11 +911,11 @@ static void check_ledger(const Simulation *simulation, double start)
 
 TEST(claim_contact)
 {
-    says("contact", "1000 3 125 5.75 0 300 5 5.75");
+    says("contact", "1000 3.2 125 5.75 0 300 5 5.75");
     double nearest = 1, first = 1;
     Simulation *simulation = open_page("contact", "");
     CHECK_NEAR(total_mass(&simulation->system), 1000, 1e-9);
-    CHECK_NEAR(math_hypot(0.9, 3.1), 3, 0.5);
+    CHECK_NEAR(math_hypot(0.9, 3.1), 3.2, 0.05);
     for (int step = 0; step < 300; step++) {
         make_steps(simulation, 1);
         const double *x = simulation->run[0].x;
@@ -979,7 +979,7 @@ static double slide(const char *more, double way[4])
 TEST(claim_friction)
 {
     says("friction",
-         "20 0.5 0.9 1.1 20 20 0.364 1.1 20 1 1.1 0.91 0.41 3 7 2 0.41 6 0.4 "
+         "20 20 0.364 20 1.1 20 1 1.1 0.91 0.41 3 7 2 0.41 6 0.4 "
          "0.32 50");
     CHECK_NEAR(tan(acos(-1) / 9), 0.364, 5e-4);
     double way[4];
@@ -995,7 +995,7 @@ TEST(claim_friction)
 
 TEST(claim_inelastic)
 {
-    says("inelastic", "0.04 0.1 4 1.5 60 1 8000 60 0.98 300 0.05");
+    says("inelastic", "4 1.5 60 1 8000 60 0.98 300 0.05");
     double nearest = 1, most = 0;
     Simulation *simulation = open_page("inelastic", "");
     double start = simulation_energies(simulation, 0).total;
@@ -1028,7 +1028,6 @@ TEST(claim_inelastic)
     const Plasticity *plasticity =
         system_data(&simulation->system, &plastic_energy);
     assert_non_null(plasticity);
-    CHECK(plasticity->yield == 0.04 && plasticity->hardening == 0.1);
     for (int s = 0; s < simulation->system.springs; s++)
         most = fmax(most, fabs(plasticity->ep[s]));
     CHECK(most > 0.05);
@@ -1090,8 +1089,7 @@ TEST(claim_bodies)
 
 TEST(claim_rub)
 {
-    says("rub", "20 1 0.2 2 0.6 100 1 0.6");
-    CHECK(open_page("rub", "")->options.barrier[0] == 0.02);
+    says("rub", "1 0.2 2 0.6 100 1 0.6");
     for (int i = 0; i < 2; i++) {
         double x[2], rigid = 1 / (2 * (i ? 0.6 : 0.2) * 9.81);
         middle_of(bodies_after("rub", i ? "--friction 0.6" : "", 100), 1, x);
@@ -1102,7 +1100,7 @@ TEST(claim_rub)
 TEST(claim_gap)
 {
     says("gap",
-         "0.5 0.3 20 000 0.1 462 20 36 259 978 200 000 36 462 20 259 978 100 "
+         "0.5 0.3 462 20 36 259 978 200 000 36 462 20 259 978 100 "
          "200000");
     for (int i = 0; i < 2; i++) {
         double x[2];
@@ -1133,7 +1131,7 @@ TEST(claim_gap)
 
 TEST(claim_fracture)
 {
-    says("fracture", "1 24 20 45 45 100 100");
+    says("fracture", "1 20 45 45 100 100");
     Simulation *simulation = open_page("fracture", "");
     CHECK(simulation->options.segments == 24);
     double start = simulation_energies(simulation, 0).total;
