@@ -26,8 +26,9 @@ typedef struct Box {
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);
 
-/* Takes a strip off the upper or the lower edge of `rest`. */
-Box box_cut_off(Box *rest, bool below, int height);
+/* Takes a strip of so many pixels off one edge of `rest`. */
+typedef enum Edge { EDGE_TOP, EDGE_BOTTOM, EDGE_LEFT, EDGE_RIGHT } Edge;
+Box box_cut_off(Box *rest, Edge edge, int pixels);
 
 /* What two boxes share, the first of them at corners >= 0. */
 Box box_shared(Box a, Box b);

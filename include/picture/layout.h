@@ -11,7 +11,7 @@
  *     +----------------------------------+-------------------+
  *     | row of settings                                      |
  *     | time line                                            |
- *     | last line: chips, or a message                       |
+ *     | last line: chips                                     |
  *     +------------------------------------------------------+
  *
  * Small windows fold: first the column goes, then the settings, then the last

@@ -224,7 +224,7 @@ typedef struct Show {
     /* The last line. */
     int chips;
     Chip chip[LAYOUT_CHIPS];
-    char message[SHOW_TEXT]; /* in the place of the chips; "": none */
+    char message[SHOW_TEXT]; /* in the place of the sentence; "": none */
     bool warning;            /* the message is one */
 
     /* The column.  Bit c of a set is the picture's card c. */

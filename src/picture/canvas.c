@@ -109,12 +109,16 @@ Box box_inset(Box box, int margin)
                  height > 0 ? height : 0};
 }
 
-Box box_cut_off(Box *rest, bool below, int height)
+Box box_cut_off(Box *rest, Edge edge, int pixels)
 {
-    Box strip = {rest->x, rest->y, rest->width, height};
-    rest->height -= height;
-    rest->y += below ? 0 : height;
-    strip.y += below ? rest->height : 0;
+    Box strip = *rest;
+    bool across = edge == EDGE_LEFT || edge == EDGE_RIGHT;
+    *(across ? &strip.width : &strip.height) = pixels;
+    *(across ? &rest->width : &rest->height) -= pixels;
+    strip.x += edge == EDGE_RIGHT ? rest->width : 0;
+    strip.y += edge == EDGE_BOTTOM ? rest->height : 0;
+    rest->x += edge == EDGE_LEFT ? pixels : 0;
+    rest->y += edge == EDGE_TOP ? pixels : 0;
     return strip;
 }
 

@@ -183,7 +183,7 @@ void energies_draw(const Plot *card)
                  curve[c].name ? curve[c].name : "", number_of(value).text);
         used = words_flow(card, at, size, 1.05 * size, &line);
     }
-    box_cut_off(&rest.box, false, used);
+    box_cut_off(&rest.box, EDGE_TOP, used);
     Axis energy = energies_axis(show, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);

@@ -103,7 +103,7 @@ void line_draw(const Plot *card)
     int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
     TextLine line = text_of(&pane->facts, text_trials);
     int air = paper_pixels(paper, 0.4); /* of what is raised */
-    Box words = box_cut_off(&rest.box, false, high);
+    Box words = box_cut_off(&rest.box, EDGE_TOP, high);
     words.y -= air;
     words.height += air;
     Box before = canvas_clip(&paper->canvas, words);

@@ -105,7 +105,7 @@ void prints_draw(const Plot *card)
     bool star = inside.height > 14 * paper->em;
     double size = inside.width > STAR_WIDE * paper->em ? 1.5 : 0.95;
     if (star && trace) {
-        inside = box_cut_off(&below.box, false, inside.height / 2);
+        inside = box_cut_off(&below.box, EDGE_TOP, inside.height / 2);
         residual_draw(&below);
     }
     int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;

@@ -108,7 +108,7 @@ void spy_draw(const Plot *card)
         draw_matrix(card, (Box){x, inside.y + line, side, side}, !k, springs);
     }
     Plot rest = *card; /* what the newest spring adds */
-    box_cut_off(&rest.box, false, 2 * line + side);
+    box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
     if (rest.box.height > 7 * paper->em)
         text_in_card(&rest, &show_pane(card->show)->facts, text_newest);
 }

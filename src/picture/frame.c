@@ -25,34 +25,19 @@ static void draw_ground(Paper *paper, Box zone, bool rule_below)
     canvas_fill(&paper->canvas, rule, COLOUR_RULE);
 }
 
-/* Without so many pixels on its left. */
-static Box cut_left(Box box, double pixels)
-{
-    box.x += (int)pixels;
-    box.width -= (int)pixels;
-    return box;
-}
-
-/* Whether the strip has two lines: then it tells the message, and the last line
- * keeps its chips. */
-static bool strip_tells(const Layout *layout)
-{
-    return layout->strip.height > 2.6 * layout->em;
-}
-
 /* Topic, then message or sentence, from the left; method and state from the
- * right. */
-static void draw_strip(Paper *paper, const Layout *layout, const Show *show)
+ * right.  In a strip of one line a message has the topic's place, too. */
+static void draw_strip(Paper *paper, Box room, const Show *show)
 {
     double em = paper->em;
-    Box room = cut_left(layout->strip, 0.9 * em);
-    bool message = show->message[0] && strip_tells(layout);
+    bool low = room.height <= 2.6 * em, message = show->message[0];
     const char *said = message ? show->message : show->sentence;
     Colour colour = !message        ? COLOUR_TEXT
                     : show->warning ? COLOUR_WARNING
                                     : COLOUR_VALUE;
     char words[2 * SHOW_TEXT];
-    draw_ground(paper, layout->strip, true);
+    draw_ground(paper, room, true);
+    box_cut_off(&room, EDGE_LEFT, (int)(0.9 * em));
     room.width -= (int)(0.9 * em);
     snprintf(words, sizeof words, "%s%s%s", show->method,
              show->method[0] && show->state[0] ? " \u00b7 " : "", show->state);
@@ -61,12 +46,12 @@ static void draw_strip(Paper *paper, const Layout *layout, const Show *show)
     room.width -= paper_fit(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
                             ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
-    room =
-        cut_left(room, paper_fit(paper, FACE_BOLD, TOPIC, COLOUR_TEXT, room,
-                                 ALIGN_LEFT, show->topic ? show->topic : ""));
-    room = cut_left(room, 1.1 * em);
-    bool two = strip_tells(layout) &&
-               paper_width(paper, FACE_REGULAR, 1, said) > room.width;
+    if (show->topic && !(low && message))
+        box_cut_off(&room, EDGE_LEFT,
+                    (int)(1.1 * em) + paper_fit(paper, FACE_BOLD, TOPIC,
+                                                COLOUR_TEXT, room, ALIGN_LEFT,
+                                                show->topic));
+    bool two = !low && paper_width(paper, FACE_REGULAR, 1, said) > room.width;
     room.y += (int)(0.5 * room.height - (two ? 1.27 : 0.65) * em);
     if (room.width > 6 * em)
         paper_paragraph(paper, FACE_REGULAR, two ? 0.9 : 1, colour, room,
@@ -92,13 +77,13 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     if (power && power < rest && *rest != '_') /* 1e-06, as people write it */
         snprintf(value, sizeof value, "%s%s", number_with(number, 6).text,
                  rest);
-    box = cut_left(box, 0.4 * em);
-    box = cut_left(box, 0.5 * em + paper_fit(paper, FACE_REGULAR, VALUE,
-                                             COLOUR_FAINT, box, ALIGN_LEFT,
-                                             setting->name));
+    box_cut_off(&box, EDGE_LEFT, (int)(0.4 * em));
+    int width = paper_fit(paper, FACE_REGULAR, VALUE, COLOUR_FAINT, box,
+                          ALIGN_LEFT, setting->name);
+    box_cut_off(&box, EDGE_LEFT, (int)(0.5 * em + width));
     box.width += (int)(0.8 * em); /* of the gap */
-    int width = paper_fit(paper, setting->changed ? FACE_BOLD : FACE_REGULAR,
-                          VALUE, colour, box, ALIGN_LEFT, value);
+    width = paper_fit(paper, setting->changed ? FACE_BOLD : FACE_REGULAR, VALUE,
+                      colour, box, ALIGN_LEFT, value);
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
                   (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
                   paper->unit, NULL, colour);
@@ -162,14 +147,7 @@ static void draw_time(Paper *paper, const Layout *layout, const Show *show)
 static void draw_last(Paper *paper, const Layout *layout, const Show *show)
 {
     const double gap = 0.5 * paper->em, size = 0.92;
-    Box last = layout->last;
-    draw_ground(paper, last, false);
-    if (show->message[0] && !strip_tells(layout)) {
-        paper_fit(paper, FACE_REGULAR, 1,
-                  show->warning ? COLOUR_WARNING : COLOUR_TEXT,
-                  cut_left(last, paper->em), ALIGN_LEFT, show->message);
-        return;
-    }
+    draw_ground(paper, layout->last, false);
     for (int i = 0; i < layout->chips; i++) {
         const Chip *chip = &show->chip[i];
         Box box = layout->chip[i];
@@ -183,17 +161,19 @@ static void draw_last(Paper *paper, const Layout *layout, const Show *show)
                     : over    ? COLOUR_WHITE
                               : COLOUR_CHIP,
                     over ? COLOUR_GREY : COLOUR_BORDER);
-        box = cut_left(box, fmax(0, 0.5 * (box.width - gap - width)));
+        box_cut_off(&box, EDGE_LEFT,
+                    (int)fmax(0, 0.5 * (box.width - gap - width)));
         paper_fit(paper, FACE_BOLD, size, COLOUR_TEXT, box, ALIGN_LEFT,
                   chip->key);
-        paper_fit(paper, FACE_REGULAR, size, COLOUR_TEXT,
-                  cut_left(box, key + gap), ALIGN_LEFT, label);
+        box_cut_off(&box, EDGE_LEFT, (int)(key + gap));
+        paper_fit(paper, FACE_REGULAR, size, COLOUR_TEXT, box, ALIGN_LEFT,
+                  label);
     }
 }
 
 void frame_draw(Paper *paper, const Layout *layout, const Show *show)
 {
-    draw_strip(paper, layout, show);
+    draw_strip(paper, layout->strip, show);
     draw_ground(paper, layout->row, false);
     for (int i = 0; i < layout->settings; i++)
         draw_setting(paper, layout->setting[i], &show->setting[i],

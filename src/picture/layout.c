@@ -91,8 +91,8 @@ static void place_settings(const Show *show, Layout *layout, Box *rest)
     layout->settings = place_row(room, 3, pixels(layout, SETTING_GAP),
                                  show->settings, width, box);
     int more = (box[layout->settings - 1].y - room.y) / room.height;
-    layout->row =
-        box_cut_off(rest, true, pixels(layout, ROW + more * (ROW - 0.4)));
+    layout->row = box_cut_off(rest, EDGE_BOTTOM,
+                              pixels(layout, ROW + more * (ROW - 0.4)));
     for (int i = 0; i < layout->settings; i++)
         box[i].y += layout->row.y;
 }
@@ -130,15 +130,16 @@ static Box place_zones(const Show *show, Layout *layout)
         return rest;
     bool roomy = high >= 40;
     layout->strip =
-        box_cut_off(&rest, false, pixels(layout, roomy ? STRIP : 2.2));
+        box_cut_off(&rest, EDGE_TOP, pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
         layout->last =
-            box_cut_off(&rest, true, pixels(layout, roomy ? LAST : 2.5));
+            box_cut_off(&rest, EDGE_BOTTOM, pixels(layout, roomy ? LAST : 2.5));
     if (layout->last.width > 0 && show->chips > 0)
         place_chips(show, layout);
     if (show->cells > 0)
         return rest;
-    layout->time = box_cut_off(&rest, true, pixels(layout, roomy ? TIME : 2));
+    layout->time =
+        box_cut_off(&rest, EDGE_BOTTOM, pixels(layout, roomy ? TIME : 2));
     if (roomy && show->settings > 0)
         place_settings(show, layout, &rest);
     layout->bars = layout->time;
@@ -234,9 +235,9 @@ static void place_cards(const Show *show, Layout *layout)
         double high = row->least * (least > room ? room / least : 1) +
                       row->weight * fmax(room - least, 0) / weights;
         int height = pixels(layout, high);
-        Box box =
-            box_cut_off(&rest, false, row->bar || height < bar ? bar : height);
-        box_cut_off(&rest, false, gap);
+        Box box = box_cut_off(&rest, EDGE_TOP,
+                              row->bar || height < bar ? bar : height);
+        box_cut_off(&rest, EDGE_TOP, gap);
         for (int k = 0; k < row->cards; k++)
             layout->card[row->card + k] = box_column(box, k, row->cards, gap);
     }
@@ -327,14 +328,15 @@ static void place_star(const Show *show, Layout *layout)
             continue;
         double needs = STAR_WORDS * picture->cards[i]->least + 2 * GAP;
         int high = (int)fmin(needs * layout->em, 0.6 * stage.height);
-        layout->card[i] =
-            box_inset(box_cut_off(&stage, true, high), pixels(layout, GAP));
+        layout->card[i] = box_inset(box_cut_off(&stage, EDGE_BOTTOM, high),
+                                    pixels(layout, GAP));
         layout->pane[0] = stage;
     }
     if (is_below(show, star) || (place.width < 1 && !layout->page))
         return;
     if (place.height < bar)
-        place = box_cut_off(&stage, true, (int)(STAR_REST * stage.height));
+        place =
+            box_cut_off(&stage, EDGE_BOTTOM, (int)(STAR_REST * stage.height));
     layout->card[star] = box_inset(stage, pixels(layout, GAP));
     layout->pane[0] = place;
 }
@@ -367,7 +369,7 @@ static void place_folded(const Show *show, Layout *layout)
     int high =
         (int)fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height);
     layout->card[folded] =
-        box_inset(box_cut_off(stage, true, high), pixels(layout, GAP));
+        box_inset(box_cut_off(stage, EDGE_BOTTOM, high), pixels(layout, GAP));
 }
 
 /* Letters have at least, on a page, a 55th of the height, in large type a 35th,

@@ -94,17 +94,6 @@ static void fill_code(const LecturePage *page, Show *show)
     }
 }
 
-/* Whether a word stands in a text of words. */
-static bool has_word(const char *words, const char *word)
-{
-    size_t length = strlen(word);
-    for (const char *at = strstr(words, word); at; at = strstr(at + 1, word))
-        if ((at == words || at[-1] == ' ') &&
-            (at[length] == ' ' || at[length] == '\0'))
-            return true;
-    return false;
-}
-
 void show_lecture(Column column, const LecturePage *left, Show *show)
 {
     const Simulation *simulation = show_pane(show)->simulation;
@@ -131,9 +120,9 @@ void show_lecture(Column column, const LecturePage *left, Show *show)
              (int)(page - lecture_pages) + 1, lecture_count());
     show->hidden = show->veils = 0;
     for (int c = 0; c < picture->count; c++) {
-        bool open = has_word(page->cards, picture->cards[c]->name);
-        if (show->veiled && page->veils &&
-            has_word(page->veils, picture->cards[c]->name))
+        const char *name = picture->cards[c]->name; /* in no other name */
+        bool open = strstr(page->cards, name);
+        if (show->veiled && page->veils && strstr(page->veils, name))
             show->veils |= 1u << c;
         show->hidden |= open ? 0 : 1u << c;
         if (open && picture->cards[c]->closed)

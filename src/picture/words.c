@@ -30,26 +30,21 @@ Number number_with(double value, int digits)
 {
     Number out;
     size_t size = sizeof out.text;
-    double most = fabs(value), whole = pow(10, digits) - 0.5;
-    double large = fmax(1e5, whole);
+    char plain[26];
     const char *sign = value < 0 ? "\u2212" : "";
+    double most = fabs(value), large = fmax(1e5, pow(10, digits) - 0.5);
+    snprintf(plain, sizeof plain, "%.*e", digits - 1, most);
     if (!isfinite(value)) {
         snprintf(out.text, size, "%s%s", sign,
                  isnan(value) ? "no number" : "\u221e");
-    } else if (most >= whole && most < large) { /* with three digits: 1000 */
-        double digit = pow(10, floor(log10(most)) - digits + 1);
-        snprintf(out.text, size, "%s%.0f", sign,
-                 floor(most / digit + 0.5) * digit);
     } else if (most == 0 || (most >= 1e-3 && most < large)) {
-        snprintf(out.text, size, "%s%.*g", sign, digits, most);
+        snprintf(out.text, size, "%s%.15g", sign, strtod(plain, NULL));
     } else {
-        char plain[20];
-        snprintf(plain, sizeof plain, "%.*e", digits - 1, most);
         char *power = strchr(plain, 'e');
         int exponent = (int)strtol(power + 1, NULL, 10);
         *power = '\0';
         double part = strtod(plain, NULL);
-        snprintf(plain, sizeof plain, "%.*g\u00b7", digits, part);
+        snprintf(plain, sizeof plain, "%.15g\u00b7", part);
         snprintf(out.text, size, "%s%s10^{%s%d}", sign, part == 1 ? "" : plain,
                  exponent < 0 ? "\u2212" : "", abs(exponent));
     }
