@@ -191,11 +191,11 @@ void mass_bounds(const Plot *stage, double bounds[4])
     bounds_around(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
-/* Where the exact motion from here is after h: x cos h + v sin h. */
-static void exact_step(const MassStep *step, double h, double end[2])
+/* Where the exact motion from here is after h. */
+static Point exact_step(const MassStep *step, double h)
 {
-    for (int i = 0; i < 2; i++)
-        end[i] = step->x[i] * cos(h) + step->v[i] * sin(h);
+    const Point x = along(origin, cos(h), step->x);
+    return along(x.at, sin(h), step->v);
 }
 
 /* What a step of forward Euler lacks: the exact end is h^2/2 a away, or about
@@ -203,18 +203,13 @@ static void exact_step(const MassStep *step, double h, double end[2])
 static void draw_miss(const Plot *stage, const MassStep *step, double h,
                       const char *words)
 {
-    double to[2], d[2], end[2], at[4];
-    exact_step(step, h, end);
-    for (int k = 0; k < 2; k++) {
-        to[k] = step->x[k] + h * step->v[k];
-        d[k] = 0.5 * h * h * step->a[k];
-        at[k] = to[k] + d[k];
-        at[2 + k] = to[k] + 0.5 * d[k];
-    }
-    plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
-    plot_ring(stage, to, 6, 2, COLOUR_X);
-    plot_arrow(stage, to, d, 1, 2, COLOUR_WARNING);
-    plot_words(stage, 2, at, COLOUR_WARNING, "%s", words);
+    const Point to = along(step->x, h, step->v);
+    const Point at[2] = {along(to.at, 0.5 * h * h, step->a),
+                         along(to.at, 0.25 * h * h, step->a)};
+    plot_hollow(stage, exact_step(step, h).at, 6, 3.4, COLOUR_GREY);
+    plot_ring(stage, to.at, 6, 2, COLOUR_X);
+    plot_arrow(stage, to.at, step->a, 0.5 * h * h, 2, COLOUR_WARNING);
+    plot_words(stage, 2, at->at, COLOUR_WARNING, "%s", words);
 }
 
 /* The exact end of the step; of backward Euler x' as it is found: x + h v, then
@@ -223,46 +218,43 @@ static void draw_miss(const Plot *stage, const MassStep *step, double h,
 static void draw_mass_lesson(Plot *stage)
 {
     MassStep step;
-    double h = stage->simulation->run[0].h, end[2], from[2], guess[2];
+    double h = stage->simulation->run[0].h;
     bool implicit = stage->simulation->run[0].method->implicit;
     if (!mass_next_step(stage->simulation, 0, &step))
         return;
-    exact_step(&step, h, end);
-    plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
-    for (int half = 1; half >= 0 && step.by_old_v; half--)
-        draw_miss(stage, &step, half ? 0.5 * h : h,
-                  half ? "with h/2: a quarter" : "h\u00b2/2 a");
-    plot_words(stage, 1, end, COLOUR_FAINT, "exact");
-    memcpy(guess, step.x, sizeof guess);
+    const Point end = exact_step(&step, h);
+    plot_hollow(stage, end.at, 6, 3.4, COLOUR_GREY);
+    if (step.by_old_v) {
+        draw_miss(stage, &step, 0.5 * h, "with h/2: a quarter");
+        draw_miss(stage, &step, h, "h\u00b2/2 a");
+    }
+    plot_words(stage, 1, end.at, COLOUR_FAINT, "exact");
+    Point x = along(step.x, 0, step.v), v = along(step.v, 0, step.x);
     for (int k = 0; k < MASS_GUESSES && implicit; k++) {
-        for (int i = 0; i < 2; i++) {
-            double force = k > 0 ? -h * guess[i] : 0;
-            from[i] = guess[i];
-            guess[i] = step.x[i] + h * (step.v[i] + force);
-        }
+        const Point from = x, pulled = along(step.v, k > 0 ? -h : 0, from.at);
+        x = along(step.x, h, pulled.at);
         if (k > 0)
-            plot_line(stage, from, guess, 1.4, COLOUR_GREY);
-        plot_hollow(stage, guess, 5, 3, COLOUR_GREY);
-        double away =
-            math_hypot(guess[0] - step.new_x[0], guess[1] - step.new_x[1]);
-        if (away * stage->camera.scale[0] > 1.5 * stage->em)
-            plot_words(stage, 1, guess, COLOUR_FAINT, "%d", k + 1);
+            plot_line(stage, from.at, x.at, 1.4, COLOUR_GREY);
+        plot_hollow(stage, x.at, 5, 3, COLOUR_GREY);
+        const Point away = way(step.new_x, x.at);
+        if (math_hypot(away.at[0], away.at[1]) * stage->camera.scale[0] >
+            1.5 * stage->em)
+            plot_words(stage, 1, x.at, COLOUR_FAINT, "%d", k + 1);
     }
     bool symplectic = !step.by_old_v && !implicit;
     for (int k = 0; k < MASS_AHEAD && symplectic && h >= 2; k++) {
-        memcpy(from, step.x, sizeof from);
-        for (int i = 0; i < 2; i++) {
-            step.v[i] -= h * step.x[i];
-            step.x[i] += h * step.v[i];
-        }
-        plot_line(stage, from, step.x, 1, COLOUR_GREY);
-        plot_hollow(stage, step.x, 4, 2.4, COLOUR_GREY);
+        const Point from = x;
+        v = along(v.at, -h, x.at);
+        x = along(x.at, h, v.at);
+        plot_line(stage, from.at, x.at, 1, COLOUR_GREY);
+        plot_hollow(stage, x.at, 4, 2.4, COLOUR_GREY);
     }
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
-    const double across[2] = {(step.new_x[0] - turn * step.x[0]) / reach,
-                              (step.new_x[1] - turn * step.x[1]) / reach};
+    const Point side = along(step.new_x, -turn, step.x);
+    const Point across = along(origin, 1 / reach, side.at);
     if (symplectic && h < 2)
-        plot_ellipse(stage, origin, step.x, across, 2.4, false, COLOUR_ALPHA);
+        plot_ellipse(stage, origin, step.x, across.at, 2.4, false,
+                     COLOUR_ALPHA);
 }
 
 /* The arrows of one method in the order in which it makes them; what a page
@@ -274,15 +266,12 @@ static void draw_mass_step(Plot *stage)
     static const int order[] = {0, 1, 3, 2, 4};
     static const double part[] = {0.55, 0.8, 0.35, 0.7};
     MassStep step;
-    double h = simulation->run[0].h, tip[2], way[2], push[2];
     if (!mass_next_step(simulation, 0, &step))
         return;
     bool backward = simulation->run[0].method->implicit;
-    for (int i = 0; i < 2; i++) {
-        tip[i] = step.x[i] + step.v[i];
-        way[i] = step.new_x[i] - step.x[i];
-        push[i] = h * (backward ? step.new_a[i] : step.a[i]);
-    }
+    const double *a = backward ? step.new_a : step.a;
+    const Point tip = along(step.x, 1, step.v), to = way(step.x, step.new_x);
+    const Point push = along(origin, simulation->run[0].h, a);
     const struct MassArrow {
         const double *a, *d; /* m, from a along d */
         double width;
@@ -290,9 +279,10 @@ static void draw_mass_step(Plot *stage)
         const char *word;
     } arrow[] = {
         {step.x, step.v, 2.6, COLOUR_VELOCITY, "v"},
-        {tip, push, 2.6, COLOUR_FORCE, backward ? "h a(x\u2032)" : "h a(x)"},
+        {tip.at, push.at, 2.6, COLOUR_FORCE,
+         backward ? "h a(x\u2032)" : "h a(x)"},
         {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v\u2032"},
-        {step.x, way, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
+        {step.x, to.at, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
         {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a(x\u2032)"}};
     for (int i = 0; i < 4 + backward; i++)
         plot_arrow(stage, arrow[i].a, arrow[i].d, 1, arrow[i].width,
@@ -304,11 +294,12 @@ static void draw_mass_step(Plot *stage)
     plot_words(stage, 1, step.new_x, COLOUR_X, "x\u2032");
     for (int i = 0; i < 4 + backward; i++) {
         const struct MassArrow *now = &arrow[order[i]];
-        double at[8], scale = stage->camera.scale[0];
-        for (int k = 0; k < 8; k++)
-            at[k] = now->a[k % 2] + part[k / 2] * now->d[k % 2];
-        if (math_hypot(now->d[0], now->d[1]) * scale > 2 * stage->em)
-            plot_words(stage, 4, at, now->colour, "%s", now->word);
+        Point at[4];
+        for (int k = 0; k < 4; k++)
+            at[k] = along(now->a, part[k], now->d);
+        if (math_hypot(now->d[0], now->d[1]) * stage->camera.scale[0] >
+            2 * stage->em)
+            plot_words(stage, 4, at->at, now->colour, "%s", now->word);
     }
 }
 
@@ -331,9 +322,8 @@ void mass_draw(Plot *stage)
     for (int r = 0; simulation->runs > 1 && r < simulation->runs; r++) {
         MassStep step;
         mass_next_step(simulation, r, &step);
-        const double way[2] = {step.new_x[0] - step.x[0],
-                               step.new_x[1] - step.x[1]};
-        plot_arrow(stage, step.x, way, 1, 3, run_colour(simulation, r));
+        plot_arrow(stage, step.x, way(step.x, step.new_x).at, 1, 3,
+                   run_colour(simulation, r));
         plot_ring(stage, step.new_x, 8, 2.2, run_colour(simulation, r));
     }
     if (simulation->runs == 1 && show->veiled)
@@ -385,21 +375,17 @@ void mass_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "x'", step.new_x);
     fact_point(facts, "v'", step.new_v);
     fact_point(facts, "carrying", step.by_old_v ? step.v : step.new_v);
-    double exact[2], h = simulation->run[0].h;
+    double h = simulation->run[0].h;
     if (!step.by_old_v && !backward) {
         fact(facts, "h limit", 2);
         fact_when(facts, "ellipse", h < 2);
         fact(facts, "kept", kept_energy(step.x, step.v, h));
         fact(facts, "kept later", kept_energy(step.new_x, step.new_v, h));
     }
-    exact_step(&step, h, exact);
-    fact(facts, "miss",
-         math_hypot(step.new_x[0] - exact[0], step.new_x[1] - exact[1]));
+    fact(facts, "miss", apart(step.new_x, exact_step(&step, h).at));
     if (step.by_old_v) {
-        fact(facts, "half", 0.5 * h * h * math_hypot(step.x[0], step.x[1]));
-        exact_step(&step, 0.5 * h, exact);
-        fact(facts, "half miss",
-             math_hypot(step.x[0] + 0.5 * h * step.v[0] - exact[0],
-                        step.x[1] + 0.5 * h * step.v[1] - exact[1]));
+        const Point half = along(step.x, 0.5 * h, step.v);
+        fact(facts, "half", 0.5 * h * h * apart(step.x, origin));
+        fact(facts, "half miss", apart(half.at, exact_step(&step, 0.5 * h).at));
     }
 }

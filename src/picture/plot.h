@@ -11,6 +11,7 @@
 #ifndef ELASTO_PLOT_H
 #define ELASTO_PLOT_H
 
+#include "base/mathematics.h"
 #include "picture/paper.h"
 #include "picture/show.h"
 
@@ -26,6 +27,7 @@ typedef struct Plot {
     Paper *paper; /* NULL: it only tells where things are */
     const Show *show;
     const Simulation *simulation; /* of the pane; of a card the active one's */
+    const LecturePage *told; /* the page, unless its answer is not shown yet */
     Box box;                      /* pixels; inside the numbers of the axes */
     Camera camera; /* of the logarithm, where an axis is logarithmic */
     Axis x, y;     /* 0 ... 0: a stage in metres */
@@ -34,6 +36,33 @@ typedef struct Plot {
     double em;     /* pixels */
     int flow[2];   /* pixels, where the next words of the legend go */
 } Plot;
+
+/* A point or a way, by value: plot_line(plot, a, along(a, t, d).at, ...) */
+typedef struct Point {
+    double at[2];
+} Point;
+
+/* a + t d; from a to b. */
+static inline Point along(const double *a, double t, const double *d)
+{
+    return (Point){{a[0] + t * d[0], a[1] + t * d[1]}};
+}
+
+static inline Point way(const double *a, const double *b)
+{
+    return along(b, -1, a);
+}
+
+/* How far they are from each other; how long d is. */
+static inline double apart(const double *a, const double *b)
+{
+    return math_hypot(b[0] - a[0], b[1] - a[1]);
+}
+
+static inline double length_of(const double *d)
+{
+    return math_hypot(d[0], d[1]);
+}
 
 /* The smallest 1, 2, 5 times a power of ten that is not below value > 0; the
  * smallest end of an axis from 0 that carries a number. */

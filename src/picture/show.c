@@ -61,6 +61,7 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
                   .show = show,
                   .simulation = show->pane[pane].simulation,
                   .box = layout->pane[pane],
+                  .told = show->veiled ? NULL : show->lecture,
                   .pane = pane,
                   .text = !show->bare,
                   .em = layout->em};

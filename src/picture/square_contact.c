@@ -27,7 +27,7 @@ Touch square_touch(const SpringPen *pen, const Element *element)
     Touch touch = {.node = element->node[0], .rough = term && grip > 0};
     if (touch.rough) {
         double speed = ((const Friction *)term->data)->slip_speed;
-        element_vectors(element, pen->simulation->run[pen->run].v, v);
+        element_vectors(element, pen->v, v);
         double slip = t[0] * v[0] + t[1] * v[1] - carry;
         rub = -grip * friction_slope(slip * h, speed * h);
         touch.slides = fabs(slip) >= speed;
@@ -44,7 +44,7 @@ void square_contact_forces(const SpringPen *pen, int runs)
     for (int r = 0; r < runs; r++)
         for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
             Touch touch = square_touch(&pen[r], &at.element);
-            most = fmax(most, math_hypot(touch.force[0], touch.force[1]));
+            most = fmax(most, length_of(touch.force));
         }
     if (most == 0 || !isfinite(most))
         return;
@@ -54,10 +54,10 @@ void square_contact_forces(const SpringPen *pen, int runs)
         for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
             Touch touch = square_touch(&pen[r], &at.element);
             const double *x = pen[r].x + 2 * touch.node, *f = touch.force;
-            const double tail[2] = {x[0] - factor * f[0], x[1] - factor * f[1]};
             double radius = fmax(pen[r].radius, 2);
-            if (math_hypot(f[0], f[1]) > FORCE_LEAST * most)
-                plot_arrow(stage, tail, f, factor, 1.8, COLOUR_FORCE);
+            if (length_of(f) > FORCE_LEAST * most)
+                plot_arrow(stage, along(x, -factor, f).at, f, factor, 1.8,
+                           COLOUR_FORCE);
             if (touch.rough && touch.slides)
                 plot_ring(stage, x, 1.6 * radius, 1.5, COLOUR_FORCE);
             else if (touch.rough)
@@ -75,9 +75,8 @@ static void draw_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
-    double em = stage->em;
+    double em = stage->em, from[2], at[2], slope = -wall->n[0] / wall->n[1];
     char words[120];
-    double from[2], at[2], slope = -wall->n[0] / wall->n[1];
     if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
         !(fabs(slope) > 1e-6))
         return;
@@ -91,17 +90,15 @@ static void draw_words(const SpringPen *pen)
     from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
     plot_place(stage, from, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
-    if (low > 0) { /* further up along the wall */
-        at[0] += low / fabs(slope);
-        at[1] -= low;
-    }
+    low = fmax(low, 0); /* then further up along the wall */
     snprintf(words, sizeof words, "\u03bc = %s tan %s\u00b0",
              number_of(wall->friction / fabs(slope)).text,
              number_of(fabs(atan(slope)) / DEGREE).text);
     double most = stage->box.x + stage->box.width - 0.5 * em -
                   paper_width(stage->paper, FACE_REGULAR, 0.95, words);
     paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT,
-                fmin(at[0], most), at[1] + 1.2 * em, ALIGN_LEFT, "%s", words);
+                fmin(at[0] + low / fabs(slope), most), at[1] - low + 1.2 * em,
+                ALIGN_LEFT, "%s", words);
 }
 
 /* The half plane as far as the stage goes, or a slab, and how far it reaches.
@@ -110,26 +107,22 @@ static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool thin)
 {
     const Box *box = &stage->box;
-    const double *n = wall->n;
+    const double *n = wall->n, t[2] = {n[1], -n[0]};
     double scale = stage->camera.scale[0], middle[2];
     double far = 2 * (box->width + box->height) / scale;
     double deep = thin ? SLAB * stage->em / scale : far;
-    const double over[3] = {0, -deep, reach};
-    double p[3][2][2]; /* on the surface, below, above; left, right */
     camera_world(&stage->camera, box->x + 0.5 * box->width,
                  box->y + 0.5 * box->height, middle);
-    double along =
-        (middle[0] - wall->o[0]) * n[1] - (middle[1] - wall->o[1]) * n[0];
-    for (int k = 0; k < 6; k++) {
-        double side = along + (k % 2 ? far : -far);
-        p[k / 2][k % 2][0] = wall->o[0] + side * n[1] + over[k / 2] * n[0];
-        p[k / 2][k % 2][1] = wall->o[1] - side * n[0] + over[k / 2] * n[1];
-    }
-    plot_face(stage, (const double *[]){p[0][0], p[0][1], p[1][1], p[1][0]},
-              COLOUR_SOLID);
-    plot_line(stage, p[0][0], p[0][1], 1.5, COLOUR_EDGE);
+    const double *o = wall->o;
+    double at = (middle[0] - o[0]) * n[1] - (middle[1] - o[1]) * n[0];
+    const Point left = along(o, at - far, t), right = along(o, at + far, t);
+    const Point low[2] = {along(left.at, -deep, n), along(right.at, -deep, n)};
+    const double *const corner[] = {left.at, right.at, low[1].at, low[0].at};
+    plot_face(stage, corner, COLOUR_SOLID);
+    plot_line(stage, left.at, right.at, 1.5, COLOUR_EDGE);
     if (reach * scale > 2)
-        plot_dashes(stage, p[2][0], p[2][1], 1, NULL, COLOUR_GREY);
+        plot_dashes(stage, along(left.at, reach, n).at,
+                    along(right.at, reach, n).at, 1, NULL, COLOUR_GREY);
 }
 
 void square_contact_obstacles(const SpringPen *pen)

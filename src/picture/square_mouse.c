@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/mathematics.h"
 #include "model/contact.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
@@ -155,7 +154,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     fact(&facts, "a", e[0]);
     fact(&facts, "b", e[1]);
     fact(&facts, "l2", l2);
-    fact(&facts, "strain", 100 * (math_hypot(d[0], d[1]) / sqrt(l2) - 1));
+    fact(&facts, "strain", 100 * (length_of(d) / sqrt(l2) - 1));
     fact(&facts, "across", across);
     fact(&facts, "along", along);
     if (filter_projects(filter) && fmin(along, across) < 0) {

@@ -38,18 +38,17 @@ SpringPen square_pen(Plot *stage, int run)
 {
     const Show *show = stage->show;
     const Pane *pane = &show->pane[stage->pane];
-    const Simulation *simulation = pane->simulation;
+    const Simulation *simulation = stage->simulation;
     const Trace *trace = pane->trace;
     const System *system = simulation->run[run].system;
     const Plasticity *plasticity = system_data(system, &plastic_energy);
     const SquareMesh *mesh = &simulation->mesh;
     SpringPen pen = {.stage = stage,
-                     .show = show,
-                     .pane = pane,
                      .simulation = simulation,
-                     .run = run,
+                     .pane = pane,
                      .system = system,
                      .x = run ? simulation->run[run].x : pane_x(pane),
+                     .v = simulation->run[run].v,
                      .spacing = stage->camera.scale[0] * mesh->spacing,
                      .strain = strain_range(simulation, NULL),
                      .ep = plasticity ? plasticity->ep : NULL,
@@ -72,6 +71,8 @@ SpringPen square_pen(Plot *stage, int run)
     if (!show->bare)
         pen.radius = fmin(pen.radius, 6.5);
     pen.plastic = !show->strain && !show->bare && pen.ep;
+    pen.below = pen.plastic ? COLOUR_PLASTIC : COLOUR_COMPRESS;
+    pen.above = pen.plastic ? COLOUR_PLASTIC : COLOUR_STRETCH;
     if (pen.plastic || show->strain)
         pen.range = pen.plastic ? strain_range(simulation, pen.ep) : pen.strain;
     if (pen.range > 0)
@@ -84,21 +85,14 @@ SpringPen square_pen(Plot *stage, int run)
 }
 
 /* What springs and faces tell alike: plastic flow, strain, or whether their
- * block is projected, where they are shorter than at rest.  False: nothing. */
-static bool told_colour(const SpringPen *pen, double plastic, double strain,
-                        bool shorter, Colour *colour)
+ * block is projected, where they are shorter than at rest.  0: nothing. */
+static Colour told_colour(const SpringPen *pen, double plastic, double strain,
+                          bool shorter)
 {
-    if (pen->plastic)
-        *colour = colour_of_strain(plastic, pen->range, COLOUR_PLASTIC,
-                                   COLOUR_PLASTIC);
-    else if (pen->range > 0)
-        *colour = colour_of_strain(strain, pen->range, COLOUR_COMPRESS,
-                                   COLOUR_STRETCH);
-    else if (pen->projected && shorter)
-        *colour = COLOUR_PROJECT;
-    else
-        return false;
-    return true;
+    if (pen->range > 0)
+        return colour_of_strain(pen->plastic ? plastic : strain, pen->range,
+                                pen->below, pen->above);
+    return pen->projected && shorter ? COLOUR_PROJECT : 0;
 }
 
 static const double *node_at(const SpringPen *pen, int node)
@@ -114,28 +108,30 @@ static double distance2(const SpringPen *pen, int a, int b, double d[2])
     return d[0] * d[0] + d[1] * d[1];
 }
 
+void square_spring(const SpringPen *pen, int s, double width, Colour colour)
+{
+    const int *e = pen->system->e + 2 * (size_t)s;
+    double p[2], q[2], unit = pen->stage->paper->unit;
+    if (spring_is_broken(pen->system, s) || is_fixed(pen, e[0]))
+        return;
+    camera_pixel(&pen->stage->camera, node_at(pen, e[0]), p);
+    camera_pixel(&pen->stage->camera, node_at(pen, e[1]), q);
+    canvas_line(&pen->stage->paper->canvas, p[0], p[1], q[0], q[1],
+                width * unit, colour);
+}
+
 /* They are most of a frame's time. */
 void square_springs(const SpringPen *pen)
 {
     const System *system = pen->system;
-    const Camera *camera = &pen->stage->camera;
-    Paper *paper = pen->stage->paper;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * (size_t)s;
-        double l2 = system->l2[s], width = pen->width, d[2], p[2], q[2];
-        double d2 = distance2(pen, e[0], e[1], d);
+        double l2 = system->l2[s], d[2], d2 = distance2(pen, e[0], e[1], d);
         double strain = pen->range > 0 ? sqrt(d2 / l2) - 1 : 0;
-        Colour colour = COLOUR_X;
-        if (spring_is_broken(system, s) || is_fixed(pen, e[0]))
-            continue;
-        if (told_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2,
-                        &colour) &&
-            pen->range == 0)
-            width *= 1.15;
-        camera_pixel(camera, node_at(pen, e[0]), p);
-        camera_pixel(camera, node_at(pen, e[1]), q);
-        canvas_line(&paper->canvas, p[0], p[1], q[0], q[1], width * paper->unit,
-                    colour);
+        Colour told =
+            told_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
+        square_spring(pen, s, (told == COLOUR_PROJECT ? 1.15 : 1) * pen->width,
+                      told ? told : COLOUR_X);
     }
 }
 
@@ -148,35 +144,30 @@ static double turn(const double *x, int a, int b, int c)
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-/* A face of four nodes, anticlockwise at rest. */
+/* A face of four nodes, anticlockwise at rest: one of its triangles has turned
+ * over. */
 static bool is_folded(const double *x, const int node[4])
 {
     return turn(x, node[0], node[1], node[2]) < 0 ||
            turn(x, node[0], node[2], node[3]) < 0;
 }
 
-typedef enum CellLook { CELL_FLAT, CELL_FOLDED, CELL_TORN } CellLook;
-
-/* A cell has folded over if one of its triangles has turned over, and is torn
- * if one of its springs is broken; node [4] out. */
-static CellLook cell_look(const Simulation *simulation, const double *x,
-                          int cell, int node[4])
+/* Whether the springs of a cell are whole; node [4] out. */
+static bool cell_is_whole(const Simulation *simulation, int cell, int node[4])
 {
-    const System *system = &simulation->system;
-    int spring[6];
+    int spring[6], broken = 0;
     square_mesh_cell(&simulation->mesh, cell, node, spring);
     for (int k = 0; k < 6; k++)
-        if (spring_is_broken(system, spring[k]))
-            return CELL_TORN;
-    return is_folded(x, node) ? CELL_FOLDED : CELL_FLAT;
+        broken += spring_is_broken(&simulation->system, spring[k]);
+    return broken == 0;
 }
 
 int pane_folded(const Pane *pane)
 {
     int folded = 0, node[4];
     for (int c = 0; c < pane->simulation->mesh.cells; c++)
-        folded +=
-            cell_look(pane->simulation, pane_x(pane), c, node) == CELL_FOLDED;
+        folded += cell_is_whole(pane->simulation, c, node) &&
+                  is_folded(pane_x(pane), node);
     return folded;
 }
 
@@ -202,25 +193,24 @@ static Colour shade(double part)
 int square_cells(const SpringPen *pen, bool all)
 {
     const NeoHookean *solid = solid_of(pen->system);
-    int count = 0, node[4];
+    int folded = 0, node[4];
     for (int t = 0; solid && t < solid->triangles; t++) {
-        const int *n = solid->node[t];
-        const double *corner[4] = {node_at(pen, n[0]), node_at(pen, n[1]),
-                                   node_at(pen, n[2]), node_at(pen, n[2])};
+        const int *n = solid->node[t], face[4] = {n[0], n[1], n[2], n[2]};
         double J = fabs(turn(pen->x, n[0], n[1], n[2])) / (2 * solid->area);
         Colour colour = shade(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
-        plot_face(pen->stage, corner,
+        fill_face(pen, face,
                   is_fixed(pen, n[0]) ? COLOUR_SOLID
                                       : canvas_mix(colour, COLOUR_WHITE, 0.6));
     }
     for (int c = 0; !solid && c < pen->simulation->mesh.cells; c++) {
-        CellLook look = cell_look(pen->simulation, pen->x, c, node);
-        count += look == CELL_FOLDED;
-        if (look == CELL_FOLDED || (all && look == CELL_FLAT))
-            fill_face(pen, node,
-                      look == CELL_FOLDED ? 0x38d00000u : 0x180000ffu);
+        if (!cell_is_whole(pen->simulation, c, node))
+            continue;
+        bool over = is_folded(pen->x, node);
+        folded += over;
+        if (over || all)
+            fill_face(pen, node, over ? 0x38d00000u : 0x180000ffu);
     }
-    return count;
+    return folded;
 }
 
 /* A face says what its springs would; else how far it is stretched and turned.
@@ -234,17 +224,15 @@ static Colour face_colour(const SpringPen *pen, const int node[4], double side,
     double other2 = distance2(pen, node[1], node[3], d);
     double d2 = distance2(pen, node[0], node[2], d);
     double strain = (sqrt(d2) + sqrt(other2)) / (2 * sqrt(l2)) - 1;
-    Colour colour;
     if (pen->ep)
         square_mesh_cell(&pen->simulation->mesh, cell, corner, spring);
     for (int k = 0; pen->ep && k < 6; k++)
         if (fabs(pen->ep[spring[k]]) > fabs(plastic))
             plastic = pen->ep[spring[k]];
-    if (told_colour(pen, plastic, strain, d2 < l2 || other2 < l2, &colour))
-        return colour;
+    Colour told = told_colour(pen, plastic, strain, d2 < l2 || other2 < l2);
     double seen = copysign(sqrt(fabs(strain) / pen->strain), strain);
     double turned = (d[1] - d[0]) / sqrt(d2); /* 0 at rest */
-    return shade(0.55 + 0.9 * seen + 0.3 * turned);
+    return told ? told : shade(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
 /* Those that have folded over are drawn last, each cell of them. */
@@ -271,12 +259,12 @@ void square_nodes(const SpringPen *pen)
     Colour colour = pen->range > 0 ? COLOUR_FAINT : COLOUR_X;
     if (pen->range > 0) /* they would hide the colours of a fine mesh */
         radius *= 0.75;
-    for (int i = 0; radius >= 0.5 * pen->width && i < system->nodes; i++)
-        if (!is_fixed(pen, i))
+    for (int i = 0; i < system->nodes; i++) {
+        if (radius >= 0.5 * pen->width && !is_fixed(pen, i))
             plot_disc(pen->stage, node_at(pen, i), radius, colour);
-    for (int i = 0; i < system->nodes; i++)
         if (system->pinned[i] && !is_fixed(pen, i))
             plot_pin(pen->stage, node_at(pen, i), radius);
+    }
     for (int k = 0; pen->fixed && k < pen->simulation->mesh.outline; k++) {
         int node[2];
         square_mesh_outline(&pen->simulation->mesh, k, node);

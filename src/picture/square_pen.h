@@ -12,19 +12,18 @@
  * and radii in units of the paper. */
 typedef struct SpringPen {
     Plot *stage;
-    const Show *show;
+    const Simulation *simulation; /* the stage's */
     const Pane *pane;
-    const Simulation *simulation;
-    int run;
     const System *system;
-    const double *x;        /* [2n] m */
+    const double *x, *v;    /* [2n] m, m/s */
     double spacing;         /* pixels, of two nodes at rest; where they have
                                flown away, of as many over all that is seen */
     double width;           /* of a spring */
     double radius;          /* of a node */
-    double range;           /* of the strains; 0: all blue */
     double strain;          /* of the shades of faces, all blue */
-    bool plastic;           /* the colour is the plastic strain ... */
+    double range;           /* of the colours of strains; 0: all blue, */
+    Colour below, above;    /* and at its ends */
+    bool plastic;           /* they are of the plastic strain ... */
     const double *ep;       /* [springs] of each; NULL: springs do not flow */
     const Contact *contact; /* NULL: there is nothing to touch */
     Place contacts;         /* the place that tells of them */
@@ -35,8 +34,9 @@ typedef struct SpringPen {
 
 SpringPen square_pen(Plot *stage, int run);
 
-/* All springs but the broken ones; discs at all nodes but those that the
- * springs hide. */
+/* All springs but the broken ones, one in a colour of its own; discs at all
+ * nodes but those that the springs hide. */
+void square_spring(const SpringPen *pen, int s, double width, Colour colour);
 void square_springs(const SpringPen *pen);
 void square_nodes(const SpringPen *pen);
 

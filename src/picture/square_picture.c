@@ -100,8 +100,7 @@ static void draw_direction(const SpringPen *pen)
         trace->line > LINE_SEARCH)
         return;
     for (int i = 0; i < pen->system->nodes; i++) {
-        const double *p = trace->p + 2 * i;
-        double length = math_hypot(p[0], p[1]) * scale;
+        double length = length_of(trace->p + 2 * i) * scale;
         longest = isfinite(length) ? fmax(longest, length) : longest;
     }
     if (longest == 0)
@@ -110,31 +109,21 @@ static void draw_direction(const SpringPen *pen)
         factor = pow(10, ceil(log10(least / longest)));
     if (longest > most)
         factor = pow(10, -ceil(log10(longest / most)));
-    for (int i = 0; i<pen->system->nodes; i += apart> 1 ? apart : 1) {
-        const double *p = trace->p + 2 * i;
-        if (math_hypot(p[0], p[1]) * factor * scale > 1.5)
-            plot_arrow(stage, pen->x + 2 * i, p, factor, 1.6, COLOUR_P);
-    }
+    for (int i = 0; i<pen->system->nodes; i += apart> 1 ? apart : 1)
+        if (length_of(trace->p + 2 * i) * factor * scale > 1.5)
+            plot_arrow(stage, pen->x + 2 * i, trace->p + 2 * i, factor, 1.6,
+                       COLOUR_P);
     plot_legend(stage, COLOUR_P, "search direction p%s%s",
                 factor == 1 ? "" : " \u00d7 ",
                 factor == 1 ? "" : number_of(factor).text);
-}
-
-static void draw_spring(const SpringPen *pen, int s, double width,
-                        Colour colour)
-{
-    const int *e = pen->system->e + 2 * s;
-    if (!spring_is_broken(pen->system, s))
-        plot_line(pen->stage, pen->x + 2 * e[0], pen->x + 2 * e[1], width,
-                  colour);
 }
 
 /* Nodes that are placed together, the box that is drawn around some; what the
  * mouse is over; the hand's spring. */
 static void draw_mouse(const SpringPen *pen)
 {
-    const Show *show = pen->show;
     const Plot *stage = pen->stage;
+    const Show *show = stage->show;
     const System *system = pen->system;
     const Control *hand = stage->pane == show->active ? show->hand : NULL;
     const Pick *hover = &show->hover;
@@ -157,7 +146,7 @@ static void draw_mouse(const SpringPen *pen)
         plot_ring(stage, pen->x + 2 * (size_t)hover->index, pen->radius + 4, 2,
                   COLOUR_TEXT);
     if (over && lit >= 0 && lit < system->springs)
-        draw_spring(pen, lit, 4.5, writes ? COLOUR_PROJECT : COLOUR_TEXT);
+        square_spring(pen, lit, 4.5, writes ? COLOUR_PROJECT : COLOUR_TEXT);
     if (!hand)
         return;
     const double *node = pen->x + 2 * (size_t)hand->hand;
@@ -197,31 +186,29 @@ static int draw_ground(const SpringPen *pen)
  * tolerance at which bodies would hang in the air or freeze. */
 static void draw_warnings(const SpringPen *pen, int folded)
 {
+    Plot *stage = pen->stage;
     int nodes = pen->system->nodes, lost = 0;
-    bool seen = !pen->show->lecture || pen->simulation->runs > 1;
+    bool seen = !stage->show->lecture || pen->simulation->runs > 1;
     double needed, at[2];
     for (int i = 0; i < nodes; i++) {
-        lost += !isfinite(pen->x[2 * (size_t)i]) ||
-                !isfinite(pen->x[2 * (size_t)i + 1]);
-        if (seen)
-            continue;
-        plot_place(pen->stage, pen->x + 2 * (size_t)i, at);
-        seen = box_contains(pen->stage->box, at[0], at[1]);
+        const double *x = pen->x + 2 * (size_t)i;
+        plot_place(stage, x, at);
+        lost += !isfinite(x[0]) || !isfinite(x[1]);
+        seen = seen || box_contains(stage->box, at[0], at[1]);
     }
     if (lost == nodes)
-        plot_legend(pen->stage, COLOUR_WARNING,
+        plot_legend(stage, COLOUR_WARNING,
                     "no node has a place: beyond all numbers");
     else if (lost > 0)
-        plot_legend(pen->stage, COLOUR_WARNING,
+        plot_legend(stage, COLOUR_WARNING,
                     "%d of %d nodes are beyond all numbers", lost, nodes);
     else if (!seen)
-        plot_legend(pen->stage, COLOUR_WARNING,
-                    "all nodes are beyond the picture");
+        plot_legend(stage, COLOUR_WARNING, "all nodes are beyond the picture");
     if (folded > 0)
-        plot_legend(pen->stage, COLOUR_WARNING, "%d cell%s folded over", folded,
+        plot_legend(stage, COLOUR_WARNING, "%d cell%s folded over", folded,
                     folded == 1 ? "" : "s");
     if (simulation_is_loose(pen->simulation, &needed))
-        plot_legend(pen->stage, COLOUR_WARNING,
+        plot_legend(stage, COLOUR_WARNING,
                     "\u03b5 is loose: above %s m/s bodies may hang or freeze",
                     number_of(needed).text);
 }
@@ -265,14 +252,14 @@ static void draw_colours(const SpringPen *pen)
 /* The number of each node beside it. */
 static void draw_numbers(const SpringPen *pen)
 {
+    double at[2], em = pen->stage->em;
     for (int i = 0; i < pen->system->nodes; i++) {
-        double at[2], em = pen->stage->em;
-        char number[16];
         plot_place(pen->stage, pen->x + 2 * i, at);
-        snprintf(number, sizeof number, "%d", i);
-        if (box_contains(pen->stage->box, at[0] + 0.7 * em, at[1] + 0.4 * em))
-            paper_panel(pen->stage->paper, FACE_BOLD, 1.3, COLOUR_TEXT,
-                        at[0] + 0.7 * em, at[1] + 0.4 * em, ALIGN_LEFT, number);
+        at[0] += 0.7 * em;
+        at[1] += 0.4 * em;
+        if (box_contains(pen->stage->box, at[0], at[1]))
+            paper_panel(pen->stage->paper, FACE_BOLD, 1.3, COLOUR_TEXT, at[0],
+                        at[1], ALIGN_LEFT, number_of(i).text);
     }
 }
 
@@ -284,14 +271,13 @@ static void draw_arrows(const SpringPen *pen, const double *d, double factor,
     int nodes = pen->system->nodes;
     double longest = 1e-300, most = 0.9 * pen->simulation->mesh.spacing;
     for (int i = 0; i < nodes; i++)
-        longest = fmax(longest, math_hypot(d[2 * i], d[2 * i + 1]));
+        longest = fmax(longest, length_of(d + 2 * i));
     if (factor == 0)
         factor = most / longest;
-    for (int i = 0; i < nodes; i++) {
-        double length = math_hypot(d[2 * i], d[2 * i + 1]);
+    for (int i = 0; i < nodes; i++)
         plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i,
-                   fmin(factor, most / fmax(length, 1e-300)), 2.6, colour);
-    }
+                   fmin(factor, most / fmax(length_of(d + 2 * i), 1e-300)), 2.6,
+                   colour);
     plot_legend(pen->stage, colour, "%s%s", word,
                 factor * longest > 1.001 * most ? ", cut" : "");
 }
@@ -309,7 +295,7 @@ static void start_places(const Simulation *simulation, double *x)
  */
 static void draw_page_arrows(const SpringPen *pen)
 {
-    const LecturePage *page = pen->show->lecture;
+    const LecturePage *page = pen->stage->show->lecture;
     const System *system = pen->system;
     double arrow[2 * NUMBERED] = {0};
     if (!page || system->nodes > NUMBERED)
@@ -320,7 +306,7 @@ static void draw_page_arrows(const SpringPen *pen)
             arrow[k] = pen->x[k] - arrow[k];
         draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
     }
-    if (!page->forces || pen->show->veiled)
+    if (!page->forces || !pen->stage->told)
         return;
     system_acceleration(system, pen->x, arrow);
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -330,32 +316,19 @@ static void draw_page_arrows(const SpringPen *pen)
                "node %d", system->nodes - 1);
 }
 
-/* A solid at rest, not cut yet. */
-static void draw_solid(const SpringPen *pen)
-{
-    double low[2], high[2];
-    plot_place(pen->stage, pen->x, low);
-    plot_place(pen->stage, pen->x + 2 * (pen->system->nodes - 1), high);
-    canvas_fill(&pen->stage->paper->canvas,
-                (Box){(int)low[0], (int)high[1], (int)(high[0] - low[0]),
-                      (int)(low[1] - high[1])},
-                0x180000ffu);
-    square_outline(pen, pen->x, false, COLOUR_X);
-}
-
 /* Springs in the colours of their kinds, which words have, too; of all kinds of
  * which the mouse can switch some, the one that is written is wider. */
 static void draw_kinds(const SpringPen *pen)
 {
-    const System *system = pen->system;
     static const int colours[] = {0, 1, 3, 3}; /* of runs */
+    const System *system = pen->system;
     int newest = exhibit_kind(pen->simulation, lecture_spring(pen->simulation));
-    bool wide = pen->show->lecture->kinds;
+    bool wide = pen->stage->told->kinds;
     for (int s = 0; s < system->springs; s++) {
         int kind = exhibit_kind(pen->simulation, s);
         if (system->k[s] > 0)
-            draw_spring(pen, s, wide && kind == newest ? 3.5 : 2,
-                        colour_of_run(colours[kind]));
+            square_spring(pen, s, wide && kind == newest ? 3.5 : 2,
+                          colour_of_run(colours[kind]));
     }
 }
 
@@ -370,16 +343,13 @@ static void draw_pair(const Plot *lens, const int pair[3])
     double h = 4 * lens->simulation->options.timestep;
     for (int i = 0; i < 2; i++) {
         const double *b = run->x + 2 * pair[2 * i];
-        const double *w = run->v + 2 * pair[2 * i];
-        const double d[2] = {b[0] - a[0], b[1] - a[1]};
-        const double change[2] = {h * (w[0] - v[0]), h * (w[1] - v[1])};
-        const double at[2][2] = {{a[0] + 0.6 * d[0], a[1] + 0.6 * d[1]},
-                                 {b[0] + change[0], b[1] + change[1]}};
-        plot_arrow(lens, a, d, 1, 2, COLOUR_TEXT);
-        plot_arrow(lens, b, change, 1, 2, COLOUR_ALPHA);
-        for (int k = 0; k < 2; k++)
-            plot_words(lens, 1, at[k], k ? COLOUR_ALPHA : COLOUR_TEXT, "%s",
-                       names[i][k]);
+        const Point d = way(a, b), dv = way(v, run->v + 2 * pair[2 * i]);
+        plot_arrow(lens, a, d.at, 1, 2, COLOUR_TEXT);
+        plot_arrow(lens, b, dv.at, h, 2, COLOUR_ALPHA);
+        plot_words(lens, 1, along(a, 0.6, d.at).at, COLOUR_TEXT, "%s",
+                   names[i][0]);
+        plot_words(lens, 1, along(b, h, dv.at).at, COLOUR_ALPHA, "%s",
+                   names[i][1]);
     }
 }
 
@@ -395,8 +365,8 @@ static void draw_lens(const SpringPen *pen)
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
     int air = (int)lens.em;
-    if (!pen->show->lecture || pen->show->veiled ||
-        lens.box.width < 2 * LENS * lens.em || !law_gap(pen->simulation, &gap))
+    if (!lens.told || lens.box.width < 2 * LENS * lens.em ||
+        !law_gap(pen->simulation, &gap))
         return;
     bool paired = gap.pair[0] >= 0 && lens.box.width > 3 * PAIR * lens.em;
     double most = paired ? PAIR : LENS;
@@ -413,8 +383,7 @@ static void draw_lens(const SpringPen *pen)
     }
     const double *a = paired ? pen->x + 2 * gap.pair[1] : gap.foot;
     const double *b = paired ? pen->x + 2 * gap.pair[2] : gap.node;
-    double reach =
-        paired ? 0.7 * math_hypot(b[0] - a[0], b[1] - a[1]) : 1.2 * gap.d_hat;
+    double reach = paired ? 0.7 * apart(a, b) : 1.2 * gap.d_hat;
     for (int c = 0; c < 4; c++)
         bounds[c] = 0.5 * (a[c % 2] + b[c % 2]) + (c < 2 ? -reach : reach);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
@@ -441,26 +410,23 @@ static void draw_lens(const SpringPen *pen)
 static void draw_way(const Plot *stage)
 {
     static const double ABOVE = 0.04; /* m, of the body */
-    const Simulation *simulation = stage->simulation;
-    const double *x = simulation->run[0].x;
-    double way[2], from[2] = {INFINITY, -INFINITY};
-    if (!stage->show->lecture || stage->show->veiled ||
-        !law_way(simulation, way))
+    const SquareMesh *mesh = &stage->simulation->mesh;
+    const double *x = stage->simulation->run[0].x;
+    double gone[2], from[2] = {INFINITY, -INFINITY};
+    if (!stage->told || !law_way(stage->simulation, gone))
         return;
-    int nodes = simulation->mesh.nodes / simulation->mesh.bodies;
-    for (int i = simulation->mesh.nodes - nodes; i < simulation->mesh.nodes;
+    for (int i = mesh->nodes - mesh->nodes / mesh->bodies; i < mesh->nodes;
          i++) {
-        from[0] = fmin(from[0], x[2 * i] - way[0]);
+        from[0] = fmin(from[0], x[2 * i] - gone[0]);
         from[1] = fmax(from[1], x[2 * i + 1] + ABOVE);
     }
-    const double words[2] = {from[0] + way[1], from[1] + 2 * ABOVE};
-    for (int i = 0; i < 2; i++) {
-        double at = from[0] + i * way[1];
-        plot_dashes(stage, (double[2]){at, from[1] - 3 * ABOVE},
-                    (double[2]){at, words[1]}, 1.4, NULL, COLOUR_TEXT);
-    }
-    plot_arrow(stage, from, (double[2]){way[0], 0}, 1, 2, COLOUR_P);
-    plot_words(stage, 1, words, COLOUR_P, "gone %s m", number_of(way[0]).text);
+    const double to[2] = {from[0] + gone[1], from[1]}, up[2] = {0, ABOVE};
+    for (int i = 0; i < 2; i++)
+        plot_dashes(stage, along(i ? to : from, -3, up).at,
+                    along(i ? to : from, 2, up).at, 1.4, NULL, COLOUR_TEXT);
+    plot_arrow(stage, from, (double[2]){gone[0], 0}, 1, 2, COLOUR_P);
+    plot_words(stage, 1, along(to, 2, up).at, COLOUR_P, "gone %s m",
+               number_of(gone[0]).text);
 }
 
 /* From the ground up; of several runs the first one is drawn last, and no wall
@@ -485,18 +451,18 @@ void square_draw(Plot *stage)
     }
     if (!show->bare)
         folded = draw_ground(pen);
-    bool kinds = page && (page->cuts || page->kinds) && !show->veiled;
-    if (kinds && page->cuts)
+    bool solid = page && page->cuts && show->veiled; /* not cut yet */
+    if (page && page->cuts)
         square_cells(pen, true);
-    if (page && page->cuts && show->veiled)
-        draw_solid(pen);
-    else if (kinds)
+    if (solid)
+        square_outline(pen, pen->x, false, COLOUR_X);
+    else if (stage->told && (page->cuts || page->kinds))
         draw_kinds(pen);
     else if (pen->spacing >= LEAST_CELL || system_data(system, &fracture))
         square_springs(pen);
     else
         square_faces(pen);
-    if (!page || !page->cuts || !show->veiled)
+    if (!solid)
         square_nodes(pen);
     if (show->bare)
         return;
@@ -553,8 +519,7 @@ static void force_facts(const Simulation *simulation, const double *x,
     double *at = a + 2 * last;
     system_acceleration(&simulation->system, x, a);
     for (int i = 0; i <= last; i++) /* but for rounding */
-        balanced += math_hypot(a[2 * i], a[2 * i + 1]) <=
-                    1e-9 * math_hypot(at[0], at[1]);
+        balanced += length_of(a + 2 * i) <= 1e-9 * length_of(at);
     fact_point(facts, "a", at);
     fact_point(facts, "f", (double[2]){m * at[0], m * at[1]});
     fact(facts, "last", last);
