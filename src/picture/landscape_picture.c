@@ -5,7 +5,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "base/mathematics.h"
 
 /* J s^2; both valleys have their bottom below 1. */
 static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
@@ -18,10 +17,8 @@ enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 static double contour_distance(double value)
 {
     double nearest = INFINITY;
-    for (int k = 0; k < MAP_LEVELS; k++) {
-        double distance = fabs(value - map_levels[k]);
-        nearest = distance < nearest ? distance : nearest;
-    }
+    for (int k = 0; k < MAP_LEVELS; k++)
+        nearest = fmin(nearest, fabs(value - map_levels[k]));
     return nearest;
 }
 
@@ -31,6 +28,11 @@ static double level_factor(const Simulation *simulation)
     double h = simulation->run[0].h / 0.2;
     bool elastic = simulation->exhibit.parts & PART_ELASTICITY;
     return elastic && h > 1 ? h * h : 1;
+}
+
+static bool is_convex(const Local *E)
+{
+    return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
 
 /* Where E is not convex, and contours of the parts that are switched on: two by
@@ -52,7 +54,7 @@ static void draw_ground(const Plot *plot)
                                  plot->y.high - (j - box->y + 1) * metre);
             double right = E.g[0] * metre / e, up = E.g[1] * metre / e;
             double slope = sqrt(right * right + up * up);
-            if (!(E.H[0] > 0 && E.H[0] * E.H[2] > E.H[1] * E.H[1]))
+            if (!is_convex(&E))
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             if (contour_distance(E.value / e) > (reach + 1) * slope)
                 continue;
@@ -73,23 +75,22 @@ static void name_levels(const Plot *plot)
 {
     static const double ray[2] = {0.62, -0.78}, pace = 0.005; /* m */
     const Simulation *simulation = plot->simulation;
-    const double *from = simulation->exhibit.target;
-    double e = level_factor(simulation), before = NAN, place[2];
-    double apart = 1.3 * plot->em / plot->camera.scale[0], last = 0;
+    double e = level_factor(simulation), before = NAN, last = 0, place[2];
+    double space = 1.3 * plot->em / plot->camera.scale[0];
     const Box inside = box_inset(plot->box, (int)plot->em);
-    for (double way = 0; way < 3; way += pace) {
-        const double x[2] = {from[0] + way * ray[0], from[1] + way * ray[1]};
+    for (double gone = 0; gone < 3; gone += pace) {
+        const Point x = along(simulation->exhibit.target, gone, ray);
         double value =
-            descent_at(simulation, FILTER_NONE, x[0], x[1]).value / e;
-        plot_place(plot, x, place);
+            descent_at(simulation, FILTER_NONE, x.at[0], x.at[1]).value / e;
+        plot_place(plot, x.at, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
-                way > last + apart &&
+                gone > last + space &&
                 box_contains(inside, place[0], place[1])) {
                 paper_panel(plot->paper, FACE_REGULAR, 0.85, COLOUR_FAINT,
                             place[0], place[1] - 0.6 * plot->em, ALIGN_CENTRE,
                             number_of(map_levels[k] * e).text);
-                last = way;
+                last = gone;
             }
         before = value;
     }
@@ -125,13 +126,13 @@ static void name_still(const Plot *plot)
     double at[3][2] = {{0, 1}, {0, -1}, {0, 0}};
     for (int i = 0; i < 3; i++) {
         double p[2] = {1, 1};
-        for (int k = 0; k < 40 && math_hypot(p[0], p[1]) > 1e-9; k++) {
+        for (int k = 0; k < 40 && length_of(p) > 1e-9; k++) {
             descent_direction(simulation, FILTER_NONE, at[i], p);
             at[i][0] += p[0];
             at[i][1] += p[1];
         }
         bool saddle = i == 2;
-        if (!(math_hypot(p[0], p[1]) <= 1e-9) ||
+        if (!(length_of(p) <= 1e-9) ||
             descent_bends_down(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow(plot, at[i], 4, 2, COLOUR_TEXT);
@@ -154,8 +155,7 @@ static void draw_directions(const Plot *plot, bool both)
         return;
     slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE,
                               from, p);
-    bool other =
-        both && !alone && math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9;
+    bool other = both && !alone && apart(own, p) > 1e-9;
     Colour colour = slope > 0 ? COLOUR_WARNING
                     : raw     ? COLOUR_PROJECT
                               : COLOUR_GHOST;
@@ -164,13 +164,12 @@ static void draw_directions(const Plot *plot, bool both)
     if (both || !alone)
         plot_arrow(plot, from, own, 1, 2.2,
                    descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
-    double length = math_hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
+    double length = length_of(p) * plot->camera.scale[0], tip[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
-    const double place[4] = {from[0] + p[0], from[1] + p[1],
-                             from[0] + far * p[0], from[1] + far * p[1]};
-    plot_place(plot, place, at);
-    if (other && box_contains(plot->box, at[0], at[1]))
-        plot_words(plot, 2, place, colour, "%s (slope %s)",
+    const Point place[2] = {along(from, 1, p), along(from, far, p)};
+    plot_place(plot, place->at, tip);
+    if (other && box_contains(plot->box, tip[0], tip[1]))
+        plot_words(plot, 2, place->at, colour, "%s (slope %s)",
                    raw ? "with projection" : "without",
                    number_with(slope, 2).text);
 }
@@ -195,6 +194,14 @@ static void draw_pulls(const Plot *plot)
         plot_arrow(plot, x, E.g, -1, 2.2, COLOUR_TEXT);
 }
 
+/* Of E at x; what is nothing but rounding is 0. */
+static double part_at(const Simulation *simulation, unsigned parts,
+                      const double *x)
+{
+    double value = landscape_part_value(simulation, parts, x[0], x[1]);
+    return value < 1e-30 ? 0 : value;
+}
+
 /* What the map is of. */
 static void name_parts(unsigned parts, Facts *facts)
 {
@@ -206,6 +213,7 @@ static void name_parts(unsigned parts, Facts *facts)
 
 void landscape_facts(const Simulation *simulation, Facts *facts)
 {
+    static const char *const raw[] = {"Hxx", "Hxy", "Hyy"};
     static const char *const projected[] = {"Pxx", "Pxy", "Pyy"};
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
@@ -216,9 +224,6 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "x tilde", simulation->exhibit.target);
     for (int k = 0; k < 2; k++) /* nothing but rounding */
         E.g[k] = fabs(E.g[k]) < 1e-15 ? 0 : E.g[k];
-    double bowl = landscape_part_value(simulation, PART_INERTIA, x[0], x[1]);
-    double springs =
-        landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]);
     fact_point(facts, "g", E.g);
     fact_point(facts, "solution", descent->direction);
     fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
@@ -229,28 +234,23 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
                   simulation->options.page && descent->count == 0 &&
                       simulation->options.filter == FILTER_NONE);
     }
-    double det = E.H[0] * E.H[2] - E.H[1] * E.H[1];
-    fact_when(facts, E.H[0] > 0 && det > 0 ? "convex" : "shaded", true);
+    fact_when(facts, is_convex(&E) ? "convex" : "shaded", true);
     fact_when(facts, "moves", descent->slope != 0);
-    fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
-    fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);
-    fact(facts, "elastic part", springs < 1e-30 ? 0 : springs);
-    fact(facts, "Hxx", E.H[0]);
-    fact(facts, "Hxy", E.H[1]);
-    fact(facts, "Hyy", E.H[2]);
+    fact(facts, "E", part_at(simulation, parts, x));
+    fact(facts, "bowl", part_at(simulation, PART_INERTIA, x));
+    fact(facts, "elastic part", part_at(simulation, PART_ELASTICITY, x));
+    fact_matrix(facts, raw, E.H, 0);
     name_parts(parts, facts);
     fact_when(facts, "both", parts == PART_BOTH);
     fact_when(facts, "elastic", parts != PART_INERTIA);
     fact_when(facts, "inertial", parts != PART_ELASTICITY);
     const LecturePage *page = simulation->options.page;
-    bool pulls = page && page->forces;
+    bool pulls = page && page->forces, aims = descent->slope != 0;
+    bool climbed = last >= 0 && descent->record[last].slope > 0;
     fact_when(facts, "pulls", pulls);
     fact_when(facts, "directed",
-              last >= 0 ||
-                  (parts == PART_BOTH && descent->slope != 0 && !pulls));
-    fact_when(facts, "went uphill",
-              descent->slope > 0 ||
-                  (last >= 0 && descent->record[last].slope > 0));
+              last >= 0 || (parts == PART_BOTH && aims && !pulls));
+    fact_when(facts, "went uphill", descent->slope > 0 || climbed);
 }
 
 /* Level lines of the quadratic model at the iterate, around x + p: where H is
@@ -268,11 +268,10 @@ static void draw_model(const Plot *plot)
     double height = low * q * q + rest * p[1] * p[1];
     if (!(low > 0 && rest > 0))
         return;
-    const double middle[2] = {x[0] + p[0], x[1] + p[1]};
     for (int k = 0; k < 3; k++) {
         double radius = levels[k] * sqrt(height), up = radius / sqrt(rest);
         const double a[2] = {radius / sqrt(low), 0}, b[2] = {-lift * up, up};
-        plot_ellipse(plot, middle, a, b, 1.6, false, COLOUR_P);
+        plot_ellipse(plot, along(x, 1, p).at, a, b, 1.6, false, COLOUR_P);
     }
 }
 
@@ -282,28 +281,28 @@ void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
+    const LecturePage *told = stage->told;
     const Descent *descent = &simulation->descent;
     Plot plot = draw_map(stage);
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->from, *to = record->to;
-        const double way[2] = {to[0] - from[0], to[1] - from[1]};
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
         if (record->alpha > 0)
-            plot_arrow(&plot, from, way, 1 / record->alpha, 1.2, colour);
+            plot_arrow(&plot, from, way(from, to).at, 1 / record->alpha, 1.2,
+                       colour);
         plot_line(&plot, from, to, 3.2, colour);
         plot_disc(&plot, from, 5, COLOUR_X);
     }
     bool raw = simulation->options.filter == FILTER_NONE;
-    if (show->lecture && raw && !show->veiled && !simulation->done)
-        draw_model(&plot);
     bool both = !show->lecture || (raw && !show->lecture->predict);
-    if (show->lecture && show->lecture->forces && !show->veiled)
+    if (told && raw && !simulation->done)
+        draw_model(&plot);
+    if (told && told->forces)
         draw_pulls(&plot);
     else if (!show->veiled)
         draw_directions(&plot, plot.text && both);
-    if (show->lecture && !show->veiled && plot.text &&
-        simulation->exhibit.parts != PART_INERTIA)
+    if (told && plot.text && simulation->exhibit.parts != PART_INERTIA)
         name_still(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
     plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
@@ -315,33 +314,30 @@ void landscape_draw(Plot *stage)
 void dial_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const Show *show = stage->show;
     const Walk *walk = &simulation->exhibit.walk;
     Plot plot = draw_map(stage);
-    for (int i = 1; i < WALK_POINTS && !show->veiled; i++)
+    int points = stage->show->veiled ? 0 : WALK_POINTS;
+    for (int i = 1; i < points; i++)
         plot_line(&plot, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
-    for (int i = 10; i < WALK_POINTS && !show->veiled; i += 10)
+    for (int i = 10; i < points; i += 10)
         plot_disc(&plot, walk->point[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
-    for (int i = WALK_POINTS - 11; i > 0 && !show->veiled; i -= 10)
+    for (int i = points - 11; i > 0; i -= 10)
         plot_words(&plot, 1, walk->point[i], COLOUR_X, "h %s %s s",
-                   i == WALK_POINTS - 11 ? "\u2265" : "=",
+                   i == points - 11 ? "\u2265" : "=",
                    number_of(walk->h[i]).text);
 }
 
 void dial_facts(const Simulation *simulation, Facts *facts)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
-    const double *target = simulation->exhibit.target;
-    double elastic =
-        landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]);
+    double elastic = part_at(simulation, PART_ELASTICITY, x);
     name_parts(simulation->exhibit.parts, facts);
     fact(facts, "h", h);
     fact_point(facts, "minimiser", x);
-    fact(facts, "distance", math_hypot(x[0] - target[0], x[1] - target[1]));
-    fact(facts, "inertia",
-         landscape_part_value(simulation, PART_INERTIA, x[0], x[1]));
+    fact(facts, "distance", apart(simulation->exhibit.target, x));
+    fact(facts, "inertia", part_at(simulation, PART_INERTIA, x));
     fact(facts, "elasticity", elastic);
     fact(facts, "P", elastic / (h * h));
 }

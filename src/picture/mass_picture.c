@@ -3,7 +3,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "base/mathematics.h"
 
 enum { TRAIL = 256, MASS_GUESSES = 6, MASS_AHEAD = 50 };
 
@@ -73,7 +72,7 @@ void circle_draw(Plot *stage)
     plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
               COLOUR_GRID);
     plot_line(stage, origin, (double[2]){1, 0}, 1.2, COLOUR_GREY);
-    if (stage->show->lecture && !stage->show->veiled)
+    if (stage->told)
         plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
                      true, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
@@ -88,10 +87,8 @@ void circle_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
     double most = 0;
-    for (int r = 0; r < simulation->runs; r++) {
-        const double *x = simulation->run[r].x;
-        most = fmax(most, fmin(math_hypot(x[0], x[1]), CIRCLE_MOST));
-    }
+    for (int r = 0; r < simulation->runs; r++)
+        most = fmax(most, fmin(length_of(simulation->run[r].x), CIRCLE_MOST));
     bounds_around(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
 }
 
@@ -107,32 +104,27 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 
 /* The matrix of a step of (x, v/omega), t = h omega, and its eigenvalues: real
  * ones, or a pair. */
-static void add_matrix(const char *method, double t, Facts *facts)
+static void add_matrix(const IntegratorMethod *method, double t, Facts *facts)
 {
-    double k = 1 / (1 + t * t);
-    const struct {
-        const char *method;
-        double xx, xv, vx, vv;
-    } rows[] = {{"forward-euler", 1, t, -t, 1},
-                {"symplectic-euler", 1 - t * t, t, -t, 1},
-                {"backward-euler", k, k * t, -k * t, k}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        if (strcmp(rows[i].method, method) != 0)
-            continue;
-        fact(facts, "Sxx", rows[i].xx);
-        fact(facts, "Sxv", rows[i].xv);
-        fact(facts, "Svx", rows[i].vx);
-        fact(facts, "Svv", rows[i].vv);
-        double re = 0.5 * (rows[i].xx + rows[i].vv);
-        double square =
-            re * re - rows[i].xx * rows[i].vv + rows[i].xv * rows[i].vx;
-        double root = sqrt(fabs(square));
-        fact(facts, "re", square < 0 ? re : NAN);
-        fact(facts, "im", root);
-        fact(facts, "least", square < 0 ? NAN : re - root);
-        fact(facts, "most", re + root);
-        fact(facts, "size", math_hypot(re, root));
-    }
+    bool forward = strcmp(method->name, "forward-euler") == 0;
+    bool symplectic = strcmp(method->name, "symplectic-euler") == 0;
+    double k = 1 / (1 + t * t), xx = forward ? 1 : 1 - t * t, xv = t, vv = 1;
+    if (strcmp(method->name, "backward-euler") == 0) {
+        xx = vv = k;
+        xv = k * t;
+    } else if (!forward && !symplectic)
+        return;
+    double re = 0.5 * (xx + vv), square = re * re - xx * vv - xv * xv;
+    double root = sqrt(fabs(square));
+    fact(facts, "Sxx", xx);
+    fact(facts, "Sxv", xv);
+    fact(facts, "Svx", -xv);
+    fact(facts, "Svv", vv);
+    fact(facts, "re", square < 0 ? re : NAN);
+    fact(facts, "im", root);
+    fact(facts, "least", square < 0 ? NAN : re - root);
+    fact(facts, "most", re + root);
+    fact(facts, "size", math_hypot(re, root));
 }
 
 /* What each run knows of itself; colour and name are the method's. */
@@ -146,9 +138,9 @@ void circle_facts(const Simulation *simulation, Facts *facts)
         facts->colour[r + 1] = colour_of(run->method->name);
         fact_when(facts, "many", simulation->runs > 1);
         fact_words(facts, "name", run->method->label);
-        fact(facts, "radius", math_hypot(run->x[0], run->x[1]));
+        fact(facts, "radius", length_of(run->x));
         if (circle)
-            add_matrix(run->method->name, turn, facts);
+            add_matrix(run->method, turn, facts);
     }
     facts->run = 0; /* steps of forward Euler until the radius is doubled */
     fact(facts, "doubling",
@@ -179,8 +171,7 @@ void mass_bounds(const Plot *stage, double bounds[4])
         return;
     }
     const double *began = simulation->exhibit.began;
-    double most = math_hypot(math_hypot(began[0], began[1]),
-                             math_hypot(began[2], began[3]));
+    double most = math_hypot(length_of(began), length_of(began + 2));
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
         mass_next_step(simulation, r, &step);
@@ -236,9 +227,7 @@ static void draw_mass_lesson(Plot *stage)
         if (k > 0)
             plot_line(stage, from.at, x.at, 1.4, COLOUR_GREY);
         plot_hollow(stage, x.at, 5, 3, COLOUR_GREY);
-        const Point away = way(step.new_x, x.at);
-        if (math_hypot(away.at[0], away.at[1]) * stage->camera.scale[0] >
-            1.5 * stage->em)
+        if (apart(step.new_x, x.at) * stage->camera.scale[0] > 1.5 * stage->em)
             plot_words(stage, 1, x.at, COLOUR_FAINT, "%d", k + 1);
     }
     bool symplectic = !step.by_old_v && !implicit;
@@ -297,8 +286,7 @@ static void draw_mass_step(Plot *stage)
         Point at[4];
         for (int k = 0; k < 4; k++)
             at[k] = along(now->a, part[k], now->d);
-        if (math_hypot(now->d[0], now->d[1]) * stage->camera.scale[0] >
-            2 * stage->em)
+        if (length_of(now->d) * stage->camera.scale[0] > 2 * stage->em)
             plot_words(stage, 4, at->at, now->colour, "%s", now->word);
     }
 }
@@ -385,7 +373,7 @@ void mass_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "miss", apart(step.new_x, exact_step(&step, h).at));
     if (step.by_old_v) {
         const Point half = along(step.x, 0.5 * h, step.v);
-        fact(facts, "half", 0.5 * h * h * apart(step.x, origin));
+        fact(facts, "half", 0.5 * h * h * length_of(step.x));
         fact(facts, "half miss", apart(half.at, exact_step(&step, 0.5 * h).at));
     }
 }

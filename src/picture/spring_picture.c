@@ -4,7 +4,6 @@
 #include "model/mass_spring_energy.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "base/mathematics.h"
 
 enum { SPRING_COILS = 12 };
 
@@ -16,7 +15,7 @@ static const double origin[2] = {0, 0};
 void spring_bounds(const Plot *stage, double bounds[4])
 {
     const double *x = stage->simulation->run[0].x;
-    bounds_around(SPRING_REACH, 1.1 * math_hypot(x[0], x[1]), sqrt(2), bounds);
+    bounds_around(SPRING_REACH, 1.1 * length_of(x), sqrt(2), bounds);
 }
 
 static SpringFacts facts_at(const double d[2], const System *system)
@@ -50,16 +49,16 @@ static void spring_circle(Plot *stage, double radius, Colour colour,
 /* A zigzag from the held end to x. */
 static void spring_coil(Plot *stage, const double *x, Colour colour)
 {
-    double length = math_hypot(x[0], x[1]), from[2] = {0, 0};
-    if (!(length > 0))
-        return;
-    for (int i = 1; i <= 2 * SPRING_COILS; i++) {
+    const Point across = {{-x[1], x[0]}};
+    Point from = {{0, 0}};
+    double length = length_of(x);
+    for (int i = 1; i <= 2 * SPRING_COILS && length > 0; i++) {
         bool straight = i == 1 || i >= 2 * SPRING_COILS - 1;
         double side = straight ? 0 : (i % 2 ? 0.06 : -0.06) / length;
-        double t = (double)i / (2 * SPRING_COILS);
-        const double to[2] = {t * x[0] - side * x[1], t * x[1] + side * x[0]};
-        plot_line(stage, from, to, 2.4, colour);
-        memcpy(from, to, sizeof from);
+        const Point on = along(origin, (double)i / (2 * SPRING_COILS), x);
+        const Point to = along(on.at, side, across.at);
+        plot_line(stage, from.at, to.at, 2.4, colour);
+        from = to;
     }
 }
 
@@ -89,9 +88,10 @@ void spring_draw(Plot *stage)
                    value[i / 2] < 0 ? COLOUR_WARNING : COLOUR_X);
     }
     if (!modes && facts.length > 0) {
-        double side = SPRING_BESIDE / facts.length;
-        const double from[2] = {x[0] - side * x[1], x[1] + side * x[0]};
-        plot_arrow(stage, from, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
+        const double across[2] = {-x[1], x[0]};
+        const Point from = along(x, SPRING_BESIDE / facts.length, across);
+        plot_arrow(stage, from.at, facts.force, SPRING_ARROW, 3.2,
+                   COLOUR_FORCE);
     }
     plot_disc(stage, x, 9, COLOUR_X);
 }
@@ -105,15 +105,13 @@ static void add_differences(const Simulation *simulation, Facts *facts)
     static const double step = 1e-4; /* m */
     static const char *const names[] = {"Dxx", "Dxy", "Dyy"};
     const System *system = &simulation->system;
+    const double unit[2][2] = {{1, 0}, {0, 1}};
+    const double *d = simulation->run[0].x;
     double force[2];
     for (int i = 0; i < 2; i++) {
-        SpringFacts at[2];
-        for (int side = 0; side < 2; side++) {
-            double d[2];
-            memcpy(d, simulation->run[0].x, sizeof d);
-            d[i] += side ? step : -step;
-            spring_facts(d, system->l2[0], system->k[0], &at[side]);
-        }
+        const SpringFacts at[2] = {
+            facts_at(along(d, -step, unit[i]).at, system),
+            facts_at(along(d, step, unit[i]).at, system)};
         force[i] = (at[0].energy - at[1].energy) / (2 * step);
         for (int k = 0; k <= i; k++)
             fact(facts, names[i + k],
@@ -127,9 +125,10 @@ void length_facts(const Simulation *simulation, Facts *facts)
 {
     static const char *const names[2][3] = {{"Hxx", "Hxy", "Hyy"},
                                             {"Pxx", "Pxy", "Pyy"}};
-    const double *d = simulation->run[0].x, k = simulation->system.k[0];
-    double l2 = simulation->system.l2[0], H[3];
-    SpringFacts now = facts_at(simulation->run[0].x, &simulation->system);
+    const System *system = &simulation->system;
+    const double *d = simulation->run[0].x, k = system->k[0];
+    double l2 = system->l2[0], H[3];
+    SpringFacts now = facts_at(d, system);
     double along = 2 * now.along, across = 2 * now.across; /* of its block */
     Filter filter =
         simulation->options.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
@@ -159,7 +158,7 @@ void length_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "root", both);
     fact_when(facts, page ? "lecture" : "alone", true);
     fact_when(facts, "pulled", !page || !page->modes);
-    fact(facts, "tip", root_over(&simulation->system, 0));
+    fact(facts, "tip", root_over(system, 0));
     fact_when(facts, "shortened", now.across < 0);
     fact(facts, "root energy", both ? now.root_energy : NAN);
     fact(facts, "root along", both ? now.root_along : NAN);
