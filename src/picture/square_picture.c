@@ -253,13 +253,15 @@ static void draw_colours(const SpringPen *pen)
 static void draw_numbers(const SpringPen *pen)
 {
     double at[2], em = pen->stage->em;
+    char number[16];
     for (int i = 0; i < pen->system->nodes; i++) {
+        snprintf(number, sizeof number, "%d", i);
         plot_place(pen->stage, pen->x + 2 * i, at);
         at[0] += 0.7 * em;
         at[1] += 0.4 * em;
         if (box_contains(pen->stage->box, at[0], at[1]))
             paper_panel(pen->stage->paper, FACE_BOLD, 1.3, COLOUR_TEXT, at[0],
-                        at[1], ALIGN_LEFT, number_of(i).text);
+                        at[1], ALIGN_LEFT, number);
     }
 }
 
