@@ -13,7 +13,7 @@
 #include "scenes/simulation.h"
 
 enum {
-    SHOW_TEXT = 160,     /* bytes of a sentence */
+    SHOW_TEXT = 224,     /* bytes of a sentence */
     SHOW_VALUE = 32,     /* bytes of a setting's value */
     SHOW_CODE_LINES = 24 /* as many as are seen from the back row */
 };

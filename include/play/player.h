@@ -66,7 +66,7 @@ typedef struct Mouse {
 typedef struct Side {
     int place;     /* in the rounds of the step; -1: it shows all of it */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
-    char ghost_label[160]; /* which one, and what it was */
+    char ghost_label[256]; /* which one, and what it was */
     char label[64];        /* what is different here */
 } Side;
 

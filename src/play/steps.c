@@ -330,16 +330,20 @@ static bool walk(Player *player, int way)
 
 /* ---- the step once more: the counterfactual ------------------------------ */
 
-/* "projection none: E +206 in 12 updates" */
+/* "projection none: E(x) rises by 206 J s² in 12 updates" */
 static void tell_outcome(const Player *player, const OptionRow *row, char *text,
                          size_t size)
 {
     const Outcome *outcome = &player_machine(player)->outcome;
-    char value[COMMAND_TEXT_SIZE];
+    char value[COMMAND_TEXT_SIZE], unit[32];
     option_value(row, player_settings(player), value, sizeof value);
-    snprintf(text, size, "%s %s: E %+.3g in %d update%s%s%s", row->label, value,
-             outcome->change, outcome->updates,
-             outcome->updates == 1 ? "" : "s", outcome->status ? ", " : "",
+    option_unit(row, unit, sizeof unit);
+    snprintf(text, size,
+             "%s %s%s%s: E(x) %s by %.3g J s\u00b2 in %d update%s%s%s",
+             row->label, value, unit[0] ? " " : "", unit,
+             outcome->change > 0 ? "rises" : "falls", fabs(outcome->change),
+             outcome->updates, outcome->updates == 1 ? "" : "s",
+             outcome->status ? ", " : "",
              outcome->status ? status_text(outcome->status) : "");
 }
 
@@ -349,7 +353,7 @@ static void tell_retake(Player *player)
     const Past *past = &player->past;
     const Rounds *rounds = &player_machine(player)->rounds;
     const Station *at = &player->retaken;
-    char has[160];
+    char has[256];
     if (at->round >= 0 && rounds->places > 2) {
         player->mode = MODE_PAUSE;
         player->side[player->active].place =

@@ -570,7 +570,8 @@ void options_help(FILE *help)
         snprintf(start.text, sizeof start.text, "  --%s%s%s%s%.1s", row->name,
                  row->value ? " " : "", row->value ? row->value : "",
                  row->letter ? ", -" : "", &row->letter);
-        if (row->kind == OPTION_NAME)
+        bool named = row->kind == OPTION_NAME;
+        if (named)
             range = list_text(row->names);
         if (row->kind == OPTION_WHOLE && row->high <= 4096)
             snprintf(range.text, sizeof range.text, "%g ... %g", row->low,
@@ -579,8 +580,10 @@ void options_help(FILE *help)
             snprintf(standard.text, sizeof standard.text, "[%g]",
                      row->standard);
         snprintf(words, sizeof words, "%s%s%s %s %s", row->help,
-                 row->unit[0] ? ", " : "", row->unit, range.text,
-                 standard.text);
+                 named && row->help[0] ? ":"
+                 : row->unit[0]        ? ", "
+                                       : "",
+                 row->unit, range.text, standard.text);
         help_line(help, start.text, words);
     }
 }

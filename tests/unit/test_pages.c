@@ -650,7 +650,7 @@ TEST(claim_parts)
 
 TEST(claim_dial)
 {
-    says("dial", "1 10 1 10 0 1 1 10 1");
+    says("dial", "1 10 1 2 0 1 1 10 1");
     Simulation *simulation = open_page("dial", "");
     const Walk *walk = &simulation->exhibit.walk;
     const double *target = simulation->exhibit.target;
@@ -663,6 +663,8 @@ TEST(claim_dial)
                         walk->point[WALK_POINTS - 1][1] - sqrt(1.25)),
                   1e-3);
     for (int i = 1; i < WALK_POINTS; i++) {
+        double off = hypot(walk->point[i][0], walk->point[i][1] - sqrt(1.25));
+        CHECK(walk->h[i] < 1 - 1e-9 || off < 2e-3);
         double value[2][2]; /* [part][before, now] */
         for (int k = 0; k < 2; k++)
             for (int part = 0; part < 2; part++)
@@ -735,7 +737,7 @@ TEST(claim_tamed)
 
 TEST(claim_descent)
 {
-    says("descent", "0.1 0.35 0.86 2.94 0.1 0.35 0.86 2.94 289");
+    says("descent", "0 0.1 0.35 0.86 2.94 0.1 0.35 0.86 2.94 289");
     Simulation *simulation = open_page("descent", "");
     CHECK_NEAR(simulation->run[0].x[0], 0.1, 0);
     CHECK_NEAR(simulation->run[0].x[1], -0.35, 0);
