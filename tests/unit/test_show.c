@@ -1,6 +1,7 @@
 /* Frames: what is drawn of a Show, where, and what the mouse finds there. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "picture/cards.h"
@@ -432,6 +433,7 @@ TEST(the_mouse_finds_nodes_and_springs)
 
 /* Every text of a frame. */
 static char written[500][160];
+static double written_at[500];
 static int writings;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
@@ -442,6 +444,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
+    written_at[writings % 500] = x;
     if (writings < 500)
         snprintf(written[writings++], sizeof *written, "%s", markup);
     return __real_text_draw(text, canvas, style, x, y, align, markup);
@@ -599,6 +602,33 @@ TEST(energies_before_an_explosion_are_seen)
         CHECK(energy <= axis.high && energy >= axis.low);
     }
     CHECK(least > 0 && least < 1e-6);
+}
+
+/* On the map of inertia, |x - x_tilde|^2 / 2, the names of contours are where
+ * it has their value, along the ray of the picture; at x it pulls towards
+ * x_tilde. 4 pixels: the ray is walked in paces of 5 mm. */
+TEST(maps_have_levels_and_pulls)
+{
+    static const double levels[] = {0.2, 0.6, 1};
+    stand_up("landscape --filter none --start 0.6,0.9 --timestep 0.1", 0);
+    show.lecture = lecture_find("parts");
+    simulation.exhibit.parts = PART_INERTIA;
+    CHECK(is_drawn("0.6"));
+    Plot stage = show_stage(&paper, &show, &layout, 0);
+    const double *target = simulation.exhibit.target;
+    for (int k = 0; k < 3; k++) {
+        double far = sqrt(2 * levels[k]), at[2], near = INFINITY;
+        plot_place(&stage, (double[]){target[0] + 0.62 * far, target[1]}, at);
+        for (int i = 0; i < writings && i < 500; i++)
+            if (strtod(written[i], NULL) == levels[k])
+                near = fmin(near, fabs(written_at[i] - at[0]));
+        CHECK_AT_MOST(near, 4);
+    }
+    double middle[2];
+    draw_without_words();
+    plot_place(&stage, (double[]){0.4, 0.6}, middle);
+    CHECK(count_colour((Box){(int)middle[0] - 3, (int)middle[1] - 3, 7, 7},
+                       COLOUR_X_TILDE) > 3);
 }
 
 /* Every card of every picture has a name of its own, none of them in another
