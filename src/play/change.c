@@ -55,8 +55,19 @@ Status obey_scene(Player *player, const Command *command)
     return STATUS_OK;
 }
 
+/* Whether a page has commands when it opens, and the nodes that they name. */
+static bool opens_again(Player *player, const Options *now)
+{
+    Options own;
+    const LecturePage *page = now->page;
+    return page && page->open &&
+           !lecture_options(page, &own, player->message,
+                            sizeof player->message) &&
+           own.segments == now->segments;
+}
+
 /* From step 0 with the present numbers, or from another start; a pause that
- * nobody asked for ends. */
+ * nobody asked for ends.  A page opens again. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -75,7 +86,12 @@ Status obey_restart(Player *player, const Command *command)
         player->mode = MODE_RUN;
     if (!moves)
         player->show.lens = LENS_FITS;
-    return player_begin(player, options, panes, command);
+    bool opens = !moves && opens_again(player, options);
+    Status status = player_begin(player, options, opens ? 1 : panes, command);
+    player->fine = opens ? 0 : player->fine;
+    return status || !opens || !player->asks /* a script has these commands */
+               ? status
+               : player_open_page(player);
 }
 
 /* ---- the lecture --------------------------------------------------------- */
@@ -99,11 +115,11 @@ Status player_obey_lines(Player *player, const char *lines)
 
 Status player_open_page(Player *player)
 {
-    const LecturePage *page = player_settings(player)->page;
+    const LecturePage *page = player_settings(player)->page, *told = player->told;
     player->told = page; /* nobody has asked for these steps */
     player->opens = true;
     Status status = player_obey_lines(player, page ? page->open : NULL);
-    player->told = NULL;
+    player->told = told;
     player->opens = false;
     return status;
 }
@@ -171,7 +187,7 @@ Status obey_page(Player *player, const Command *command)
     player->column = COLUMN_CARDS;
     player->fine = 0;
     player_close_sheet(player);
-    if (status || player->given[0].script)
+    if (status || !player->asks)
         return status;
     player->mode = MODE_PAUSE;
     return player_open_page(player);
