@@ -385,7 +385,7 @@ static void draw_lens(const SpringPen *pen)
     }
     const double *a = paired ? pen->x + 2 * gap.pair[1] : gap.foot;
     const double *b = paired ? pen->x + 2 * gap.pair[2] : gap.node;
-    double reach = paired ? 0.7 * apart(a, b) : 1.2 * gap.d_hat;
+    double reach = paired ? 0.95 * apart(a, b) : 1.2 * gap.d_hat;
     for (int c = 0; c < 4; c++)
         bounds[c] = 0.5 * (a[c % 2] + b[c % 2]) + (c < 2 ? -reach : reach);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);

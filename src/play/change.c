@@ -115,7 +115,8 @@ Status player_obey_lines(Player *player, const char *lines)
 
 Status player_open_page(Player *player)
 {
-    const LecturePage *page = player_settings(player)->page, *told = player->told;
+    const LecturePage *page = player_settings(player)->page;
+    const LecturePage *told = player->told;
     player->told = page; /* nobody has asked for these steps */
     player->opens = true;
     Status status = player_obey_lines(player, page ? page->open : NULL);
