@@ -25,7 +25,7 @@ B       := build/$(VARIANT)
 
 objects = $(patsubst %.c,$(B)/%.o,$(patsubst src/%,%,$(wildcard $(1))))
 OBJECTS := $(filter-out %_web.o,$(call objects,$(ROOMS:%=src/%/*.c))) \
-           $(B)/listing_text.o
+           $(B)/texts.o
 SUITES  := $(patsubst %.c,$(B)/%,$(wildcard tests/unit/test_*.c))
 STRESS  := $(filter-out %/stress.o,$(call objects,tests/stress/*.c \
              tests/unit/oracle.c))
@@ -154,30 +154,24 @@ $(B)/bench/%.o: private CPPFLAGS += -DBENCH_FLAGS='"$(strip $(CFLAGS))"'
 
 -include $(wildcard $(B)/*.d $(B)/*/*.d $(B)/tests/*/*.d)
 
-# ---- the lecture's listings -------------------------------------------------
-# The text of these sources, and how the handout begins, is compiled into the
-# program as a table of lines; so are pages and cards.
+# ---- texts ------------------------------------------------------------------
+# Pages with the functions that they show, cards, and how the handout begins are
+# compiled into the program.
 PAGES = src/scenes/pages.txt
 CARDS = src/picture/cards.txt
+HEAD = src/play/handout.html
 READ = awk -f src/scenes/text.awk
-LISTED = $(sort src/play/handout.html $(shell sed -n 's/^code \([^ ]*\).*/\1/p' $(PAGES)))
+LISTED = $(sort $(shell sed -n 's/^code \([^ ]*\).*/\1/p' $(PAGES)))
 
-LISTED_TEXT = static const char *const text_$$n[] = {
-LISTED_ROW = {\"$$file\", sizeof text_$$n / sizeof *text_$$n, text_$$n},
-
-$(B)/listing_text.c: $(LISTED) $(PAGES) $(CARDS) src/scenes/text.awk \
-                     src/scenes/pages.awk src/picture/cards.awk Makefile
+$(B)/texts.c: $(LISTED) $(PAGES) $(CARDS) $(HEAD) $(wildcard src/*/*.awk) Makefile
 	$(call shown,WRITE)
-	$(Q){ echo '#include "scenes/listing.h"'; echo '#include "scenes/pages.h"'; \
-	  n=0; for file in $(LISTED); do n=$$((n + 1)); echo "$(LISTED_TEXT)"; \
-	  sed 's/[\\"]/\\&/g; s/.*/"&",/' $$file; echo '};'; done; \
-	  echo 'const Listing listings[] = {'; n=0; \
-	  for file in $(LISTED); do n=$$((n + 1)); echo "$(LISTED_ROW)"; done; \
-	  echo '{NULL, 0, NULL}};'; $(READ) -f src/scenes/pages.awk $(PAGES); \
+	$(Q){ echo '#include "scenes/pages.h"'; echo 'const char handout_head[] ='; \
+	  sed 's/[\"]/\\&/g; s/.*/"&\\n"/' $(HEAD); echo ';'; \
+	  $(READ) -f src/scenes/code.awk -f src/scenes/pages.awk $(PAGES); \
 	  pages=$$?; $(READ) -f src/picture/cards.awk $(CARDS) && [ $$pages = 0 ]; \
 	  } >$@.new && mv $@.new $@
 
-$(B)/listing_text.o: $(B)/listing_text.c $(B)/flags
+$(B)/texts.o: $(B)/texts.c $(B)/flags
 	$(call shown,CC)
 	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
 

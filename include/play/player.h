@@ -176,9 +176,8 @@ void player_paint(Player *player, Paper *paper);
 Status player_run(Player *player);
 
 /* The same in its parts, for a program that is called a frame at a time, as a
- * page is: the first frame; inputs, script, steps and a frame, as far as they
- * are due; for how many milliseconds nothing is; whether it is over. */
-Status player_start(Player *player);
+ * page is: inputs, script, steps and a frame, as far as they are due; for how
+ * many milliseconds nothing is; whether it is over. */
 Status player_frame(Player *player);
 int player_wait(const Player *player);
 bool player_ended(const Player *player);

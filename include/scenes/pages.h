@@ -26,26 +26,27 @@ typedef struct LecturePage {
     const char *law;   /* that the card of it draws (card_law.c), or NULL */
     const char *notes; /* what to say, for whoever presents it */
     double minutes;    /* that it takes */
-    const char *file;  /* where its code is: a file that listing.h knows */
-    const char *function; /* and functions in it, with ',' between */
-    const char *lit;      /* its lines with this text are those at work */
-    const char *claim;    /* what a test holds */
-    unsigned flips;       /* bit s: switch s of the scene is turned over */
-    int picture;          /* the step that the handout shows */
-    double speed;         /* steps a frame; 0: the scene's */
-    bool numbers;         /* the nodes' are shown */
-    const char *open;     /* commands when it opens, ';' between; or NULL */
-    const char *tell;     /* and when N shows the answer; or NULL */
-    int lines;            /* or so many lines on from where the page opens */
-    bool predict;         /* a click says where the next step leads */
-    bool waits;           /* its answer comes before a step */
-    bool forces;          /* that on each node is an arrow */
-    bool modes;           /* so is the fastest oscillation, or eigenvectors */
-    bool writes;          /* the spring is lit whose number is the step's */
-    bool kinds;           /* each kind has its colour, and is a switch */
-    bool nears;           /* N brings the end of the spring nearer */
-    bool stops;           /* it plays up to its picture */
-    bool cuts;            /* before the guess a solid; then it shows kinds */
+    const char *file;  /* where its code is: as from the top folder */
+    const char *function;    /* and functions in it, with ',' between */
+    const char *const *code; /* their lines, up to NULL */
+    const char *lit;         /* those with this text are at work */
+    const char *claim;       /* what a test holds */
+    unsigned flips;          /* bit s: switch s of the scene is turned over */
+    int picture;             /* the step that the handout shows */
+    double speed;            /* steps a frame; 0: the scene's */
+    bool numbers;            /* the nodes' are shown */
+    const char *open;        /* commands when it opens, ';' between; or NULL */
+    const char *tell;        /* and when N shows the answer; or NULL */
+    int lines;               /* or so many lines on from where the page opens */
+    bool predict;            /* a click says where the next step leads */
+    bool waits;              /* its answer comes before a step */
+    bool forces;             /* that on each node is an arrow */
+    bool modes;  /* so is the fastest oscillation, or eigenvectors */
+    bool writes; /* the spring is lit whose number is the step's */
+    bool kinds;  /* each kind has its colour, and is a switch */
+    bool nears;  /* N brings the end of the spring nearer */
+    bool stops;  /* it plays up to its picture */
+    bool cuts;   /* before the guess a solid; then it shows kinds */
 } LecturePage;
 
 /* Text, formulas, look and touch are texts of facts.h: live numbers stand in

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "scenes/listing.h"
 
 /* Where Algorithm 3's lines are in step_forward of lecture.c. */
 static const char *const line_texts[LINE_COUNT] = {
@@ -35,62 +34,16 @@ static const char *lit_text(const Show *show, const LecturePage *page)
     return page->lit;
 }
 
-/* How many lines from this one on only declare, report, remark or give back, a
- * condition before them included: a class reads past them. */
-static int count_asides(const char *const *line)
-{
-    static const char words[] =
-        "/*|FAIL(|fprintf(|fputs(|puts(|char |const char *states|snprintf(|"
-        "FILE *f|return NULL;|(void)|free(|cholmod_free|cholmod_finish|"
-        "cholmod_start|cholmod_common c|common.|size_t n|SDL_Quit|Vec2 *x|"
-        "Vec2 *p|int n = |Solid solid = {|Parameter *|Parameter method|"
-        "Parameter steps|for (int a|states = |read_argument(|bool drawn|"
-        "Screen s|cholmod_triplet *IJV|if (drawn ?|";
-    const char *head = line[0] + strspn(line[0], " ");
-    bool heads = strncmp(head, "if (", 4) == 0 ||
-                 strncmp(head, "for (", 5) == 0 || strcmp(head, "else") == 0;
-    for (int count = 0; count <= (heads && !strchr(head, '{')); count++) {
-        const char *body = line[count] + strspn(line[count], " ");
-        size_t length;
-        for (const char *word = words; *word; word += length + 1) {
-            length = strcspn(word, "|");
-            if (strncmp(body, word, length) != 0)
-                continue;
-            while (!strstr(line[count], word == words ? "*/" : ";"))
-                count++;
-            return count + 1;
-        }
-    }
-    return 0;
-}
-
 /* The lines of the page's functions, as many as there is room for. */
 static void fill_code(const LecturePage *page, Show *show)
 {
-    const Listing *listing = listing_find(page->file);
     const char *text = lit_text(show, page);
     Page *code = &show->page;
     *code = (Page){.kind = PAGE_CODE, .title = page->file};
-    for (const char *names = page->function; listing && *names;) {
-        char name[40];
-        int length = (int)strcspn(names, ","), from, at, to;
-        snprintf(name, sizeof name, "%.*s", length, names);
-        names += length + (names[length] == ',');
-        if (!listing_function(listing, name, &from, &at, &to))
-            continue;
-        if (code->lines > 0 && code->lines < SHOW_CODE_LINES)
-            code->line[code->lines++] = "";
-        while (at < to && code->lines < SHOW_CODE_LINES) {
-            int last = code->lines - 1, asides;
-            bool begins = last >= 0 && code->line[last][0] == '{';
-            asides = count_asides(listing->line + at);
-            at += asides;
-            at += begins && !listing->line[at][0];
-            if (asides > 0)
-                continue;
-            code->lit[code->lines] = strstr(listing->line[at], text) != NULL;
-            code->line[code->lines++] = listing->line[at++];
-        }
+    for (const char *const *line = page->code;
+         *line && code->lines < SHOW_CODE_LINES; line++) {
+        code->lit[code->lines] = strstr(*line, text) != NULL;
+        code->line[code->lines++] = *line;
     }
 }
 

@@ -9,9 +9,10 @@
 
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/listing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
+
+extern const char handout_head[]; /* handout.html, by the Makefile */
 
 enum {
     PICTURE_WIDTH = 1360, /* pixels, of 190 mm */
@@ -97,13 +98,11 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
                      char *told, Player *player)
 {
     Output output;
-    const Listing *head = listing_find("src/play/handout.html");
     Status status = output_open(options->handout, told, &output);
     FILE *file = output.file;
     if (status)
         return status;
-    for (int i = 0; i < head->lines; i++)
-        fprintf(file, "%s\n", head->line[i]);
+    fputs(handout_head, file);
     for (int i = 0; lecture_pages[i].name && !status; i++) {
         const LecturePage *page = &lecture_pages[i];
         Options of_page;

@@ -185,12 +185,6 @@ static Status step_frame(Player *player)
     return status;
 }
 
-Status player_start(Player *player)
-{
-    player->due = clock_now();
-    return player_draw(player);
-}
-
 Status player_frame(Player *player)
 {
     double period =
@@ -242,11 +236,11 @@ int player_wait(const Player *player)
 
 Status player_run(Player *player)
 {
-    Status status = player_start(player);
+    Status status = player_frame(player);
     while (!status && !player_ended(player)) {
-        status = player_frame(player);
-        if (player->window && !status && !player_ended(player))
+        if (player->window)
             window_wait(player_wait(player));
+        status = player_frame(player);
     }
     return status;
 }

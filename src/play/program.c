@@ -255,40 +255,28 @@ static void join_line(int argc, char **argv, char *line, size_t size)
     }
 }
 
-/* Where a file is or will be, without links. */
-static void resolve(const char *name, char path[2 * PATH_MAX])
+/* Where a file or folder is or will be, without links and .part; "": a device,
+ * which may be meant twice. */
+static void find_file(const char *name, char path[2 * PATH_MAX])
 {
     const char *slash = strrchr(name, '/'), *last = slash ? slash + 1 : name;
     char folder[PATH_MAX];
-    if (realpath(name, path))
-        return;
-    snprintf(folder, sizeof folder, "%.*s.", (int)(last - name), name);
-    if (!realpath(folder, path))
-        path[0] = '\0';
-    append(path, 2 * PATH_MAX, "/%s", path[0] ? last : name);
-}
-
-/* Whether the other one is this file or its NAME.part. */
-static bool leads_to(const char *path, const char *other)
-{
-    size_t length = strlen(path);
-    return strncmp(path, other, length) == 0 &&
-           (!other[length] || strcmp(other + length, ".part") == 0);
-}
-
-/* Whether two names of the command line are in each other's way.  Only devices
- * may be meant twice. */
-static bool is_same_file(const char *one, const char *other)
-{
     struct stat info;
-    char path[2][2 * PATH_MAX];
-    if (output_is_standard(one) && output_is_standard(other))
-        return true;
-    if (stat(one, &info) == 0 && S_ISCHR(info.st_mode))
-        return false;
-    resolve(one, path[0]);
-    resolve(other, path[1]);
-    return leads_to(path[0], path[1]) || leads_to(path[1], path[0]);
+    bool standard = output_is_standard(name);
+    path[0] = '\0';
+    if (standard)
+        append(path, 2 * PATH_MAX, "-");
+    if (standard || (stat(name, &info) == 0 && S_ISCHR(info.st_mode)))
+        return;
+    if (!realpath(name, path)) {
+        snprintf(folder, sizeof folder, "%.*s.", (int)(last - name), name);
+        if (!realpath(folder, path))
+            path[0] = '\0';
+        append(path, 2 * PATH_MAX, "/%s", path[0] ? last : name);
+    }
+    size_t end = strlen(path), part = strlen(".part");
+    for (; end > part && strcmp(path + end - part, ".part") == 0; end -= part)
+        path[end - part] = '\0';
 }
 
 /* What an option names: a file or folder, or NULL. */
@@ -303,11 +291,16 @@ static const char *file_of(const Options *options, const OptionRow *row)
  * one reads or writes. */
 static Status check_files(const Options *options, Refusal told)
 {
+    char path[2][2 * PATH_MAX];
     for (const OptionRow *row = option_rows; row->name; row++)
         for (const OptionRow *other = option_rows; other < row; other++) {
             const char *one = file_of(options, other);
             const char *two = file_of(options, row);
-            if (one && two && is_same_file(one, two))
+            if (!one || !two)
+                continue;
+            find_file(one, path[0]);
+            find_file(two, path[1]);
+            if (path[0][0] && strcmp(path[0], path[1]) == 0)
                 return refuse(told,
                               "--%s and --%s are one file, '%.200s': "
                               "each needs a name of its own",

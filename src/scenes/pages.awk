@@ -14,7 +14,9 @@ function put_word(    part)
         print "." word " = true,"
     else if (word == "code" && split(text, part, " ") >= 3)
         print ".file = " quoted(part[1]) ", .function = " quoted(part[2]) \
-              ", .lit = " quoted(substr(text, length(part[1] part[2]) + 3)) ","
+              ", .lit = " quoted(substr(text, length(part[1] part[2]) + 3)) \
+              ", .code = (const char *const[]){" \
+              code_of(part[1], part[2]) "NULL},"
     else if (word != "")
         fail(begins, "'" word " " text "' is nothing that a page has")
     had[word] = 1

@@ -41,8 +41,6 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
     while (count < MOST_WORDS && (next->word[count] = strtok(NULL, "\n")))
         count++;
     int code = program_begin(count, next->word, &never, &next->player);
-    if (code == PROGRAM_PLAYS && player_start(&next->player))
-        code = program_end(&next->player, STATUS_OUT_OF_MEMORY);
     if (code != PROGRAM_PLAYS) {
         player_free(&next->player);
         return code;

@@ -12,7 +12,7 @@ WEB_CFLAGS = -std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -I$(W)/libraries/include \
 # In a page other sources are window and film: the same headers answered.
 WEB_SOURCES = $(filter-out src/play/window_sdl.c src/play/film.c,\
               $(wildcard $(ROOMS:%=src/%/*.c))) src/web/main_web.c
-WEB_OBJECTS = $(WEB_SOURCES:src/%.c=$(W)/%.o) $(W)/listing_text.o
+WEB_OBJECTS = $(WEB_SOURCES:src/%.c=$(W)/%.o) $(W)/texts.o
 WEB_LIBRARIES = $(patsubst %,$(W)/libraries/lib%.a,suitesparse freetype \
                 libpng1.6 zlib)
 
@@ -37,7 +37,7 @@ $(W)/%.o: src/%.c $(W)/libraries/done src/web/web.mk
 $(GRID_LOOPS:%=$(W)/solve/%.o): private WEB_CFLAGS += -O3 \
   -fno-trapping-math -fno-math-errno -mllvm -enable-interleaved-mem-accesses
 
-$(W)/listing_text.o: $(B)/listing_text.c $(W)/libraries/done
+$(W)/texts.o: $(B)/texts.c $(W)/libraries/done
 	$(Q)$(EMCC) $(WEB_CFLAGS) -c $< -o $@
 
 # What it says on its way: CHOLMOD's calls for complex matrices, which nobody

@@ -63,7 +63,7 @@ try_fault() { # line
         touch "$file" # others include it
     fi
     # The listings in the program may have been made of the file with the fault.
-    rm -f build/release/libelasto.a build/release/listing_text.[co]
+    rm -f build/release/libelasto.a build/release/texts.[co]
 }
 
 # A tree of its own: another run may be under way.
