@@ -285,15 +285,19 @@ static void fill_time(Player *player)
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
     char *text = show->time_text;
-    double time = 0; /* that of panes that have ended stands still */
-    for (int p = 0; p < past_panes(past); p++)
-        time = fmax(time, simulation_time(&past->machine[p].simulation));
+    double time = INFINITY, last = 0; /* where h differs the longest leads */
+    for (int p = 0; p < past_panes(past); p++) {
+        double now = simulation_time(&past->machine[p].simulation);
+        last = fmax(last, now);
+        if (past_ended(past, p, past->step) < 0)
+            time = fmin(time, now);
+    }
+    time = fmin(time, last); /* that of panes that have ended stands still */
     show->paused = player_stands(player);
     const LecturePage *page = player_settings(player)->page;
-    if (page && page->writes) { /* its steps are springs */
-        long last = player_simulation(player)->system.springs - 1;
-        snprintf(text, SHOW_TEXT, "spring %ld",
-                 past->step < last ? past->step : last);
+    if (page && page->writes && /* its steps are springs */
+        past->step < player_simulation(player)->system.springs) {
+        snprintf(text, SHOW_TEXT, "spring %ld", past->step);
         return;
     }
     snprintf(text, SHOW_TEXT, "%s %ld", turn ? turn : "step", past->step);
