@@ -236,7 +236,7 @@ void budget_draw(const Plot *card)
 
 /* One curve a run, on a logarithmic axis: what is multiplied by the same number
  * in every step is a straight line.  The first one's radius is doubled where it
- * crosses the dashes. */
+ * crosses the dashes, if all steps were as long. */
 void radius_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
@@ -257,7 +257,8 @@ void radius_draw(const Plot *card)
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,
                 COLOUR_GREY);
     draw_curves(&plot, find_curves(show, curve), curve);
-    if (show->veiled || !plot_disc(&plot, twice, 4, COLOUR_TEXT))
-        return;
-    plot_words(&plot, 1, twice, COLOUR_TEXT, "2 m: step %g", steps);
+    double even = simulation->steps * simulation->options.timestep;
+    bool changed = fabs(simulation_time(simulation) - even) > 1e-9 * even;
+    if (!show->veiled && !changed && plot_disc(&plot, twice, 4, COLOUR_TEXT))
+        plot_words(&plot, 1, twice, COLOUR_TEXT, "2 m: step %g", steps);
 }

@@ -284,13 +284,11 @@ static void draw_arrows(const SpringPen *pen, const double *d, double factor,
                 factor * longest > 1.001 * most ? ", cut" : "");
 }
 
-/* Where nodes that nobody has moved begin: the rest shape, stretched. */
-static void start_places(const Simulation *simulation, double *x)
+/* Where all springs have their rest length. */
+static void rest_places(const Simulation *simulation, double *x)
 {
-    for (int i = 0; i < simulation->mesh.nodes; i++) {
+    for (int i = 0; i < simulation->mesh.nodes; i++)
         square_mesh_place(&simulation->mesh, i, x + 2 * i);
-        x[2 * i] *= simulation->options.stretch;
-    }
 }
 
 /* The force on each node, or how far it is from there, where a page wants it.
@@ -303,7 +301,7 @@ static void draw_page_arrows(const SpringPen *pen)
     if (!page || system->nodes > NUMBERED)
         return;
     if (page->modes) {
-        start_places(pen->simulation, arrow);
+        rest_places(pen->simulation, arrow);
         for (int k = 0; k < 2 * system->nodes; k++)
             arrow[k] = pen->x[k] - arrow[k];
         draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
@@ -566,7 +564,7 @@ void square_facts(const Simulation *simulation, Facts *facts)
         add_block(simulation, facts);
     law_facts(simulation, facts);
     if (page->modes && nodes <= SIMULATION_MODE_NODES) {
-        start_places(simulation, start);
+        rest_places(simulation, start);
         double omega = simulation_fastest(simulation, start, mode);
         fact(facts, "fastest", omega);
         fact(facts, "h limit", 2 / omega);

@@ -499,10 +499,7 @@ static void tell_page(const Simulation *simulation)
     tell_forces(system, g);
     if (!o->page->modes)
         return;
-    double start[UNKNOWNS];
-    for (int i = 0; i < size; i++)
-        start[i] = rest_of(simulation)[i] * (i % 2 ? 1 : o->stretch);
-    exact_derivatives(&E, NULL, start, g, H);
+    exact_derivatives(&E, NULL, rest_of(simulation), g, H);
     for (int i = 0; i < size * size; i++) /* masses are equal */
         H[i] /= system->m[0];
     exact_eigen(size, H, v);

@@ -371,6 +371,8 @@ TEST(claim_explicit)
         CHECK((now < 1e3 * start) == (i == 0));
     }
     CHECK_NEAR(0.009 * 2 / limit, 1.84, 0.005);
+    CHECK_NEAR(known_now(open_page("explicit", "--stretch 1.2"), "h limit"),
+               limit, 1e-12); /* about its rest */
     CHECK_NEAR(1e3 * hypot(0.17 - 0.5 / 3, 0.17 - 0.5 / 3), 4.7, 0.05);
     CHECK_NEAR(0.01 * 2 / limit, 2.05, 0.005);
     double t2 = powl(0.02 / limit, 2); /* of lambda^2 - (2 - t2) lambda + 1 */
