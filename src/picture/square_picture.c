@@ -346,10 +346,10 @@ static void draw_pair(const Plot *lens, const int pair[3])
         const Point d = way(a, b), dv = way(v, run->v + 2 * pair[2 * i]);
         plot_arrow(lens, a, d.at, 1, 2, COLOUR_TEXT);
         plot_arrow(lens, b, dv.at, h, 2, COLOUR_ALPHA);
-        plot_words(lens, 1, along(a, 0.6, d.at).at, COLOUR_TEXT, "%s",
-                   names[i][0]);
-        plot_words(lens, 1, along(b, h, dv.at).at, COLOUR_ALPHA, "%s",
-                   names[i][1]);
+        const Point to = along(b, h, dv.at), by = along(a, 0.75, d.at);
+        const double at[4] = {by.at[0], by.at[1], a[0], a[1]};
+        plot_words(lens, 1, to.at, COLOUR_ALPHA, "%s", names[i][1]);
+        plot_words(lens, i ? 1 : 2, at, COLOUR_TEXT, "%s", names[i][0]);
     }
 }
 

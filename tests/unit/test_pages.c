@@ -89,6 +89,18 @@ static double known_now(Simulation *simulation, const char *fact)
     return show_number(&show, fact);
 }
 
+/* Whether a page speaks of results of which there are none yet. */
+static bool speaks_of_all(Simulation *simulation)
+{
+    Show show;
+    show_create(simulation, &show);
+    show_know(&show);
+    const Facts *facts = &show_pane(&show)->facts;
+    CHECK(text_is_known(facts, "{all runs}") !=
+          text_is_known(facts, "{some runs}"));
+    return text_is_known(facts, "{all runs}");
+}
+
 static double known(const char *name, const char *fact)
 {
     return known_now(open_page(name, ""), fact);
@@ -981,9 +993,8 @@ static double slide(const char *more, double way[4])
 
 TEST(claim_friction)
 {
-    says("friction",
-         "20 20 0.364 20 1.1 20 1 1.1 0.91 0.41 3 7 2 0.41 6 0.4 "
-         "0.32 50");
+    says("friction", "20 20 0.364 20 1.1 20 1 1.1 0.91 0.41 3 7 2 0.41 6 0.4 "
+                     "0.32 50");
     CHECK_NEAR(tan(acos(-1) / 9), 0.364, 5e-4);
     double way[4];
     slide("", way);
@@ -1102,9 +1113,8 @@ TEST(claim_rub)
 
 TEST(claim_gap)
 {
-    says("gap",
-         "0.5 0.3 462 20 36 259 978 200 000 36 462 20 259 978 100 "
-         "200000");
+    says("gap", "0.5 0.3 462 20 36 259 978 200 000 36 462 20 259 978 100 "
+                "200000");
     for (int i = 0; i < 2; i++) {
         double x[2];
         middle_of(bodies_after("gap", i ? "--young 200000" : "", 100), 0, x);
@@ -1174,8 +1184,9 @@ TEST(claim_fracture)
 static Simulation *whole_race(const char *name)
 {
     Simulation *simulation = open_page(name, "");
-    while (!simulation->done)
-        make_steps(simulation, 1);
+    for (; !simulation->done; make_steps(simulation, 1))
+        CHECK(!speaks_of_all(simulation));
+    CHECK(speaks_of_all(simulation));
     return simulation;
 }
 
@@ -1242,6 +1253,8 @@ TEST(claim_trust)
     says("trust", "1000 21 10 280 550 97 100 10");
     int undone = 0, good = 0, all = ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     Simulation *simulation = open_page("trust", "");
+    CHECK(!speaks_of_all(simulation));
+    CHECK(isnan(known_now(simulation, "known"))); /* one run is no map */
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
             CHECK_STATUS(envelope_visit(simulation, column, row), STATUS_OK);
@@ -1261,6 +1274,7 @@ TEST(claim_trust)
                       isfinite(simulation->run[0].v[i]));
         }
     CHECK(undone == 280 && all == 550);
+    CHECK(speaks_of_all(simulation));
     CHECK(good >= 0.97 * (all - undone));
 }
 
