@@ -147,6 +147,7 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
 
 Status film_close(Film *film, Keep keep)
 {
+    (void)keep; /* what was filmed is always given */
     if (!film_runs(film))
         return STATUS_OK;
     page_film_end(film->frames > 0);
