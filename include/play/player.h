@@ -87,7 +87,8 @@ typedef struct Player {
     Past past;
     Side side[OPTIONS_MAX_PANES]; /* one for each of its panes */
     int active;                   /* the one whose numbers are shown */
-    const struct Scene *scene;    /* that is shown */
+    const struct Scene *scene;    /* that is shown, and the page */
+    const LecturePage *page;
     Recording recording;
     long written; /* the last step in its tables; -1: none */
     Mode mode;

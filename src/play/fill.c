@@ -355,7 +355,6 @@ void player_fill(Player *player)
     show->step = player->past.step;
     snprintf(show->message, SHOW_TEXT, "%s", player->note);
     show->warning = player->warning;
-    show->closed ^= player->closed;
     show->large = player->large;
     show->lens = lens;
     show->strain =
@@ -372,6 +371,7 @@ void player_fill(Player *player)
     bool explained = show->sentence[0];
     show->veiled = player_veils(player);
     show_lecture(player->column, player->left, show);
+    show->closed ^= player->closed;
     player_fill_sheet(player);
     show_describe(show);
     if (player->explains && explained && !player->typing)

@@ -109,12 +109,13 @@ void player_leave_step(Player *player)
     }
 }
 
-/* Another scene has a camera and cards of its own. */
+/* Another scene has a camera and cards of its own, and so has another page. */
 static void enter_scene(Player *player)
 {
     const Options *options = player_settings(player);
     char title[128];
     player->scene = options->scene;
+    player->page = options->page;
     player->speed = player_first_speed(options);
     player->show.lens = LENS_FITS;
     player->closed = 0;
@@ -141,7 +142,8 @@ static Status follow(Player *player)
     player->still = player->rigid = 0;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
-    if (player_settings(player)->scene != player->scene)
+    const Options *now = player_settings(player);
+    if (now->scene != player->scene || now->page != player->page)
         enter_scene(player);
     if (player->written <= same)
         return STATUS_OK;
