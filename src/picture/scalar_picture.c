@@ -156,8 +156,8 @@ void scalar_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)
         fact(facts, "shorter", update.alpha);
-    fact(facts, "digits", /* that are the same before and after */
-         tangent && p != 0 ? fmax(floor(-log10(fabs(p / next))), 0) : NAN);
+    double digits = floor(-log10(fabs(p / next))); /* that stay, if any */
+    fact(facts, "digits", tangent && p != 0 && digits > 0 ? digits : NAN);
     fact(facts, "slope", update.first);
     fact(facts, "curvature", update.second);
     fact(facts, "direction", p);

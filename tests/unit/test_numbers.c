@@ -796,7 +796,7 @@ static void tell_search(const Simulation *simulation)
     near("minimum of the model", at[0] + p[0], 1e-9L * fabsl(p[0]));
     near("double sinh", sinhl(2 * at[0]), 1e-12L * fabsl(sinhl(2 * at[0])));
     near("slope", E[1], 1e-13L);
-    is("digits", fmaxl(0, floorl(-log10l(fabsl(p[0] / to[0])))));
+    is("digits", floorl(-log10l(fabsl(p[0] / to[0]))));
     is("curvature", E[2]);
     near("E", E[0], 1e-14L);
     tell_iterate(simulation);
