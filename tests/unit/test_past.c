@@ -412,7 +412,7 @@ TEST(anything_in_any_order)
         "square --segments 2 --integrator avf4", "squeeze --segments 2",
         "arrows --integrator backward-euler"};
     static const size_t states[] = {1, 6, 1000};
-    for (int seed = 1; seed <= (tests_are_long() ? 100 : 6); seed++)
+    for (int seed = 1; seed <= tests_many(100, 6); seed++)
         for (int i = 0; i < 5; i++)
             play_at_random(some[i], (uint64_t)seed, states[seed % 3]);
 }
@@ -623,7 +623,7 @@ static bool jerked_step(bool descends)
  */
 TEST(random_drags_end)
 {
-    const int steps = tests_are_long() ? 10000 : 150;
+    const int steps = tests_many(10000, 150);
     Random random = {2026};
     for (int i = 0; integrator_methods[i / 2].name; i++) {
         const IntegratorMethod *method = &integrator_methods[i / 2];

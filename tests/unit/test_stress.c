@@ -28,7 +28,7 @@ TEST(random_scenes_keep_the_promise)
     for (int i = 0; i < 4; i++) {
         Tally tally = {0};
         char reason[512] = "";
-        const long count = (tests_are_long() ? 1000 : 32) / (i == 3 ? 3 : 1);
+        const long count = tests_many(1000, 32) / (i == 3 ? 3 : 1);
         bool good =
             stress_scenes(kinds[i], 1, count, i % 2 ? 10 : 2, &tally, reason);
         if (!good)

@@ -567,7 +567,7 @@ static void row_is_right(void **state)
     row = *state;
     looked = 0;
     Random random = {strlen(row->name) + (uint64_t)row->shape};
-    for (int n = 0; n < (tests_are_long() ? 2000 : 150); n++) {
+    for (int n = 0; n < tests_many(2000, 150); n++) {
         static Case c;
         make_case(row, &random, &c);
         for (const TermKind *kind;

@@ -79,6 +79,14 @@ bool tests_are_long(void)
     return set && *set;
 }
 
+int tests_many(int all, int some)
+{
+#ifdef __SANITIZE_ADDRESS__
+    all /= 5;
+#endif
+    return tests_are_long() ? all : some;
+}
+
 /* SplitMix64 (Steele, Lea, Flood 2014). */
 static uint64_t random_bits(Random *random)
 {

@@ -54,6 +54,10 @@ typedef long double Wide;
  * (make test). */
 bool tests_are_long(void);
 
+/* How many of what is random: some, or with all variations all; of these the
+ * sanitizers, which are slow, watch a fifth. */
+int tests_many(int all, int some);
+
 /* Random numbers, the same on every machine (SplitMix64). */
 typedef struct Random {
     uint64_t state; /* the seed */
