@@ -77,7 +77,7 @@ static double spring_value(const void *data, double s)
     return spring_law_slope(now->spring, s - now->spring.ep);
 }
 
-/* The same for all springs, in parts of what each bears. */
+/* The same for all springs, in parts of what each bears, until they break. */
 static double break_value(const void *now, double part)
 {
     (void)now;
@@ -116,6 +116,12 @@ static void find_spring(LawNow *now, int s)
                        : fabs(now->spring.ep) + 1e-3 * fabs(now->x);
     if (flow)
         now->reach = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
+}
+
+/* A spring that waits, for one at its node broke before it, still pulls. */
+static double value_now(const Law *law, const LawNow *now)
+{
+    return law->value == break_value ? now->x : law->value(now, now->x);
 }
 
 /* The law that the page is about, and where a run is on it, most of all.  Of
@@ -262,7 +268,7 @@ void law_facts(const Simulation *simulation, Facts *facts)
         fact(facts, "law force", force_of(&now));
     }
     fact(facts, "law x", now.x);
-    fact(facts, "law y", is_there ? law->value(&now, now.x) : NAN);
+    fact(facts, "law y", is_there ? value_now(law, &now) : NAN);
     fact(facts, "s_p", law->value == spring_value ? now.spring.ep : NAN);
     Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
@@ -283,7 +289,7 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
     double at[SIMULATION_MAX_RUNS][2];
     for (int i = 0; i < runs; i++) {
         at[i][0] = fmin(fmax(now[i].x, plot->x.low), plot->x.high);
-        at[i][1] = law->value(&now[i], now[i].x);
+        at[i][1] = value_now(law, &now[i]);
         plot_disc(plot, at[i], isnan(now[i].x) ? 0 : dot, COLOUR_P);
     }
     for (int i = 0, with = 0; i < runs && runs > 1; i++) {
@@ -322,7 +328,7 @@ void law_draw(const Plot *card)
     double most = both ? 1.4 * now->spring.yield
                        : fmax(law->value(now, 0.9 * low + 0.1 * high),
                               law->value(now, 0.25 * low + 0.75 * high));
-    double x = now->x, y = law->value(now, x);
+    double x = now->x, y = value_now(law, now);
     most = plot_round_axis(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
         card, (Axis){low, high, false, false, law->across},
@@ -333,8 +339,8 @@ void law_draw(const Plot *card)
     for (int s = 0; s < other.at.system->springs && !law->source; s++) {
         find_spring(&other, s);
         if (other.felt > -INFINITY)
-            plot_disc(&plot, (double[2]){other.x, law->value(&other, other.x)},
-                      2, COLOUR_GHOST);
+            plot_disc(&plot, (double[2]){other.x, value_now(law, &other)}, 2,
+                      COLOUR_GHOST);
     }
     if (has_gap(law) && !isnan(x)) /* -W' */
         plot_line(&plot, (double[2]){low, y + (x - low) * force_of(now)},

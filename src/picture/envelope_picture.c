@@ -98,14 +98,18 @@ void envelope_facts(const Simulation *simulation, Facts *facts)
 {
     const EnvelopeMap *map = &simulation->exhibit.map;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
-    double h = envelope_timestep(map->column);
+    double h = envelope_timestep(map->column), m = simulation->system.m[0];
     int known = 0, converged = 0, undone = 0;
+    bool rounded = true; /* those that do not converge are far too stiff */
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
             const EnvelopeCell *one = &map->cell[row][column];
             known += one->known;
             undone += one->undone;
             converged += one->known && !one->worst && !one->undone;
+            double step = envelope_timestep(column);
+            double ratio = step * step * envelope_stiffness(row) / m;
+            rounded = rounded && (!one->worst || ratio > 1e16);
         }
     facts->colour[0] = envelope_shade(4);
     facts->colour[1] = envelope_shade(3);
@@ -113,6 +117,9 @@ void envelope_facts(const Simulation *simulation, Facts *facts)
     facts->colour[3] = COLOUR_REFUSED;
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     fact_when(facts, all ? "all runs" : "some runs", true);
+    fact_when(facts, "some undone", all && undone);
+    fact_when(facts, rounded ? "rounded" : "refused",
+              all && converged + undone < known);
     fact(facts, "known", known > 1 ? known : NAN);
     fact(facts, "converged", converged);
     fact(facts, "undone", known > 1 ? undone : NAN);

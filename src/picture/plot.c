@@ -268,8 +268,10 @@ void plot_ellipse(const Plot *plot, const double *middle, const double *a,
 void plot_springs(const Plot *plot, const System *system, const double *x,
                   double width, Colour colour)
 {
-    for (const int *e = system->e; e < system->e + 2 * system->springs; e += 2)
-        plot_line(plot, x + 2 * e[0], x + 2 * e[1], width, colour);
+    for (int s = 0; s < system->springs; s++)
+        if (!spring_is_broken(system, s))
+            plot_line(plot, x + 2 * system->e[2 * s],
+                      x + 2 * system->e[2 * s + 1], width, colour);
 }
 
 void plot_face(const Plot *plot, const double *const corner[4], Colour colour)

@@ -19,6 +19,40 @@ void race_bounds(const Plot *stage, double bounds[4])
     bounds[3] = over_h ? 2.5 : 3; /* below the switch */
 }
 
+/* Their names in a column at the left of some points, or at the right of the
+ * others, from the highest one down, each with a line to its point. */
+static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
+                        const bool left[RACE_METHODS], bool side)
+{
+    Paper *paper = plot->paper;
+    double at[RACE_METHODS][2], column = NAN, way = side ? -1 : 1;
+    double row = -INFINITY, end = plot->box.x + plot->box.width;
+    for (int i = 0; i < RACE_METHODS; i++) {
+        plot_place(plot, point[i], at[i]);
+        at[i][1] = left[i] == side ? at[i][1] : NAN;
+        if (!isnan(at[i][1]))
+            column = way * fmax(way * column, way * at[i][0]);
+    }
+    for (int count = 0; count < RACE_METHODS; count++) {
+        int next = 0;
+        for (int i = 1; i < RACE_METHODS; i++)
+            next = isnan(at[next][1]) || at[i][1] < at[next][1] ? i : next;
+        if (isnan(at[next][1]))
+            return;
+        const IntegratorMethod *method = race_method(next);
+        Colour colour = colour_of(method->name);
+        double wide = paper_width(paper, FACE_BOLD, 1, method->label);
+        double x = column + way * 1.4 * paper->em;
+        x = side ? x : fmin(x, end - wide);
+        row = fmax(at[next][1], row + 1.25 * paper->em);
+        canvas_line(&paper->canvas, at[next][0], at[next][1],
+                    x - way * 0.3 * paper->em, row, 1, colour);
+        paper_panel(paper, FACE_BOLD, 1, colour, x, row - 0.65 * paper->em,
+                    side ? ALIGN_RIGHT : ALIGN_LEFT, method->label);
+        at[next][1] = NAN;
+    }
+}
+
 /* The points of each method joined, hollow where it explodes later, and its
  * name beside the last one, of explicit methods over run time beside the first;
  * over h how steep errors of order 1, 2 and 4 are, too. */
@@ -27,6 +61,7 @@ void race_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const Race *race = &simulation->exhibit.race;
     double named[RACE_METHODS][2]; /* NaN: it has no point */
+    bool left[RACE_METHODS];
     bool over_h = simulation->exhibit.parts;
     bool wide = stage->text && stage->box.width > NAMED * stage->em;
     Plot plot = plot_on(
@@ -41,6 +76,7 @@ void race_draw(Plot *stage)
     for (int method = 0; method < RACE_METHODS; method++) {
         Colour colour = colour_of(race_method(method)->name);
         bool first = !over_h && !race_method(method)->implicit;
+        left[method] = over_h || first;
         double last[2] = {NAN, NAN};
         named[method][0] = named[method][1] = NAN;
         for (int i = method; i < race->count; i += RACE_METHODS) {
@@ -63,13 +99,8 @@ void race_draw(Plot *stage)
         if (wide)
             plot_words(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
-    for (int i = 0; i < RACE_METHODS && wide; i++) {
-        double x = named[i][0], y = named[i][1], low = 0.35 * y;
-        double to = over_h || !race_method(i)->implicit ? 0.6 * x : 1.6 * x;
-        plot_words(&plot, 4, (double[8]){x, y, to, y, to, low, to, 0.1 * y},
-                   colour_of(race_method(i)->name), "%s",
-                   race_method(i)->label);
-    }
+    for (int side = 0; side < 2 && wide; side++)
+        name_points(&plot, named, left, side);
 }
 
 /* The quickest run that is near: a stable one of an explicit method and of an

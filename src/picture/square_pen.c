@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/fracture.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
@@ -296,8 +297,10 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
 
 void square_ghost(const SpringPen *pen, const double *x, Colour colour)
 {
-    if (pen->system->springs <= GHOST_SPRINGS)
+    bool torn = system_data(pen->system, &fracture);
+    if (torn || pen->system->springs <= GHOST_SPRINGS)
         plot_springs(pen->stage, pen->system, x, 1,
                      (colour & 0xffffff) | 0x50000000u);
-    square_outline(pen, x, true, colour);
+    if (!torn)
+        square_outline(pen, x, true, colour);
 }
