@@ -52,7 +52,7 @@ typedef struct Options {
             double solver, filter; /* enum Solver, Filter */
             double line_search;    /* enum LineSearch */
             double flips;          /* bit s: switch s of the scene is turned
-                                      over at the start; only pages set this */
+                                      over at the start: of a page, by hand */
             double steps;   /* -1: until closed, or 100 without a screen */
             double speed;   /* steps a frame; 0: the scene's */
             double size[2]; /* pixels; 0: the usual ones */

@@ -101,6 +101,9 @@ int exhibit_handles(const struct Simulation *simulation,
 int exhibit_switches(const struct Simulation *simulation,
                      Switch out[SCENE_MAX_SWITCHES]);
 
+/* Bit s: switch s is not as the scene begins by itself. */
+unsigned exhibit_flips(const struct Simulation *simulation);
+
 /* On a page that has them as switches: the kind of a spring, 0 ... 3. */
 bool exhibit_has_kinds(const struct Simulation *simulation);
 int exhibit_kind(const struct Simulation *simulation, int spring);

@@ -241,9 +241,12 @@ bool player_compares(const Player *player, const OptionRow *row)
 
 int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
 {
-    for (int p = 0; p < past_panes(&player->past); p++)
-        options[p] = past_control(&player->past, p)->options;
-    return past_panes(&player->past);
+    const Past *past = &player->past;
+    for (int p = 0; p < past_panes(past); p++) {
+        options[p] = past_control(past, p)->options;
+        options[p].flips = exhibit_flips(&past->machine[p].simulation);
+    }
+    return past_panes(past);
 }
 
 /* ---- numbers and methods ------------------------------------------------- */

@@ -337,13 +337,16 @@ static void tell_outcome(const Player *player, const OptionRow *row, char *text,
                          size_t size)
 {
     const Outcome *outcome = &player_machine(player)->outcome;
-    char value[COMMAND_TEXT_SIZE], unit[32];
+    bool curve = player->scene->picture == PICTURE_CURVE; /* f, of a number */
+    char value[COMMAND_TEXT_SIZE], unit[32], change[64] = "stays";
     option_value(row, player_settings(player), value, sizeof value);
     option_unit(row, unit, sizeof unit);
-    snprintf(text, size,
-             "%s %s%s%s: E(x) %s by %.3g J s\u00b2 in %d update%s%s%s",
-             row->label, value, unit[0] ? " " : "", unit,
-             outcome->change > 0 ? "rises" : "falls", fabs(outcome->change),
+    if (outcome->change != 0)
+        snprintf(change, sizeof change, "%s by %.3g%s",
+                 outcome->change > 0 ? "rises" : "falls",
+                 fabs(outcome->change), curve ? "" : " J s\u00b2");
+    snprintf(text, size, "%s %s%s%s: %s %s in %d update%s%s%s", row->label,
+             value, unit[0] ? " " : "", unit, curve ? "f(x)" : "E(x)", change,
              outcome->updates, outcome->updates == 1 ? "" : "s",
              outcome->status ? ", " : "",
              outcome->status ? status_text(outcome->status) : "");

@@ -78,6 +78,12 @@ int exhibit_switches(const Simulation *simulation,
     return count;
 }
 
+unsigned exhibit_flips(const Simulation *simulation)
+{
+    unsigned begins = simulation->scene->parts[1] ? PART_BOTH : 0;
+    return simulation->exhibit.parts ^ begins;
+}
+
 /* What springs of a kind had stored is the work of whoever takes them away.  Of
  * two parts one stays.  What was minimised before is another function: its
  * updates are no longer shown. */

@@ -45,8 +45,10 @@ Status simulation_create(const Options *options, NewtonObserver observer,
                                .observer = observer,
                                .user = user};
     Status status = options->scene->create(simulation);
-    for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
-        if ((unsigned)options->flips >> i & 1 && options->scene->parts[i])
+    Switch part[SCENE_MAX_SWITCHES];
+    int parts = status ? 0 : exhibit_switches(simulation, part);
+    for (int i = 0; i < parts; i++)
+        if ((unsigned)options->flips >> i & 1)
             exhibit_flip(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
         simulation->start[r] = /* dissipation is counted from here on */

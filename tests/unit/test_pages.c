@@ -743,7 +743,7 @@ TEST(claim_algorithm2)
 
 TEST(claim_tamed)
 {
-    says("tamed", "2 2 1.41 1 1 2 1 4 1 2 1 2 1 4 1 2 1 1 1 1 1.41");
+    says("tamed", "2 2 2 1.41 1 1 2 1 4 1 2 1 2 1 4 1 2 1 1 1 1 1.41");
     static const double alpha[] = {0.25, 0.5, 1, 1, 1, 1};
     CHECK_STATUS(end_of("tamed", "", 100), STATUS_OK);
     CHECK(updates.count == 6);
@@ -755,8 +755,9 @@ TEST(claim_tamed)
 
 TEST(claim_descent)
 {
-    says("descent", "0 0.1 0.35 0.86 2.94 0.1 0.35 0.86 2.94 289");
+    says("descent", "0 0.2 0.1 0.35 0.86 2.94 0.1 0.35 0.86 2.94 289");
     Simulation *simulation = open_page("descent", "");
+    CHECK_NEAR(simulation->options.timestep, 0.2, 0);
     CHECK_NEAR(simulation->run[0].x[0], 0.1, 0);
     CHECK_NEAR(simulation->run[0].x[1], -0.35, 0);
     CHECK_NEAR(simulation->descent.slope, 0.86, 0.005);
