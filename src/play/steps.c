@@ -343,8 +343,8 @@ static void tell_outcome(const Player *player, const OptionRow *row, char *text,
     option_unit(row, unit, sizeof unit);
     if (outcome->change != 0)
         snprintf(change, sizeof change, "%s by %.3g%s",
-                 outcome->change > 0 ? "rises" : "falls",
-                 fabs(outcome->change), curve ? "" : " J s\u00b2");
+                 outcome->change > 0 ? "rises" : "falls", fabs(outcome->change),
+                 curve ? "" : " J s\u00b2");
     snprintf(text, size, "%s %s%s%s: %s %s in %d update%s%s%s", row->label,
              value, unit[0] ? " " : "", unit, curve ? "f(x)" : "E(x)", change,
              outcome->updates, outcome->updates == 1 ? "" : "s",
