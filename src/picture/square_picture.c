@@ -173,7 +173,8 @@ static int draw_ground(const SpringPen *pen)
         square_cells(pen, pen->contact || system_data(pen->system, &fracture));
     if (pane->ghost) {
         square_ghost(pen, pane->ghost, COLOUR_GHOST);
-        plot_legend(pen->stage, COLOUR_GHOST, "%s", pane->ghost_label);
+        plot_legend(pen->stage, COLOUR_GHOST, "ghost: %.*s",
+                    (int)strcspn(pane->ghost_label, ":"), pane->ghost_label);
     }
     if (trace && trace->x_tilde && trace->line) {
         square_ghost(pen, trace->x_tilde, COLOUR_X_TILDE);
