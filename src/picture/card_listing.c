@@ -112,7 +112,7 @@ void prints_draw(const Plot *card)
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
     if (count == 0) {
-        cards_hint(card, "N makes a step");
+        cards_hint(card, text_undrawn);
         return;
     }
     for (int i = first; i < count && i - first < room; i++) {

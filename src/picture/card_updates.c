@@ -99,7 +99,7 @@ void values_draw(const Plot *card)
     bool wide = card->box.width > 36 * card->em;
     Plot left = *card, right = *card;
     if (!trace || !trace->x_tilde) {
-        cards_hint(card, "N makes a step");
+        cards_hint(card, text_undrawn);
         return;
     }
     left.box.width = (int)((wide ? 0.52 : 1) * card->box.width);
@@ -146,7 +146,7 @@ void updates_draw(const Plot *card)
     const Trace *trace = show_pane(card->show)->trace;
     double pitch = 1.45 * card->em, y = card->box.y + 0.2 * card->em;
     if (!trace) {
-        cards_hint(card, "N makes a step");
+        cards_hint(card, text_undrawn);
         return;
     }
     int made = updates_made(trace);

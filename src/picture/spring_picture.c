@@ -130,10 +130,10 @@ void length_facts(const Simulation *simulation, Facts *facts)
     double l2 = system->l2[0], H[3];
     SpringFacts now = facts_at(d, system);
     double along = 2 * now.along, across = 2 * now.across; /* of its block */
-    Filter filter =
-        simulation->options.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
-    bool both = simulation->exhibit.parts;
     const LecturePage *page = simulation->options.page;
+    bool folds = simulation->options.filter == FILTER_ABS && !page;
+    Filter filter = folds ? FILTER_ABS : FILTER_CLAMP;
+    bool both = simulation->exhibit.parts;
     fact_point(facts, "d", d);
     fact(facts, "distance", now.length);
     fact(facts, "l", sqrt(l2));

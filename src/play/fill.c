@@ -63,9 +63,8 @@ static void fill_help(Show *show)
 
 /* ---- the row of numbers -------------------------------------------------- */
 
-/* A value as it is shown. */
-static void value_text(const OptionRow *row, const Options *options,
-                       const Simulation *simulation, char *text, size_t size)
+void player_value(const OptionRow *row, const Options *options,
+                  const Simulation *simulation, char *text, size_t size)
 {
     char value[COMMAND_TEXT_SIZE], unit[16];
     option_unit(row, unit, sizeof unit);
@@ -104,8 +103,8 @@ static void fill_settings(Player *player)
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = row->label ? row->label : row->name;
         setting->letters = row->letters;
-        value_text(row, options, player_simulation(player), setting->value,
-                   SHOW_VALUE);
+        player_value(row, options, player_simulation(player), setting->value,
+                     SHOW_VALUE);
         option_value(row, options, now, sizeof now);
         option_value(row, &past_start(&player->past, player->active)->options,
                      start, sizeof start);
@@ -137,8 +136,8 @@ static void fill_options(Player *player)
         HelpRow *row = &show->help[i];
         char value[SHOW_VALUE];
         const char *idle = player_idle(player, all[i]);
-        value_text(all[i], &options, player_simulation(player), value,
-                   sizeof value);
+        player_value(all[i], &options, player_simulation(player), value,
+                     sizeof value);
         snprintf(row->key, SHOW_VALUE, "%d", i + 1);
         snprintf(row->text, SHOW_TEXT, "%s %s%s%s", all[i]->name, value,
                  idle || all[i]->help[0] ? ": " : "",
@@ -261,8 +260,8 @@ void player_label_panes(Player *player)
         for (const OptionRow *row = option_rows; row->name; row++) {
             if (!player_compares(player, row))
                 continue;
-            value_text(row, options, &past->machine[p].simulation, value,
-                       sizeof value);
+            player_value(row, options, &past->machine[p].simulation, value,
+                         sizeof value);
             append(label, size, "%s", label[0] ? ", " : "");
             if (row->slot != OPTION_SLOT(integrator))
                 append(label, size, "%s ", row->label);

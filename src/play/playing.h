@@ -145,6 +145,10 @@ Status player_release(Player *player);
 /* Fills player->show. */
 void player_fill(Player *player);
 
+/* A value as the row of numbers shows it. */
+void player_value(const OptionRow *row, const Options *options,
+                  const Simulation *simulation, char *text, size_t size);
+
 /* What is different in each pane, as its label. */
 void player_label_panes(Player *player);
 

@@ -332,24 +332,27 @@ static bool walk(Player *player, int way)
 
 /* ---- the step once more: the counterfactual ------------------------------ */
 
-/* "projection none: E(x) rises by 206 J s² in 12 updates" */
+/* "projection none: E(x) rises by 206 J s² in 12 updates"; explicit methods
+ * make none. */
 static void tell_outcome(const Player *player, const OptionRow *row, char *text,
                          size_t size)
 {
     const Outcome *outcome = &player_machine(player)->outcome;
     bool curve = player->scene->picture == PICTURE_CURVE; /* f, of a number */
-    char value[COMMAND_TEXT_SIZE], unit[32], change[64] = "stays";
-    option_value(row, player_settings(player), value, sizeof value);
-    option_unit(row, unit, sizeof unit);
+    char value[SHOW_VALUE], change[64] = "stays";
+    player_value(row, player_settings(player), player_simulation(player), value,
+                 sizeof value);
     if (outcome->change != 0)
         snprintf(change, sizeof change, "%s by %.3g%s",
                  outcome->change > 0 ? "rises" : "falls", fabs(outcome->change),
                  curve ? "" : " J s\u00b2");
-    snprintf(text, size, "%s %s%s%s: %s %s in %d update%s%s%s", row->label,
-             value, unit[0] ? " " : "", unit, curve ? "f(x)" : "E(x)", change,
-             outcome->updates, outcome->updates == 1 ? "" : "s",
-             outcome->status ? ", " : "",
-             outcome->status ? status_text(outcome->status) : "");
+    snprintf(text, size, "%s %s: no update", row->label, value);
+    if (outcome->updates > 0)
+        snprintf(text, size, "%s %s: %s %s in %d update%s", row->label, value,
+                 curve ? "f(x)" : "E(x)", change, outcome->updates,
+                 outcome->updates == 1 ? "" : "s");
+    if (outcome->status)
+        append(text, size, ", %s", status_text(outcome->status));
 }
 
 /* What the step did before it was taken again and does now. */

@@ -63,7 +63,8 @@ int exhibit_kind(const Simulation *simulation, int spring)
     return spring < half ? 0 : spring < 2 * half ? 1 : 2 + spring % 2;
 }
 
-/* Kinds of springs are there until they are switched off. */
+/* Kinds of springs are there until they are switched off; the energy with the
+ * root on the page that compares them. */
 int exhibit_switches(const Simulation *simulation,
                      Switch out[SCENE_MAX_SWITCHES])
 {
@@ -71,8 +72,10 @@ int exhibit_switches(const Simulation *simulation,
         "horizontal", "vertical", "diagonal /", "diagonal \\"};
     bool has_kinds = exhibit_has_kinds(simulation);
     const char *const *part = has_kinds ? kinds : simulation->scene->parts;
+    const LecturePage *page = simulation->options.page;
+    bool none = page && page->nears && !page->flips;
     int count = 0;
-    for (; count < SCENE_MAX_SWITCHES && part[count]; count++)
+    for (; !none && count < SCENE_MAX_SWITCHES && part[count]; count++)
         out[count] = (Switch){
             part[count], (simulation->exhibit.parts >> count & 1) != has_kinds};
     return count;

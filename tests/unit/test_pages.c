@@ -772,8 +772,12 @@ TEST(claim_descent)
 
 TEST(claim_psd)
 {
-    says("psd", "0 0 4 1 4 3 1 0 100 1 0.6 0.3 0 0 1 0.577 0 0 3 0");
+    says("psd", "0 0 4 1 4 3 1 0 100 1 0 3 0 3 0.577 0 0 3 0");
     CHECK_NEAR(known("psd", "negative"), -220, 1e-12);
+    Simulation *simulation = open_page("psd", "--filter abs");
+    CHECK(known_now(simulation, "projected across") == 0);
+    exhibit_drag(simulation, 0, 2, 1);
+    CHECK(known_now(simulation, "negative") == 0);
     for (double r = 0.02; r < 1.5; r += 0.02) {
         SpringFacts facts;
         spring_facts((double[2]){r, 0}, 1, 100, &facts);
@@ -801,7 +805,7 @@ TEST(claim_energy)
 
 TEST(claim_force)
 {
-    says("force", "1 2 2 100 1 1.2 0.5 10 1.2 0.5 23.805 165.6 69");
+    says("force", "1 2 2 100 1 10 4 1.2 0.5 23.805 165.6 69");
     CHECK_NEAR(known("force", "energy"), 50 * 0.69 * 0.69, 1e-12);
     CHECK_NEAR(known("force", "Dxx"), 200 * (0.69 + 2 * 1.44), 1e-5);
     SpringFacts facts;
@@ -813,13 +817,19 @@ TEST(claim_force)
     CHECK_NEAR(facts.force[0], -165.6, 1e-12);
     CHECK_NEAR(facts.force[1], -69, 1e-12);
     CHECK_NEAR(system_potential(system, x), facts.energy, 1e-12);
+    exhibit_drag(simulation, 0, 4, 0);
+    CHECK_NEAR(known_now(simulation, "force too"), -200 * 15 * 4, 1e-5);
+    CHECK_NEAR(known_now(simulation, "Dxx"), 200 * (15 + 32), 1e-5);
 }
 
 TEST(claim_potential)
 {
     says("potential", "16 0 4 2 4 50 72 16 676 2500");
     CHECK(known("potential", "places") == 676);
-    Simulation *simulation = open_page("potential", "");
+    Simulation *simulation =
+        open_page("potential", "--stretch 0.5 --filter none");
+    CHECK(known_now(simulation, "Byy") == 0); /* projected all the same */
+    simulation = open_page("potential", "");
     const System *system = &simulation->system;
     static bool used[50][50];
     int places = 0;
