@@ -5,6 +5,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
+enum { HALVED = 4 };               /* times, in the table */
 static const double NAMED = 45;    /* ems, for names beside the lines */
 static const double NEAR = 0.01;   /* m, the error that is asked for */
 static const double FINEST = 1e-8; /* m, what tolerance and reference leave */
@@ -22,18 +23,22 @@ void race_bounds(const Plot *stage, double bounds[4])
 /* Their names in a column at the left of some points, or at the right of the
  * others, from the highest one down, each with a line to its point. */
 static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
-                        const bool left[RACE_METHODS], bool side)
+                        bool over_h, bool side)
 {
     Paper *paper = plot->paper;
     double at[RACE_METHODS][2], column = NAN, way = side ? -1 : 1;
-    double row = -INFINITY, end = plot->box.x + plot->box.width;
+    double line = 1.25 * paper->em, end = plot->box.x + plot->box.width;
+    double row = plot->box.y + line; /* below the legend, above the axis */
+    double last = plot->box.y + plot->box.height - line;
     for (int i = 0; i < RACE_METHODS; i++) {
         plot_place(plot, point[i], at[i]);
-        at[i][1] = left[i] == side ? at[i][1] : NAN;
+        bool left = over_h || !race_method(i)->implicit;
+        at[i][1] = left == side ? at[i][1] : NAN;
+        last -= isnan(at[i][1]) ? 0 : line;
         if (!isnan(at[i][1]))
             column = way * fmax(way * column, way * at[i][0]);
     }
-    for (int count = 0; count < RACE_METHODS; count++) {
+    for (;;) {
         int next = 0;
         for (int i = 1; i < RACE_METHODS; i++)
             next = isnan(at[next][1]) || at[i][1] < at[next][1] ? i : next;
@@ -44,7 +49,8 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
         double wide = paper_width(paper, FACE_BOLD, 1, method->label);
         double x = column + way * 1.4 * paper->em;
         x = side ? x : fmin(x, end - wide);
-        row = fmax(at[next][1], row + 1.25 * paper->em);
+        last += line;
+        row = fmin(fmax(at[next][1], row + line), last);
         canvas_line(&paper->canvas, at[next][0], at[next][1],
                     x - way * 0.3 * paper->em, row, 1, colour);
         paper_panel(paper, FACE_BOLD, 1, colour, x, row - 0.65 * paper->em,
@@ -61,7 +67,6 @@ void race_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const Race *race = &simulation->exhibit.race;
     double named[RACE_METHODS][2]; /* NaN: it has no point */
-    bool left[RACE_METHODS];
     bool over_h = simulation->exhibit.parts;
     bool wide = stage->text && stage->box.width > NAMED * stage->em;
     Plot plot = plot_on(
@@ -76,7 +81,6 @@ void race_draw(Plot *stage)
     for (int method = 0; method < RACE_METHODS; method++) {
         Colour colour = colour_of(race_method(method)->name);
         bool first = !over_h && !race_method(method)->implicit;
-        left[method] = over_h || first;
         double last[2] = {NAN, NAN};
         named[method][0] = named[method][1] = NAN;
         for (int i = method; i < race->count; i += RACE_METHODS) {
@@ -100,7 +104,7 @@ void race_draw(Plot *stage)
             plot_words(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
     for (int side = 0; side < 2 && wide; side++)
-        name_points(&plot, named, left, side);
+        name_points(&plot, named, over_h, side);
 }
 
 /* The quickest run that is near: a stable one of an explicit method and of an
@@ -124,9 +128,10 @@ void race_facts(const Simulation *simulation, Facts *facts)
         fact(facts, names[i][2], best ? 1e3 * best->h : NAN);
         fact_when(facts, i ? "" : "no explicit", !best && all);
     }
-    bool failed = false;
-    for (int i = 0; i < race->count; i++)
-        failed = failed || isnan(race->point[i].error);
+    bool failed = false; /* of those in the table */
+    for (int i = RACE_SHOWN * RACE_METHODS; i < race->count; i++)
+        failed = failed || (isnan(race->point[i].error) &&
+                            i < (RACE_SHOWN + HALVED + 1) * RACE_METHODS);
     fact_when(facts, "failed run", failed);
     fact_when(facts, all ? "all runs" : "some runs", !simulation->status);
     fact_when(facts, simulation->exhibit.parts ? "over h" : "", true);
@@ -143,7 +148,7 @@ static void put_cell(char *cell, size_t size, const char *sign, double value,
                  unit);
 }
 
-enum { COLUMNS = 9, HALVED = 4, CELL = 64 };
+enum { COLUMNS = 9, CELL = 64 };
 
 /* A method a row: its error with h, by what it is divided as h is halved again
  * and again (what is below 10 nm is left to the tolerance), with h what is left
