@@ -111,7 +111,7 @@ void prints_draw(const Plot *card)
     int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
-    if (count == 0) {
+    if (count == 0 && !(star && trace)) {
         cards_hint(card, text_undrawn);
         return;
     }
@@ -130,7 +130,8 @@ void prints_draw(const Plot *card)
                 "\u00f7 %s",
                 number_of(trace->record[i - 1].residual / residual).text);
     }
-    if (count - first < room && trace->residual <= trace->tolerance)
+    if (count - first < room && trace->residual <= trace->tolerance &&
+        (count > 0 || trace->line == LINE_NONE))
         paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x,
                     inside.y + (count - first) * pitch, ALIGN_LEFT,
                     "then %d: \u2264 %s, the loop ends", count,

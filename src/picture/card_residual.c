@@ -11,8 +11,7 @@ void residual_draw(const Plot *card)
     const double radius = 3.5;
     const Trace *trace = show_pane(card->show)->update;
     if (!trace || (trace->updates == 0 && !(trace->residual > 0))) {
-        cards_hint(card, "{explicit}an explicit method solves nothing\n"
-                         "a point for each Newton update");
+        cards_hint(card, text_undrawn);
         return;
     }
     const NewtonRecord now = {.residual = trace->residual, .kind = trace->kind};

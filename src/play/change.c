@@ -453,16 +453,20 @@ Status obey_switch(Player *player, const Command *command)
     return player_ask_set(player, row, was_off ? on : off);
 }
 
-/* The next row of the table of integrators that all terms allow, for this pane.
- * NULL: refused. */
+/* The next row of the table of integrators that all terms allow, and that is in
+ * no pane, for this one.  NULL: refused. */
 static const IntegratorMethod *find_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.machine[pane].simulation;
     const IntegratorMethod *own = simulation->run[0].method, *next = own;
-    bool time = simulation->scene->needs & NEEDS_TIME;
-    do
+    bool time = simulation->scene->needs & NEEDS_TIME, taken;
+    do {
         next = next[1].name ? next + 1 : &integrator_methods[0];
-    while (next != own && integrator_method_refuses(next, &simulation->system));
+        taken = integrator_method_refuses(next, &simulation->system);
+        for (int p = 0; p < past_panes(&player->past); p++)
+            taken = taken ||
+                    player->past.machine[p].simulation.run[0].method == next;
+    } while (next != own && taken);
     if (simulation->runs > 1)
         next = &integrator_methods[0];
     if (time && next != own)

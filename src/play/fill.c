@@ -252,16 +252,16 @@ void player_label_panes(Player *player)
 {
     const Past *past = &player->past;
     for (int p = 0; p < past_panes(past); p++) {
-        const Options *options = &past_control(past, p)->options;
+        long last = past_ended(past, p, past->step);
+        const Entry *entry = past_entry(past, p, last < 0 ? past->step : last);
         char *label = player->side[p].label, value[SHOW_VALUE];
         const size_t size = sizeof player->side[p].label;
-        long last = past_ended(past, p, past->step);
         label[0] = '\0';
         for (const OptionRow *row = option_rows; row->name; row++) {
             if (!player_compares(player, row))
                 continue;
-            player_value(row, options, &past->machine[p].simulation, value,
-                         sizeof value);
+            player_value(row, &entry->control->options,
+                         &past->machine[p].simulation, value, sizeof value);
             append(label, size, "%s", label[0] ? ", " : "");
             if (row->slot != OPTION_SLOT(integrator))
                 append(label, size, "%s ", row->label);
