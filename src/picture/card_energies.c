@@ -257,8 +257,10 @@ void radius_draw(const Plot *card)
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,
                 COLOUR_GREY);
     draw_curves(&plot, find_curves(show, curve), curve);
-    double even = simulation->steps * simulation->options.timestep;
-    bool changed = fabs(simulation_time(simulation) - even) > 1e-9 * even;
+    const History *history = show_pane(show)->history;
+    double end = history ? history->time[history->count - 1] : 0;
+    double even = show->bars * simulation->options.timestep;
+    bool changed = fabs(end - even) > 1e-9 * even;
     if (!show->veiled && !changed && plot_disc(&plot, twice, 4, COLOUR_TEXT))
         plot_words(&plot, 1, twice, COLOUR_TEXT, "2 m: step %g", steps);
 }

@@ -124,7 +124,7 @@ static void add_matrix(const IntegratorMethod *method, double t, Facts *facts)
     fact(facts, "im", root);
     fact(facts, "least", square < 0 ? NAN : re - root);
     fact(facts, "most", re + root);
-    fact(facts, "size", math_hypot(re, root));
+    fact(facts, "size", square < 0 ? math_hypot(re, root) : fabs(re) + root);
 }
 
 /* What each run knows of itself; colour and name are the method's. */
@@ -132,6 +132,8 @@ void circle_facts(const Simulation *simulation, Facts *facts)
 {
     double turn = simulation->run[0].h * MASS_TURN; /* on the circle */
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
+    const char *first = simulation->run[0].method->name;
+    bool doubles = circle && strcmp(first, "forward-euler") == 0;
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
         facts->run = r + 1;
@@ -144,7 +146,8 @@ void circle_facts(const Simulation *simulation, Facts *facts)
     }
     facts->run = 0; /* steps of forward Euler until the radius is doubled */
     fact(facts, "doubling",
-         circle ? ceil(2 * log(2) / log1p(turn * turn)) : NAN);
+         doubles ? ceil(2 * log(2) / log1p(turn * turn)) : NAN);
+    fact(facts, "h", simulation->run[0].h);
 }
 
 /* ---- the arrows ---------------------------------------------------------- */
@@ -354,7 +357,6 @@ void mass_facts(const Simulation *simulation, Facts *facts)
     if (!one || !known)
         return;
     fact_when(facts, "numbers", true);
-    fact(facts, "h", simulation->run[0].h);
     fact_words(facts, "at", backward ? "x\u2032" : "x");
     fact_words(facts, "by", step.by_old_v ? "v" : "v\u2032");
     fact_point(facts, "place", step.x);

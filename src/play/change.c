@@ -144,7 +144,7 @@ Status player_unveil(Player *player, const char *typed)
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
     player->told = page;
     Status status = player_obey_lines(player, page->tell);
-    if (page->answer)
+    if (page->answer && !isnan(truth))
         player_note(player, "%s%sit is %s", typed ? typed : "",
                     !typed  ? ""
                     : right ? ": right, "

@@ -284,14 +284,14 @@ static void fill_time(Player *player)
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
     char *text = show->time_text;
-    double time = INFINITY, last = 0; /* where h differs the longest leads */
+    double time = 0, longest = -1; /* h leads; a pane that ended stands still */
     for (int p = 0; p < past_panes(past); p++) {
-        double now = simulation_time(&past->machine[p].simulation);
-        last = fmax(last, now);
-        if (past_ended(past, p, past->step) < 0)
-            time = fmin(time, now);
+        const Simulation *now = &past->machine[p].simulation;
+        bool goes = past_ended(past, p, past->step) < 0;
+        double h = goes ? now->options.timestep : 0;
+        time = h > longest ? simulation_time(now) : time;
+        longest = fmax(longest, h);
     }
-    time = fmin(time, last); /* that of panes that have ended stands still */
     show->paused = player_stands(player);
     const LecturePage *page = player_settings(player)->page;
     if (page && page->writes && /* its steps are springs */

@@ -4,7 +4,7 @@
 # The lines of one word, put together in text, as fields of the row.
 function put_word(    part)
 {
-    if (word == "formula" || word == "look") # one below the other
+    if (word == "text" || word == "formula" || word == "look") # in lines
         below[word] = below[word] (below[word] ? " \"\\n\" " : "") quoted(text)
     else if (word in texts)
         print "." texts[word] " = " quoted(text) ","
@@ -39,7 +39,6 @@ function end_page(    i)
 
 BEGIN {
     split("text run cards look try code claim notes minutes", needed)
-    texts["text"] = "text"
     texts["run"] = "line"
     texts["open"] = "open"
     texts["cards"] = "cards"

@@ -557,7 +557,6 @@ static void tell_masses(const Simulation *simulation)
         is("energy", E[0]);
         is("later", E[1]);
         is("factor", E[1] / E[0]);
-        is("h", h);
         is_point("place", x[0], x[1]);
         is_point("v", v[0], v[1]);
         is_point("a", a[0], a[1]);
@@ -565,6 +564,7 @@ static void tell_masses(const Simulation *simulation)
         is_point("v'", new_v[0], new_v[1]);
         is_point("carrying", by[0], by[1]);
         run_now = 0;
+        is("h", h);
         if (one) {
             Real off[2];
             for (int i = 0; i < 2; i++)
