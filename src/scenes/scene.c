@@ -100,7 +100,7 @@ const Scene scenes[] = {
           "--hardening 0.1 --ball 0,-0.75,0.35 --ground 0,1,0,-1.15",
      create_square, .frame = {-1.3, -1.3, 1.3, 1.25}},
     {"tear", "Fracture: a slit runs",
-     "pulled apart, springs break where the strain is largest", SQUARE,
+     "pulled apart, springs break: a crack runs from a slit", SQUARE,
      FALL "--segments 24 --timestep 0.002 --gravity 0 --tear 0.12 "
           "--self-contact on",
      create_tear, .frame = {-0.78, -0.65, 0.78, 0.65}, .strain = 0.05,
