@@ -101,16 +101,16 @@ void envelope_facts(const Simulation *simulation, Facts *facts)
     double h = envelope_timestep(map->column), m = simulation->system.m[0];
     int known = 0, converged = 0, undone = 0;
     bool rounded = true; /* those that do not converge are far too stiff */
-    for (int row = 0; row < ENVELOPE_ROWS; row++)
-        for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
-            const EnvelopeCell *one = &map->cell[row][column];
-            known += one->known;
-            undone += one->undone;
-            converged += one->known && !one->worst && !one->undone;
-            double step = envelope_timestep(column);
-            double ratio = step * step * envelope_stiffness(row) / m;
-            rounded = rounded && (!one->worst || ratio > 1e16);
-        }
+    for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
+        int row = i / ENVELOPE_COLUMNS, column = i % ENVELOPE_COLUMNS;
+        const EnvelopeCell *one = &map->cell[row][column];
+        double step = envelope_timestep(column);
+        double ratio = step * step * envelope_stiffness(row) / m;
+        known += one->known;
+        undone += one->undone;
+        converged += one->known && !one->worst && !one->undone;
+        rounded = rounded && (!one->worst || ratio > 1e16);
+    }
     facts->colour[0] = envelope_shade(4);
     facts->colour[1] = envelope_shade(3);
     facts->colour[2] = COLOUR_UNDONE;

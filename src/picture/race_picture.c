@@ -205,16 +205,13 @@ void table_draw(const Plot *card)
     Paper *paper = card->paper;
     Box inside = card->box;
     char cell[COLUMNS][CELL];
-    bool shown[COLUMNS] = {false};
     double wide[COLUMNS], gap = 0.8 * paper->em, rest = inside.width;
     double line = fmin(3.6 * paper->em, inside.height / (RACE_METHODS + 1.0));
     int count = 0;
     for (int c = 0; c < COLUMNS; c++)
         wide[c] = paper_width(paper, FACE_REGULAR, 1, widest[c]);
-    for (; count < COLUMNS && wide[next[count]] <= rest; count++) {
-        shown[next[count]] = true;
+    for (; count < COLUMNS && wide[next[count]] <= rest; count++)
         rest -= wide[next[count]] + gap;
-    }
     gap += (rest + gap) / fmax(count - 1, 1);
     for (int row = 0; row <= RACE_METHODS; row++) {
         double right = inside.x - gap;
@@ -223,15 +220,14 @@ void table_draw(const Plot *card)
             fill_row(&card->simulation->exhibit.race, row - 1, cell);
         else
             memcpy(cell, heads, sizeof cell);
-        for (int c = 0; c < COLUMNS; c++) {
-            right += shown[c] ? wide[c] + gap : 0;
-            if (shown[c])
-                paper_write(paper, row ? FACE_REGULAR : FACE_BOLD, 1,
-                            row && c == 0
+        for (int i = 0, c = 0; i < count; c = next[++i % COLUMNS]) {
+            Colour colour = row && i == 0
                                 ? colour_of(race_method(row - 1)->name)
-                                : COLOUR_TEXT,
-                            c ? right : inside.x, inside.y + row * line,
-                            c ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);
+                                : COLOUR_TEXT;
+            right += wide[c] + gap;
+            paper_write(paper, row ? FACE_REGULAR : FACE_BOLD, 1, colour,
+                        i ? right : inside.x, inside.y + row * line,
+                        i ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);
         }
     }
 }
