@@ -175,7 +175,8 @@ static void fill_chips(Player *player)
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_settings(player);
     bool time = simulation->scene->needs & NEEDS_TIME;
-    bool newton = simulation->run[0].newton && time;
+    bool nears = options->page && options->page->nears;
+    bool newton = simulation->run[0].newton && time && !nears;
     bool ended = simulation->done || player->mode > MODE_END;
     bool stands = player_stands(player);
     if (player->sheet) {
@@ -185,8 +186,7 @@ static void fill_chips(Player *player)
         return;
     }
     add_chip(player, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
-    int next = newton ? player->fine : time ? 0 : 3;
-    next = options->page && options->page->nears ? 4 : next;
+    int next = nears ? 4 : newton ? player->fine : time ? 0 : 3;
     add_chip(player, COMMAND_NEXT, next, false);
     add_chip(player, COMMAND_BACK, 0, false);
     if (options->page) {

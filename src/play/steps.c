@@ -563,10 +563,13 @@ Status obey_next(Player *player, const Command *command)
     return player_show(player, player->past.step + 1, then);
 }
 
-/* Whether the steps of any pane are made of updates that are shown. */
+/* Whether the steps of any pane are made of updates that N shows. */
 static bool has_updates(const Player *player)
 {
+    const LecturePage *page = player_settings(player)->page;
     bool any = false;
+    if (page && page->nears)
+        return false;
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Simulation *simulation = &player->past.machine[p].simulation;
         any = any || ((simulation->scene->needs & NEEDS_TIME) &&
