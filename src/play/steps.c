@@ -563,13 +563,10 @@ Status obey_next(Player *player, const Command *command)
     return player_show(player, player->past.step + 1, then);
 }
 
-/* Whether the steps of any pane are made of updates that N shows. */
+/* Whether the steps of any pane are made of updates that are shown. */
 static bool has_updates(const Player *player)
 {
-    const LecturePage *page = player_settings(player)->page;
     bool any = false;
-    if (page && page->nears)
-        return false;
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Simulation *simulation = &player->past.machine[p].simulation;
         any = any || ((simulation->scene->needs & NEEDS_TIME) &&
@@ -602,7 +599,8 @@ Status obey_finer(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
-    if (!has_updates(player) && player->fine == 0)
+    const LecturePage *page = player_settings(player)->page;
+    if ((page && page->nears) || (!has_updates(player) && player->fine == 0))
         return player_refuse(player, "a step here has no finer ones");
     player->fine = (player->fine + 1) % 3;
     player_stop(player);

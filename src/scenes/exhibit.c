@@ -63,8 +63,7 @@ int exhibit_kind(const Simulation *simulation, int spring)
     return spring < half ? 0 : spring < 2 * half ? 1 : 2 + spring % 2;
 }
 
-/* Kinds of springs are there until they are switched off; the energy with the
- * root on the page that compares them. */
+/* Kinds of springs are there until they are switched off. */
 int exhibit_switches(const Simulation *simulation,
                      Switch out[SCENE_MAX_SWITCHES])
 {
@@ -73,7 +72,7 @@ int exhibit_switches(const Simulation *simulation,
     bool has_kinds = exhibit_has_kinds(simulation);
     const char *const *part = has_kinds ? kinds : simulation->scene->parts;
     const LecturePage *page = simulation->options.page;
-    bool none = page && page->nears && !page->flips;
+    bool none = page && page->nears && !page->flips; /* it compares nothing */
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && part[count]; count++)
         out[count] = (Switch){

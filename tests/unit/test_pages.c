@@ -805,8 +805,6 @@ TEST(claim_energy)
 TEST(claim_force)
 {
     says("force", "1 2 2 100 1 10 4 1.2 0.5 23.805 165.6 69");
-    CHECK_NEAR(known("force", "energy"), 50 * 0.69 * 0.69, 1e-12);
-    CHECK_NEAR(known("force", "Dxx"), 200 * (0.69 + 2 * 1.44), 1e-5);
     SpringFacts facts;
     Simulation *simulation = open_page("force", "");
     const double *x = simulation->run[0].x;
@@ -825,10 +823,7 @@ TEST(claim_potential)
 {
     says("potential", "16 0 4 2 4 50 72 16 676 2500");
     CHECK(known("potential", "places") == 676);
-    Simulation *simulation =
-        open_page("potential", "--stretch 0.5 --filter none");
-    CHECK(known_now(simulation, "Byy") == 0); /* projected all the same */
-    simulation = open_page("potential", "");
+    Simulation *simulation = open_page("potential", "");
     const System *system = &simulation->system;
     static bool used[50][50];
     int places = 0;
@@ -841,11 +836,13 @@ TEST(claim_potential)
         }
     for (int i = 0; i < 50 * 50; i++)
         places += used[i / 50][i % 50];
-    CHECK(places == 676 && 4 * (25 + 2 * 72) == 676);
+    CHECK(places == 676);
     double before[50]; /* only the matrix changes from step to step */
     memcpy(before, simulation->run[0].x, sizeof before);
     make_steps(simulation, 72);
     assert_memory_equal(before, simulation->run[0].x, sizeof before);
+    simulation = open_page("potential", "--stretch 0.5 --filter none");
+    CHECK(known_now(simulation, "Byy") == 0); /* projected all the same */
 }
 
 TEST(claim_algorithm3)
@@ -864,22 +861,18 @@ TEST(claim_algorithm3)
 TEST(claim_step)
 {
     says("step", "2 10 10 36 330 392 0.01 10 2 10 20 0.009");
-    int count[2];
-    for (int i = 0; i < 2; i++) {
-        make_steps(open_page("step", i ? "" : "--tolerance 0.01"), 1);
-        check_falls();
-        count[i] = updates.count;
-        /* what is to be looked at, in two digits */
-        const NewtonRecord *at = updates.record;
-        CHECK_NEAR(at[0].residual / at[1].residual, 36, 0.5);
-        if (i == 1)
-            CHECK_NEAR(at[1].residual / at[2].residual, 330, 5);
-        for (int k = 1; i == 1 && k < updates.count; k++)
-            CHECK(at[k].projected == 20);
+    make_steps(open_page("step", "--tolerance 0.01"), 1);
+    CHECK(updates.count == 2);
+    check_falls();
+    make_steps(open_page("step", ""), 1);
+    CHECK(updates.count == 4);
+    check_falls();
+    for (int k = 1; k < 4; k++) {
+        static const double factors[] = {0, 36, 330, 392}; /* rounded */
+        const NewtonRecord *at = &updates.record[k];
+        CHECK_NEAR(at[-1].residual / at->residual, factors[k], 0.5);
+        CHECK(at->projected == 20);
     }
-    CHECK_NEAR(updates.record[2].residual / updates.record[3].residual, 392,
-               0.5);
-    CHECK(count[1] == count[0] + 2);
     make_steps(open_page("step", "--filter none --tolerance 1e-9"), 1);
     CHECK(updates.count == 4);
     for (int k = 2; k < 4; k++) {
@@ -908,25 +901,19 @@ TEST(claim_simulator)
 {
     says("simulator", "50 100 1");
     Simulation *simulation = open_page("simulator", "");
-    for (int i = 0; i < 50; i++) {
-        double before = simulation_energies(simulation, 0).total;
+    double start = simulation_energies(simulation, 0).total, now = start;
+    for (int i = 1; i <= 200; i++) {
+        double before = now;
         make_steps(simulation, 1);
-        CHECK(simulation_energies(simulation, 0).total <= before);
+        now = simulation_energies(simulation, 0).total;
+        CHECK((i > 50 || now <= before) && (i < 100 || now < 0.5 * start));
     }
-    double left[2];
-    for (int i = 0; i < 2; i++) {
-        simulation = open_page("simulator", i ? "--integrator avf" : "");
-        double start = simulation_energies(simulation, 0).total;
-        make_steps(simulation, 100);
-        left[i] = simulation_energies(simulation, 0).total / start;
-    }
-    CHECK_AT_MOST(left[0], 0.5);
-    CHECK_NEAR(left[1], 1, 0.01);
+    CHECK_NEAR(now, 0.3, 0.05);
+    simulation = open_page("simulator", "--integrator avf");
+    make_steps(simulation, 100);
+    CHECK_NEAR(simulation_energies(simulation, 0).total, start, 0.01 * start);
     make_steps(simulation, 100);
     CHECK(turned_over(simulation) > 0);
-    simulation = open_page("simulator", "");
-    make_steps(simulation, 200);
-    CHECK_NEAR(simulation_energies(simulation, 0).total, 0.3, 0.05);
 }
 
 /* total at the start + work = what there is + what was lost, within a
