@@ -631,6 +631,20 @@ TEST(maps_have_levels_and_pulls)
                        COLOUR_X_TILDE) > 3);
 }
 
+/* The step of twice the radius is marked on forward Euler's curve, if all steps
+ * of it, also those after the one that is shown, are as long. */
+TEST(doubling_is_marked)
+{
+    static const char *const lines[] = {"circle", "circle",
+                                        "circle --integrator backward-euler"};
+    for (int i = 0; i < 3; i++) {
+        stand_up(lines[i], 3);
+        show.bars = i == 1 ? 2 : 3;
+        draw_without_words();
+        CHECK((count_colour(layout.card[1], COLOUR_TEXT) > 0) == (i == 0));
+    }
+}
+
 /* Every card of every picture has a name of its own, none of them in another
  * one, and they fit. */
 TEST(cards_have_names)
