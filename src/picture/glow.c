@@ -104,8 +104,9 @@ void glow_draw(Paper *paper, const Show *show)
     if (show->over.zone == ZONE_CARD || show->over.zone == ZONE_STAGE)
         colour = term_near(&paper->canvas, show->over.at,
                            (int)(AT_MOUSE * paper->em));
-    if (colour == COLOUR_X && show->over.zone == ZONE_STAGE)
-        colour = 0; /* all of the square */
+    bool plain = show->hover.kind == PICK_SWITCH && !show->lecture->kinds;
+    if (plain || (colour == COLOUR_X && show->over.zone == ZONE_STAGE))
+        colour = 0; /* all of the square; a switch without a term */
     if (!colour && trace && strstr(show->lecture->cards, "listing"))
         colour = of_line[trace->line];
     if (colour)
