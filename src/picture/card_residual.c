@@ -8,7 +8,6 @@
  * come there: then it is one more. */
 void residual_draw(const Plot *card)
 {
-    const double radius = 3.5;
     const Trace *trace = show_pane(card->show)->update;
     if (!trace || (trace->updates == 0 && !(trace->residual > 0))) {
         cards_hint(card, text_undrawn);
@@ -47,8 +46,7 @@ void residual_draw(const Plot *card)
         at[1] = record->residual;
         if (i > 0)
             plot_line(&plot, before, at, 1.3, COLOUR_P);
-        plot_hollow(&plot, at, radius + bound, bound ? radius - 1 : 0,
-                    COLOUR_P);
+        plot_hollow(&plot, at, 3.5 + bound, bound ? 2.5 : 0, COLOUR_P);
     }
     plot_dashes(&plot, left, right, 1.4, NULL, COLOUR_TEXT);
     plot_words(&plot, 1, left, COLOUR_TEXT, "\u03b5");

@@ -102,10 +102,9 @@ void values_draw(const Plot *card)
         cards_hint(card, text_undrawn);
         return;
     }
-    left.box.width = (int)((wide ? 0.52 : 1) * card->box.width);
-    int taken = left.box.width + paper_pixels(card->paper, 1);
-    right.box.x += taken;
-    right.box.width -= taken;
+    int width = (int)((wide ? 0.52 : 1) * card->box.width);
+    left.box = box_cut_off(&right.box, EDGE_LEFT, width);
+    box_cut_off(&right.box, EDGE_LEFT, paper_pixels(card->paper, 1));
     double E = draw_way(&left, &card->simulation->system, trace, pane_x(pane));
     if (wide)
         draw_values(&right, trace, E);

@@ -424,6 +424,7 @@ static Status pressed(Player *player, const Input *input)
     mouse->from[1] = mouse->y;
     mouse->grip[0] = mouse->grip[1] = 0;
     mouse->moved = false;
+    player->note[0] = '\0'; /* of what was before */
     if (input->button == BUTTON_BOX && stage && player_stands(player)) {
         mouse->drag = COMMAND_BOX;
         show_hold(&player->show, under.pane);

@@ -381,12 +381,11 @@ Status player_retake(Player *player, const Command *change, int from, int to)
     const Machine *machine = player_machine(player);
     const Simulation *simulation = &machine->simulation;
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
-    int place = player->side[player->active].place;
     bool failed = machine->failed;
     long step = past->step + failed;
     player->retaken = (Station){.round = -1};
-    if (place >= 0 && player->fine > 0)
-        player->retaken = machine->rounds.place[place];
+    if (side->place >= 0 && player->fine > 0)
+        player->retaken = machine->rounds.place[side->place];
     player_leave_step(player);
     tell_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
