@@ -22,6 +22,10 @@ typedef struct Box {
     int x, y, width, height;
 } Box;
 
+/* A place without its fraction; very far ones, and NaN, as far as can be
+ * calculated with. */
+int pixel_at(double place);
+
 /* Smaller by a margin on each side, but not below nothing. */
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 enum { MOST_WIDTH = 4096 }; /* pixels, of a line */
+enum { FARTHEST = 1 << 29 }; /* pixels, of what is not seen any more */
 
 /* Numbers of 16 bits before and 16 bits after the binary point. */
 enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
@@ -100,6 +101,11 @@ static Box touched(Box clip, double left, double top, double right,
     int x = (int)x0, y = (int)y0, right_end = (int)x1, low_end = (int)y1;
     return (Box){x, y, right_end + (right_end < x1) - x,
                  low_end + (low_end < y1) - y};
+}
+
+int pixel_at(double place)
+{
+    return place >= -FARTHEST ? (int)fmin(place, FARTHEST) : -FARTHEST;
 }
 
 Box box_inset(Box box, int margin)

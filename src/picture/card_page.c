@@ -94,7 +94,7 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show)
     const Facts *facts = &show_pane(show)->facts;
     int high = put_words(paper, inside, 0, 1, TEST_ROOM, &words, facts, false);
     inside.height -= high + paper_pixels(paper, 0.5);
-    put_words(paper, (Box){inside.x, 0, inside.width, INT_MAX},
+    put_words(paper, (Box){inside.x, 0, inside.width, INT_MAX / 2},
               inside.y + inside.height + paper_pixels(paper, 0.5), 1, TEST_ROOM,
               &words, facts, true);
     return inside;

@@ -38,9 +38,9 @@ static Box envelope_box(const Plot *stage, int column, int row)
     double p[2], q[2];
     plot_place(stage, low, p);
     plot_place(stage, high, q);
-    int left = (int)ceil(p[0]), top = (int)ceil(q[1]);
-    return (Box){left, top, (int)ceil(q[0]) - left - 1,
-                 (int)ceil(p[1]) - top - 1};
+    int left = pixel_at(ceil(p[0])), top = pixel_at(ceil(q[1]));
+    return (Box){left, top, pixel_at(ceil(q[0])) - left - 1,
+                 pixel_at(ceil(p[1])) - top - 1};
 }
 
 /* Where elasticity is so many times as stiff as inertia: h^2 k = ratio m. */

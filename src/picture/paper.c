@@ -78,9 +78,9 @@ int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *markup)
 {
     int wide = paper_width(paper, face, size, markup);
-    int left = (int)x - (int)align * wide / 2, air = paper_pixels(paper, 0.3);
+    int left = pixel_at(x) - (int)align * wide / 2, air = paper_pixels(paper, 0.3);
     canvas_fill(&paper->canvas,
-                (Box){left - air, (int)y, wide + 2 * air,
+                (Box){left - air, pixel_at(y), wide + 2 * air,
                       paper_pixels(paper, 1.36 * size)},
                 COLOUR_PANEL);
     return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
