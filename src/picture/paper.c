@@ -78,7 +78,8 @@ int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *markup)
 {
     int wide = paper_width(paper, face, size, markup);
-    int left = pixel_at(x) - (int)align * wide / 2, air = paper_pixels(paper, 0.3);
+    int left = pixel_at(x) - (int)align * wide / 2;
+    int air = paper_pixels(paper, 0.3);
     canvas_fill(&paper->canvas,
                 (Box){left - air, pixel_at(y), wide + 2 * air,
                       paper_pixels(paper, 1.36 * size)},
