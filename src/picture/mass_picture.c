@@ -133,7 +133,6 @@ void circle_facts(const Simulation *simulation, Facts *facts)
     double turn = simulation->run[0].h * MASS_TURN; /* on the circle */
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
     const char *first = simulation->run[0].method->name;
-    bool doubles = circle && strcmp(first, "forward-euler") == 0;
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
         facts->run = r + 1;
@@ -145,8 +144,8 @@ void circle_facts(const Simulation *simulation, Facts *facts)
             add_matrix(run->method, turn, facts);
     }
     facts->run = 0; /* steps of forward Euler until the radius is doubled */
-    fact(facts, "doubling",
-         doubles ? ceil(2 * log(2) / log1p(turn * turn)) : NAN);
+    if (circle && strcmp(first, "forward-euler") == 0)
+        fact(facts, "doubling", ceil(2 * log(2) / log1p(turn * turn)));
     fact(facts, "h", simulation->run[0].h);
 }
 
