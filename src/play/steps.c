@@ -273,6 +273,8 @@ static void judge(Player *player)
         player->mode = balance ? MODE_REST : MODE_HELD;
     else if (ended || (bad && !player->warned))
         player->mode = MODE_END;
+    if (ended) /* how it ended is said where an answer stood */
+        player->note[0] = '\0';
     player->warned = player->warned || bad;
     if (player->mode >= MODE_HELD)
         tell_rest(player);
