@@ -74,10 +74,8 @@ void race_draw(Plot *stage)
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true});
     const double at[2][2] = {{plot.x.low, NEAR}, {plot.x.high, NEAR}};
-    if (!over_h) {
+    if (!over_h)
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
-        plot_words(&plot, 1, at[1], COLOUR_TEXT, "1 cm");
-    }
     for (int method = 0; method < RACE_METHODS; method++) {
         Colour colour = colour_of(race_method(method)->name);
         bool first = !over_h && !race_method(method)->implicit;
@@ -134,7 +132,7 @@ void race_facts(const Simulation *simulation, Facts *facts)
                             i < (RACE_SHOWN + HALVED + 1) * RACE_METHODS);
     fact_when(facts, "failed run", failed);
     fact_when(facts, all ? "all runs" : "some runs", !simulation->status);
-    fact_when(facts, simulation->exhibit.parts ? "over h" : "", true);
+    fact_when(facts, simulation->exhibit.parts ? "over h" : "over time", true);
     fact(facts, "methods", RACE_METHODS);
     fact_when(facts, "failed", simulation->status);
 }
