@@ -13,9 +13,8 @@
 #include "scenes/simulation.h"
 
 enum {
-    SHOW_TEXT = 224,     /* bytes of a sentence */
-    SHOW_VALUE = 32,     /* bytes of a setting's value */
-    SHOW_CODE_LINES = 24 /* as many as are seen from the back row */
+    SHOW_TEXT = 224, /* bytes of a sentence */
+    SHOW_VALUE = 32  /* bytes of a setting's value */
 };
 
 /* Where in Algorithm 3 the run stands.  Everything up to this line is done:
@@ -174,17 +173,14 @@ typedef struct StepBar {
     bool unconverged;
 } StepBar;
 
-/* Text beside the stage in the place of the cards: none, all keys, or a
- * function's lines. */
-typedef enum PageKind { PAGE_NONE, PAGE_HELP, PAGE_CODE } PageKind;
-
-typedef struct Page {
-    PageKind kind;
-    const char *title; /* "src/lecture.c" */
-    int lines;
-    const char *line[SHOW_CODE_LINES];
-    unsigned char lit[SHOW_CODE_LINES]; /* 1: the line is */
-} Page;
+/* What is in the column: the cards, in their place a page's code, or a list. */
+typedef enum Column {
+    COLUMN_CARDS,
+    COLUMN_CODE,
+    COLUMN_PAGES,
+    COLUMN_KEYS, /* the rows of this list and the next one others fill */
+    COLUMN_OPTIONS
+} Column;
 
 /* A line of a list: a key or a number, and what it does. */
 typedef struct HelpRow {
@@ -230,7 +226,7 @@ typedef struct Show {
     /* The column.  Bit c of a set is the picture's card c. */
     unsigned closed, hidden;
     int large; /* the enlarged one; -1: none */
-    Page page;
+    Column column;
     int help_rows;
     HelpRow help[LAYOUT_ROWS];
 
@@ -255,10 +251,8 @@ typedef struct Show {
 
     /* The lecture: the page that is shown, or NULL outside of it. */
     const LecturePage *lecture;
-    char lecture_title[48]; /* of the card with its words */
-    bool numbers;           /* of the nodes are shown, where they are few */
-    bool veiled;            /* its answer is not shown before a guess, */
-    unsigned veils;         /* nor is what is in these cards */
+    bool veiled;    /* its answer is not shown before a guess, */
+    unsigned veils; /* nor is what is in these cards */
 } Show;
 
 /* Nothing selected, everything fits, one pane that shows the simulation. */
@@ -298,17 +292,10 @@ long show_step_at(const Show *show, const Layout *layout, double x);
 
 /* ---- what it knows ------------------------------------------------------ */
 
-/* What the lecture adds, where the simulation's options name a page: topic,
- * number, cards that are hidden; and in the column, if asked for, the text of
- * its function or the list of pages, in which the page that was left is marked
- * where none is open.  Before show_describe. */
-typedef enum Column {
-    COLUMN_CARDS,
-    COLUMN_CODE,
-    COLUMN_PAGES,
-    COLUMN_KEYS, /* and what follows: others fill it */
-    COLUMN_OPTIONS
-} Column;
+/* What the lecture adds, where the simulation's options name a page: topic and
+ * cards that are hidden; what is in the column, there is code of pages alone;
+ * the list of pages, in which the page that was left is marked where none is
+ * open.  Before show_describe. */
 void show_lecture(Column column, const struct LecturePage *left, Show *show);
 
 /* Fills the facts of all panes. */

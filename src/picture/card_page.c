@@ -88,8 +88,6 @@ void page_draw(const Plot *card)
 
 Box page_draw_claim(Paper *paper, Box inside, const Show *show)
 {
-    if (!show->lecture)
-        return inside;
     const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT, 1};
     const Facts *facts = &show_pane(show)->facts;
     int high = put_words(paper, inside, 0, 1, TEST_ROOM, &words, facts, false);

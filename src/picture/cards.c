@@ -68,7 +68,7 @@ int show_help_row(const Show *show, const Layout *layout, double x, double y)
     int margin = (int)lround(0.9 * layout->em);
     Box inside = cards_inside(box_inset(layout->column, margin), layout->em);
     HelpGrid grid = help_grid(show, inside, layout->em);
-    if (show->page.kind != PAGE_HELP || !box_contains(inside, x, y))
+    if (show->column < COLUMN_PAGES || !box_contains(inside, x, y))
         return -1;
     int column = (int)((x - inside.x) * grid.columns / inside.width);
     int row = (int)((y - inside.y) / grid.line);
@@ -99,48 +99,53 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
     }
 }
 
-/* Letters that its widest line has; *indent out, blanks before all lines. */
-static double code_letters(const Page *page, size_t *indent)
+/* Letters that its widest line has; out: how many lines, and the blanks before
+ * all of them. */
+static double code_letters(const LecturePage *page, int *lines, size_t *indent)
 {
     size_t widest = 0;
     *indent = SIZE_MAX;
-    for (int i = 0; i < page->lines; i++) {
-        size_t length = strlen(page->line[i]);
-        size_t blanks = strspn(page->line[i], " ");
+    for (*lines = 0; page->code[*lines]; ++*lines) {
+        const char *line = page->code[*lines];
+        size_t length = strlen(line), blanks = strspn(line, " ");
         *indent = length > 0 && blanks < *indent ? blanks : *indent;
         widest = length > widest ? length : widest;
     }
     return (double)widest - (double)*indent;
 }
 
-double cards_code_needs(const Page *page)
+double cards_code_needs(const LecturePage *page)
 {
     size_t indent;
-    return CODE_LETTER * code_letters(page, &indent) + 4.4; /* margins */
+    int lines;
+    const double margins = 4.4; /* ems */
+    return CODE_LETTER * code_letters(page, &lines, &indent) + margins;
 }
 
 /* Lines of code in letters as large as they fit, nearer to each other where
  * they are many; those at work are lit. */
-static void draw_code(Paper *paper, Box inside, const Page *page)
+static void draw_code(Paper *paper, Box inside, const Show *show)
 {
+    const LecturePage *page = show->lecture;
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     size_t indent;
-    double air = 0.3 * paper->em, letters = code_letters(page, &indent);
+    int lines;
+    double letters = code_letters(page, &lines, &indent), air = 0.3 * paper->em;
     double cell = floor((inside.width - 2 * air) / letters); /* whole pixels */
     double wide = floor((cell + 0.49) / letter);
-    double size = fmin(wide, inside.height / (low * page->lines)) / paper->em;
+    double size = fmin(wide, inside.height / (low * lines)) / paper->em;
     size = fmax(fmin(size, most), paper->least);
     int line = (int)fmin(paper_pixels(paper, high * size),
-                         inside.height / page->lines);
+                         inside.height / lines);
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
-    for (int i = 0; i < page->lines; i++) {
+    for (int i = 0; i < lines; i++) {
         int y = inside.y + i * line;
-        if (page->lit[i])
+        if (strstr(page->code[i], lecture_lit(show)))
             canvas_fill(&paper->canvas, (Box){inside.x, y, inside.width, line},
                         COLOUR_LIT);
-        if (page->line[i][0])
+        if (page->code[i][0])
             text_draw(paper->text, &paper->canvas, &style, inside.x + air, y,
-                      ALIGN_LEFT, page->line[i] + indent);
+                      ALIGN_LEFT, page->code[i] + indent);
     }
 }
 
@@ -148,14 +153,18 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
 {
     const Simulation *simulation = show_pane(show)->simulation;
     const Picture *picture = picture_of(simulation->scene);
-    const Page *page = &show->page;
+    static const char *const titles[] = {
+        [COLUMN_PAGES] = "The pages of the lecture",
+        [COLUMN_KEYS] = "Keys and mouse",
+        [COLUMN_OPTIONS] = "Numbers of this scene"};
+    bool code = show->column == COLUMN_CODE;
     if (layout->page) { /* over the whole column */
         Box inside = draw_frame(
             paper, box_inset(layout->column, paper_pixels(paper, 0.9)),
-            page->title ? page->title : "Keys and mouse", show, false);
+            code ? show->lecture->file : titles[show->column], show, false);
         Box before = canvas_clip(&paper->canvas, inside);
-        if (page->kind == PAGE_CODE)
-            draw_code(paper, page_draw_claim(paper, inside, show), page);
+        if (code)
+            draw_code(paper, page_draw_claim(paper, inside, show), show);
         else
             draw_help(paper, inside, show);
         canvas_clip(&paper->canvas, before);

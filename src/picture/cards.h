@@ -53,8 +53,7 @@ extern CardNeeds page_needs, listing_needs;
 /* The size of its letters in ems: the same for all pages that fit. */
 double page_letters(Paper *paper, Box inside, const Show *show);
 
-/* What a test holds of the page, below its code.  Returns the box above it; the
- * same box outside of the lecture. */
+/* What a test holds of the page, below its code.  Returns the box above it. */
 Box page_draw_claim(Paper *paper, Box inside, const Show *show);
 
 /* What a page knows of its law, and where the scene is on it. */
@@ -85,6 +84,10 @@ double energies_value(const Simulation *simulation, const History *history,
  *   last  out, s, the latest time that the curves may reach */
 Axis energies_axis(const Show *show, double *last);
 
+/* The text whose lines are lit in the page's code: that of Algorithm 3's line
+ * while it is gone through, else the page's. */
+const char *lecture_lit(const Show *show);
+
 /* The newest spring of a page on which springs write the Hessian, from 0. */
 int lecture_spring(const Simulation *simulation);
 
@@ -95,8 +98,8 @@ Box cards_inside(Box card, double em);
  * text that is known. */
 void cards_hint(const Plot *card, const char *text);
 
-/* How wide a page of code wants to be, ems. */
-double cards_code_needs(const Page *page);
+/* How wide the code of a page wants to be, ems. */
+double cards_code_needs(const LecturePage *page);
 
 /* All cards of the layout, or the page in their place and one on the stage. */
 void cards_draw(Paper *paper, const Layout *layout, const Show *show);

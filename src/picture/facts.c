@@ -66,7 +66,9 @@ static void add_settings(const Show *show, const Simulation *simulation,
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
     fact_words(facts, "scene", show->lecture ? NULL : scene->sentence);
-    fact_words(facts, "page", show->lecture ? show->lecture_title : NULL);
+    fact(facts, "page",
+         show->lecture ? (double)(show->lecture - lecture_pages + 1) : NAN);
+    fact(facts, "pages", lecture_count());
     bool settles = scene->settles && !show->lecture;
     fact_when(facts, "grows", settles && forward);
     fact_when(facts, "keeps", settles && method && !method->damps);

@@ -171,7 +171,7 @@ static bool is_below(const Show *show, int card)
     return page && page->star && picture->cards[card]->below &&
            !((show->hidden | show->closed) >> card & 1) &&
            (card == picture_card(picture, page->star) ||
-            show->page.kind == PAGE_NONE);
+            show->column == COLUMN_CARDS);
 }
 
 /* The rows [LAYOUT_CARDS] of all cards that are seen: side by side where two
@@ -381,7 +381,7 @@ Layout show_layout(const Show *show, int width, int height)
     const Picture *picture = picture_of(simulation->scene);
     double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
     double least = show->letter > 0 ? show->letter : EM_LEAST;
-    bool page = show->page.kind != PAGE_NONE, big = simulation->options.big;
+    bool page = show->column != COLUMN_CARDS, big = simulation->options.big;
     if (show->lecture || big)
         least = fmax(show->letter, big ? fmin(height / 35.0, width / 54.0)
                                        : fmin(height / 55.0, width / 64.0));
@@ -397,8 +397,8 @@ Layout show_layout(const Show *show, int width, int height)
         (page || show->hidden != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
         double ems = fmax(COLUMN_PART * wide, COLUMN_LEAST);
-        if (show->page.kind == PAGE_CODE)
-            ems = fmin(fmax(cards_code_needs(&show->page), ems), most);
+        if (show->column == COLUMN_CODE)
+            ems = fmin(fmax(cards_code_needs(show->lecture), ems), most);
         else if (page && show->help_rows > MOST_ROWS)
             ems = most;
         int column = pixels(&layout, ems);
@@ -408,7 +408,7 @@ Layout show_layout(const Show *show, int width, int height)
         layout.stage.width -= column;
         if (!page)
             place_cards(show, &layout);
-        else if (show->lecture && show->page.kind == PAGE_CODE)
+        else if (show->column == COLUMN_CODE)
             layout.cards = picture->count;
     } else if (!show->bare && page) { /* over the stage */
         layout.column = layout.stage;

@@ -326,7 +326,7 @@ void show_draw(Paper *paper, const Show *show)
     }
     if (show->bare)
         return;
-    if (show->page.kind != PAGE_NONE)
+    if (show->column != COLUMN_CARDS)
         canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
     cards_draw(paper, &layout, show);
     glow_draw(paper, show);

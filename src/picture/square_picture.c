@@ -477,7 +477,7 @@ void square_draw(Plot *stage)
     draw_mouse(pen);
     draw_page_arrows(pen);
     draw_warnings(pen, folded);
-    if (show->numbers && !show->veiled && system->nodes <= NUMBERED)
+    if (stage->told && stage->told->numbers && system->nodes <= NUMBERED)
         draw_numbers(pen);
     if (pen->range > 0)
         draw_colours(pen);

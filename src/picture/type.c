@@ -244,6 +244,19 @@ static void set_matrix(Pen *pen, Part part, int depth)
     pen->x = right + 1.5 * THIN * em;
 }
 
+/* #name{...}: in that colour, unless all of the text is grey. */
+static void set_coloured(Pen *pen, Part part, int depth)
+{
+    Colour before = pen->style.colour;
+    size_t length = 0;
+    while (part.from[-2 - (ptrdiff_t)length] != '#')
+        length++;
+    if (before != COLOUR_GREY)
+        pen->style.colour = colour_named(part.from - 1 - length, length);
+    set_part(pen, part, depth);
+    pen->style.colour = before;
+}
+
 /* ---- markup ------------------------------------------------------------- */
 
 static const struct {
@@ -253,15 +266,15 @@ static const struct {
              {"_", set_raised},
              {"frac", set_fraction},
              {"matrix", set_matrix},
-             {"#", NULL}};
+             {"#", set_coloured}};
 
 /* The letters that have a colour. */
 static const struct {
-    const char *name, *shown, *colour;
-} letters[] = {{"{x}", "x", "x"},
-               {"{xt}", "x\u0303", "xt"},
-               {"{p}", "p", "p"},
-               {"{alpha}", "\u03b1", "alpha"}};
+    const char *name, *markup;
+} letters[] = {{"{x}", "#x{x}"},
+               {"{xt}", "#xt{x\u0303}"},
+               {"{p}", "#p{p}"},
+               {"{alpha}", "#alpha{\u03b1}"}};
 enum {
     WORDS = sizeof words / sizeof *words,
     LETTERS = sizeof letters / sizeof *letters
@@ -284,7 +297,7 @@ static int find_word(const char *string, const char **brace)
         if (strncmp(string, words[i].name, length) != 0)
             continue;
         *brace = string + length;
-        if (!words[i].set)
+        if (words[i].set == set_coloured)
             *brace += strspn(*brace, "abcdefghijklmnopqrstuvwxyz0123456789");
         if (**brace == '{')
             return i;
@@ -301,17 +314,6 @@ bool text_is_markup(const char *text, const char *brace)
     return find_letter(brace) < LETTERS;
 }
 
-/* #name{...}: in that colour, unless all of the text is grey. */
-static void set_coloured(Pen *pen, Part part, int depth, Part name)
-{
-    Colour before = pen->style.colour;
-    if (before != COLOUR_GREY)
-        pen->style.colour =
-            colour_named(name.from, (size_t)(name.end - name.from));
-    set_part(pen, part, depth);
-    pen->style.colour = before;
-}
-
 static void set_part(Pen *pen, Part part, int depth)
 {
     const char *at = part.from, *brace = at;
@@ -320,16 +322,12 @@ static void set_part(Pen *pen, Part part, int depth)
         int letter = plain ? LETTERS : find_letter(at);
         int word = plain ? WORDS : find_word(at, &brace);
         if (letter < LETTERS) {
-            set_coloured(pen, part_of(letters[letter].shown), depth,
-                         part_of(letters[letter].colour));
+            set_part(pen, part_of(letters[letter].markup), depth);
             at += strlen(letters[letter].name);
         } else if (word < WORDS && brace < part.end) {
             Part inside = {brace + 1, part.end};
             inside.end = find_outside(inside, NULL);
-            if (words[word].set)
-                words[word].set(pen, inside, depth + 1);
-            else
-                set_coloured(pen, inside, depth + 1, (Part){at + 1, brace});
+            words[word].set(pen, inside, depth + 1);
             at = inside.end + (inside.end < part.end);
         } else {
             set_letter(pen, next_letter(&at));

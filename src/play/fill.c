@@ -57,7 +57,6 @@ static void fill_help(Show *show)
             at += length;
         }
     }
-    show->page.kind = PAGE_HELP;
     show->help_rows = (int)(row - show->help);
 }
 
@@ -144,7 +143,6 @@ static void fill_options(Player *player)
                  idle ? idle : all[i]->help);
         row->grey = idle != NULL;
     }
-    show->page = (Page){.kind = PAGE_HELP, .title = "Numbers of this scene"};
 }
 
 /* The chip of a command: its first key, and what that does now: word number

@@ -190,7 +190,7 @@ TEST(cards_share_the_column)
     Layout large = show_layout(&show, 1280, 800);
     for (int i = LINE; i <= ASSEMBLY; i++)
         CHECK(large.card[LISTING].height > 5 * large.card[i].height);
-    show.page.kind = PAGE_HELP;
+    show.column = COLUMN_KEYS;
     Layout page = show_layout(&show, 1280, 800);
     CHECK(page.cards == 0 && page.column.width == pair.column.width);
     CHECK(layout_hit(&page, page.column.x + 9, page.column.y + 9).zone ==

@@ -1047,6 +1047,9 @@ static void tell_all(const Show *show)
         near("setting", settings[i], 5e-4L * fabsl(settings[i]));
     is("of its width, %", 100 * o->stretch);
     near("t", simulation_time(simulation), 1e-5L * simulation_time(simulation));
+    if (show->lecture)
+        is("page", (Real)(show->lecture - lecture_pages + 1));
+    is("pages", lecture_count());
     is("panes", show->panes);
     is("runs", simulation->runs);
     is("springs", simulation->system.springs);

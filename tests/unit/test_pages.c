@@ -164,16 +164,17 @@ TEST(claim_mesh)
         show_create(simulation, &show);
         simulation->steps = s;
         show_lecture(COLUMN_CODE, NULL, &show);
-        for (int i = 0; i < show.page.lines; i++)
-            if (show.page.lit[i]) {
+        const char *const *code = show.lecture->code;
+        for (int i = 0; code[i]; i++)
+            if (strstr(code[i], lecture_lit(&show))) {
                 lit++;
                 from = i;
             }
         static const char *const texts[] = {"(i + 1) * row + j, k", "j + 1, k",
                                             "j + 1, k"};
         CHECK(lit == 1);
-        CHECK(strstr(show.page.line[from], texts[s / 6 < 2 ? s / 6 : 2]));
-        CHECK((strstr(show.page.line[from - 1], "(i + 1) * row + j + 1") !=
+        CHECK(strstr(code[from], texts[s / 6 < 2 ? s / 6 : 2]));
+        CHECK((strstr(code[from - 1], "(i + 1) * row + j + 1") !=
                NULL) == (s > 12 && s % 2));
     }
 }
@@ -1427,16 +1428,16 @@ TEST(letters_are_seen_from_the_back_row)
             show_describe(&show);
             smallest = smallest_code = INT_MAX;
             show_draw(&paper[s], &show);
-            int lit = 0;
-            for (int k = 0; k < show.page.lines; k++) {
-                lit += show.page.lit[k];
-                CHECK(!strstr(show.page.line[k], "FAIL("));
+            int lit = 0, lines = 0;
+            for (; page->code[lines]; lines++) {
+                lit += strstr(page->code[lines], lecture_lit(&show)) != NULL;
+                CHECK(!strstr(page->code[lines], "FAIL("));
             }
             if (column == COLUMN_CODE) { /* the picture and a star stay */
                 Layout beside = show_layout(&show, sizes[s][0], sizes[s][1]);
                 const Picture *picture = picture_of(simulation->scene);
                 int star = page->star ? picture_card(picture, page->star) : -1;
-                CHECK(lit > 0 && show.page.lines >= 4);
+                CHECK(lit > 0 && lines >= 4);
                 CHECK(beside.stage.width > 0.3 * sizes[s][0]);
                 CHECK(star < 0 ||
                       beside.card[star].height > 0.25 * beside.stage.height);

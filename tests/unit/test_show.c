@@ -126,7 +126,7 @@ TEST(every_size_is_drawn)
                 stand_up(scene->name, mode);
                 show.strain = mode & 1;
                 show.bare = mode == 3;
-                show.page.kind = mode == 2 ? PAGE_HELP : PAGE_NONE;
+                show.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
                 show.closed = 0;
                 show.pane[0].trouble = STATUS_NOT_FINITE;
                 show.hover = (Pick){.kind = PICK_SPRING, .index = 0};
@@ -281,11 +281,16 @@ TEST(pages_light_their_lines)
     int lit[3];
     stand_up("square", 0);
     for (int i = 0; i < 3; i++) {
-        show.page = (Page){.kind = PAGE_CODE,
-                           .title = "file.c: function",
-                           .lines = 4,
-                           .line = {"int a;", "int b;", "int c;", "int d;"},
-                           .lit = {0, i > 0, i > 1, 0}};
+        static const char *const code[] = {"int a;", "int b, c;", "int c;",
+                                           "int d;", NULL};
+        static const char *const texts[] = {"e", "b", "c"};
+        const LecturePage page = {.file = "file.c: function",
+                                  .function = "",
+                                  .cards = "",
+                                  .code = code,
+                                  .lit = texts[i]};
+        show.column = COLUMN_CODE;
+        show.lecture = &page;
         draw();
         lit[i] = count_colour(layout.column, COLOUR_LIT);
     }
