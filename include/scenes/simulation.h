@@ -119,10 +119,11 @@ NewtonCounters simulation_counters(const Simulation *simulation);
  * start. */
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
 
-/* Whether the obstacles of other options leave room for the bodies as they are.
- *   message  [size] out, one line where not */
-bool simulation_has_room(const Simulation *simulation, const Options *options,
-                         char *message, size_t size);
+/* Whether the obstacles of other options leave room for the bodies as they are:
+ * OK; INVALID_INPUT where not.
+ *   message  [size] out, one line then */
+Status simulation_has_room(const Simulation *simulation, const Options *options,
+                           char *message, size_t size);
 
 /* Puts a node at (x, y), m, at rest, and others as far as it goes; really: else
  * it is only tried.  What this does to the energy is booked as work.

@@ -211,14 +211,9 @@ Status obey_predict(Player *player, const Command *command)
 /* Shows a cell of the envelope. */
 Status obey_cell(Player *player, const Command *command)
 {
-    long cell = command->number;
-    Simulation *simulation = &player->past.machine[player->active].simulation;
-    const EnvelopeMap *map = &simulation->exhibit.map;
-    int column = (int)(cell % ENVELOPE_COLUMNS);
-    int row = (int)(cell / ENVELOPE_COLUMNS);
-    if (map->column == column && map->row == row)
-        return STATUS_OK;
-    return envelope_visit(simulation, column, row);
+    int cell = (int)command->number;
+    return envelope_visit(&player->past.machine[player->active].simulation,
+                          cell % ENVELOPE_COLUMNS, cell / ENVELOPE_COLUMNS);
 }
 
 /* ---- while it goes on ---------------------------------------------------- */
@@ -257,21 +252,6 @@ static const OptionRow *row_of(const Command *command)
     return command->number < 0 ? NULL : &option_rows[command->number];
 }
 
-int player_row(const Player *player, const OptionRow *found[OPTIONS_MOST])
-{
-    const Options options = player_numbers(player);
-    int own = options_row(&options, found), count = own;
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        bool there = !(player->added >> (row - option_rows) & 1) ||
-                     !(row->needs & options.scene->needs);
-        for (int i = 0; i < own; i++)
-            there = there || found[i] == row;
-        if (!there)
-            found[count++] = row;
-    }
-    return count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
-}
-
 /* Whether it is one that the scene can make use of. */
 static bool is_number(const Player *player, const OptionRow *row)
 {
@@ -279,14 +259,20 @@ static bool is_number(const Player *player, const OptionRow *row)
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
 }
 
-int player_all_numbers(const Player *player,
-                       const OptionRow *found[OPTIONS_MOST])
+int player_row(const Player *player, bool all,
+               const OptionRow *found[OPTIONS_MOST])
 {
-    int count = 0;
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (is_number(player, row))
+    const Options options = player_numbers(player);
+    int own = all ? 0 : options_row(&options, found), count = own;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        bool more = all || player->added >> (row - option_rows) & 1;
+        more = more && is_number(player, row);
+        for (int i = 0; i < own; i++)
+            more = more && found[i] != row;
+        if (more)
             found[count++] = row;
-    return count;
+    }
+    return all || count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
 }
 
 const char *player_idle(const Player *player, const OptionRow *row)
@@ -325,15 +311,6 @@ Status obey_add(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Whether obstacles leave room for the bodies of a pane; else it is told. */
-static Status find_room(Player *player, int pane, const Options *options)
-{
-    return simulation_has_room(&player->past.machine[pane].simulation, options,
-                               player->message, sizeof player->message)
-               ? STATUS_OK
-               : STATUS_INVALID_INPUT;
-}
-
 /* The value of a command into the options of a pane. */
 static Status put_value(Player *player, int pane, const Command *command,
                         Options *options)
@@ -349,7 +326,11 @@ static Status put_value(Player *player, int pane, const Command *command,
         integrator_method_refuses(options_method(options),
                                   &player_simulation(player)->system))
         return player_refuse(player, "a term of this scene refuses it");
-    return status || !row->times ? status : find_room(player, pane, options);
+    return status || !row->times
+               ? status
+               : simulation_has_room(&player->past.machine[pane].simulation,
+                                     options, player->message,
+                                     sizeof player->message);
 }
 
 /* An option while the run goes on, or from the start where it cannot change any
@@ -405,7 +386,7 @@ Status player_pace(Player *player, const OptionRow *row, int paces)
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
-    if (player_row(player, number) == 0)
+    if (player_row(player, false, number) == 0)
         return player_refuse(player, "there is no number to change here");
     player->lit = player->lit ? player->lit : number[0];
     return player_pace(player, player->lit,
@@ -431,7 +412,7 @@ Status obey_default(Player *player, const Command *command)
 Status obey_select(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
-    int next = 0, count = player_row(player, number);
+    int next = 0, count = player_row(player, false, number);
     for (int i = 0; i < count; i++)
         next = number[i] == player->lit ? i + 1 : next;
     player_deselect(player);
@@ -617,7 +598,9 @@ Status obey_obstacle(Player *player, const Command *command)
     at[1] = command->y;
     Status status = STATUS_OK;
     for (int p = 0; p < past_panes(&player->past) && !status; p++)
-        status = find_room(player, p, &moved);
+        status =
+            simulation_has_room(&player->past.machine[p].simulation, &moved,
+                                player->message, sizeof player->message);
     return status ? status : change_all(player, command);
 }
 

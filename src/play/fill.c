@@ -93,7 +93,7 @@ static void fill_settings(Player *player)
     const Options shown = player_numbers(player), *options = &shown;
     const OptionRow *all[OPTIONS_MOST];
     show->selected = -1;
-    player->numbers = player_row(player, player->number);
+    player->numbers = player_row(player, false, player->number);
     bool over =
         show->over.zone == ZONE_SETTING && show->over.index < player->numbers;
     for (int i = 0; i < player->numbers; i++) {
@@ -119,7 +119,7 @@ static void fill_settings(Player *player)
         if (row == player->lit && player->typing)
             snprintf(setting->value, SHOW_VALUE, "%s_", player->typed);
     }
-    if (player_all_numbers(player, all) > player->numbers)
+    if (player_row(player, true, all) > player->numbers)
         show->setting[show->settings++] =
             (Setting){"", "+ more", 0, false, false};
 }
@@ -130,7 +130,7 @@ static void fill_options(Player *player)
     const OptionRow *all[OPTIONS_MOST];
     const Options options = player_numbers(player);
     Show *show = &player->show;
-    show->help_rows = player_all_numbers(player, all);
+    show->help_rows = player_row(player, true, all);
     for (int i = 0; i < show->help_rows; i++) {
         HelpRow *row = &show->help[i];
         char value[SHOW_VALUE];

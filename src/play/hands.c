@@ -136,7 +136,7 @@ static Status open_line(Player *player, const char *line)
         snprintf(page.text, sizeof page.text, "%s", line);
         return player_obey(player, &page);
     }
-    if (*end || number < 1 || number > player_all_numbers(player, all))
+    if (*end || number < 1 || number > player_row(player, true, all))
         return player_refuse(player, "there is no such number in the list");
     return ask(player, COMMAND_ADD, all[number - 1] - option_rows);
 }

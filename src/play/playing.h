@@ -107,11 +107,10 @@ Status player_obey_lines(Player *player, const char *lines);
 /* Whether the panes have different values of this option. */
 bool player_compares(const Player *player, const OptionRow *row);
 
-/* The numbers of the row: those of the table, and those that were added; all
- * that the scene has.  found [OPTIONS_MOST] out; return how many. */
-int player_row(const Player *player, const OptionRow *found[OPTIONS_MOST]);
-int player_all_numbers(const Player *player,
-                       const OptionRow *found[OPTIONS_MOST]);
+/* The numbers of the row, those of the table and those that were added; or all
+ * that the scene has.  Returns how many. */
+int player_row(const Player *player, bool all,
+               const OptionRow *found[OPTIONS_MOST]);
 
 /* The number goes so many paces up. */
 Status player_pace(Player *player, const OptionRow *row, int paces);

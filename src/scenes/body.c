@@ -417,8 +417,8 @@ static bool is_in_a_cell(const SquareMesh *mesh, const double *x,
     return false;
 }
 
-bool simulation_has_room(const Simulation *simulation, const Options *options,
-                         char *message, size_t size)
+Status simulation_has_room(const Simulation *simulation, const Options *options,
+                           char *message, size_t size)
 {
     Refusal told = {message, size};
     Status status = check_numbers(options, told);
@@ -438,7 +438,7 @@ bool simulation_has_room(const Simulation *simulation, const Options *options,
         if (is_in_a_cell(&simulation->mesh, simulation->run[0].x,
                          options->ball[k]))
             status = refuse(told, "ball %d would be inside of a cell", k);
-    return status == STATUS_OK;
+    return status;
 }
 
 /* Whether two edges have a point in common. */

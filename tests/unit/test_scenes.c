@@ -299,9 +299,12 @@ TEST(obstacles_have_room_in_what_was_torn)
     Simulation *beam = simulate("bend --segments 16");
     beam->run[0].x[0] = 0;
     beam->run[0].x[1] = 0.42;
-    CHECK(simulation_has_room(beam, &beam->options, message, sizeof message));
+    CHECK_OK(
+        simulation_has_room(beam, &beam->options, message, sizeof message));
     beam->run[0].x[1] = -1;
-    CHECK(!simulation_has_room(beam, &beam->options, message, sizeof message));
+    CHECK_STATUS(
+        simulation_has_room(beam, &beam->options, message, sizeof message),
+        STATUS_INVALID_INPUT);
 }
 
 /* Pins are no way out: a ceiling ends at nodes that are held, and pins that are
