@@ -75,8 +75,7 @@ typedef struct CommandRow {
     const char *chip;  /* what it does now, for the chips: "play|pause" */
 } CommandRow;
 
-/* The row of a kind. */
-const CommandRow *command_row(CommandKind kind);
+extern const CommandRow command_rows[COMMAND_KINDS]; /* of each kind */
 
 /* What a key asks for; COMMAND_NONE: nothing.  Its text is the key.
  *   key      "N", "Shift+N", "Left", "+"

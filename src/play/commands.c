@@ -12,16 +12,11 @@
 #include "play/output.h"
 #include "play/playing.h"
 
-static const CommandRow command_rows[COMMAND_KINDS] = {
+const CommandRow command_rows[COMMAND_KINDS] = {
 #define ROW(kind, ...) [COMMAND_##kind] = {__VA_ARGS__},
 #include "play/command_rows.def"
 #undef ROW
 };
-
-const CommandRow *command_row(CommandKind kind)
-{
-    return &command_rows[kind];
-}
 
 /* Whether `key` is one of the keys in "A|B". */
 static bool is_one_of(const char *keys, const char *key)
@@ -245,7 +240,7 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
 /* Whether the next line, of the same drag, does all that this one does. */
 static bool is_covered(const ScriptLine *line)
 {
-    return command_row(line->command.kind)->flags & LATEST &&
+    return command_rows[line->command.kind].flags & LATEST &&
            line->gesture == line[1].gesture && line->step == line[1].step &&
            line->command.kind == line[1].command.kind &&
            line->command.number == line[1].command.number;

@@ -43,7 +43,7 @@ static void fill_help(Show *show)
     HelpRow *row = show->help + sizeof mouse / sizeof *mouse;
     memcpy(show->help, mouse, sizeof mouse);
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
-        const CommandRow *command = command_row((CommandKind)kind);
+        const CommandRow *command = &command_rows[kind];
         if (!command->label)
             continue;
         if (command->label[0]) /* else it is told with the one before */
@@ -153,7 +153,7 @@ static void add_chip(Player *player, CommandKind kind, int word, bool lit)
         labels[LAYOUT_CHIPS][SHOW_VALUE];
     Show *show = &player->show;
     int i = show->chips;
-    const CommandRow *row = command_row(kind);
+    const CommandRow *row = &command_rows[kind];
     const char *label = row->chip;
     if (i >= LAYOUT_CHIPS)
         return;

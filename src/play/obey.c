@@ -97,7 +97,7 @@ static Status check_number(Player *player, const Command *command)
     return player_refuse(
         player,
         count > 0 ? "%s: there are 0 ... %ld, no %ld" : "%s: none is here",
-        command_row(command->kind)->word, count - 1, command->number);
+        command_rows[command->kind].word, count - 1, command->number);
 }
 
 /* What a key means here, so that a script of it leads to the same place. */
@@ -155,7 +155,7 @@ Status player_obey(Player *player, const Command *asked)
     Command command = meant_by(player, asked);
     long step = past->step, newest = past_newest(past);
     int now = past->now;
-    const CommandRow *row = command_row(command.kind);
+    const CommandRow *row = &command_rows[command.kind];
     unsigned flags = row->flags;
     begin_gesture(player, &command);
     player->changed = true;

@@ -629,10 +629,9 @@ static Status end_work(Past *past)
         present(past)->count++;
     } else if (past->making) {
         past->aim = past_newest(past);
-        for (int p = 0; p < past_panes(past); p++) {
-            unmake(past, p);
+        for (int p = 0; p < past_panes(past); p++)
             past->machine[p].step = past->aim;
-        }
+        stop_work(past);
     }
     past->making = past->works = false;
     past->step = past->aim;

@@ -425,7 +425,7 @@ TEST(commands_are_written_as_they_are_read)
         Command command = {(CommandKind)kind, 7, 0.1, -3, "word",
                            kind % 2 == 0},
                 read;
-        if (!command_row((CommandKind)kind)->word)
+        if (!command_rows[kind].word)
             continue;
         command_format(&command, line, sizeof line);
         CHECK_OK(command_parse(line, &read, message, sizeof message));
@@ -448,7 +448,7 @@ TEST(keys_are_given_once)
 {
     CHECK(command_from_key("R", true, AT_RUN).kind == COMMAND_NONE);
     for (int kind = 1; kind < COMMAND_TYPE_NUMBER; kind++) {
-        const char *all = command_row((CommandKind)kind)->keys;
+        const char *all = command_rows[kind].keys;
         for (; all && *all; all += *all == '|') {
             char key[16];
             size_t length = strcspn(all, "|");
