@@ -27,9 +27,10 @@ typedef struct Card {
     bool closed;       /* at the start */
     bool below;        /* as a page's star it stands below the picture */
     bool lecture;      /* it is nowhere but on pages of the lecture */
-    /* What is inside, below the title: a text, all lines that are known; or a
-     * function draws it. */
+    /* What is inside, below the title: a text, all lines that are known; an
+     * algorithm line by line (cards.h); or a function draws it. */
     const char *words;
+    const struct ListingRow *rows;
     void (*draw)(const Plot *card);
 } Card;
 

@@ -24,6 +24,12 @@ typedef struct Curve {
     const char *name;
 } Curve;
 
+typedef struct Curves {
+    int count;
+    Curve curve[HISTORY_SERIES];
+    double now; /* s, of what is shown: a pane that ended stays where it was */
+} Curves;
+
 /* Whether its series are runs, each with a total of its own, not the parts of
  * one; then places follow them. */
 static bool series_are_runs(const Simulation *simulation)
@@ -34,19 +40,19 @@ static bool series_are_runs(const Simulation *simulation)
 
 /* Of panes side by side the totals; else what the active one keeps: its runs,
  * or the first three quantities and those which at some time could be told from
- * 0 beside the largest one until then.  curve [HISTORY_SERIES] out; returns how
- * many. */
-static int find_curves(const Show *show, Curve *curve)
+ * 0 beside the largest one until then. */
+static Curves find_curves(const Show *show)
 {
+    Curves all = {.now = simulation_time(show_pane(show)->simulation)};
+    Curve *curve = all.curve;
     const Pane *active = show_pane(show);
     const History *history = active->history;
     bool runs = series_are_runs(active->simulation);
     bool worthy[HISTORY_SERIES] = {true, true, true};
     double most = 0;
-    int count = 0;
     for (int p = 0; show->panes > 1 && p < show->panes; p++)
         if (show->pane[p].history)
-            curve[count++] = (Curve){
+            curve[all.count++] = (Curve){
                 show->pane[p].simulation, show->pane[p].history, 0, true,
                 colour_of_run(p),         show->pane[p].label};
     int series = !history || !history->series ? 0
@@ -60,7 +66,7 @@ static int find_curves(const Show *show, Curve *curve)
     }
     for (int s = 0; show->panes <= 1 && s < series; s++)
         if (runs || worthy[s])
-            curve[count++] = (Curve){
+            curve[all.count++] = (Curve){
                 active->simulation,
                 history,
                 s,
@@ -68,7 +74,9 @@ static int find_curves(const Show *show, Curve *curve)
                 runs ? colour_of(active->simulation->run[s].method->name)
                      : colour_of(s == 0 ? "total" : history->name[s]),
                 history->name[s]};
-    return count;
+    for (int c = 0; c < all.count; c++)
+        all.now = fmax(all.now, simulation_time(curve[c].simulation));
+    return all;
 }
 
 /* The last point of the history that is not later than this time; -1: none. */
@@ -100,50 +108,37 @@ double energies_value(const Simulation *simulation, const History *history,
     return fabs(value) < 1e-15 * fmin(size, first) ? 0 : value;
 }
 
-/* Makes the range wider, so that the value is inside. */
-static void extend(double range[2], double value)
-{
-    range[0] = fmin(range[0], value);
-    range[1] = fmax(range[1], value);
-}
-
-/* Of what is shown: a pane that ended stays where it was. */
-static double newest_time(const Show *show, int curves, const Curve *curve)
-{
-    double now = simulation_time(show_pane(show)->simulation);
-    for (int c = 0; c < curves; c++)
-        now = fmax(now, simulation_time(curve[c].simulation));
-    return now;
-}
-
 /* An axis that holds still is easier to read: it is that of the whole run as
  * long as what is shown so far can be seen on it. */
 Axis energies_axis(const Show *show, double *last)
 {
     const Simulation *simulation = show_pane(show)->simulation;
-    Curve curve[HISTORY_SERIES];
-    int curves = find_curves(show, curve);
-    double first = 0, least = INFINITY, all[2] = {0, 0}, range[2] = {0, 0};
-    double now = newest_time(show, curves, curve);
+    const Curves all = find_curves(show);
+    double first = 0, least = INFINITY, low = 0, high = 0;
+    double lowest = 0, highest = 0; /* of the whole run */
     *last = 100 * simulation->options.timestep;
-    for (int c = 0; c < curves; c++) {
-        const History *history = curve[c].history;
-        int point = point_at(history, now);
+    for (const Curve *curve = all.curve; curve < all.curve + all.count;
+         curve++) {
+        const History *history = curve->history;
+        int point = point_at(history, all.now);
         for (int i = 0; i < history->count; i++) {
-            double value = history->value[curve[c].series][i];
-            extend(all, value);
-            if (i <= point)
-                extend(range, value);
-            if (i <= point && curve[c].total && value > 0)
+            double value = history->value[curve->series][i];
+            lowest = fmin(lowest, value);
+            highest = fmax(highest, value);
+            low = i <= point ? fmin(low, value) : low;
+            high = i <= point ? fmax(high, value) : high;
+            if (i <= point && curve->total && value > 0)
                 least = fmin(least, value);
             *last = fmax(*last, history->time[i]);
             first = fmax(first, history->value[0][0]);
         }
     }
-    if (fmax(all[1], -all[0]) < STILL * fmax(range[1], -range[0]))
-        memcpy(range, all, sizeof range);
-    double high = range[1] > 0 ? fmin(range[1], 1e300) : 1;
-    double low = fmax(range[0], -1e300);
+    if (fmax(highest, -lowest) < STILL * fmax(high, -low)) {
+        low = lowest;
+        high = highest;
+    }
+    high = high > 0 ? fmin(high, 1e300) : 1;
+    low = fmax(low, -1e300);
     if (!(first > 0)) /* at rest in a field: what came first tells */
         first = -low;
     bool modes = show->lecture && show->lecture->modes;
@@ -155,12 +150,14 @@ Axis energies_axis(const Show *show, double *last)
                   plot_round_axis(high), false, false, "J"};
 }
 
-static void draw_curves(const Plot *plot, int curves, const Curve *curve)
+static void draw_curves(const Plot *plot, const Curves *all)
 {
-    for (int c = curves - 1; c >= 0; c--)
-        plot_curve(plot, curve[c].history->count, curve[c].history->time,
-                   curve[c].history->value[curve[c].series],
-                   curve[c].total ? 1.8 : 1.4, curve[c].colour);
+    for (int c = all->count - 1; c >= 0; c--) {
+        const Curve *curve = &all->curve[c];
+        plot_curve(plot, curve->history->count, curve->history->time,
+                   curve->history->value[curve->series],
+                   curve->total ? 1.8 : 1.4, curve->colour);
+    }
 }
 
 /* Above the curves their names with their values, of each at the time of its
@@ -168,29 +165,28 @@ static void draw_curves(const Plot *plot, int curves, const Curve *curve)
 void energies_draw(const Plot *card)
 {
     const Show *show = card->show;
-    Curve curve[HISTORY_SERIES];
+    const Curves all = find_curves(show);
     Plot rest = *card;
-    int curves = find_curves(show, curve), at[2] = {0, 0}, used = 0;
-    double now = newest_time(show, curves, curve), last;
-    double size = fmax(curves > 4 ? CROWDED : LEGEND, card->paper->least);
-    for (int c = 0; c < curves; c++) {
-        TextLine line = {.colour = curve[c].colour};
-        const Simulation *simulation = curve[c].simulation;
-        double time = simulation_time(simulation);
+    int at[2] = {0, 0}, used = 0;
+    double size = fmax(all.count > 4 ? CROWDED : LEGEND, card->paper->least);
+    double last;
+    for (const Curve *one = all.curve; one < all.curve + all.count; one++) {
+        TextLine line = {.colour = one->colour};
         double value =
-            energies_value(simulation, curve[c].history, curve[c].series, time);
+            energies_value(one->simulation, one->history, one->series,
+                           simulation_time(one->simulation));
         snprintf(line.words, sizeof line.words, "%s %s J",
-                 curve[c].name ? curve[c].name : "", number_of(value).text);
+                 one->name ? one->name : "", number_of(value).text);
         used = words_flow(card, at, size, 1.05 * size, &line);
     }
     box_cut_off(&rest.box, EDGE_TOP, used);
     Axis energy = energies_axis(show, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
-    if (now < plot.x.high)
-        plot_line(&plot, (double[2]){now, plot.y.low},
-                  (double[2]){now, plot.y.high}, 1, COLOUR_BORDER);
-    draw_curves(&plot, curves, curve);
+    if (all.now < plot.x.high)
+        plot_line(&plot, (double[2]){all.now, plot.y.low},
+                  (double[2]){all.now, plot.y.high}, 1, COLOUR_BORDER);
+    draw_curves(&plot, &all);
 }
 
 /* What there was at the start and what gravity and hand have added since; then
@@ -241,7 +237,7 @@ void radius_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
     const Show *show = card->show;
-    Curve curve[HISTORY_SERIES];
+    const Curves all = find_curves(show);
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
     double most = 0.4; /* powers of ten */
@@ -256,7 +252,7 @@ void radius_draw(const Plot *card)
     const double twice[2] = {steps * simulation->options.timestep, 2};
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,
                 COLOUR_GREY);
-    draw_curves(&plot, find_curves(show, curve), curve);
+    draw_curves(&plot, &all);
     const History *history = show_pane(show)->history;
     double end = history ? history->time[history->count - 1] : 0;
     double even = show->bars * simulation->options.timestep;

@@ -75,23 +75,13 @@ double listing_needs(const Show *show, double wide, double em)
     return 1.75 * put_rows(show, rows_listing, NULL, (Box){0}) + 2.6;
 }
 
-static void draw_rows(const Plot *card, const ListingRow *row)
+void rows_in_card(const Plot *card, const ListingRow *row)
 {
     double pitch = card->em * (card->show->lecture ? WIDE_PITCH : 1.75);
     int count = put_rows(card->show, row, NULL, (Box){0});
     Box line = card->box;
     line.height = (int)fmin(lround(pitch), line.height / (double)count);
     put_rows(card->show, row, card, line);
-}
-
-void listing_draw(const Plot *card)
-{
-    draw_rows(card, rows_listing);
-}
-
-void search_draw(const Plot *card)
-{
-    draw_rows(card, rows_search);
 }
 
 /* The newest updates, as many as there is room for; of a star this is the upper

@@ -9,6 +9,8 @@ function put_word(    i, part)
         row = row "." word " = " (word == "around" ? "{" text "}" : text) ", "
     else if (word == "name")
         called = text
+    else if (word == "rows")
+        row = row ".rows = rows_" text ", "
     else if (word == "line" && kind == "rows") {
         end_line()
         split(text, part, " ")

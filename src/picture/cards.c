@@ -191,6 +191,8 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
             cards_hint(&inside, "after your guess");
         else if (card->words)
             text_in_card(&inside, &show_pane(show)->facts, card->words);
+        else if (card->rows)
+            rows_in_card(&inside, card->rows);
         else
             card->draw(&inside);
         canvas_clip(&paper->canvas, before);

@@ -45,7 +45,7 @@ extern StageFacts square_facts, circle_facts, scalar_facts, landscape_facts,
     mass_facts, dial_facts, length_facts, race_facts, envelope_facts;
 extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
 extern StageSample square_sample, mass_sample;
-extern CardDraw page_draw, listing_draw, search_draw, prints_draw, line_draw,
+extern CardDraw page_draw, prints_draw, line_draw,
     residual_draw, values_draw, updates_draw, energies_draw, budget_draw,
     radius_draw, law_draw, spy_draw, profile_draw, table_draw;
 extern CardNeeds page_needs, listing_needs;
@@ -97,6 +97,9 @@ Box cards_inside(Box card, double em);
 /* In the middle of a card that has nothing to show yet: the first line of a
  * text that is known. */
 void cards_hint(const Plot *card, const char *text);
+
+/* The rows that are known now; that of the present line is lit. */
+void rows_in_card(const Plot *card, const ListingRow *row);
 
 /* How wide the code of a page wants to be, ems. */
 double cards_code_needs(const LecturePage *page);

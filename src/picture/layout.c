@@ -309,6 +309,13 @@ static void place_sheet(const Show *show, Layout *layout)
     layout->cells = show->cells;
 }
 
+/* The card takes so many pixels off the lower end of the picture. */
+static void put_below(Layout *layout, int card, double high)
+{
+    Box box = box_cut_off(&layout->pane[0], EDGE_BOTTOM, (int)high);
+    layout->card[card] = box_inset(box, pixels(layout, GAP));
+}
+
 /* The card that a page wants large stands on the stage, and the picture in the
  * card's place; where the column has no room for it, or code stands there,
  * below the card; that of some is always below the picture. */
@@ -322,23 +329,19 @@ static void place_star(const Show *show, Layout *layout)
         layout->stage.height < 2 * bar || show->closed >> star & 1 ||
         (show->large >= 0 && show->large != star))
         return;
-    Box stage = layout->pane[0], place = layout->card[star];
+    Box *stage = &layout->pane[0], place = layout->card[star];
     for (int i = 0; i < layout->cards; i++) {
-        if (!is_below(show, i))
-            continue;
         double needs = STAR_WORDS * picture->cards[i]->least + 2 * GAP;
-        int high = (int)fmin(needs * layout->em, 0.6 * stage.height);
-        layout->card[i] = box_inset(box_cut_off(&stage, EDGE_BOTTOM, high),
-                                    pixels(layout, GAP));
-        layout->pane[0] = stage;
+        if (is_below(show, i))
+            put_below(layout, i, fmin(needs * layout->em, 0.6 * stage->height));
     }
     if (is_below(show, star) || (place.width < 1 && !layout->page))
         return;
     if (place.height < bar)
         place =
-            box_cut_off(&stage, EDGE_BOTTOM, (int)(STAR_REST * stage.height));
-    layout->card[star] = box_inset(stage, pixels(layout, GAP));
-    layout->pane[0] = place;
+            box_cut_off(stage, EDGE_BOTTOM, (int)(STAR_REST * stage->height));
+    layout->card[star] = box_inset(*stage, pixels(layout, GAP));
+    *stage = place;
 }
 
 /* The first card of a page that folds for want of room, or in whose place code
@@ -361,15 +364,13 @@ static void place_folded(const Show *show, Layout *layout)
         show->large >= 0 || layout->panes != 1 || folded >= layout->cards)
         return;
     const Card *card = picture_of(simulation->scene)->cards[folded];
-    Box *stage = &layout->pane[0];
+    const Box *stage = &layout->pane[0];
     double em = layout->em;
     double needs =
         card->needs ? card->needs(show, stage->width / em, em) : card->least;
     double room = layout->page ? stage->height - 0.8 * stage->width : 0;
-    int high =
-        (int)fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height);
-    layout->card[folded] =
-        box_inset(box_cut_off(stage, EDGE_BOTTOM, high), pixels(layout, GAP));
+    put_below(layout, folded,
+              fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height));
 }
 
 /* Letters have at least, on a page, a 55th of the height, in large type a 35th,
