@@ -120,6 +120,7 @@ typedef struct Past {
     bool works;    /* the rest means nothing otherwise */
     long aim;      /* the step that is to be shown */
     long from;     /* where machines are brought first; -1: they are */
+    bool again;    /* all of its rounds are to be known */
     bool making;   /* the aim is a new step, and all machines have come to the
                       newest one that is known */
     double target; /* of a new step: s, where it ends, */
@@ -156,8 +157,8 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
 const unsigned char *past_along(const Past *past, int pane, long node);
 
 /* Wants this step shown, 0 ... newest + 1; work that is under way is given up.
- *   again  it is made once more, to know its rounds and those before it, also
- *          where that is long work */
+ *   again  it is made once more, also where that is long work, to know all of
+ *          its rounds */
 void past_aim(Past *past, long step, bool again);
 
 /* A piece of the work: one Newton iteration, or the beginning of a step; of a
@@ -168,11 +169,6 @@ Status past_iterate(Past *past);
 
 /* Iterates to the end of the work, and returns as past_iterate does there. */
 Status past_finish(Past *past);
-
-/* After a picture: where E along p was not kept and is asked for, the step that
- * is shown is made once more, unless one has failed after it.  Returns whether
- * it was: a second picture shows it. */
-bool past_drawn(Past *past);
 
 /* One gesture down (-1) or up (1), where past_iterate leads.  Returns what was
  * undone or done again; NULL: nothing was. */

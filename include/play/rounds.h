@@ -31,19 +31,14 @@ typedef struct Records {
 /* Makes room for so many.  Returns false where memory is missing. */
 bool records_fit(Records *records, int count);
 
-/* Of which rounds E along p is kept where it is no polynomial: before anything
- * is drawn of all; then as the last picture has asked. */
-typedef enum Samples { SAMPLES_ALL, SAMPLES_LAST, SAMPLES_NONE } Samples;
-
 typedef struct Round {
     double *x, *p, *u; /* [size] m; NULL: not kept */
     double first;      /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
     bool rough;    /* it is not: */
-    double alpha, change;  /* the one that was taken, and what E did, J s^2 */
-    bool sampled;          /* and these are kept: */
-    double *value;         /* [ROUND_VALUES] J s^2, behind u */
-    struct Rounds *rounds; /* that it is one of */
+    double alpha, change; /* the one that was taken, and what E did, J s^2 */
+    bool sampled;         /* and these are kept: */
+    double *value;        /* [ROUND_VALUES] J s^2, behind u */
 } Round;
 
 /* A place in the listing: which line of which round; in the line search, how
@@ -63,9 +58,8 @@ typedef struct Rounds {
     int room;    /* of it */
     bool ended;  /* round [count] is there: the last one made an update */
     bool passed; /* its test was passed without a direction */
-    Samples samples;
-    bool asked, lacks; /* for such values; for some that are not kept: since
-                          the last picture */
+    bool all;        /* E along p is kept of every round; else of the last */
+    bool lacks;      /* it is no polynomial, and not kept of all */
     double *x_tilde;   /* [size] m; NULL: not known */
     size_t bytes;
     Station *place; /* [places] in the order of the listing; none where memory
@@ -73,8 +67,8 @@ typedef struct Rounds {
     int places;
 } Rounds;
 
-/* Before a step. */
-void rounds_begin(Rounds *rounds, const Simulation *simulation);
+/* Before a step.  all: it is to be walked through. */
+void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all);
 
 /* Before a Newton iteration: where a minimisation begins. */
 void rounds_look(Rounds *rounds, const Newton *newton);
@@ -103,10 +97,6 @@ int rounds_find(const Rounds *rounds, int round, Line line);
 /* The place where E was highest, if the step has raised it by far more than it
  * has changed it in the end: an explosion that is over; -1: there was none. */
 int rounds_peak(const Rounds *rounds);
-
-/* After a picture of them: what is kept of the next ones.  Returns whether it
- * asked for what these do not have: made again, they do. */
-bool rounds_drawn(Rounds *rounds);
 
 /* What the picture shows at a place; -1: the whole step is over.  All pointers
  * stay those of the rounds.  Returns the positions to draw, [size] m, or NULL:

@@ -592,7 +592,7 @@ static Status work_on(Past *past, int pane)
     if (to && is_failure(to))
         return end_pane(past, pane, to->outcome.status);
     if (past->keeps)
-        rounds_begin(&machine->rounds, &machine->simulation);
+        rounds_begin(&machine->rounds, &machine->simulation, past->again);
     machine->before = machine->simulation.steps;
     machine->iterating = true;
     return go_on(past, pane, simulation_begin(&machine->simulation));
@@ -694,6 +694,7 @@ void past_aim(Past *past, long step, bool again)
     past->aim = step < 0 ? 0 : step > newest ? newest + 1 : step;
     past->from = past->aim < newest ? past->aim : newest;
     past->works = true;
+    past->again = again;
     if (past->aim == 0 || past->aim > newest || !past->keeps ||
         !(again || is_short(past)))
         return;
@@ -701,21 +702,6 @@ void past_aim(Past *past, long step, bool again)
     for (int p = 0; p < past_panes(past); p++)
         rounds_clear(&past->machine[p].rounds);
     leave_all(past);
-}
-
-bool past_drawn(Past *past)
-{
-    bool lacks = false;
-    for (int p = 0; p < past_panes(past); p++) {
-        if (past->works || past->machine[p].failed)
-            return false;
-        lacks = rounds_drawn(&past->machine[p].rounds) || lacks;
-    }
-    if (lacks) {
-        past_aim(past, past->step, true);
-        past_finish(past);
-    }
-    return lacks;
 }
 
 /* ---- what is done -------------------------------------------------------- */

@@ -34,7 +34,7 @@ void rounds_clear(Rounds *rounds)
     rounds->x_tilde = NULL;
     rounds->made.count = rounds->places = 0;
     rounds->bytes = 0;
-    rounds->ended = rounds->passed = false;
+    rounds->ended = rounds->passed = rounds->lacks = false;
 }
 
 void rounds_free(Rounds *rounds)
@@ -46,9 +46,10 @@ void rounds_free(Rounds *rounds)
     *rounds = (Rounds){0};
 }
 
-void rounds_begin(Rounds *rounds, const Simulation *simulation)
+void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all)
 {
     rounds_clear(rounds);
+    rounds->all = all;
     rounds->h = simulation->options.timestep;
     rounds->tolerance = simulation->options.tolerance;
     rounds->size = 2 * simulation->system.nodes;
@@ -92,8 +93,8 @@ static void keep_line(Rounds *rounds, const Iterate *at)
     round->along = along.smooth;
     rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
     round->rough = along.rough != 0;
-    round->rounds = rounds;
-    if (rounds->samples == SAMPLES_ALL)
+    rounds->lacks = rounds->lacks || (round->rough && !rounds->all);
+    if (rounds->all)
         sample(round, at);
 }
 
@@ -104,12 +105,8 @@ static double kept_difference(const void *function, double alpha)
     const Round *round = function;
     if (!round->rough)
         return quartic_value(&round->along, alpha);
-    bool asks = alpha != round->alpha;
-    round->rounds->asked = round->rounds->asked || asks;
-    round->rounds->lacks =
-        round->rounds->lacks || (asks && round->x && !round->sampled);
     if (!round->sampled)
-        return asks ? NAN : round->change;
+        return alpha == round->alpha ? round->change : NAN;
     double place = alpha / round->first * ROUND_PARTS;
     if (!(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;
@@ -199,7 +196,7 @@ void rounds_add(Rounds *rounds, const Newton *newton,
         Round *round = &rounds->round[i];
         round->alpha = record->alpha;
         round->change = record->change;
-        if (record->status != STATUS_RUNNING && rounds->samples == SAMPLES_LAST)
+        if (record->status != STATUS_RUNNING && !rounds->all)
             sample(round, &(Iterate){.E = newton->at.E,
                                      .u = round->u,
                                      .x = round->x,
@@ -292,17 +289,6 @@ int rounds_peak(const Rounds *rounds)
     }
     bool far = round >= 0 && rise > FAR * fabs(sum);
     return far ? rounds_find(rounds, round, LINE_UPDATE) : -1;
-}
-
-bool rounds_drawn(Rounds *rounds)
-{
-    bool lacks = rounds->lacks;
-    if (rounds->places > 0)
-        rounds->samples = lacks           ? SAMPLES_ALL
-                          : rounds->asked ? SAMPLES_LAST
-                                          : SAMPLES_NONE;
-    rounds->asked = rounds->lacks = false;
-    return lacks;
 }
 
 /* The numbers of a round from the line on at which they are known. */

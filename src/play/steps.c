@@ -293,8 +293,10 @@ static void judge(Player *player)
  * to the last, or to where E rose beyond all proportion. */
 static void enter(Player *player, Then then)
 {
-    for (int p = 0; p < past_panes(&player->past); p++) {
-        const Rounds *rounds = &player->past.machine[p].rounds;
+    Past *past = &player->past;
+    for (int p = 0; p < past_panes(past); p++) {
+        const Machine *machine = &past->machine[p];
+        const Rounds *rounds = &machine->rounds;
         Trace trace;
         double far = 0;
         int place = rounds->places <= 2  ? -1 /* the start and the end */
@@ -304,6 +306,10 @@ static void enter(Player *player, Then then)
         if (place < 0)
             continue;
         player->mode = MODE_PAUSE;
+        if (rounds->lacks && !machine->failed) {
+            past_aim(past, past->step, true);
+            past_finish(past);
+        }
         player->side[p].place = place;
         const double *x = rounds_trace(rounds, place, &trace);
         if (then != THEN_PEAK)
@@ -398,7 +404,7 @@ Status player_retake(Player *player, const Command *change, int from, int to)
     if (status)
         return status;
     player->sampled = -1;
-    past_aim(past, step, false);
+    past_aim(past, step, player->retaken.round >= 0);
     player->then = THEN_TELL;
     return STATUS_OK;
 }
