@@ -35,10 +35,9 @@ typedef struct Round {
     double *x, *p, *u; /* [size] m; NULL: not kept */
     double first;      /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
-    bool rough;    /* it is not: */
-    double alpha, change; /* the one that was taken, and what E did, J s^2 */
-    bool sampled;         /* and these are kept: */
-    double *value;        /* [ROUND_VALUES] J s^2, behind u */
+    bool rough;    /* it is not, */
+    bool sampled;  /* and these are kept: */
+    double *value; /* [ROUND_VALUES] J s^2, behind u */
 } Round;
 
 /* A place in the listing: which line of which round; in the line search, how

@@ -98,17 +98,14 @@ static void keep_line(Rounds *rounds, const Iterate *at)
         sample(round, at);
 }
 
-/* The polynomial, or the kept values, joined by straight lines; without them
- * only what the update has told. */
+/* The polynomial, or the kept values, joined by straight lines. */
 static double kept_difference(const void *function, double alpha)
 {
     const Round *round = function;
     if (!round->rough)
         return quartic_value(&round->along, alpha);
-    if (!round->sampled)
-        return alpha == round->alpha ? round->change : NAN;
     double place = alpha / round->first * ROUND_PARTS;
-    if (!(place >= 0 && place <= ROUND_VALUES - 1))
+    if (!round->sampled || !(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;
     const double *value = round->value + (int)place;
     double part = place - (int)place;
@@ -194,8 +191,6 @@ void rounds_add(Rounds *rounds, const Newton *newton,
         if (multigrid && made->alpha != 0)  /* it goes no line that p alone */
             made->alpha = made->trials = 1; /* gives; it is shown as one */
         Round *round = &rounds->round[i];
-        round->alpha = record->alpha;
-        round->change = record->change;
         if (record->status != STATUS_RUNNING && !rounds->all)
             sample(round, &(Iterate){.E = newton->at.E,
                                      .u = round->u,

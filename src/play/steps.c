@@ -306,8 +306,8 @@ static void enter(Player *player, Then then)
         if (place < 0)
             continue;
         player->mode = MODE_PAUSE;
-        if (rounds->lacks && !machine->failed) {
-            past_aim(past, past->step, true);
+        if (rounds->lacks) {
+            past_aim(past, past->step + machine->failed, true);
             past_finish(past);
         }
         player->side[p].place = place;
