@@ -24,6 +24,7 @@ typedef struct LawNow {
     Element element;
     SpringLaw spring;
     double reach;   /* the unit of the axis */
+    double d_hat;   /* m, of contacts */
     double x, felt; /* where it is on the axis, NaN: nowhere; how much */
     double pressed; /* N, the sum over all contacts, of friction */
 } LawNow;
@@ -143,12 +144,12 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
                      .reach = 1,
                      .x = NAN,
                      .felt = -INFINITY};
+    if (law->source == &contact_energy)
+        most->reach = most->d_hat = contact_of(system)->barrier.d_hat;
+    if (law->source == &self_contact_energy)
+        most->reach = most->d_hat = self_contact_of(system)->d_hat;
     if (law->value == slip_value)
         most->reach = ((const Friction *)term->data)->slip_speed;
-    else if (law->source == &contact_energy)
-        most->reach = contact_of(system)->barrier.d_hat;
-    else if (law->source == &self_contact_energy)
-        most->reach = self_contact_of(system)->d_hat;
     LawNow now = *most;
     for (int s = 0; s < system->springs && !law->source; s++) {
         find_spring(&now, s);
@@ -192,10 +193,8 @@ bool law_gap(const Simulation *simulation, LawGap *gap)
     if (!law || simulation->runs > 1 || isnan(now.x) ||
         !(has_gap(law) || law->value == slip_value))
         return false;
-    const System *system = now.at.system;
     bool self = law->source == &self_contact_energy;
-    gap->d_hat = self ? self_contact_of(system)->d_hat
-                      : contact_of(system)->barrier.d_hat;
+    gap->d_hat = now.d_hat;
     gap->d = self ? sqrt(now.element.s) * gap->d_hat : now.element.s;
     for (int c = 0; c < 2; c++) {
         gap->node[c] = now.at.x[2 * now.element.node[0] + c];

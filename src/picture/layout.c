@@ -244,7 +244,7 @@ static void place_cards(const Show *show, Layout *layout)
     layout->cards = picture_of(show_pane(show)->simulation->scene)->count;
 }
 
-/* One beside the other, in one, two or three columns. */
+/* One beside the other, in as many columns as give them most room. */
 static void place_panes(int count, Layout *layout)
 {
     int columns = 1, gap = pixels(layout, 0.15);

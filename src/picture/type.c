@@ -259,35 +259,21 @@ static void set_coloured(Pen *pen, Part part, int depth)
 
 /* ---- markup ------------------------------------------------------------- */
 
+/* Words before a brace; letters that have a colour stand for other markup. */
 static const struct {
     const char *name;
     void (*set)(Pen *pen, Part part, int depth);
-} words[] = {{"^", set_raised},
-             {"_", set_raised},
-             {"frac", set_fraction},
-             {"matrix", set_matrix},
-             {"#", set_coloured}};
-
-/* The letters that have a colour. */
-static const struct {
-    const char *name, *markup;
-} letters[] = {{"{x}", "#x{x}"},
-               {"{xt}", "#xt{x\u0303}"},
-               {"{p}", "#p{p}"},
-               {"{alpha}", "#alpha{\u03b1}"}};
-enum {
-    WORDS = sizeof words / sizeof *words,
-    LETTERS = sizeof letters / sizeof *letters
-};
-
-static int find_letter(const char *string)
-{
-    int i = 0;
-    while (i < LETTERS &&
-           strncmp(string, letters[i].name, strlen(letters[i].name)) != 0)
-        i++;
-    return i;
-}
+    const char *means;
+} words[] = {{"^", set_raised, NULL},
+             {"_", set_raised, NULL},
+             {"frac", set_fraction, NULL},
+             {"matrix", set_matrix, NULL},
+             {"#", set_coloured, NULL},
+             {"{x}", NULL, "#x{x}"},
+             {"{xt}", NULL, "#xt{x\u0303}"},
+             {"{p}", NULL, "#p{p}"},
+             {"{alpha}", NULL, "#alpha{\u03b1}"}};
+enum { WORDS = sizeof words / sizeof *words };
 
 /* The word that begins here, and its brace; WORDS: none does. */
 static int find_word(const char *string, const char **brace)
@@ -296,7 +282,7 @@ static int find_word(const char *string, const char **brace)
         size_t length = strlen(words[i].name);
         if (strncmp(string, words[i].name, length) != 0)
             continue;
-        *brace = string + length;
+        *brace = string + (words[i].means ? 0 : length);
         if (words[i].set == set_coloured)
             *brace += strspn(*brace, "abcdefghijklmnopqrstuvwxyz0123456789");
         if (**brace == '{')
@@ -308,10 +294,10 @@ static int find_word(const char *string, const char **brace)
 bool text_is_markup(const char *text, const char *brace)
 {
     const char *found = NULL;
-    for (const char *at = brace; at > text && brace - at < 16; at--)
+    for (const char *at = brace + 1; at > text && brace - at < 16; at--)
         if (find_word(at - 1, &found) < WORDS && found == brace)
             return true;
-    return find_letter(brace) < LETTERS;
+    return false;
 }
 
 static void set_part(Pen *pen, Part part, int depth)
@@ -319,11 +305,10 @@ static void set_part(Pen *pen, Part part, int depth)
     const char *at = part.from, *brace = at;
     while (at < part.end) {
         bool plain = pen->style.plain || depth >= DEPTH;
-        int letter = plain ? LETTERS : find_letter(at);
         int word = plain ? WORDS : find_word(at, &brace);
-        if (letter < LETTERS) {
-            set_part(pen, part_of(letters[letter].markup), depth);
-            at += strlen(letters[letter].name);
+        if (word < WORDS && words[word].means) {
+            set_part(pen, part_of(words[word].means), depth);
+            at += strlen(words[word].name);
         } else if (word < WORDS && brace < part.end) {
             Part inside = {brace + 1, part.end};
             inside.end = find_outside(inside, NULL);
