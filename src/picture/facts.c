@@ -174,42 +174,37 @@ static const Trace *descent_trace(const Simulation *simulation,
                                   DescentTrace *space)
 {
     const Descent *descent = &simulation->descent;
-    Trace *trace = &space->trace;
     int last = descent->count - 1;
     const NewtonRecord *record = &descent->record[last < 0 ? 0 : last];
-    *space = (DescentTrace){.simulation = simulation};
-    *trace = (Trace){.h = simulation->options.timestep,
-                     .tolerance = simulation->options.tolerance,
-                     .updates = descent->count,
-                     .record = descent->record,
-                     .iteration = descent->count,
-                     .projected = -1,
-                     .residual = descent->residual};
     bool made = last >= 0 && record->alpha > 0;
-    if (last >= 0 && !made) { /* no step along this p was taken */
-        trace->residual = record->residual;
-        trace->given_up = true;
-    }
-    for (int k = 0; k < 2; k++) {
+    bool given_up = last >= 0 && !made; /* no step along this p was taken */
+    *space = (DescentTrace){.simulation = simulation};
+    for (int k = 0; k < (descent->scalar ? 1 : 2); k++) {
         space->from[k] = made ? record->from[k] : descent->point[k];
         space->p[k] = made ? (record->to[k] - record->from[k]) / record->alpha
                            : descent->direction[k];
     }
-    if (descent->scalar)
-        space->from[1] = space->p[1] = 0;
-    if (space->p[0] == 0 && space->p[1] == 0)
-        return trace;
+    bool aims = space->p[0] != 0 || space->p[1] != 0, taken = aims && made;
     space->value =
         descent_at(simulation, FILTER_NONE, space->from[0], space->from[1])
             .value;
-    trace->difference = descent_difference;
-    trace->function = space;
-    trace->slope = made ? record->slope : descent->slope;
-    trace->line = made ? LINE_NONE : LINE_SOLVE;
-    trace->trials = made ? record->trials : 0;
-    trace->accepted = made;
-    trace->projected = made ? record->projected : -1;
-    return trace;
+    space->trace = (Trace){
+        .line = aims && !made ? LINE_SOLVE : LINE_NONE,
+        .h = simulation->options.timestep,
+        .tolerance = simulation->options.tolerance,
+        .updates = descent->count,
+        .record = descent->record,
+        .iteration = descent->count,
+        .residual = given_up ? record->residual : descent->residual,
+        .given_up = given_up,
+        .slope = !aims ? 0 : made ? record->slope : descent->slope,
+        .projected = taken ? record->projected : -1,
+        .difference = aims ? descent_difference : NULL,
+        .function = space,
+        .trials = taken ? record->trials : 0,
+        .accepted = taken,
+    };
+    return &space->trace;
 }
 
 void show_know(Show *show)
