@@ -116,11 +116,8 @@ Status player_obey_lines(Player *player, const char *lines)
 Status player_open_page(Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
-    const LecturePage *told = player->told;
-    player->told = page; /* nobody has asked for these steps */
-    player->opens = true;
+    player->opens = true; /* nobody has asked for these steps */
     Status status = player_obey_lines(player, page ? page->open : NULL);
-    player->told = told;
     player->opens = false;
     return status;
 }
@@ -128,7 +125,8 @@ Status player_open_page(Player *player)
 bool player_veils(const Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
-    return page && page->ask && player->told != page && player->asks;
+    return page && page->ask && player->told != page && player->asks &&
+           !player->opens;
 }
 
 /* Two of a hundred are near enough for what was calculated on paper. */

@@ -331,7 +331,7 @@ const double *rounds_trace(const Rounds *rounds, int place, Trace *trace)
                      .h = rounds->h,
                      .tolerance = rounds->tolerance,
                      .iteration = over ? count - 1 : at.round,
-                     .updates = over ? count : at.round,
+                     .updates = at.round,
                      .record = row,
                      .projected = -1,
                      .x_tilde = rounds->x_tilde};
