@@ -18,14 +18,14 @@ static const double LETTERS = 1.2;   /* ems, on every page */
 static const double FORMULA = 1.25;  /* times that, a formula */
 static const double SMALLEST = 0.9;  /* ems, where the window is too small */
 
-/* One text with its head in bold; facts NULL: guessed, and only measured.
- * Returns where the next one begins. */
+/* One text with its head in bold, drawn or only measured.  Returns where the
+ * next one begins. */
 static int put_words(Paper *paper, Box inside, int y, double size, double head,
-                     const Words *words, const Facts *facts, bool draw)
+                     const Words *words, const Show *show, bool draw)
 {
     double letters = size * words->size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
-    TextLine line = text_of(facts, words->text);
+    TextLine line = text_of(&show_pane(show)->facts, words->text);
     if (words->head) {
         int width = paper_pixels(paper, head * size);
         if (draw)
@@ -45,7 +45,7 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
 
 /* Returns how high it is, in pixels. */
 static int put_page(Paper *paper, Box inside, double size, const Show *show,
-                    const Facts *facts, bool draw)
+                    bool draw)
 {
     const LecturePage *page = show->lecture;
     const char *how = page->answer    ? "Type a number, then Enter. N shows it."
@@ -61,17 +61,15 @@ static int put_page(Paper *paper, Box inside, double size, const Show *show,
         {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], facts,
-                      draw);
+        y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], show, draw);
     return y - (int)(GAP * text_line(size * paper->em)) - inside.y;
 }
 
 double page_letters(Paper *paper, Box inside, const Show *show)
 {
     double size = LETTERS;
-    const Facts *facts = &show_pane(show)->facts;
     while (size > SMALLEST &&
-           put_page(paper, inside, size, show, facts, false) > inside.height)
+           put_page(paper, inside, size, show, false) > inside.height)
         size -= 0.05;
     return size;
 }
@@ -79,22 +77,19 @@ double page_letters(Paper *paper, Box inside, const Show *show)
 /* The same letters on every page; smaller ones where they do not fit. */
 void page_draw(const Plot *card)
 {
-    const Show *show = card->show;
-    if (show->lecture)
-        put_page(card->paper, card->box,
-                 page_letters(card->paper, card->box, show), show,
-                 &show_pane(show)->facts, true);
+    put_page(card->paper, card->box,
+             page_letters(card->paper, card->box, card->show), card->show,
+             true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const Show *show)
 {
     const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT, 1};
-    const Facts *facts = &show_pane(show)->facts;
-    int high = put_words(paper, inside, 0, 1, TEST_ROOM, &words, facts, false);
+    int high = put_words(paper, inside, 0, 1, TEST_ROOM, &words, show, false);
     inside.height -= high + paper_pixels(paper, 0.5);
     put_words(paper, (Box){inside.x, 0, inside.width, INT_MAX / 2},
               inside.y + inside.height + paper_pixels(paper, 0.5), 1, TEST_ROOM,
-              &words, facts, true);
+              &words, show, true);
     return inside;
 }
 
@@ -103,8 +98,6 @@ double page_needs(const Show *show, double wide, double em)
 {
     Paper paper = {.text = show->text, .em = em, .least = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
-    return put_page(&paper, box, LETTERS, show, &show_pane(show)->facts,
-                    false) /
-               em +
-           2.6; /* title and margin */
+    const double around = 2.6; /* title and margin */
+    return put_page(&paper, box, LETTERS, show, false) / em + around;
 }

@@ -241,7 +241,6 @@ static void place_cards(const Show *show, Layout *layout)
         for (int k = 0; k < row->cards; k++)
             layout->card[row->card + k] = box_column(box, k, row->cards, gap);
     }
-    layout->cards = picture_of(show_pane(show)->simulation->scene)->count;
 }
 
 /* One beside the other, in as many columns as give them most room. */
@@ -409,7 +408,7 @@ Layout show_layout(const Show *show, int width, int height)
         layout.stage.width -= column;
         if (!page)
             place_cards(show, &layout);
-        else if (show->column == COLUMN_CODE)
+        if (!page || show->column == COLUMN_CODE)
             layout.cards = picture->count;
     } else if (!show->bare && page) { /* over the stage */
         layout.column = layout.stage;

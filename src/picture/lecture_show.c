@@ -26,7 +26,7 @@ const char *lecture_lit(const Show *show)
     const Trace *trace = show_pane(show)->trace;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     if (strcmp(page->function, "step_forward") == 0 && trace && !whole &&
-        trace->line != LINE_NONE && line_texts[trace->line])
+        trace->line != LINE_NONE)
         return line_texts[trace->line];
     if (page->kinds)
         return kinds[exhibit_kind(simulation, lecture_spring(simulation))];
