@@ -345,9 +345,7 @@ int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {
     int width = (int)text_extent(text, style, markup).width;
-    double start = align == ALIGN_LEFT     ? x
-                   : align == ALIGN_CENTRE ? x - 0.5 * width
-                                           : x - width;
+    double start = x - 0.5 * (int)align * width;
     if (!text || width == 0 || !(fabs(x) < 1e6) || !(fabs(y) < 1e6))
         return width;
     Pen pen = {.text = text,
