@@ -170,6 +170,11 @@ Status past_iterate(Past *past);
 /* Iterates to the end of the work, and returns as past_iterate does there. */
 Status past_finish(Past *past);
 
+/* After a picture: where it has asked for E along p, and that was not kept, the
+ * step that is shown is made once more, unless one has failed after it.
+ * Returns whether it was: a second picture shows it. */
+bool past_drawn(Past *past);
+
 /* One gesture down (-1) or up (1), where past_iterate leads.  Returns what was
  * undone or done again; NULL: nothing was. */
 const Command *past_undo(Past *past, int way);

@@ -35,9 +35,11 @@ typedef struct Round {
     double *x, *p, *u; /* [size] m; NULL: not kept */
     double first;      /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
-    bool rough;    /* it is not, */
-    bool sampled;  /* and these are kept: */
-    double *value; /* [ROUND_VALUES] J s^2, behind u */
+    bool rough;    /* it is not: */
+    double alpha, change;  /* the one that was taken, and what E did, J s^2 */
+    bool sampled;          /* and these are kept: */
+    double *value;         /* [ROUND_VALUES] J s^2, behind u */
+    struct Rounds *rounds; /* that it is one of */
 } Round;
 
 /* A place in the listing: which line of which round; in the line search, how
@@ -57,8 +59,10 @@ typedef struct Rounds {
     int room;    /* of it */
     bool ended;  /* round [count] is there: the last one made an update */
     bool passed; /* its test was passed without a direction */
-    bool all;        /* E along p is kept of every round; else of the last */
-    bool lacks;      /* it is no polynomial, and not kept of all */
+    bool all;   /* E along p is kept of every round, */
+    bool last;  /* or of the last one, since a picture has asked for it */
+    bool lacks; /* it is no polynomial, and not kept of all */
+    bool asked; /* for what is not kept: by the last picture */
     double *x_tilde;   /* [size] m; NULL: not known */
     size_t bytes;
     Station *place; /* [places] in the order of the listing; none where memory

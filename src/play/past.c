@@ -704,6 +704,24 @@ void past_aim(Past *past, long step, bool again)
     leave_all(past);
 }
 
+bool past_drawn(Past *past)
+{
+    bool lacks = false;
+    for (int p = 0; p < past_panes(past); p++) {
+        Rounds *rounds = &past->machine[p].rounds;
+        if (past->works || past->machine[p].failed)
+            return false;
+        lacks = lacks || rounds->asked;
+        rounds->last = rounds->last || rounds->asked;
+        rounds->asked = false;
+    }
+    if (lacks) {
+        past_aim(past, past->step, true);
+        past_finish(past);
+    }
+    return lacks;
+}
+
 /* ---- what is done -------------------------------------------------------- */
 
 /* What was told of later steps than this is no more so. */

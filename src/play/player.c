@@ -103,11 +103,13 @@ Paper *player_paper(Player *player)
 
 void player_paint(Player *player, Paper *paper)
 {
-    player_fill(player);
-    if (player->blank)
-        canvas_clear(&paper->canvas, 0xff000000u);
-    else
-        show_draw(paper, &player->show);
+    do {
+        player_fill(player);
+        if (player->blank)
+            canvas_clear(&paper->canvas, 0xff000000u);
+        else
+            show_draw(paper, &player->show);
+    } while (past_drawn(&player->past));
 }
 
 Status player_draw(Player *player)

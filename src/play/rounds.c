@@ -93,17 +93,22 @@ static void keep_line(Rounds *rounds, const Iterate *at)
     round->along = along.smooth;
     rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
     round->rough = along.rough != 0;
+    round->rounds = rounds;
     rounds->lacks = rounds->lacks || (round->rough && !rounds->all);
     if (rounds->all)
         sample(round, at);
 }
 
-/* The polynomial, or the kept values, joined by straight lines. */
+/* The polynomial, or the kept values, joined by straight lines; without them
+ * only what the update has told. */
 static double kept_difference(const void *function, double alpha)
 {
     const Round *round = function;
     if (!round->rough)
         return quartic_value(&round->along, alpha);
+    if (!round->sampled && alpha == round->alpha)
+        return round->change;
+    round->rounds->asked = round->rounds->asked || !round->sampled;
     double place = alpha / round->first * ROUND_PARTS;
     if (!round->sampled || !(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;
@@ -191,7 +196,9 @@ void rounds_add(Rounds *rounds, const Newton *newton,
         if (multigrid && made->alpha != 0)  /* it goes no line that p alone */
             made->alpha = made->trials = 1; /* gives; it is shown as one */
         Round *round = &rounds->round[i];
-        if (record->status != STATUS_RUNNING && !rounds->all)
+        round->alpha = record->alpha;
+        round->change = record->change;
+        if (record->status != STATUS_RUNNING && rounds->last && !rounds->all)
             sample(round, &(Iterate){.E = newton->at.E,
                                      .u = round->u,
                                      .x = round->x,

@@ -151,36 +151,45 @@ static int look_along(double *out, int room)
     return count;
 }
 
-/* Of a step in which nobody looked at its lines E along p is kept of the last
- * update alone; whoever goes back into it gets what others have had who entered
- * it at its first line. */
+/* E along p is kept of all updates of a step whose lines are walked through;
+ * else of none, and of the last one after a picture that asked for it.  Whoever
+ * asks for more gets what was kept in the first way. */
 TEST(curves_are_made_for_who_looks)
 {
     enum { ROOM = 100 };
-    double kept[2][ROOM], last[2];
-    int count[2];
-    for (int way = 0; way < 2; way++) { /* 0: from the first line on */
+    double kept[3][ROOM], last[3];
+    int count[3];
+    for (int way = 0; way < 3; way++) { /* 2: after a picture with a curve */
+        const Rounds *rounds = &machine(0)->rounds;
         Trace trace;
         begin("tear --segments 6");
-        obey_all((const char *const[]){"step", "step", "step", NULL});
+        for (int step = 0; step < (way == 0 ? 3 : 4); step++) {
+            CHECK_OK(obey("step"));
+            CHECK(!past_drawn(&player.past));
+            rounds_trace(rounds, -1, &trace);
+            if (step == 2 && way == 2) {
+                trace.difference(trace.function, 0.625 * trace.first);
+                CHECK(past_drawn(&player.past));
+            }
+        }
         if (way == 0)
             obey_all((const char *const[]){"finer", "next", NULL});
-        else
-            CHECK_OK(obey("step"));
-        rounds_trace(&machine(0)->rounds, -1, &trace);
+        rounds_trace(rounds, -1, &trace);
         last[way] = trace.difference(trace.function, 0.625 * trace.first);
-        CHECK(!isnan(last[way]) && player.past.step == 4);
+        CHECK(!isnan(last[way]) == (way != 1) && player.past.step == 4);
+        CHECK(past_drawn(&player.past) == (way == 1));
         count[way] = look_along(kept[way], ROOM);
-        CHECK(isnan(kept[way][count[way] - 1]) == (way == 1));
-        if (way == 1) {
+        CHECK(isnan(kept[way][count[way] - 1]) == (way == 2));
+        if (way == 2) {
             obey_all((const char *const[]){"finer", "back", NULL});
-            CHECK(player.side[0].place == machine(0)->rounds.places - 2);
+            CHECK(player.side[0].place == rounds->places - 2);
             look_along(kept[way], ROOM);
         }
         end();
+        CHECK(count[way] == count[0]);
+        CHECK_SAME_BITS(kept[way], kept[0], count[0]);
     }
-    CHECK(count[1] == count[0] && last[1] == last[0]);
-    CHECK_SAME_BITS(kept[1], kept[0], count[0]);
+    CHECK(last[2] == last[0]);
 }
 
 static void give_up(int number)
