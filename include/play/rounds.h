@@ -56,14 +56,14 @@ typedef struct Rounds {
     Records made;        /* one a round that has a record; behind them, what is
                             known of round made.count */
     Round *round;
-    int room;    /* of it */
-    bool ended;  /* round [count] is there: the last one made an update */
-    bool passed; /* its test was passed without a direction */
-    bool all;   /* E along p is kept of every round, */
-    bool last;  /* or of the last one, since a picture has asked for it */
-    bool lacks; /* it is no polynomial, and not kept of all */
-    bool asked; /* for what is not kept: by the last picture */
-    double *x_tilde;   /* [size] m; NULL: not known */
+    int room;        /* of it */
+    bool ended;      /* round [count] is there: the last one made an update */
+    bool passed;     /* its test was passed without a direction */
+    bool all;        /* E along p is kept of every round, */
+    bool last;       /* or of the last one, since a picture has asked for it */
+    bool lacks;      /* it is no polynomial, and not kept of all */
+    bool asked;      /* for what is not kept: by the last picture */
+    double *x_tilde; /* [size] m; NULL: not known */
     size_t bytes;
     Station *place; /* [places] in the order of the listing; none where memory
                        is missing */
