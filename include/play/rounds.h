@@ -61,7 +61,6 @@ typedef struct Rounds {
     bool passed;     /* its test was passed without a direction */
     bool all;        /* E along p is kept of every round, */
     bool last;       /* or of the last one, since a picture has asked for it */
-    bool lacks;      /* it is no polynomial, and not kept of all */
     bool asked;      /* for what is not kept: by the last picture */
     double *x_tilde; /* [size] m; NULL: not known */
     size_t bytes;

@@ -34,7 +34,7 @@ void rounds_clear(Rounds *rounds)
     rounds->x_tilde = NULL;
     rounds->made.count = rounds->places = 0;
     rounds->bytes = 0;
-    rounds->ended = rounds->passed = rounds->lacks = false;
+    rounds->ended = rounds->passed = false;
 }
 
 void rounds_free(Rounds *rounds)
@@ -94,7 +94,6 @@ static void keep_line(Rounds *rounds, const Iterate *at)
     rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
     round->rough = along.rough != 0;
     round->rounds = rounds;
-    rounds->lacks = rounds->lacks || (round->rough && !rounds->all);
     if (rounds->all)
         sample(round, at);
 }

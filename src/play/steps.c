@@ -293,10 +293,8 @@ static void judge(Player *player)
  * to the last, or to where E rose beyond all proportion. */
 static void enter(Player *player, Then then)
 {
-    Past *past = &player->past;
-    for (int p = 0; p < past_panes(past); p++) {
-        const Machine *machine = &past->machine[p];
-        const Rounds *rounds = &machine->rounds;
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        const Rounds *rounds = &player->past.machine[p].rounds;
         Trace trace;
         double far = 0;
         int place = rounds->places <= 2  ? -1 /* the start and the end */
@@ -306,10 +304,6 @@ static void enter(Player *player, Then then)
         if (place < 0)
             continue;
         player->mode = MODE_PAUSE;
-        if (rounds->lacks) {
-            past_aim(past, past->step + machine->failed, true);
-            past_finish(past);
-        }
         player->side[p].place = place;
         const double *x = rounds_trace(rounds, place, &trace);
         if (then != THEN_PEAK)
