@@ -219,7 +219,6 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     unsigned parts = simulation->exhibit.parts;
     const double *x = descent->point;
     Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
-    int last = descent->count - 1;
     fact_point(facts, "place", x);
     fact_point(facts, "x tilde", simulation->exhibit.target);
     for (int k = 0; k < 2; k++) /* nothing but rounding */
@@ -245,12 +244,15 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "elastic", parts != PART_INERTIA);
     fact_when(facts, "inertial", parts != PART_ELASTICITY);
     const LecturePage *page = simulation->options.page;
-    bool pulls = page && page->forces, aims = descent->slope != 0;
-    bool climbed = last >= 0 && descent->record[last].slope > 0;
+    bool pulls = page && page->forces, up = descent->slope > 0;
+    bool down = descent->slope < 0 && parts == PART_BOTH && !pulls;
+    for (int i = 0; i < descent->count; i++) {
+        down = down || descent->record[i].slope < 0;
+        up = up || descent->record[i].slope > 0;
+    }
     fact_when(facts, "pulls", pulls);
-    fact_when(facts, "directed",
-              last >= 0 || (parts == PART_BOTH && aims && !pulls));
-    fact_when(facts, "went uphill", descent->slope > 0 || climbed);
+    fact_when(facts, "directed", down);
+    fact_when(facts, "went uphill", up);
 }
 
 /* Level lines of the quadratic model at the iterate, around x + p: where H is

@@ -551,7 +551,7 @@ static void check_explosion(void)
 
 TEST(claim_explodes)
 {
-    says("explodes", "2 1 10 1 1.7 0.0043 62 5 10 1.7 0.0043 2 9 62 5");
+    says("explodes", "2 1 10 1 1.7 10 0.0043 2 9 62 5 10 1.7 0.0043 2 9 62 5");
     CHECK(2 * open_page("explodes", "")->system.nodes == 32);
     static const char *const watched[] = {
         "--filter clamp", "--line-search backtrack",
