@@ -19,13 +19,16 @@ Status player_own_options(Player *player, const char *scene,
 {
     const Options *given = &player->given[0];
     *count = 1;
-    if (page)
-        return lecture_options(page, options, player->message,
+    Status status =
+        page ? lecture_options(page, options, player->message,
+                               sizeof player->message)
+             : options_of_line(scene, options, player->message,
                                sizeof player->message);
-    Status status = options_of_line(scene, options, player->message,
-                                    sizeof player->message);
     if (status)
         return status;
+    options->big = given->big;
+    if (page)
+        return STATUS_OK;
     options->speed = given->speed;
     if (options->scene == given->scene && !given->page) {
         *count = given->panes;
