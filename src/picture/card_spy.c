@@ -92,6 +92,7 @@ void spy_draw(const Plot *card)
     int line = paper_pixels(paper, 1.4), gap = line;
     int side = (inside.width - gap) / 2;
     int below = page && page->writes ? paper_pixels(paper, 9) : 0;
+    below = 2 * below < inside.height ? below : 0;
     if (side > inside.height - line - below)
         side = inside.height - line - below;
     int springs = page && page->writes ? lecture_spring(card->simulation) + 1

@@ -123,7 +123,8 @@ double cards_code_needs(const LecturePage *page)
 }
 
 /* Lines of code in letters as large as they fit, nearer to each other where
- * they are many; those at work are lit. */
+ * they are many; those at work are lit.  Where there is no room for all, as in
+ * large type, those between the first and some around the last lit one go. */
 static void draw_code(Paper *paper, Box inside, const Show *show)
 {
     const LecturePage *page = show->lecture;
@@ -135,17 +136,25 @@ static void draw_code(Paper *paper, Box inside, const Show *show)
     double wide = floor((cell + 0.49) / letter);
     double size = fmin(wide, inside.height / (low * lines)) / paper->em;
     size = fmax(fmin(size, most), paper->least);
-    int line = (int)fmin(paper_pixels(paper, high * size),
-                         inside.height / lines);
+    int line = (int)fmax(fmin(paper_pixels(paper, high * size),
+                              inside.height / lines),
+                         low * size * paper->em);
+    int fit = inside.height / line, lit = 0, gone;
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
-    for (int i = 0; i < lines; i++) {
-        int y = inside.y + i * line;
-        if (strstr(page->code[i], lecture_lit(show)))
+    for (int i = 0; i < lines; i++)
+        lit = strstr(page->code[i], lecture_lit(show)) ? i : lit;
+    gone = fit >= lines ? 0 : (int)fmax(fmin(lit + 2, lines) - fit, 0);
+    fit = fit < lines ? fit : lines;
+    for (int k = 0; k < 2 * fit; k++) { /* all grounds, then all letters */
+        int row = k % fit, y = inside.y + row * line;
+        bool more = gone > 0 && row == 1;
+        const char *words = more ? "..." : page->code[row + (row ? gone : 0)];
+        if (k < fit && strstr(words, lecture_lit(show)))
             canvas_fill(&paper->canvas, (Box){inside.x, y, inside.width, line},
                         COLOUR_LIT);
-        if (page->code[i][0])
+        if (k >= fit && words[0])
             text_draw(paper->text, &paper->canvas, &style, inside.x + air, y,
-                      ALIGN_LEFT, page->code[i] + indent);
+                      ALIGN_LEFT, words + (more ? 0 : indent));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "base/mathematics.h"
 
 static const double WORDS_ROOM = 1.8;  /* ems, of a legend or a label */
+static const double LOW = 20;          /* ems, a pane has no room below words */
 static const double LEAST_TEXT = 11;   /* ems, a pane with words is high */
 static const double HANDLE_REACH = 14; /* pixels, a handle is hit within */
 static const double SWITCH_WIDE = 13;  /* ems */
@@ -67,13 +68,22 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
                   .em = layout->em};
     double bounds[4];
     bool stretched = picture_of(stage.simulation->scene)->stretched;
-    Box room = stage.box;
-    if (show->lecture && show->panes > 1) { /* words above and below it */
-        room.y += (int)(WORDS_ROOM * layout->em);
-        room.height -= (int)(2 * WORDS_ROOM * layout->em);
+    Box room = stage.box, beside;
+    int words = (int)(WORDS_ROOM * layout->em); /* above, and of panes below */
+    if (show->lecture && !stretched &&
+        (show->panes > 1 || room.height < LOW * layout->em)) {
+        box_cut_off(&room, EDGE_TOP, words);
+        box_cut_off(&room, EDGE_BOTTOM, show->panes > 1 ? words : 0);
     }
     find_bounds(show, pane, bounds);
     stage.camera = camera_create(room, bounds, stretched, &show->lens);
+    beside = room; /* of the switches, where it is no smaller there */
+    box_cut_off(&beside, EDGE_RIGHT, (int)(SWITCH_WIDE * layout->em));
+    const Camera there = camera_create(beside, bounds, stretched, &show->lens);
+    Switch out[SCENE_MAX_SWITCHES];
+    if (there.scale[0] >= stage.camera.scale[0] && beside.width > 0 &&
+        exhibit_switches(stage.simulation, out) > 0)
+        stage.camera = there;
     return stage;
 }
 
