@@ -1390,8 +1390,9 @@ TEST(words_of_all_pages_have_one_size)
     }
 }
 
-/* The smallest letters of a frame, pixels, those of scripts, too. */
-static int smallest, smallest_code;
+/* The smallest letters of a frame, pixels, those of scripts, too; and how many
+ * ellipses it has. */
+static int smallest, smallest_code, ellipses;
 
 const Glyph *__real_font_glyph(Text *text, Face face, int size,
                                uint32_t letter);
@@ -1403,6 +1404,7 @@ const Glyph *__wrap_font_glyph(Text *text, Face face, int size, uint32_t letter)
     smallest = letter != ' ' && size < smallest ? size : smallest;
     if (face == FACE_MONO && size < smallest_code)
         smallest_code = size;
+    ellipses += letter == 0x2026;
     return __real_font_glyph(text, face, size, letter);
 }
 
@@ -1458,6 +1460,34 @@ TEST(letters_are_seen_from_the_back_row)
     Show show; /* of a scene that is no page */
     show_create(simulate("square --big"), &show);
     CHECK(show_layout(&show, 1280, 800).em > 800 / 40);
+}
+
+/* In large type, too, no text of a page is cut off, with its answer or before.
+ */
+TEST(large_words_fit_on_all_pages)
+{
+    static const int sizes[][2] = {{1280, 800}, {1366, 768}, {1920, 1080}};
+    for (const LecturePage *page = lecture_pages; page->name; page++) {
+        Simulation *simulation = open_page(page->name, "");
+        simulation->options.big = true;
+        for (int i = 0; i < 6; i++) {
+            Show show;
+            Paper paper;
+            show_create(simulation, &show);
+            show.veiled = i < 3 && page->ask;
+            show_lecture(COLUMN_CARDS, NULL, &show);
+            show_describe(&show);
+            CHECK_STATUS(paper_create(sizes[i % 3][0], sizes[i % 3][1], &paper),
+                         STATUS_OK);
+            ellipses = 0;
+            show_draw(&paper, &show);
+            if (ellipses > 0)
+                fail_msg("page %s at %d x %d", page->name, sizes[i % 3][0],
+                         sizes[i % 3][1]);
+            paper_free(&paper);
+        }
+        free_all_begun();
+    }
 }
 
 /* An algorithm with lines off goes by another name. */
