@@ -81,7 +81,8 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
     box_cut_off(&beside, EDGE_RIGHT, (int)(SWITCH_WIDE * layout->em));
     const Camera there = camera_create(beside, bounds, stretched, &show->lens);
     Switch out[SCENE_MAX_SWITCHES];
-    if (there.scale[0] >= stage.camera.scale[0] && beside.width > 0 &&
+    if (stage.text && beside.width > 0 &&
+        there.scale[0] >= stage.camera.scale[0] &&
         exhibit_switches(stage.simulation, out) > 0)
         stage.camera = there;
     return stage;

@@ -324,21 +324,17 @@ void player_fill(Player *player)
 {
     const Control *control = past_control(&player->past, player->active);
     Show *show = &player->show;
-    Pick hover = show->hover;
-    Hit over = show->over;
-    Held held = show->held;
-    Lens lens = show->lens;
-    int chosen = show->chosen;
+    const Show before = *show;
     show_create(player_simulation(player), show);
     show->panes = past_panes(&player->past);
     show->active = player->active;
     player_label_panes(player);
     for (int i = 0; i < past_panes(&player->past); i++)
         fill_pane(player, i);
-    show->hover = hover;
-    show->over = over;
-    show->held = held;
-    show->chosen = chosen;
+    show->hover = before.hover;
+    show->over = before.over;
+    show->held = before.held;
+    show->chosen = before.chosen;
     fill_time(player);
     fill_settings(player);
     fill_chips(player);
@@ -353,7 +349,7 @@ void player_fill(Player *player)
     snprintf(show->message, SHOW_TEXT, "%s", player->note);
     show->warning = player->warning;
     show->large = player->large;
-    show->lens = lens;
+    show->lens = before.lens;
     show->strain =
         player->strain != (show->pane[0].simulation->scene->strain > 0);
     show->bare = player->bare;
