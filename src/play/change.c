@@ -69,8 +69,15 @@ static bool opens_again(Player *player, const Options *now)
            own.segments == now->segments;
 }
 
+/* Whether the page runs once its answer is shown. */
+static bool plays_again(const Player *player, const LecturePage *page)
+{
+    return page && page == player->told && page->tell &&
+           strstr(page->tell, "play");
+}
+
 /* From step 0 with the present numbers, or from another start; a pause that
- * nobody asked for ends.  A page opens again. */
+ * nobody asked for ends.  A page opens again, and runs again. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -92,9 +99,11 @@ Status obey_restart(Player *player, const Command *command)
     bool opens = !moves && opens_again(player, options);
     Status status = player_begin(player, options, opens ? 1 : panes, command);
     player->fine = opens ? 0 : player->fine;
-    return status || !opens || !player->asks /* a script has these commands */
-               ? status
-               : player_open_page(player);
+    if (!status && opens && player->asks) /* a script has these commands */
+        status = player_open_page(player);
+    if (!moves && plays_again(player, options->page))
+        player->mode = MODE_RUN;
+    return status;
 }
 
 /* ---- the lecture --------------------------------------------------------- */
