@@ -5,6 +5,7 @@
 #include "picture/colour_map.h"
 
 static const double WIDE_PITCH = 2.1; /* ems, of a line with room on a page */
+static const double PRINT_WIDE = 36; /* ems, of lines printed in size 1 */
 
 /* A line of what the active pane does: number, text, value; lit or struck
  * through. */
@@ -93,7 +94,8 @@ void prints_draw(const Plot *card)
     Box inside = card->box;
     const Trace *trace = show_pane(card->show)->update;
     bool star = inside.height > 14 * paper->em;
-    double size = inside.width > STAR_WIDE * paper->em ? 1.5 : 0.95;
+    double size = fmin(inside.width / (PRINT_WIDE * paper->em), 1.5);
+    size = size < 1 ? 0.95 : size; /* in fewer letters */
     if (star && trace) {
         inside = box_cut_off(&below.box, EDGE_TOP, inside.height / 2);
         residual_draw(&below);
