@@ -308,11 +308,12 @@ static void place_sheet(const Show *show, Layout *layout)
     layout->cells = show->cells;
 }
 
-/* The card takes so many pixels off the lower end of the picture. */
+/* The card takes so many pixels off the lower end of the pictures. */
 static void put_below(Layout *layout, int card, double high)
 {
-    Box box = box_cut_off(&layout->pane[0], EDGE_BOTTOM, (int)high);
+    Box box = box_cut_off(&layout->stage, EDGE_BOTTOM, (int)high);
     layout->card[card] = box_inset(box, pixels(layout, GAP));
+    place_panes(layout->panes, layout);
 }
 
 /* The card that a page wants large stands on the stage, and the picture in the
@@ -345,9 +346,9 @@ static void place_star(const Show *show, Layout *layout)
 
 /* The first card of a page that folds for want of room, or in whose place code
  * stands, is below the picture, as high as it needs, half of the stage at most;
- * not where a star or, in letters that are not large, switches (beside code:
- * more than one) are on the stage, nor, without code, in the scenes of a law,
- * whose bodies need all of it. */
+ * not where a star is on the stage.  In letters that are not large not, either,
+ * where switches (beside code: more than one) or several panes are there, nor,
+ * without code, in the scenes of a law, whose bodies need all of it. */
 static void place_folded(const Show *show, Layout *layout)
 {
     const Simulation *simulation = show_pane(show)->simulation;
@@ -358,12 +359,13 @@ static void place_folded(const Show *show, Layout *layout)
            (shut >> folded & 1 ||
             (layout->card[folded].height != bar && !layout->page)))
         folded++;
-    if (!page || page->star || (page->law && !layout->page) ||
-        (simulation->scene->parts[layout->page] && !simulation->options.big) ||
-        show->large >= 0 || layout->panes != 1 || folded >= layout->cards)
+    bool big = simulation->options.big;
+    if (!page || page->star || show->large >= 0 || folded >= layout->cards ||
+        (!big && ((page->law && !layout->page) || layout->panes != 1 ||
+                  simulation->scene->parts[layout->page])))
         return;
     const Card *card = picture_of(simulation->scene)->cards[folded];
-    const Box *stage = &layout->pane[0];
+    const Box *stage = &layout->stage;
     double em = layout->em;
     double needs =
         card->needs ? card->needs(show, stage->width / em, em) : card->least;

@@ -94,12 +94,11 @@ void race_draw(Plot *stage)
                 memcpy(named[method], now, sizeof now);
         }
     }
-    for (int order = 1; over_h && order <= 4; order *= 2) {
+    for (int order = 1; over_h && wide && order <= 4; order *= 2) {
         const double from[2] = {2.5e-5, 0.03}, way = 4.5;
         const double to[2] = {from[0] * way, from[1] * pow(way, order)};
         plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
-        if (wide)
-            plot_words(&plot, 1, to, COLOUR_GREY, "order %d", order);
+        plot_words(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
     for (int side = 0; side < 2 && wide; side++)
         name_points(&plot, named, over_h, side);
@@ -181,8 +180,8 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
              shown->implicit ? NAN : 1e3 * race_stable(race, method), 3, " ms");
 }
 
-/* As many columns as there is room for: over h first those of halving it, else
- * what the picture does not show. */
+/* As many columns as there is room for, in one order: over h first those of
+ * halving it, else what the picture does not show. */
 void table_draw(const Plot *card)
 {
     static const char heads[COLUMNS][CELL] = {"",       "error, m", "h/2",
@@ -197,7 +196,7 @@ void table_draw(const Plot *card)
                                                 "\u00d7 8.9\u00b710^{\u22128}",
                                                 "stable h\u2007",
                                                 "0.0055 ms"};
-    static const int order[2][COLUMNS] = {{0, 1, 6, 7, 2, 3, 4, 5, 8},
+    static const int order[2][COLUMNS] = {{0, 6, 7, 1, 2, 3, 4, 5, 8},
                                           {0, 2, 3, 4, 5, 1, 6, 7, 8}};
     const int *next = order[card->simulation->exhibit.parts != 0];
     Paper *paper = card->paper;
@@ -205,11 +204,14 @@ void table_draw(const Plot *card)
     char cell[COLUMNS][CELL];
     double wide[COLUMNS], gap = 0.8 * paper->em, rest = inside.width;
     double line = fmin(3.6 * paper->em, inside.height / (RACE_METHODS + 1.0));
+    bool shown[COLUMNS] = {false};
     int count = 0;
     for (int c = 0; c < COLUMNS; c++)
         wide[c] = paper_width(paper, FACE_REGULAR, 1, widest[c]);
-    for (; count < COLUMNS && wide[next[count]] <= rest; count++)
+    for (; count < COLUMNS && wide[next[count]] <= rest; count++) {
         rest -= wide[next[count]] + gap;
+        shown[next[count]] = true;
+    }
     gap += (rest + gap) / fmax(count - 1, 1);
     for (int row = 0; row <= RACE_METHODS; row++) {
         double right = inside.x - gap;
@@ -218,14 +220,16 @@ void table_draw(const Plot *card)
             fill_row(&card->simulation->exhibit.race, row - 1, cell);
         else
             memcpy(cell, heads, sizeof cell);
-        for (int i = 0, c = 0; i < count; c = next[++i % COLUMNS]) {
-            Colour colour = row && i == 0
+        for (int c = 0; c < COLUMNS; c++) {
+            Colour colour = row && c == 0
                                 ? colour_of(race_method(row - 1)->name)
                                 : COLOUR_TEXT;
+            if (!shown[c])
+                continue;
             right += wide[c] + gap;
             paper_write(paper, row ? FACE_REGULAR : FACE_BOLD, 1, colour,
-                        i ? right : inside.x, inside.y + row * line,
-                        i ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);
+                        c ? right : inside.x, inside.y + row * line,
+                        c ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);
         }
     }
 }

@@ -69,11 +69,12 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
     double bounds[4];
     bool stretched = picture_of(stage.simulation->scene)->stretched;
     Box room = stage.box, beside;
-    int words = (int)(WORDS_ROOM * layout->em); /* above, and of panes below */
-    if (show->lecture && !stretched &&
+    int words = (int)(WORDS_ROOM * layout->em); /* above, and some below */
+    if (show->lecture &&
         (show->panes > 1 || room.height < LOW * layout->em)) {
-        box_cut_off(&room, EDGE_TOP, words);
-        box_cut_off(&room, EDGE_BOTTOM, show->panes > 1 ? words : 0);
+        box_cut_off(&room, EDGE_TOP, stretched ? 2 * words : words);
+        box_cut_off(&room, EDGE_BOTTOM,
+                    show->panes > 1 || stretched ? words : 0);
     }
     find_bounds(show, pane, bounds);
     stage.camera = camera_create(room, bounds, stretched, &show->lens);

@@ -69,9 +69,7 @@ void square_contact_forces(const SpringPen *pen, int runs)
         plot_legend(stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 
-/* Under a run's first wall, right of what lies on it, if the wall has a slope:
- * its coefficient of friction as a part of the slope. */
-static void draw_words(const SpringPen *pen)
+void square_contact_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
@@ -145,6 +143,4 @@ void square_contact_obstacles(const SpringPen *pen)
         if (reach * stage->camera.scale[0] > 2)
             plot_ring(stage, at, radius + reach * scale, 0.8, COLOUR_RULE);
     }
-    if (contact && apart && stage->text)
-        draw_words(pen);
 }

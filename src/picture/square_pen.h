@@ -71,8 +71,12 @@ typedef struct Touch {
 Touch square_touch(const SpringPen *pen, const Element *element);
 
 /* Walls and balls of a run.  Several runs have theirs as slabs, so that they
- * stay apart, and words under the first one. */
+ * stay apart. */
 void square_contact_obstacles(const SpringPen *pen);
+
+/* Under a run's first wall, right of what lies on it, if the wall has a slope:
+ * its coefficient of friction as a part of the slope. */
+void square_contact_words(const SpringPen *pen);
 
 /* Forces of contact and friction of all runs as arrows that end at their nodes,
  * the longest, up to a round number, some ems long; a disc where friction holds

@@ -369,8 +369,9 @@ static void draw_lens(const SpringPen *pen)
     if (!lens.told || lens.box.width < 2 * LENS * lens.em ||
         !law_gap(pen->simulation, &gap))
         return;
-    bool paired = gap.pair[0] >= 0 && lens.box.width > 3 * PAIR * lens.em;
-    double most = paired ? PAIR : LENS;
+    bool paired = gap.pair[0] >= 0;
+    double most =
+        paired && lens.box.width > 3 * PAIR * lens.em ? PAIR : LENS;
     for (int i = 0; i < 4 * LENS_SIZES; i++) {
         int side = (int)((most - 2 * (i / 4)) * lens.em);
         int left = i & 2 ? air : stage.width - side - air;
@@ -444,6 +445,9 @@ void square_draw(Plot *stage)
         pen[r] = square_pen(stage, r);
         square_contact_obstacles(&pen[r]);
     }
+    for (int r = 0; r < runs && runs > 1 && stage->text; r++)
+        if (pen[r].contact)
+            square_contact_words(&pen[r]);
     for (int r = 1; r < runs; r++) {
         if (!show->bare)
             square_cells(&pen[r], true);
