@@ -176,7 +176,9 @@ static int draw_ground(const SpringPen *pen)
         plot_legend(pen->stage, COLOUR_GHOST, "ghost: %.*s",
                     (int)strcspn(pane->ghost_label, ":"), pane->ghost_label);
     }
-    if (trace && trace->x_tilde && trace->line) {
+    size_t bytes = 2 * (size_t)pen->system->nodes * sizeof *pen->x;
+    if (trace && trace->x_tilde && trace->line &&
+        memcmp(trace->x_tilde, pen->x, bytes) != 0) {
         square_ghost(pen, trace->x_tilde, COLOUR_X_TILDE);
         plot_legend(pen->stage, COLOUR_X_TILDE, "{xt}, inertia alone");
     }

@@ -57,6 +57,7 @@ void commands_help(FILE *file)
             "A line waits until its step is shown; a run that is paused waits "
             "for none.\n\"& COMMAND\" is undone together with the one before "
             "it; # begins a comment.\n"
+            "What a page does as it opens stands in the script, too.\n"
             "Tables on pipes keep the rows of steps that were taken back.\n");
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
         const CommandRow *row = &command_rows[kind];
