@@ -509,12 +509,9 @@ int main(int argc, char **argv)
         FAIL(1, "not enough memory\n");
     for (int t = 0; t < CHECKS; t++) {
         unsigned missing = tasks[t].needs & failed;
-        if (missing) {
-            int first_missing = 0;
-            while (!(missing >> first_missing & 1))
-                first_missing++;
+        if (missing) { /* the lowest bit is the first one's */
             shared->doing[0] = '\0';
-            say("waits for %s", tasks[first_missing].name);
+            say("waits for %s", tasks[__builtin_ctz(missing)].name);
         } else
             run(&tasks[t]);
         bool bad = *shared->sentence != '\0';

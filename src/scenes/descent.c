@@ -8,11 +8,10 @@
 
 enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
 
-static const double LINE_MASS = 1;             /* kg */
+static const double POINT_MASS = 1;            /* kg, of all */
 static const double LINE_STIFFNESS = 10;       /* J/m^2 */
 static const double LINE_LENGTH = 1;           /* m, at rest */
 static const double LINE_TARGET = 2;           /* m, x_tilde */
-static const double LANDSCAPE_MASS = 1;        /* kg */
 static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
 static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
 
@@ -43,7 +42,7 @@ static Local log_two_cosh(const Simulation *simulation, double x)
 
 static Local line_energy(const Simulation *simulation, double x)
 {
-    double m = LINE_MASS, l2 = LINE_LENGTH * LINE_LENGTH, k = LINE_STIFFNESS;
+    double m = POINT_MASS, l2 = LINE_LENGTH * LINE_LENGTH, k = LINE_STIFFNESS;
     double h = simulation->run[0].h, x_tilde = simulation->exhibit.target[0];
     double d = x - x_tilde, s = x * x / l2 - 1;
     double E = m / 2 * d * d + h * h * l2 * k / 2 * s * s;
@@ -282,16 +281,23 @@ void descent_restart(Simulation *simulation)
 
 /* ---- the scenes ---------------------------------------------------------- */
 
-/* Node 0 starts at x, and the search aims.  Of two unknowns it is a step of
- * backward Euler, but nobody makes steps of time. */
-static Status begin_descent(Simulation *simulation, const double *x)
+/* Node 0 starts where the options say, and the search aims.  Of two unknowns it
+ * is a step of backward Euler, but nobody makes steps of time; pins are at
+ * (-1, 0) and (1, 0) m, each with a spring to node 0. */
+static Status begin_descent(Simulation *simulation)
 {
+    const double *start = simulation->options.start;
+    const double x[2 * LANDSCAPE_NODES] = {start[0], start[1], -1, 0, 1, 0};
     const double v[2 * LANDSCAPE_NODES] = {0};
+    bool scalar = simulation->descent.scalar;
+    const char *method = scalar ? "forward-euler" : "backward-euler";
     simulation->runs = 1;
-    const char *method =
-        simulation->descent.scalar ? "forward-euler" : "backward-euler";
-    Status status = simulation_start(simulation, 0, integrator_method(method),
-                                     &simulation->system, x, v);
+    Status status =
+        small_system(&simulation->system, scalar ? 0 : LANDSCAPE_PINS,
+                     POINT_MASS, LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
+    if (!status)
+        status = simulation_start(simulation, 0, integrator_method(method),
+                                  &simulation->system, x, v);
     if (status)
         return status;
     aim_descent(simulation);
@@ -299,39 +305,27 @@ static Status begin_descent(Simulation *simulation, const double *x)
                                                      : simulation->status;
 }
 
-static Status create_scalar(Simulation *simulation, ScalarEnergy *f)
-{
-    simulation->descent.scalar = f;
-    Status status = small_system(&simulation->system, 0, 1, 0, 0);
-    return status ? status
-                  : begin_descent(simulation, simulation->options.start);
-}
-
 Status create_overshoot(Simulation *simulation)
 {
-    return create_scalar(simulation, log_two_cosh);
+    simulation->descent.scalar = log_two_cosh;
+    return begin_descent(simulation);
 }
 
 Status create_tangent(Simulation *simulation)
 {
     simulation->exhibit.target[0] = LINE_TARGET;
-    return create_scalar(simulation, line_energy);
+    simulation->descent.scalar = line_energy;
+    return begin_descent(simulation);
 }
 
-/* Pins at (-1, 0) and (1, 0) m, each with a spring to node 0 that is too long
- * to lie flat between them: like a buckling column it gives way up or down. */
+/* The springs are too long to lie flat between the pins: like a buckling column
+ * node 0 gives way up or down. */
 Status create_landscape(Simulation *simulation)
 {
-    const Options *options = &simulation->options;
-    const double x[2 * LANDSCAPE_NODES] = {
-        options->start[0], options->start[1], -1, 0, 1, 0};
-    Status status =
-        small_system(&simulation->system, LANDSCAPE_PINS, LANDSCAPE_MASS,
-                     LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
     memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
            sizeof LANDSCAPE_TARGET);
     simulation->exhibit.parts = PART_BOTH;
-    return status ? status : begin_descent(simulation, x);
+    return begin_descent(simulation);
 }
 
 /* ---- the dial ------------------------------------------------------------ */

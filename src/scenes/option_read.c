@@ -24,11 +24,8 @@ static Text list_text(Names names)
 {
     Text list = {""};
     const char *name;
-    for (int i = 0; (name = name_at(names, i)); i++) {
-        size_t used = strlen(list.text);
-        snprintf(list.text + used, sizeof list.text - used, "%s%s",
-                 used > 0 ? ", " : "", name);
-    }
+    for (int i = 0; (name = name_at(names, i)); i++)
+        append(list.text, sizeof list.text, "%s%s", i > 0 ? ", " : "", name);
     return list;
 }
 
