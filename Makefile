@@ -96,15 +96,15 @@ ALONE = $(foreach l,cholmod colamd ccolamd camd amd suitesparseconfig,-l:lib$(l)
 LAPACK = $(if $(filter Darwin,$(shell uname)),-framework Accelerate,-llapack)
 build/config.mk: Makefile
 	@mkdir -p build; $(call need,pkg-config:pkg-config sdl2:libsdl2-dev freetype2:libfreetype-dev \
-	  libpng:libpng-dev zlib:zlib1g-dev cholmod.h:libsuitesparse-dev $(FONTS):fonts-dejavu-core); \
+	  libpng:libpng-dev cholmod.h:libsuitesparse-dev $(FONTS):fonts-dejavu-core); \
 	echo 'int main(void) { return 0; }' >build/try.c; blas='-lblas -llapack'; \
 	cholmod='$(ALONE)'; $(CC) build/try.c -o build/try $$cholmod $$blas -lm \
 	  2>/dev/null || { blas='$(LAPACK)'; cholmod=$$(pkg-config --libs CHOLMOD || \
 	  echo -L/usr/local/lib -L/opt/homebrew/lib -lcholmod) 2>/dev/null; }; \
 	{ echo "DEP_CFLAGS := $(SUITESPARSE) \
-	  $$(pkg-config --cflags sdl2 freetype2 libpng zlib)"; \
+	  $$(pkg-config --cflags sdl2 freetype2 libpng)"; \
 	  echo "DEP_LIBS := $(if $(filter Darwin,$(shell uname)),,-Wl,--as-needed) $$cholmod \
-	  $$(pkg-config --libs sdl2 freetype2 libpng zlib) -lm"; \
+	  $$(pkg-config --libs sdl2 freetype2 libpng) -lm"; \
 	  echo "BLAS_LIBS := $$blas"; } >$@.new; mv $@.new $@
 
 build/config-test.mk: build/config.mk

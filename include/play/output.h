@@ -58,46 +58,27 @@ bool output_is_standard(const char *name);
 
 /* ---- tables -------------------------------------------------------------- */
 
-/* Rows of numbers as a file.  The end of its name says how:
- *
- *   .npz    an array for each column, for numpy.load: where every step has as
- *           many rows [step, place], of time [step], of a node's number
- *           [place]; else [row]
- *   .pvd    the list of a folder's steps, for ParaView
- *   others  CSV: a line of names, then a line a row; 17 digits, so that who
- *           reads them has the same double
- * CSV is written as it comes, the others at the end, out of a file that has no
- * name.
- */
-typedef struct Table Table;
-
+/* Rows of numbers as CSV: a line of names, then a line for each row.  A number
+ * has 17 digits, so that a reader gets the same double. */
 enum { TABLE_COLUMNS = 32, TABLE_LETTERS = 16 }; /* at most */
 
-/* Writes all rows of a table as a file of another kind. */
-typedef void TableFormat(const Table *table, FILE *file);
-TableFormat pvd_write; /* of recording.c */
-
-struct Table {
+typedef struct Table {
     Output output;
-    TableFormat *format; /* NULL: CSV */
-    FILE *rows;          /* with a format: [columns] doubles each */
-    long head;           /* where the names of CSV end, in a file */
+    long head; /* where the names end, in a file */
     int columns;
     struct {
         char name[TABLE_LETTERS];
-        char kind; /* 'w'hole, 'p'lace, 't'ext; 0: a number */
+        char kind; /* 'w'hole, 't'ext; 0: a number */
     } column[TABLE_COLUMNS];
     const char *(*text)(const char *column, int place); /* the texts */
-};
+} Table;
 
-/* Adds columns: names with commas between them, or NULL; one that is there
- * stays as it is.  Behind one there may be :whole (a whole number, below 0: CSV
- * has nothing there), :place (the same, of a node or a spring: alike in all
- * steps), :text (the place of a text).  The first column is the step, which
- * does not fall, the next one its time where there are places. */
+/* Adds columns: names with commas between them, or NULL; a name that is there
+ * stays as it is.  A name may end in :whole (a whole number, nothing is written
+ * where it is below 0) or :text (the number is the place of a text). */
 void table_columns(Table *table, const char *names);
 
-/* Opens it; CSV has its line of names then.  Returns as output_open. */
+/* Opens it, and writes the line of names.  Returns as output_open. */
 Status table_open(const char *name, char *told, Table *table);
 
 /* One row, value [columns]; whether it could be written table_check says. */
@@ -111,14 +92,10 @@ Status table_check(const Table *table);
  * be taken back, and new rows follow.  Returns as table_check. */
 Status table_cut(Table *table, long last);
 
-/* Writes all rows that are left.  Returns as table_check. */
+/* Flushes its rows.  Returns as table_check. */
 Status table_end(Table *table);
 
 /* Behind its end.  Returns as output_close. */
 Status table_close(Table *table, Keep keep);
-
-/* Goes through the rows of a table with a format: row [columns] out, from the
- * first one after `rewind(table->rows)`.  Returns false behind the last. */
-bool table_next(const Table *table, double *row);
 
 #endif

@@ -1,7 +1,6 @@
 /* recording.h - what a run leaves in files: frames, films, tables.
  *
  *   frames  FOLDER/frame_000000.png, ...: the number is that of the step
- *   vtk     FOLDER/step_000000.vtu, ... and their list, steps.pvd
  * and tables (output.h), which begin at step 0:
  *   states    step,time,node,x,y,vx,vy of every node at every step; nodes of
  *             run 0 first, those of run 1 numbered on
@@ -61,7 +60,6 @@ typedef enum RecordingTable {
     RECORDING_LOG,
     RECORDING_ENERGIES,
     RECORDING_SPRINGS,
-    RECORDING_VTK, /* the list of its steps */
     RECORDING_TABLES
 } RecordingTable;
 
@@ -69,7 +67,6 @@ typedef struct Recording {
     const char *folder;            /* of the frames, or NULL: none */
     long frames;                   /* written */
     Film film;                     /* of the frames */
-    const char *vtk;               /* folder of steps, or NULL */
     int panes;                     /* when it was opened */
     Table table[RECORDING_TABLES]; /* not open: not written */
     bool tables;                   /* any is open */

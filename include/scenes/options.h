@@ -65,9 +65,9 @@ typedef struct Options {
     const struct LecturePage *page; /* of the lecture, or NULL */
     const char *pin;                /* which nodes never move, or NULL */
     const char *state;              /* the table it begins in, or NULL */
-    const char *frames, *states, *log, *energies, *springs, *vtk, *film,
-        *script, *handout; /* or NULL */
-    int panes;             /* side by side, 1: no lists of values */
+    const char *frames, *states, *log, *energies, *springs, *film, *script,
+        *handout; /* or NULL */
+    int panes;    /* side by side, 1: no lists of values */
 } Options;
 
 /* The slot of a number of Options: OPTION_SLOT(timestep). */
@@ -117,10 +117,11 @@ typedef struct OptionRow {
     const char *value; /* what stands for the value in --help */
     const char *help;  /* what it is */
     OptionKind kind;
-    int slot;         /* of its first number */
-    size_t offset;    /* OPTION_TEXT: of its field in Options */
-    int count;        /* numbers of one value; 0: one */
-    unsigned fewer;   /* bit n: it may have only n numbers, */
+    int slot;           /* of its first number */
+    size_t offset;      /* OPTION_TEXT: of its field in Options */
+    bool table;         /* OPTION_TEXT: a file of CSV */
+    int count;          /* numbers of one value; 0: one */
+    unsigned fewer;     /* bit n: it may have only n numbers, */
     const double *rest; /* [count] the others are these */
     char between;       /* what stands between them; 0: a comma */
     int times;          /* more than 0: it may be given so often; the values */

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "model/area.h"
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 
@@ -65,14 +64,6 @@ static void add_energies(Table *table, const Moment *at)
     table_add(table, row);
 }
 
-/* ParaView's list has a line a step. */
-static void add_step(Table *table, const Moment *at)
-{
-    const double row[] = {at->step, at->time};
-    if (at->runs == 0)
-        table_add(table, row);
-}
-
 /* The log's texts; what is known of a residual. */
 static const char *log_text(const char *column, int place)
 {
@@ -84,12 +75,12 @@ static const char *log_text(const char *column, int place)
 
 /* In the order of enum RecordingTable. */
 static const struct {
-    size_t file; /* its name in the options; of steps, their folder's */
+    size_t file; /* its name in the options */
     const char *columns, *pane;
     void (*add)(Table *table, const Moment *at); /* NULL: the log */
 } kinds[RECORDING_TABLES] = {
-    {offsetof(Options, states), "step:whole,time,node:place,x,y,vx,vy",
-     "pane:place", add_states},
+    {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
+     "pane:whole", add_states},
     {offsetof(Options, log),
      "step:whole,iteration:whole,residual,alpha,trials:whole,slope,change,"
      "projected:whole,factorised:whole,shift,status:text,seconds,"
@@ -98,10 +89,9 @@ static const struct {
     {offsetof(Options, energies), "step:whole,time,total,kinetic,gravity", NULL,
      add_energies},
     {offsetof(Options, springs),
-     "step:whole,time,spring:place,i:place,j:place,whole:whole,rest,strain,"
+     "step:whole,time,spring:whole,i:whole,j:whole,whole:whole,rest,strain,"
      "plastic,flowed",
-     "pane:place", add_springs},
-    {offsetof(Options, vtk), "step:whole,time", NULL, add_step},
+     "pane:whole", add_springs},
 };
 
 /* ---- pictures ------------------------------------------------------------ */
@@ -146,174 +136,16 @@ Status png_file_write(const char *name, char *told, const Canvas *canvas)
     return status;
 }
 
-/* ---- ParaView ------------------------------------------------------------ */
-
-/* A step is an unstructured grid in XML: points are the nodes of all runs, in
- * the order of the states, with velocity (m/s) and run; cells are the springs
- * that are whole and the triangles whose sides are (square_mesh_is_half), with
- * a strain: Green's |d|^2/l2 - 1, of a triangle what its area has grown by, as
- * a part.  17 digits: reading them gives the same double. */
-/* A step's file in the folder. */
-#define VTK_FILE "step_%06ld.vtu"
-
-enum { PARTS = OPTIONS_MAX_PANES * SIMULATION_MAX_RUNS };
-
-/* Nodes of a cell, and what VTK calls it. */
-enum { LINE = 2, TRIANGLE = 3, VTK_LINE = 3, VTK_TRIANGLE = 5 };
-
-/* A run. */
-typedef struct Part {
-    const SquareMesh *mesh;
-    const TimeIntegrator *run;
-    int first; /* the number of its node 0 */
-} Part;
-
-typedef enum Array {
-    POSITION,
-    VELOCITY,
-    RUN,
-    NODES, /* from here on of cells: springs and triangles */
-    ENDS,  /* of a cell in the list of nodes */
-    TYPES,
-    STRAIN,
-    ARRAYS /* none: cells are only counted */
-} Array;
-
-static const struct {
-    const char *before, *type, *name;
-    int components;
-} arrays[ARRAYS] = {
-    {"<Points>", "Float64", "position", 3},
-    {"</Points>\n<PointData Vectors=\"velocity\">", "Float64", "velocity", 3},
-    {"", "Int32", "run", 1},
-    {"</PointData>\n<Cells>", "Int32", "connectivity", 1},
-    {"", "Int32", "offsets", 1},
-    {"", "UInt8", "types", 1},
-    {"</Cells>\n<CellData Scalars=\"strain\">", "Float64", "strain", 1},
-};
-
-/* Spring i or, behind the springs, a triangle: its nodes and how it is
- * strained, out.  Returns how many nodes; 0 where a spring is broken, or the
- * mesh is not cut so. */
-static int get_cell(const Part *part, int i, int node[3], double *strain)
-{
-    const System *system = part->run->system;
-    const double *x = part->run->x;
-    int triangle = i - system->springs, side[3];
-    double d[2], e[2], spacing = part->mesh->spacing;
-    if (triangle < 0) {
-        memcpy(node, system->e + 2 * i, 2 * sizeof *node);
-        *strain = spring_strain(node, system->l2[i], x, d);
-        return spring_is_broken(system, i) ? 0 : LINE;
-    }
-    bool whole = square_mesh_is_half(part->mesh, triangle);
-    square_mesh_triangle(part->mesh, triangle, node, side);
-    for (int k = 0; k < 3; k++)
-        whole = whole && !spring_is_broken(system, side[k]);
-    for (int k = 0; k < 2; k++) {
-        d[k] = x[2 * node[1] + k] - x[2 * node[0] + k];
-        e[k] = x[2 * node[2] + k] - x[2 * node[0] + k];
-    }
-    *strain = cross(d, e) / (spacing * spacing) - 1;
-    return whole ? TRIANGLE : 0;
-}
-
-/* The numbers of an array.  Returns of how many nodes or cells. */
-static int put_numbers(FILE *file, const Part *part, int parts, Array array)
-{
-    int count = 0, end = 0, corners = 1, node[3];
-    double strain;
-    for (int p = 0; p < parts; p++) {
-        const TimeIntegrator *run = part[p].run;
-        const double *at = array == POSITION ? run->x : run->v;
-        int all = array < NODES
-                      ? run->system->nodes
-                      : run->system->springs + 4 * part[p].mesh->cells;
-        for (int i = 0; i < all; i++) {
-            if (array >= NODES)
-                corners = get_cell(&part[p], i, node, &strain);
-            count += corners > 0;
-            end += corners;
-            if (array == POSITION || array == VELOCITY)
-                fprintf(file, "%.17g %.17g 0\n", at[2 * i], at[2 * i + 1]);
-            else if (array == STRAIN && corners > 0)
-                fprintf(file, "%.17g\n", strain);
-            else if (array == NODES)
-                for (int k = 0; k < corners; k++)
-                    fprintf(file, "%d\n", part[p].first + node[k]);
-            else if (array != ARRAYS && corners > 0)
-                fprintf(file, "%d\n",
-                        array == RUN      ? p
-                        : array == ENDS   ? end
-                        : corners == LINE ? VTK_LINE
-                                          : VTK_TRIANGLE);
-        }
-    }
-    return count;
-}
-
-/* One step, `count` simulations as they are, whole or not at all. */
-static Status vtk_write(const char *name, char *told,
-                        const Simulation *const *simulation, int count)
-{
-    Part part[PARTS];
-    Output output;
-    int parts = 0, nodes = 0;
-    Status status = output_open(name, told, &output);
-    FILE *file = output.file;
-    if (status)
-        return status;
-    for (int i = 0; i < count; i++)
-        for (int r = 0; r < simulation[i]->runs; r++) {
-            const TimeIntegrator *run = &simulation[i]->run[r];
-            part[parts++] = (Part){&simulation[i]->mesh, run, nodes};
-            nodes += run->system->nodes;
-        }
-    fprintf(file,
-            "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n"
-            "<UnstructuredGrid>\n"
-            "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
-            nodes, put_numbers(NULL, part, parts, ARRAYS));
-    for (Array array = 0; array < ARRAYS; array++) {
-        fprintf(file,
-                "%s\n<DataArray type=\"%s\" Name=\"%s\" "
-                "NumberOfComponents=\"%d\" format=\"ascii\">\n",
-                arrays[array].before, arrays[array].type, arrays[array].name,
-                arrays[array].components);
-        put_numbers(file, part, parts, array);
-        fputs("</DataArray>\n", file);
-    }
-    fputs("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", file);
-    return output_close(&output, KEEP_WHOLE);
-}
-
-void pvd_write(const Table *table, FILE *file)
-{
-    double row[TABLE_COLUMNS];
-    fputs("<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n",
-          file);
-    rewind(table->rows);
-    while (table_next(table, row))
-        fprintf(file, "<DataSet timestep=\"%.17g\" file=\"" VTK_FILE "\"/>\n",
-                row[1], (long)row[0]);
-    fputs("</Collection>\n</VTKFile>\n", file);
-}
-
 /* ---- all together -------------------------------------------------------- */
 
-/* Opens a table, if there is one; of a folder's steps it is their list.  The
- * ledger has all that a scene may have, and of several panes a row says which.
- */
+/* Opens a table, if the options name one.  The ledger has a column for each
+ * energy of any scene; where there are several panes a row says which. */
 static Status open_table(const Options *options, Recording *recording, int t)
 {
     Table *table = &recording->table[t];
     const char *name = *(char *const *)((const char *)options + kinds[t].file);
-    char list[OUTPUT_NAME];
     if (!name)
         return STATUS_OK;
-    snprintf(list, sizeof list, "%s/steps.pvd", name);
-    if (t == RECORDING_VTK)
-        name = list;
     recording->standard = recording->standard || output_is_standard(name);
     recording->tables = true;
     table->text = log_text;
@@ -324,7 +156,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
             table_columns(table, row->term->loss);
         }
     if (t == RECORDING_ENERGIES)
-        table_columns(table, "work,dissipated,run:place");
+        table_columns(table, "work,dissipated,run:whole");
     else if (recording->panes > 1)
         table_columns(table, kinds[t].pane);
     return table_open(name, recording->message, table);
@@ -332,14 +164,12 @@ static Status open_table(const Options *options, Recording *recording, int t)
 
 Status recording_open(const Options *options, int panes, Recording *recording)
 {
-    *recording = (Recording){
-        .folder = options->frames, .vtk = options->vtk, .panes = panes};
-    const char *const folder[] = {options->frames, options->vtk};
+    const char *folder = options->frames;
+    *recording = (Recording){.folder = folder, .panes = panes};
     char *told = recording->message;
     Status status = STATUS_OK;
-    for (int i = 0; i < 2 && !status; i++) /* the first file shows if it is */
-        if (folder[i] && mkdir(folder[i], 0777) && errno != EEXIST)
-            status = output_tell(told, folder[i], STATUS_FILE_FAILED, NULL);
+    if (folder && mkdir(folder, 0777) && errno != EEXIST)
+        status = output_tell(told, folder, STATUS_FILE_FAILED, NULL);
     if (!status && options->film)
         status = film_open(options->film, told, &recording->film);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
@@ -365,13 +195,8 @@ Status recording_states(Recording *recording,
                         long step)
 {
     Moment at = {.step = (double)step};
-    char name[OUTPUT_NAME];
     Status status = STATUS_OK;
-    if (recording->vtk) {
-        snprintf(name, sizeof name, "%s/" VTK_FILE, recording->vtk, step);
-        status = vtk_write(name, recording->message, simulation, count);
-    }
-    for (int i = 0; i < count && !status; i++)
+    for (int i = 0; i < count; i++)
         for (int r = 0; r < simulation[i]->runs; r++) {
             at.simulation = simulation[i];
             at.run = &simulation[i]->run[r];

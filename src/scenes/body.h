@@ -60,9 +60,7 @@ const char *body_needs_end_of_step(const Options *options);
  * all gaps and cells are > 0.  Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status body_check(const Options *options, Refusal told);
 
-/* One step of what --states wrote, CSV or .npz, of the nodes of one run.  A
- * .npz may be any with the arrays x, y, vx, vy [step, node] or [node], stored
- * (numpy.savez).
+/* One step of the table that --states wrote, of the nodes of one run.
  *   step     below 0: the last one
  *   nodes    n of each run; those of run r follow those of run r - 1
  *   runs     of the scene

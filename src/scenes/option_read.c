@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "scenes/body.h"
 #include "scenes/one_line.h"
@@ -72,6 +73,32 @@ typedef struct Line {
     int words;
     Word word[WORDS_MOST];
 } Line;
+
+/* ---- what went ----------------------------------------------------------- */
+
+/* An option of an earlier version, or one of its values, that is gone. */
+typedef struct Gone {
+    const char *option;
+    const char *value;   /* "": the whole option is gone */
+    const char *instead; /* what to use, as the end of a sentence */
+} Gone;
+
+/* A row stays for one release: who used the option is told what to use.  Then
+ * the row goes, and the last one takes this table along. */
+static const Gone gone[] = {
+    {"vtk", "", "--states and --springs write each step as CSV"},
+    {NULL, NULL, NULL},
+};
+
+/* The row of an option and its value ("": of the option itself); NULL: there is
+ * none. */
+static const Gone *find_gone(const char *option, const char *value)
+{
+    for (const Gone *row = gone; row->option; row++)
+        if (strcmp(row->option, option) == 0 && strcmp(row->value, value) == 0)
+            return row;
+    return NULL;
+}
 
 /* ---- values ------------------------------------------------------------- */
 
@@ -165,6 +192,10 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
                       "names%s",
                       row->name, text, lecture_count(),
                       meant(text, "", row->names).text);
+    const Gone *went = find_gone(row->name, text);
+    if (went)
+        return refuse(line->told, "--%s: '%s' is gone: %s", row->name, text,
+                      went->instead);
     if (row->kind == OPTION_NAME)
         return refuse(line->told, "--%s: '%.60s' is none of: %s%s", row->name,
                       text, list_text(row->names).text,
@@ -201,6 +232,38 @@ static Status apply_numbers(const Line *line, const OptionRow *row,
     return STATUS_OK;
 }
 
+/* How a file's name ends that promises another format than CSV; NULL: it does
+ * not. */
+static const char *other_format(const char *name)
+{
+    static const char *const ends[] = {
+        ".npz",  ".npy", ".json", ".xml",  ".vtk",     ".vtu",
+        ".pvd",  ".obj", ".gz",   ".xz",   ".zip",     ".xls",
+        ".xlsx", ".ods", ".h5",   ".hdf5", ".parquet", ".feather",
+        ".mat",  ".pkl", ".png",  ".html", ".db",      NULL};
+    const char *end = strrchr(name, '.');
+    int i = 0;
+    while (end && ends[i] && strcasecmp(end, ends[i]) != 0)
+        i++;
+    return end ? ends[i] : NULL;
+}
+
+/* The name of a file or of nodes, into its field. */
+static Status apply_text(const Line *line, const OptionRow *row,
+                         const char *text)
+{
+    const char *other = row->table ? other_format(text) : NULL;
+    if (!text[0])
+        return refuse(line->told, "--%s: the name is empty", row->name);
+    if (other)
+        return refuse(line->told,
+                      "--%s: '%.60s': tables are CSV, and %s promises another "
+                      "format; use .csv",
+                      row->name, text, other);
+    memcpy((char *)line->options + row->offset, &text, sizeof text);
+    return STATUS_OK;
+}
+
 /* What the option is followed by, into its field; nothing for a page is the
  * first. */
 static Status apply(const Line *line, const OptionRow *row, const char *text)
@@ -211,10 +274,7 @@ static Status apply(const Line *line, const OptionRow *row, const char *text)
         options->number[row->slot] = 1;
         return STATUS_OK;
     case OPTION_TEXT:
-        memcpy((char *)options + row->offset, &text, sizeof text);
-        return text[0]
-                   ? STATUS_OK
-                   : refuse(line->told, "--%s: the name is empty", row->name);
+        return apply_text(line, row, text);
     case OPTION_PAGE:
         options->page = lecture_find(text[0] ? text : "1");
         return options->page ? STATUS_OK : refuse_value(line, row, 1, text);
@@ -282,7 +342,10 @@ static const OptionRow *find_option(const Line *line, const char *word)
     for (const OptionRow *row = option_rows; row->name; row++)
         if (dashes == 1 && !name[1] && row->letter == tolower(name[0]))
             found = row;
-    if (!found)
+    const Gone *went = dashes == 2 ? find_gone(name, "") : NULL;
+    if (went)
+        refuse(line->told, "--%s is gone: %s", name, went->instead);
+    else if (!found)
         refuse(line->told, "no option %.*s; see elasto --help%s",
                length < 60 ? length : 60, word,
                meant(name, "--", NAMES_OF(option_rows)).text);

@@ -85,6 +85,7 @@ REASON(nothing_flows, options->yield > 0,
                                           .names = {all, sizeof *all}
 #define TEXT(field, letters, text)                                             \
     VALUE(TEXT, #field, letters, text, ""), .offset = offsetof(Options, field)
+#define TABLE(field, text) TEXT(field, "FILE", text), .table = true
 #define SWITCH(field, text)                                                    \
     VALUE(SWITCH, #field, NULL, text, ""), .slot = OPTION_SLOT(field)
 
@@ -141,7 +142,7 @@ const OptionRow option_rows[] = {
           "nodes that stay: numbers I,J,... or " PINS_WORDS
           "; top:2 of body 2"),
      NEEDS(BODY)},
-    {TEXT(state, "FILE", "begins at the last step of what --states wrote"),
+    {TABLE(state, "begins at the last step of what --states wrote"),
      NEEDS(BODY)},
     {RANGE(WHOLE, "state-step", state_step, "N", "or at this one of its steps",
            "", -1, 0, 1e15),
@@ -222,12 +223,10 @@ const OptionRow option_rows[] = {
     {SWITCH(fullscreen, "F11 or Esc leaves it")},
     {SWITCH(headless, "no window even where there is a screen")},
     {TEXT(frames, "DIR", "a PNG of every drawn step")},
-    {TEXT(states, "FILE", "CSV or .npz of every step; \"-\": standard output")},
-    {TEXT(log, "FILE", "the same, a row per Newton iteration")},
-    {TEXT(energies, "FILE", "the same of the ledger at every step, J")},
-    {TEXT(springs, "FILE", "the same of the springs at every step"),
-     NEEDS(MESH)},
-    {TEXT(vtk, "DIR", "every step for ParaView, and their list"), NEEDS(MESH)},
+    {TABLE(states, "CSV of every step; \"-\": standard output")},
+    {TABLE(log, "the same, a row per Newton iteration")},
+    {TABLE(energies, "the same of the ledger at every step, J")},
+    {TABLE(springs, "the same of the springs at every step"), NEEDS(MESH)},
     {TEXT(film, "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif")},
     {TEXT(script, "FILE", "commands, each line: STEP COMMAND")},
     {VALUE(PAGE, "lecture", "[PAGE]", "page by page; Page Down is the next one",

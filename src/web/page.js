@@ -92,7 +92,7 @@ addEventListener('drop', async (event) => {
   if (!file) return;
   const name = '/' + file.name.replace(/[^\w.-]/g, '_');
   FS.writeFile(name, new Uint8Array(await file.arrayBuffer()));
-  const option = /\.(csv|npz)$/i.test(name) ? '--state' : '--script';
+  const option = /\.csv$/i.test(name) ? '--state' : '--script';
   begin([...line.filter((word, i) => word !== option && line[i - 1] !== option), option, name]);
 });
 

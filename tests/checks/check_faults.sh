@@ -130,8 +130,6 @@ larger='--frames frames --size 400x300'
     faults_of files_do_not_open open '' \
         '(s.csv|l.csv|frame_00000..png): Too many' 1 $frames
     faults_of writes_fail_once write '' "$space" 1 $larger
-    faults_of arrays_fail_to_be_written write '' \
-        "$space|(e.npz|v/step.*): No space left" 1 --energies e.npz --vtk v
     faults_of writes_fail_for_good write 1 "$space" $slow $larger
     faults_of closes_fail close '' "$space" 1 $frames
     faults_of renames_fail rename '' "$space" 1 $frames

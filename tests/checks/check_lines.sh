@@ -43,21 +43,26 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|--states and --log are one file, 'k.csv'|--states k.csv --log k.csv
 2|--states and --log are one file|--states chain --log k.csv
 2|--log and --script are one file|--log k.csv --script chain
-2|--frames and --vtk are one file|--frames d --vtk d/
+2|--frames and --states are one file|--frames d --states d/
 2|--states and --log are one file|--states new --log d/../new
-2|--states and --springs are one file|--states n.npz --springs ./n.npz
+2|--states and --springs are one file|--states n.csv --springs ./n.csv
 2|are one file|--states new --log new.part
 2|are one file|--states d/new.part --log ./d/new
 2|are one file|--states link --log k.csv.part
 2|--ground: its normal|--ground 0,0,0,0
 2|--springs.*'circle' has no square|circle --springs n.csv
-2|--vtk.*'spring'|spring --vtk n
+2|^elasto: --vtk is gone: --states .* CSV$|--vtk n
+2|^elasto: --vtk is gone|--vtk=n --states k.csv
+2|--states: 'n.npz': tables are CSV|--headless --states n.npz
+2|--state: 'k.csv.gz': tables are CSV, and .gz|--headless --state k.csv.gz
+2|--log: 'n.JSON': tables are CSV|--log n.JSON
+2|--energies: 'd/n.xlsx': tables are CSV|--energies d/n.xlsx
+2|--springs: 'n.vtk': tables are CSV|--springs=n.vtk
 2|.mp4, .webm, .gif or .apng|--headless --film n.avi
 2|.mp4, .webm, .gif or .apng|--headless --film -
 2|does not end|--headless --film n.avi --timestep 0.004,0.01
 1|Is a directory|--headless --states d
-1|No such file|--headless --states d/e/k.npz
-1|Not a directory|--headless --vtk k.csv
+1|No such file|--headless --states d/e/k.csv
 1|No such file|--headless --states d/e/k
 1|No such file|--headless --states k.csv --log d/e/k
 1|symbolic links|--headless --states round
