@@ -53,36 +53,37 @@ static inline void element_vectors(const Element *element, const double *x,
 struct ElementKind {
     /* Looks for elements before they are counted: those at x, and with p [2n]
      * those that come up until x + alpha p.  NULL: all are known. */
-    void (*look)(const Place *at, const double *p, double alpha);
-    int (*count)(const Place *at);
+    void (*look)(const EvalPoint *at, const double *p, double alpha);
+    int (*count)(const EvalPoint *at);
 
     /* Element i at x.  Returns false where there is nothing, or W is 0 and
      * stays so while a and b change by less than `way`, m, each. */
-    bool (*get)(const Place *at, int i, double way, Element *element);
+    bool (*get)(const EvalPoint *at, int i, double way, Element *element);
 
     /* The blocks of the matrix, each with all entries of 1 to 3 nodes: how many
      * there are; the nodes of one, out, and how many.  x is not known. */
-    int (*blocks)(const Place *at);
-    int (*nodes)(const Place *at, int block, int node[3]);
+    int (*blocks)(const EvalPoint *at);
+    int (*nodes)(const EvalPoint *at, int block, int node[3]);
 
     /* W, J, and its gradient g [4] out; H [4][4] out, filtered (TermKind's
      * hessian), returns whether it was changed. */
-    double (*value)(const Place *at, const Element *element);
-    void (*gradient)(const Place *at, const Element *element, double g[4]);
-    bool (*hessian)(const Place *at, const Element *element, Filter filter,
+    double (*value)(const EvalPoint *at, const Element *element);
+    void (*gradient)(const EvalPoint *at, const Element *element, double g[4]);
+    bool (*hessian)(const EvalPoint *at, const Element *element, Filter filter,
                     double H[4][4]);
 
     /* With P [4], the change of a and b along p: W at alpha minus W minus
      * alpha grad W.P, J, without cancellation; and the alpha that uses up
      * ELEMENT_LIMIT of s, which must stay above 0, where W is not.  NULL: any s
      * will do. */
-    double (*remainder)(const Place *at, const Element *element,
+    double (*remainder)(const EvalPoint *at, const Element *element,
                         const double P[4], double alpha);
-    double (*reach)(const Place *at, const Element *element, const double P[4]);
+    double (*reach)(const EvalPoint *at, const Element *element,
+                    const double P[4]);
 
     /* Of what friction acts on: mu times the normal force, N.  It slides by
      * t.(da, db), t [4] out, on what goes along at `carry`, m/s, out. */
-    double (*rub)(const Place *at, const Element *element, double t[4],
+    double (*rub)(const EvalPoint *at, const Element *element, double t[4],
                   double *carry);
 };
 
@@ -90,27 +91,27 @@ struct ElementKind {
  * elements_next(&walk);).  With p [2n] also those whose W begins until alpha p.
  */
 typedef struct ElementWalk {
-    const Place *at;
+    const EvalPoint *at;
     const ElementKind *kind;
     double way;
     int i, count;
     Element element;
 } ElementWalk;
 
-ElementWalk elements_from(const Place *at, const double *p, double alpha);
+ElementWalk elements_from(const EvalPoint *at, const double *p, double alpha);
 bool elements_next(ElementWalk *walk);
 
 /* Functions of a TermKind with elements. */
-double elements_value(const Place *at);
-void elements_gradient(const Place *at, double *g);
-long long elements_entries(const Place *at);
-void elements_pattern(const Place *at, Triplets *triplets);
-int elements_hessian(const Place *at, Filter filter, const int *slot,
+double elements_value(const EvalPoint *at);
+void elements_gradient(const EvalPoint *at, double *g);
+long long elements_entries(const EvalPoint *at);
+void elements_pattern(const EvalPoint *at, Triplets *triplets);
+int elements_hessian(const EvalPoint *at, Filter filter, const int *slot,
                      const double *q, double *out);
-double elements_remainder(const Place *at, const double *p, double alpha);
-double elements_reach(const Place *at, const double *p);
-bool elements_allowed(const Place *at);
-void elements_concave(const Place *at, double *sum);
+double elements_remainder(const EvalPoint *at, const double *p, double alpha);
+double elements_reach(const EvalPoint *at, const double *p);
+bool elements_allowed(const EvalPoint *at);
+void elements_concave(const EvalPoint *at, double *sum);
 
 /* All of them, for its row. */
 #define ELEMENTS(kind)                                                         \

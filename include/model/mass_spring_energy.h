@@ -57,9 +57,9 @@ enum { SPRING_ENTRIES = 10 };
 
 /* The functions entries and pattern of a term with a block for each spring, and
  * its bounds: max k, and max k sqrt(l2) of a spring compressed to nothing. */
-long long mass_spring_entries(const Place *at);
-void mass_spring_pattern(const Place *at, Triplets *triplets);
-void mass_spring_bounds(const Place *at, double *stiffest, double *force);
+long long mass_spring_entries(const EvalPoint *at);
+void mass_spring_pattern(const EvalPoint *at, Triplets *triplets);
+void mass_spring_bounds(const EvalPoint *at, double *stiffest, double *force);
 
 /* g += factor d at node e[0] and minus that at node e[1]. */
 static inline void spring_add_force(const int e[2], double factor,

@@ -87,7 +87,7 @@ Status system_check(const System *system, const double *x);
  * place; and whether nothing would be passed or turned over, and a tenth of
  * each distance and area would stay, if all nodes went straight from x to x +
  * p. x, p [2n] m, in. */
-double system_reach(Place at, const double *p, bool internal);
+double system_reach(EvalPoint at, const double *p, bool internal);
 bool system_lets_pass(const System *system, const double *x, const double *p);
 
 /* P(x), J, the sum of the terms.  x [2n] m, in. */

@@ -19,30 +19,28 @@ typedef struct ElementKind ElementKind;
 typedef struct Term Term;
 struct SquareMesh;
 
-/* Who is asked, and where. */
-typedef struct Place {
+/* Where and with what a term is evaluated. */
+typedef struct EvalPoint {
     const System *system;
-    const Term *term;
-    double w;          /* s^2, factor on all that is added to an array (h^2 for
-                          implicit Euler) */
+    const Term *term;  /* term that is evaluated; NULL: none is selected yet */
+    double w;          /* s^2, factor on everything that is added to an array;
+                          h^2 for implicit Euler */
     const double *x_n; /* [2n] m, start of the step */
-    const double *u;   /* [2n] m, displacement from there; NULL: no step */
+    const double *u;   /* [2n] m, displacement from x_n; NULL: no step */
     const double *x;   /* [2n] m, x_n + u */
-    const double *x_too; /* where the Hessian is asked, too, if not NULL: blocks
-                            are summed before they are projected, and */
-    double w_too;        /* its factor; else 0 */
-    const struct Damping *damping; /* of this step (damping.h); NULL: none */
-    const double *k, *l2; /* [springs] of the springs in this step: those of the
-                             system, or what damping makes of them */
-} Place;
+    const struct Damping *damping; /* damping of this step; NULL: none */
+    const double *k, *l2; /* [springs] stiffness and rest length of this step:
+                             those of the system, or what damping makes of
+                             them */
+} EvalPoint;
 
-/* No term yet; w = 1. */
-Place place_at(const System *system, const double *x_n, const double *u,
-               const double *x);
+/* A point with w = 1 and no term selected. */
+EvalPoint eval_point_at(const System *system, const double *x_n,
+                        const double *u, const double *x);
 
-/* Goes on to the next term with an energy, after NULL the first one, and
- * returns its functions; after the last one NULL. */
-const TermKind *next_energy(Place *at);
+/* Selects term t of the system's list; returns its functions.  A loop over
+ * 0 <= t < system->terms evaluates all terms. */
+const TermKind *eval_point_term(EvalPoint *at, int t);
 
 /* A step's begin or end. */
 typedef struct TermStep {
@@ -84,32 +82,32 @@ struct TermKind {
 
     /* P(x), J, without w.  NULL: the term has no energy, only begin, end or
      * bounds, and none of the functions of one. */
-    double (*value)(const Place *at);
+    double (*value)(const EvalPoint *at);
 
     /* g += w grad P.  g [2n] in/out.  Explicit methods use it too, with w = -1
      * and at->x alone (u NULL). */
-    void (*gradient)(const Place *at, double *g);
+    void (*gradient)(const EvalPoint *at, double *g);
 
     /* The entries of the Hessian, the same ones all step long but for grow: how
      * many, and the triplets in rows and columns of the matrix
      * (term_add_block). A force that is the same everywhere has none: these and
      * hessian are NULL.
      */
-    long long (*entries)(const Place *at);
-    void (*pattern)(const Place *at, Triplets *triplets);
+    long long (*entries)(const EvalPoint *at);
+    void (*pattern)(const EvalPoint *at, Triplets *triplets);
 
     /* Where x wants entries that the matrix lacks (bodies that come near each
      * other inside a step): there are more from now on, and *grown is true; no
      * others change their places in the pattern.  NULL: never.  Returns OK,
      * OUT_OF_MEMORY. */
-    Status (*grow)(const Place *at, bool *grown);
+    Status (*grow)(const EvalPoint *at, bool *grown);
 
     /* out[slot[t]] += w entry t of the Hessian at x; or, where q is given,
      * out += w Hessian q, without a matrix: out and q are then [2n].  Each
      * block is filtered: with CLAMP and ABS what is added must be positive
      * semi-definite; NONE and ON_DEMAND mean the Hessian as it is.  Returns how
      * many blocks were changed by the filter. */
-    int (*hessian)(const Place *at, Filter filter, const int *slot,
+    int (*hessian)(const EvalPoint *at, Filter filter, const int *slot,
                    const double *q, double *out);
 
     /* What w P(x + alpha p) is along a line, without its terms of degree 0 and
@@ -120,19 +118,18 @@ struct TermKind {
      *   remainder  the rest, where there is one: w [P(x + alpha p) - P(x)
      *              - alpha grad P.p] without cancellation, minus what along
      *              gave; asked once for each trial.  NULL: a polynomial of
-     *              degree 4 or less in x; average vector field methods can have
-     *              it. */
-    void (*along)(const Place *at, const double *p, double q[3]);
-    double (*remainder)(const Place *at, const double *p, double alpha);
+     *              degree 4 or less in x. */
+    void (*along)(const EvalPoint *at, const double *p, double q[3]);
+    double (*remainder)(const EvalPoint *at, const double *p, double alpha);
 
     /* The largest alpha that p may be followed, > 0 (contact, cells); NULL, or
      * infinite: any up to 1.  Backtracking starts at the smallest of all terms
      * and 1. */
-    double (*reach)(const Place *at, const double *p);
+    double (*reach)(const EvalPoint *at, const double *p);
 
     /* Whether x is a place where the energy exists: every distance and area
      * > 0.  Asked after rounding, for starts and for updates; NULL: always. */
-    bool (*allowed)(const Place *at);
+    bool (*allowed)(const EvalPoint *at);
 
     /* Before a step, from x_n and v_n [2n]: what it freezes (the normal forces
      * of friction).  After a step to x, v [2n] was accepted: what it changes
@@ -147,12 +144,12 @@ struct TermKind {
     /* Raises (bound_raise) *stiffest to a bound of the curvature's size at
      * rest, J/m^2, and *force, J/m, to the size of a force that a vanishing
      * gradient is compared with.  What is not finite is refused. */
-    void (*bounds)(const Place *at, double *stiffest, double *force);
+    void (*bounds)(const EvalPoint *at, double *stiffest, double *force);
 
     /* sum[i] += a bound such that w Hessian (as it is) + diag(sum) is positive
      * semi-definite; sum [n], one for both coordinates.  NULL: the term bends
      * up everywhere. */
-    void (*concave)(const Place *at, double *sum);
+    void (*concave)(const EvalPoint *at, double *sum);
 
     /* Frees what data points to; NULL: nothing. */
     void (*free)(void *data);

@@ -17,7 +17,6 @@ typedef struct IncrementalPotential {
     double weight;         /* w, s^2 */
     const double *x_n;     /* [2n] m, positions at the start of the step */
     const double *u_tilde; /* [2n] m, x_tilde - x_n */
-    double *between; /* [4n] m, room: P is averaged over the step; or NULL */
 } IncrementalPotential;
 
 /* What travels together through a minimisation; arrays of [2n]. */
@@ -56,7 +55,7 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
 
 /* Whether the Hessian at u, x wants entries that the pattern did not have: it
  * has them when it is made again.  *grown out.  Returns OK, OUT_OF_MEMORY. */
-Status incremental_potential_grow(const Iterate *at, bool *grown);
+Status incremental_potential_grow(const Iterate *iterate, bool *grown);
 
 /* A = Hessian of E at u, x, filtered.  slot as above.
  * Returns how many blocks of terms the filter changed. */
@@ -73,7 +72,7 @@ void incremental_potential_product(const Iterate *at, Filter filter,
  * Writes over g and p.
  *   m        [2n] kg, out, m + w c
  *   u_tilde  [2n] m, out, v */
-void incremental_potential_inertia(const Iterate *at, double *m,
+void incremental_potential_inertia(const Iterate *iterate, double *m,
                                    double *u_tilde);
 
 /* Where each coordinate stands alone in all terms, or there is none: u and x of
@@ -102,8 +101,8 @@ typedef struct Along {
     bool rough; /* a term has a remainder, or does not allow every place */
 } Along;
 
-/* at->u, x, g, p in. */
-Along incremental_potential_along(const Iterate *at);
+/* u, x, g, p of the iterate are read. */
+Along incremental_potential_along(const Iterate *iterate);
 
 /* The difference at alpha, as line_search_backtrack calls it. */
 double along_difference(const void *along, double alpha);
@@ -118,6 +117,6 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
 /* A number c for which the Hessian of w P as it is, plus c M, is positive
  * semi-definite: where c < 1, E is convex.
  *   sum  [n] out */
-double incremental_potential_concave(const Iterate *at, double *sum);
+double incremental_potential_concave(const Iterate *iterate, double *sum);
 
 #endif

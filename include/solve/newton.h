@@ -63,7 +63,6 @@ typedef struct NewtonSettings {
     Filter filter;           /* what is done with negative eigenvalues */
     LineSearch search;       /* how the step length is found */
     bool minimum;            /* a saddle is no end: it is left */
-    bool averaged;           /* P averaged over the step (avf) */
     int max_iterations;      /* at most; then ITERATION_LIMIT */
     NewtonObserver observer; /* or NULL */
     void *user;              /* passed to the observer */

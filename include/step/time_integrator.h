@@ -20,14 +20,13 @@ typedef struct IntegratorMethod {
     const char *label; /* as in the window */
     int order;         /* of accuracy */
     bool implicit;     /* needs Newton */
-    bool averaged;     /* needs terms that can be averaged */
     bool at_end;       /* x_(n+1) is the minimiser itself: all terms will do */
     bool damps;        /* takes energy out of motion: it comes to rest */
+    bool by_name;      /* chosen by name only: key M skips it */
     int memory;        /* arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; explicit: 0 */
-    double a, b, c;    /* of symmetric methods, see methods.c */
-    /* Fills newton->u_tilde and weight for the present stage, x_n where that is
-     * not x.  Gravity is added to it by completing the square:
+    /* Fills newton->u_tilde and weight for the present stage.  Gravity is added
+     * to u_tilde by completing the square:
      *   |u - u_tilde|_M^2/2 - weight m g.u
      *       = |u - (u_tilde + weight g)|_M^2/2 + constant. */
     void (*aim)(TimeIntegrator *);
@@ -54,13 +53,12 @@ struct TimeIntegrator {
     double memory_h; /* s, of the step that it is of; 0: it holds nothing */
     Newton *newton;  /* NULL for explicit methods */
     /* Of the step that is being made: */
-    int stage;         /* 0 ... stages - 1 */
-    const double *x_n; /* [2n] m, where its minimisation begins */
-    double weight;     /* s^2, of P in it */
-    double left;       /* part of the way of moved things, still to go; */
-    int part;          /* their parts so far, */
-    long before;       /* Newton's iterations before the first of them; */
-    bool blocked;      /* they can go no further */
+    int stage;     /* 0 ... stages - 1 */
+    double weight; /* s^2, factor of P in E */
+    double left;   /* part of the way of moved things, still to go; */
+    int part;      /* their parts so far, */
+    long before;   /* Newton's iterations before the first of them; */
+    bool blocked;  /* they can go no further */
 };
 
 /* The table; it ends with a row whose name is NULL. */

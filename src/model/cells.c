@@ -7,12 +7,12 @@
 #include "model/barrier.h"
 #include "model/elements.h"
 
-static int count(const Place *at)
+static int count(const EvalPoint *at)
 {
     return ((const Cells *)at->term->data)->triangles;
 }
 
-static int nodes(const Place *at, int t, int node[3])
+static int nodes(const EvalPoint *at, int t, int node[3])
 {
     const Cells *cells = at->term->data;
     memcpy(node, cells->node + 3 * t, 3 * sizeof *node);
@@ -21,7 +21,7 @@ static int nodes(const Place *at, int t, int node[3])
 
 /* Of a triangle that still has its three springs: a = e1, b = e2, s = J, which
  * a way changes by q way (|e1| + |e2| + way) at most, q = 1/(2 A0). */
-static bool get(const Place *at, int t, double way, Element *element)
+static bool get(const EvalPoint *at, int t, double way, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const Cells *cells = at->term->data;
@@ -47,14 +47,14 @@ static bool get(const Place *at, int t, double way, Element *element)
     return true;
 }
 
-static double value(const Place *at, const Element *element)
+static double value(const EvalPoint *at, const Element *element)
 {
     const Cells *cells = at->term->data;
     return cells->c * barrier_value(element->s / CELL_J_HAT);
 }
 
 /* grad J in e1 and e2 is (S e2, -S e1)/(2 A0) with S v = (v_y, -v_x). */
-static void gradient(const Place *at, const Element *element, double g[4])
+static void gradient(const EvalPoint *at, const Element *element, double g[4])
 {
     const Cells *cells = at->term->data;
     const double *e1 = element->v, *e2 = element->v + 2;
@@ -66,7 +66,7 @@ static void gradient(const Place *at, const Element *element, double g[4])
     g[3] = factor * e1[0];
 }
 
-static bool hessian(const Place *at, const Element *element, Filter filter,
+static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
                     double H[4][4])
 {
     const Cells *cells = at->term->data;
@@ -76,14 +76,15 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
     return area_hessian(element->v, q, 0, slope, bend, filter, H);
 }
 
-static double reach(const Place *at, const Element *element, const double P[4])
+static double reach(const EvalPoint *at, const Element *element,
+                    const double P[4])
 {
     const Cells *cells = at->term->data;
     return area_reach(element->v, 1 / (2 * cells->area),
                       ELEMENT_LIMIT * element->s, P);
 }
 
-static double remainder_along(const Place *at, const Element *element,
+static double remainder_along(const EvalPoint *at, const Element *element,
                               const double P[4], double alpha)
 {
     const Cells *cells = at->term->data;
@@ -97,7 +98,7 @@ static double remainder_along(const Place *at, const Element *element,
 
 /* The curvature where the barrier begins, and the force there if it went on
  * without bending: both by g = K e with sides of the rest length. */
-static void bounds(const Place *at, double *stiffest, double *force)
+static void bounds(const EvalPoint *at, double *stiffest, double *force)
 {
     const Cells *cells = at->term->data;
     double c = 2 * cells->c / CELL_J_HAT;

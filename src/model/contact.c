@@ -55,19 +55,19 @@ double contact_node_radius(const Contact *contact, int node)
 
 /* ---- the term ------------------------------------------------------------ */
 
-static const Barrier *barrier_of(const Place *at)
+static const Barrier *barrier_of(const EvalPoint *at)
 {
     return &((const Contact *)at->term->data)->barrier;
 }
 
 /* Obstacle by obstacle, node by node; s is d. */
-static int count(const Place *at)
+static int count(const EvalPoint *at)
 {
     const Contact *contact = at->term->data;
     return contact->obstacles * at->system->nodes;
 }
 
-static bool get(const Place *at, int i, double way, Element *element)
+static bool get(const EvalPoint *at, int i, double way, Element *element)
 {
     static const double difference[1][3] = {{1, -1}};
     const Contact *contact = at->term->data;
@@ -97,12 +97,12 @@ static bool get(const Place *at, int i, double way, Element *element)
 /* A node has its own block, and where there is a free ball shares it with the
  * ball; the ball itself shares it with a neighbour, so that all have as many
  * entries. */
-static int blocks(const Place *at)
+static int blocks(const EvalPoint *at)
 {
     return at->system->nodes;
 }
 
-static int nodes(const Place *at, int block, int node[3])
+static int nodes(const EvalPoint *at, int block, int node[3])
 {
     const Contact *contact = contact_of(at->system);
     node[0] = block;
@@ -114,14 +114,14 @@ static int nodes(const Place *at, int block, int node[3])
     return 2;
 }
 
-static double value(const Place *at, const Element *element)
+static double value(const EvalPoint *at, const Element *element)
 {
     const Barrier *barrier = barrier_of(at);
     return barrier->c * barrier_value(element->s / barrier->d_hat);
 }
 
 /* The force pushes the node along n and a free ball back. */
-static void gradient(const Place *at, const Element *element, double g[4])
+static void gradient(const EvalPoint *at, const Element *element, double g[4])
 {
     double factor = -at->w * contact_force(barrier_of(at), element->s);
     g[0] = factor * element->n[0];
@@ -130,7 +130,7 @@ static void gradient(const Place *at, const Element *element, double g[4])
 
 /* c f''/d_hat^2 n n^T, and where nothing is projected the ball's curvature
  * (c/d_hat) f'/r (I - n n^T), which is negative. */
-static bool hessian(const Place *at, const Element *element, Filter filter,
+static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
                     double H[4][4])
 {
     const Barrier *barrier = barrier_of(at);
@@ -150,7 +150,8 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
 /* A ball: |D + alpha P| = r - F d is the quadratic equation
  * a alpha^2 + 2 b alpha + c0 = 0, whose smaller root is written so that nothing
  * cancels. */
-static double reach(const Place *at, const Element *element, const double P[4])
+static double reach(const EvalPoint *at, const Element *element,
+                    const double P[4])
 {
     double d = element->s, F = ELEMENT_LIMIT;
     double pn = element->n[0] * P[0] + element->n[1] * P[1];
@@ -167,7 +168,7 @@ static double reach(const Place *at, const Element *element, const double P[4])
 
 /* Along P the distance of a ball's centre changes by pn + k, where k is what
  * the motion across adds: sqrt((r + pn)^2 + pt^2) - (r + pn). */
-static double remainder_along(const Place *at, const Element *element,
+static double remainder_along(const EvalPoint *at, const Element *element,
                               const double P[4], double alpha)
 {
     const Barrier *barrier = barrier_of(at);
@@ -184,7 +185,7 @@ static double remainder_along(const Place *at, const Element *element,
 }
 
 /* Where the barrier begins: 2 c/d_hat^2, and the force 2 c/d_hat half way. */
-static void bounds(const Place *at, double *stiffest, double *force)
+static void bounds(const EvalPoint *at, double *stiffest, double *force)
 {
     const Barrier *barrier = barrier_of(at);
     double half_way = 2 * barrier->c / barrier->d_hat;
@@ -192,7 +193,7 @@ static void bounds(const Place *at, double *stiffest, double *force)
     bound_raise(force, half_way);
 }
 
-static double rub(const Place *at, const Element *element, double t[4],
+static double rub(const EvalPoint *at, const Element *element, double t[4],
                   double *carry)
 {
     const Contact *contact = at->term->data;

@@ -36,10 +36,10 @@ static void end(const TermStep *step)
 }
 
 /* Those of springs, with the numbers of the last step. */
-static void bounds(const Place *at, double *stiffest, double *force)
+static void bounds(const EvalPoint *at, double *stiffest, double *force)
 {
     const Damping *data = at->term->data;
-    Place damped = *at;
+    EvalPoint damped = *at;
     damped.k = data->k;
     damped.l2 = data->l2;
     mass_spring_bounds(&damped, stiffest, force);

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-ElementWalk elements_from(const Place *at, const double *p, double alpha)
+ElementWalk elements_from(const EvalPoint *at, const double *p, double alpha)
 {
     const ElementKind *kind = at->term->kind->element;
     double most = 0;
@@ -36,7 +36,7 @@ static void element_add(const Element *element, double factor,
     }
 }
 
-double elements_value(const Place *at)
+double elements_value(const EvalPoint *at)
 {
     double sum = 0;
     for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);)
@@ -44,7 +44,7 @@ double elements_value(const Place *at)
     return sum;
 }
 
-void elements_gradient(const Place *at, double *g)
+void elements_gradient(const EvalPoint *at, double *g)
 {
     double own[4];
     for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
@@ -60,19 +60,19 @@ static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
 
 /* Of a block in one triangle of the Hessian; all have room for the most nodes.
  */
-static int entries_of_a_block(const Place *at)
+static int entries_of_a_block(const EvalPoint *at)
 {
     int node[3], nodes = at->term->kind->element->nodes(at, 0, node);
     return nodes * (2 * nodes + 1);
 }
 
-long long elements_entries(const Place *at)
+long long elements_entries(const EvalPoint *at)
 {
     return (long long)entries_of_a_block(at) *
            at->term->kind->element->blocks(at);
 }
 
-void elements_pattern(const Place *at, Triplets *triplets)
+void elements_pattern(const EvalPoint *at, Triplets *triplets)
 {
     const ElementKind *kind = at->term->kind->element;
     int node[3], blocks = kind->blocks(at);
@@ -110,7 +110,7 @@ static inline void add_block(const Element *element, int vectors,
     }
 }
 
-int elements_hessian(const Place *at, Filter filter, const int *slot,
+int elements_hessian(const EvalPoint *at, Filter filter, const int *slot,
                      const double *q, double *out)
 {
     int projected = 0, entries = entries_of_a_block(at);
@@ -133,7 +133,7 @@ int elements_hessian(const Place *at, Filter filter, const int *slot,
     return projected;
 }
 
-double elements_remainder(const Place *at, const double *p, double alpha)
+double elements_remainder(const EvalPoint *at, const double *p, double alpha)
 {
     double sum = 0, P[4];
     for (ElementWalk walk = elements_from(at, p, alpha);
@@ -144,7 +144,7 @@ double elements_remainder(const Place *at, const double *p, double alpha)
     return at->w * sum;
 }
 
-double elements_reach(const Place *at, const double *p)
+double elements_reach(const EvalPoint *at, const double *p)
 {
     double smallest = INFINITY, P[4];
     ElementWalk walk = elements_from(at, p, 1);
@@ -156,7 +156,7 @@ double elements_reach(const Place *at, const double *p)
     return smallest;
 }
 
-bool elements_allowed(const Place *at)
+bool elements_allowed(const EvalPoint *at)
 {
     ElementWalk walk = elements_from(at, NULL, 0);
     while (walk.kind->reach && elements_next(&walk))
@@ -167,7 +167,7 @@ bool elements_allowed(const Place *at)
 
 /* What clamping adds to an element's Hessian is at most its trace times I; and
  * |sum w_k x_k|^2 <= (sum |w_k|) sum |w_k| |x_k|^2 */
-void elements_concave(const Place *at, double *sum)
+void elements_concave(const EvalPoint *at, double *sum)
 {
     double H[4][4], clamped[4][4];
     for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {

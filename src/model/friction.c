@@ -82,11 +82,11 @@ static double slid(const Slide *slide, const double *u)
     return along(&slide->row, vectors) - slide->carry;
 }
 
-/* The term whose elements rub here; a place that asks it. */
-static Place place_of_source(const Place *at)
+/* The same point for the term whose elements rub here. */
+static EvalPoint point_of_source(const EvalPoint *at)
 {
     bool obstacles = at->term->kind == &friction_energy;
-    Place source = *at;
+    EvalPoint source = *at;
     source.term = system_find_term(
         at->system, obstacles ? &contact_energy : &self_contact_energy);
     return source;
@@ -96,9 +96,9 @@ static Place place_of_source(const Place *at)
 static Status begin(const TermStep *step)
 {
     Friction *friction = step->term->data;
-    Place at = place_at(step->system, step->x, NULL, step->x);
+    EvalPoint at = eval_point_at(step->system, step->x, NULL, step->x);
     at.term = step->term;
-    at = place_of_source(&at);
+    at = point_of_source(&at);
     friction->e = friction->slip_speed * step->h;
     friction->slides = 0;
     for (ElementWalk walk = elements_from(&at, NULL, 0);
@@ -139,18 +139,18 @@ static void end(const TermStep *step)
     }
 }
 
-static const Friction *friction_of(const Place *at)
+static const Friction *friction_of(const EvalPoint *at)
 {
     return at->term->data;
 }
 
-static int count(const Place *at)
+static int count(const EvalPoint *at)
 {
     return friction_of(at)->slides;
 }
 
 /* s is y.  Nothing of it is stored: outside of a step (u NULL) it is 0. */
-static bool get(const Place *at, int i, double way, Element *element)
+static bool get(const EvalPoint *at, int i, double way, Element *element)
 {
     const Slide *slide = &friction_of(at)->slide[i];
     (void)way;
@@ -162,24 +162,24 @@ static bool get(const Place *at, int i, double way, Element *element)
 }
 
 /* The blocks are those of the contact. */
-static int blocks(const Place *at)
+static int blocks(const EvalPoint *at)
 {
-    Place source = place_of_source(at);
+    EvalPoint source = point_of_source(at);
     return source.term->kind->element->blocks(&source);
 }
 
-static int nodes(const Place *at, int block, int node[3])
+static int nodes(const EvalPoint *at, int block, int node[3])
 {
-    Place source = place_of_source(at);
+    EvalPoint source = point_of_source(at);
     return source.term->kind->element->nodes(&source, block, node);
 }
 
-static double value(const Place *at, const Element *element)
+static double value(const EvalPoint *at, const Element *element)
 {
     return element->r * friction_value(element->s, friction_of(at)->e);
 }
 
-static void gradient(const Place *at, const Element *element, double g[4])
+static void gradient(const EvalPoint *at, const Element *element, double g[4])
 {
     double force =
         at->w * element->r * friction_slope(element->s, friction_of(at)->e);
@@ -188,7 +188,7 @@ static void gradient(const Place *at, const Element *element, double g[4])
 }
 
 /* mu lambda f0'' t t^T, never negative */
-static bool hessian(const Place *at, const Element *element, Filter filter,
+static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
                     double H[4][4])
 {
     double bend =
@@ -200,7 +200,7 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
     return false;
 }
 
-static double remainder_along(const Place *at, const Element *element,
+static double remainder_along(const EvalPoint *at, const Element *element,
                               const double P[4], double alpha)
 {
     return element->r * friction_remainder(element->s,

@@ -3,7 +3,7 @@
 #include <math.h>
 
 /* sum l2 k/2 s^2 */
-static double value(const Place *at)
+static double value(const EvalPoint *at)
 {
     const System *system = at->system;
     double sum = 0, d[2];
@@ -15,7 +15,7 @@ static double value(const Place *at)
 }
 
 /* grad_i P = 2 k s d, grad_j P = -2 k s d */
-static void gradient(const Place *at, double *g)
+static void gradient(const EvalPoint *at, double *g)
 {
     const System *system = at->system;
     for (int i = 0; i < system->springs; i++) {
@@ -25,24 +25,16 @@ static void gradient(const Place *at, double *g)
     }
 }
 
-static int hessian(const Place *at, Filter filter, const int *slot,
+static int hessian(const EvalPoint *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
     const System *system = at->system;
-    Filter own = at->x_too ? FILTER_NONE : filter;
     int projected = 0;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
-        double d[2], H[3], too[3], l2 = at->l2[s], k = at->k[s];
-        spring_strain(e, l2, at->x, d);
-        projected += spring_hessian(d, l2, at->w * k, own, H);
-        if (at->x_too) { /* the sum of both is projected */
-            spring_strain(e, l2, at->x_too, d);
-            spring_hessian(d, l2, at->w_too * k, FILTER_NONE, too);
-            for (int c = 0; c < 3; c++)
-                H[c] += too[c];
-            projected += filter_2x2(filter, H) && k > 0;
-        }
+        double d[2], H[3];
+        spring_strain(e, at->l2[s], at->x, d);
+        projected += spring_hessian(d, at->l2[s], at->w * at->k[s], filter, H);
         mass_spring_add(H, e, s, slot, q, out);
     }
     return projected;
@@ -51,7 +43,7 @@ static int hessian(const Place *at, Filter filter, const int *slot,
 /* With q = p_i - p_j, B = 2 d.q/l2 and C = |q|^2/l2 a spring's strain along
  * the direction is s + alpha B + alpha^2 C, so its energy
  * l2 k/2 (s + alpha B + alpha^2 C)^2 has the coefficients below. */
-static void along(const Place *at, const double *p, double q[3])
+static void along(const EvalPoint *at, const double *p, double q[3])
 {
     const System *system = at->system;
     const double *x = at->x, *l2 = at->l2, w = at->w;
@@ -71,7 +63,7 @@ static void along(const Place *at, const double *p, double q[3])
 
 /* Every spring's block is at least -2 c (|x_i|^2 + |x_j|^2), where -c is the
  * lower eigenvalue of its H. */
-static void concave(const Place *at, double *sum)
+static void concave(const EvalPoint *at, double *sum)
 {
     const System *system = at->system;
     for (int s = 0; s < system->springs; s++) {
@@ -83,12 +75,12 @@ static void concave(const Place *at, double *sum)
     }
 }
 
-long long mass_spring_entries(const Place *at)
+long long mass_spring_entries(const EvalPoint *at)
 {
     return (long long)SPRING_ENTRIES * at->system->springs;
 }
 
-void mass_spring_pattern(const Place *at, Triplets *triplets)
+void mass_spring_pattern(const EvalPoint *at, Triplets *triplets)
 {
     for (int s = 0; s < at->system->springs; s++) {
         int i = at->system->e[2 * s], j = at->system->e[2 * s + 1];
@@ -98,7 +90,7 @@ void mass_spring_pattern(const Place *at, Triplets *triplets)
     }
 }
 
-void mass_spring_bounds(const Place *at, double *stiffest, double *force)
+void mass_spring_bounds(const EvalPoint *at, double *stiffest, double *force)
 {
     for (int s = 0; s < at->system->springs; s++) {
         bound_raise(stiffest, at->k[s]);

@@ -9,12 +9,12 @@
 #include "model/elements.h"
 #include "model/mass_spring_energy.h"
 
-static int count(const Place *at)
+static int count(const EvalPoint *at)
 {
     return ((const NeoHookean *)at->term->data)->triangles;
 }
 
-static int nodes(const Place *at, int t, int node[3])
+static int nodes(const EvalPoint *at, int t, int node[3])
 {
     const NeoHookean *data = at->term->data;
     memcpy(node, data->node[t], 3 * sizeof *node);
@@ -22,7 +22,7 @@ static int nodes(const Place *at, int t, int node[3])
 }
 
 /* a = f1, b = f2, s = J. */
-static bool get(const Place *at, int t, double way, Element *element)
+static bool get(const EvalPoint *at, int t, double way, Element *element)
 {
     const NeoHookean *data = at->term->data;
     (void)way; /* each triangle has a force */
@@ -47,7 +47,7 @@ static double slope_in_J(const NeoHookean *data, double J)
     return (data->lambda * math_log(J) - data->mu) / J;
 }
 
-static double value(const Place *at, const Element *element)
+static double value(const EvalPoint *at, const Element *element)
 {
     const NeoHookean *data = at->term->data;
     double L = math_log(element->s);
@@ -56,7 +56,7 @@ static double value(const Place *at, const Element *element)
 }
 
 /* mu F + dW/dJ grad J, grad J = (S f2, -S f1) with S v = (v_y, -v_x). */
-static void gradient(const Place *at, const Element *element, double g[4])
+static void gradient(const EvalPoint *at, const Element *element, double g[4])
 {
     const NeoHookean *data = at->term->data;
     const double *f = element->v;
@@ -68,7 +68,7 @@ static void gradient(const Place *at, const Element *element, double g[4])
     g[3] = mu * f[3] + c1 * f[0];
 }
 
-static bool hessian(const Place *at, const Element *element, Filter filter,
+static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
                     double H[4][4])
 {
     const NeoHookean *data = at->term->data;
@@ -81,7 +81,7 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
 
 /* With J + alpha J1 + alpha^2 J2 = J (1 + z), and ln(1 + z) less its part of
  * degree 1 in alpha, nothing cancels. */
-static double remainder_along(const Place *at, const Element *element,
+static double remainder_along(const EvalPoint *at, const Element *element,
                               const double P[4], double alpha)
 {
     const NeoHookean *data = at->term->data;
@@ -96,7 +96,8 @@ static double remainder_along(const Place *at, const Element *element,
             0.5 * data->lambda * (2 * math_log(J) * t + L * L));
 }
 
-static double reach(const Place *at, const Element *element, const double P[4])
+static double reach(const EvalPoint *at, const Element *element,
+                    const double P[4])
 {
     (void)at;
     return area_reach(element->v, 1, ELEMENT_LIMIT * element->s, P);
@@ -104,7 +105,7 @@ static double reach(const Place *at, const Element *element, const double P[4])
 
 /* At F = I the Hessian is mu (I - K) + (lambda + mu) (K f)(K f)^T; a node has
  * the weights 1/l of a triangle's height l. */
-static void bounds(const Place *at, double *stiffest, double *force)
+static void bounds(const EvalPoint *at, double *stiffest, double *force)
 {
     const NeoHookean *data = at->term->data;
     double size = 4 * data->mu + 2 * data->lambda;

@@ -65,7 +65,7 @@ typedef struct FlowSpring {
     SpringLaw law;
 } FlowSpring;
 
-static inline FlowSpring flow_spring(const Place *at, int s)
+static inline FlowSpring flow_spring(const EvalPoint *at, int s)
 {
     const Damping *damping = at->damping;
     FlowSpring spring = {.e = at->system->e + 2 * s,
@@ -79,7 +79,7 @@ static inline FlowSpring flow_spring(const Place *at, int s)
     return spring;
 }
 
-static double value(const Place *at)
+static double value(const EvalPoint *at)
 {
     const Plasticity *data = at->term->data;
     double sum = 0;
@@ -94,7 +94,7 @@ static double value(const Place *at)
 }
 
 /* 2 k tau d */
-static void gradient(const Place *at, double *g)
+static void gradient(const EvalPoint *at, double *g)
 {
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
@@ -107,7 +107,7 @@ static void gradient(const Place *at, double *g)
 
 /* d is an eigenvector, with (2k/l2) (2 tau' |d|^2 + l2 tau); across it is
  * (2k/l2) l2 tau. */
-static int hessian(const Place *at, Filter filter, const int *slot,
+static int hessian(const EvalPoint *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
     int projected = 0;
@@ -143,7 +143,7 @@ static inline void strain_along(const FlowSpring *spring, const double *p,
     *C = (P[0] * P[0] + P[1] * P[1]) / spring->l2;
 }
 
-static void along(const Place *at, const double *p, double q[3])
+static void along(const EvalPoint *at, const double *p, double q[3])
 {
     double B, C;
     for (int s = 0; s < at->system->springs; s++) {
@@ -158,7 +158,8 @@ static void along(const Place *at, const double *p, double q[3])
  * ... t, mirrored so that t >= 0.  V'' is hard + theta everywhere, and flow
  * more where the spring is elastic.  Nothing is subtracted but ends of the way.
  */
-static double remainder_along(const Place *at, const double *p, double alpha)
+static double remainder_along(const EvalPoint *at, const double *p,
+                              double alpha)
 {
     double sum = 0, B, C;
     for (int s = 0; s < at->system->springs; s++) {
@@ -183,7 +184,7 @@ static void end(const TermStep *step)
 {
     System *system = step->system;
     Plasticity *data = step->term->data;
-    Place at = place_at(system, step->x, NULL, step->x);
+    EvalPoint at = eval_point_at(system, step->x, NULL, step->x);
     bool changed = false;
     at.term = step->term;
     for (int s = 0; s < system->springs; s++) {
@@ -202,7 +203,7 @@ static void end(const TermStep *step)
 }
 
 /* Where tau < 0 the lower eigenvalue of H is 2 k tau at least. */
-static void concave(const Place *at, double *sum)
+static void concave(const EvalPoint *at, double *sum)
 {
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);

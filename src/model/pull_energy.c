@@ -3,7 +3,7 @@
 #include <math.h>
 
 /* k/2 |x - o|^2 */
-static double value(const Place *at)
+static double value(const EvalPoint *at)
 {
     const Pull *pull = at->term->data;
     double sum = 0;
@@ -15,7 +15,7 @@ static double value(const Place *at)
 }
 
 /* w k (x - o); with a huge k, w keeps it below overflow. */
-static void gradient(const Place *at, double *g)
+static void gradient(const EvalPoint *at, double *g)
 {
     const Pull *pull = at->term->data;
     for (int i = 0; i < 2; i++)
@@ -23,24 +23,24 @@ static void gradient(const Place *at, double *g)
             at->w * pull->k * (at->x[2 * pull->node + i] - pull->target[i]);
 }
 
-static long long entries(const Place *at)
+static long long entries(const EvalPoint *at)
 {
     (void)at;
     return 2;
 }
 
-static void pattern(const Place *at, Triplets *triplets)
+static void pattern(const EvalPoint *at, Triplets *triplets)
 {
     const Pull *pull = at->term->data;
     term_add_diagonal(at->system, pull->node, triplets);
 }
 
 /* It is never negative. */
-static int hessian(const Place *at, Filter filter, const int *slot,
+static int hessian(const EvalPoint *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
     const Pull *pull = at->term->data;
-    double k = (at->w + at->w_too) * pull->k;
+    double k = at->w * pull->k;
     (void)filter;
     for (int i = 0; i < 2; i++)
         if (q)
@@ -50,14 +50,14 @@ static int hessian(const Place *at, Filter filter, const int *slot,
     return 0;
 }
 
-static void along(const Place *at, const double *p, double q[3])
+static void along(const EvalPoint *at, const double *p, double q[3])
 {
     const Pull *pull = at->term->data;
     for (int i = 2 * pull->node; i < 2 * pull->node + 2; i++)
         q[0] += 0.5 * at->w * pull->k * p[i] * p[i];
 }
 
-static void bounds(const Place *at, double *stiffest, double *force)
+static void bounds(const EvalPoint *at, double *stiffest, double *force)
 {
     const Pull *pull = at->term->data;
     (void)force;

@@ -8,7 +8,7 @@
 #include "model/area.h"
 #include "model/barrier.h"
 
-static SelfContact *data_of(const Place *at)
+static SelfContact *data_of(const EvalPoint *at)
 {
     return at->term->data;
 }
@@ -84,7 +84,7 @@ static Status begin(const TermStep *step)
     return STATUS_OK;
 }
 
-static Status grow(const Place *at, bool *grown)
+static Status grow(const EvalPoint *at, bool *grown)
 {
     SelfContact *self = data_of(at);
     Status status = STATUS_OK;
@@ -98,7 +98,7 @@ static Status grow(const Place *at, bool *grown)
     return status;
 }
 
-static int blocks(const Place *at)
+static int blocks(const EvalPoint *at)
 {
     return data_of(at)->pairs;
 }
@@ -111,7 +111,7 @@ static int nodes_of(const System *system, SelfPair pair, int node[3])
     return 3;
 }
 
-static int nodes(const Place *at, int block, int node[3])
+static int nodes(const EvalPoint *at, int block, int node[3])
 {
     const SelfContact *self = data_of(at);
     return self->pairs == 0 ? 0 : nodes_of(at->system, self->pair[block], node);
@@ -119,14 +119,14 @@ static int nodes(const Place *at, int block, int node[3])
 
 /* ---- elements ----------------------------------------------------------- */
 
-static void look(const Place *at, const double *p, double alpha)
+static void look(const EvalPoint *at, const double *p, double alpha)
 {
     SelfContact *self = data_of(at);
     boundary_sort(&self->boundary, at->system, at->x, p, alpha,
                   0.5 * self->d_hat);
 }
 
-static int count(const Place *at)
+static int count(const EvalPoint *at)
 {
     return data_of(at)->boundary.points;
 }
@@ -169,7 +169,7 @@ static bool is_lost(const SelfContact *self, const Element *element,
 
 /* Point i and, where it is asked for again, the next edge.  `way` is in the
  * boxes; without one what is not near has no force. */
-static bool get(const Place *at, int i, double way, Element *element)
+static bool get(const EvalPoint *at, int i, double way, Element *element)
 {
     static const double differences[2][3] = {{1, -1, 0}, {0, -1, 1}};
     SelfContact *self = data_of(at);
@@ -196,7 +196,7 @@ static bool get(const Place *at, int i, double way, Element *element)
     return false;
 }
 
-static double value(const Place *at, const Element *element)
+static double value(const EvalPoint *at, const Element *element)
 {
     return data_of(at)->c * barrier_value(element->s);
 }
@@ -208,7 +208,7 @@ static double force(const SelfContact *self, double S)
 }
 
 /* d changes by n.(dq - r de). */
-static void gradient(const Place *at, const Element *element, double g[4])
+static void gradient(const EvalPoint *at, const Element *element, double g[4])
 {
     double F = force(data_of(at), element->s);
     for (int i = 0; i < 4; i++)
@@ -218,7 +218,7 @@ static void gradient(const Place *at, const Element *element, double g[4])
 /* With w = dq - r de, t along the edge and e_n = n.de: W'' w_n^2, which is
  * never negative, and beside the edge F (2 w_t e_n/|e| + d e_n^2/|e|^2), past
  * an end -F/d w_t^2: a 2x2 matrix in (w_t, e_n), which is projected. */
-static bool hessian(const Place *at, const Element *element, Filter filter,
+static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
                     double H[4][4])
 {
     const SelfContact *self = data_of(at);
@@ -266,7 +266,7 @@ static double ratio_change(Along2 top, Along2 l, bool always, double *first)
            end;
 }
 
-static double remainder_along(const Place *at, const Element *element,
+static double remainder_along(const EvalPoint *at, const Element *element,
                               const double P[4], double alpha)
 {
     const SelfContact *self = data_of(at);
@@ -293,7 +293,8 @@ static double remainder_along(const Place *at, const Element *element,
  * between its ends: a quadratic equation.  (Both at once along one line, which
  * no root tells, happens to edges beside each other: there another edge at the
  * same end tells.) */
-static double reach(const Place *at, const Element *element, const double P[4])
+static double reach(const EvalPoint *at, const Element *element,
+                    const double P[4])
 {
     static const double ENDS = 1e-9; /* of an edge: rounding of its ends */
     const double *q = element->v, *e = element->v + 2, *dq = P, *de = P + 2;
@@ -317,7 +318,7 @@ static double reach(const Place *at, const Element *element, const double P[4])
 }
 
 /* mu F; slides with w_t. */
-static double rub(const Place *at, const Element *element, double t[4],
+static double rub(const EvalPoint *at, const Element *element, double t[4],
                   double *carry)
 {
     const SelfContact *self = data_of(at);
@@ -337,7 +338,7 @@ static const ElementKind near_pairs = {ELEMENT_FUNCTIONS, .blocks = blocks,
 /* ---- the term ----------------------------------------------------------- */
 
 /* Where the barrier begins: 16 c/d_hat^2, and the force half way. */
-static void bounds(const Place *at, double *stiffest, double *force_out)
+static void bounds(const EvalPoint *at, double *stiffest, double *force_out)
 {
     const SelfContact *self = data_of(at);
     bound_raise(stiffest, 16 * self->c / (self->d_hat * self->d_hat));

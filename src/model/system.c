@@ -111,34 +111,29 @@ static bool is_positive(double value)
     return isnormal(value) && value > 0;
 }
 
-Place place_at(const System *system, const double *x_n, const double *u,
-               const double *x)
+EvalPoint eval_point_at(const System *system, const double *x_n,
+                        const double *u, const double *x)
 {
     const Damping *damped = u ? system_data(system, &damping) : NULL;
-    return (Place){.system = system,
-                   .w = 1,
-                   .x_n = x_n,
-                   .u = u,
-                   .x = x,
-                   .damping = damped,
-                   .k = damped ? damped->k : system->k,
-                   .l2 = damped ? damped->l2 : system->l2};
+    return (EvalPoint){.system = system,
+                       .w = 1,
+                       .x_n = x_n,
+                       .u = u,
+                       .x = x,
+                       .damping = damped,
+                       .k = damped ? damped->k : system->k,
+                       .l2 = damped ? damped->l2 : system->l2};
 }
 
-const TermKind *next_energy(Place *at)
+const TermKind *eval_point_term(EvalPoint *at, int t)
 {
-    const System *system = at->system;
-    const Term *end = system->term + system->terms;
-    const Term *term = at->term ? at->term + 1 : system->term;
-    while (term < end && !term->kind->value)
-        term++;
-    at->term = term < end ? term : NULL;
-    return at->term ? at->term->kind : NULL;
+    at->term = &at->system->term[t];
+    return at->term->kind;
 }
 
 Status system_check(const System *system, const double *x)
 {
-    Place at = place_at(system, x, NULL, x);
+    EvalPoint at = eval_point_at(system, x, NULL, x);
     double stiffest, force;
     bool valid = all_finite(system->gravity, 2) &&
                  all_finite(x, 2 * (size_t)system->nodes);
@@ -151,26 +146,30 @@ Status system_check(const System *system, const double *x)
                 i != j && is_positive(l2) &&
                 (k == 0 || (is_positive(k) && is_positive(k / l2)));
     }
-    for (const TermKind *kind; valid && (kind = next_energy(&at));)
+    for (int t = 0; valid && t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         valid = !kind->allowed || kind->allowed(&at);
+    }
     system_bounds(system, &stiffest, &force);
     return valid && isfinite(stiffest) && isfinite(force)
                ? STATUS_OK
                : STATUS_INVALID_INPUT;
 }
 
-double system_reach(Place at, const double *p, bool internal)
+double system_reach(EvalPoint at, const double *p, bool internal)
 {
     double reach = INFINITY;
-    for (const TermKind *kind; (kind = next_energy(&at));)
+    for (int t = 0; t < at.system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         if (kind->reach && (kind->internal || !internal))
             reach = fmin(reach, kind->reach(&at, p));
+    }
     return reach;
 }
 
 bool system_lets_pass(const System *system, const double *x, const double *p)
 {
-    return system_reach(place_at(system, NULL, NULL, x), p, true) > 1;
+    return system_reach(eval_point_at(system, NULL, NULL, x), p, true) > 1;
 }
 
 bool system_has_gravity(const System *system)
@@ -195,10 +194,13 @@ double system_gravity_potential(const System *system, const double *x)
 
 double system_potential(const System *system, const double *x)
 {
-    Place at = place_at(system, x, NULL, x);
+    EvalPoint at = eval_point_at(system, x, NULL, x);
     double sum = 0;
-    for (const TermKind *kind; (kind = next_energy(&at));)
-        sum += kind->value(&at);
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->value)
+            sum += kind->value(&at);
+    }
     return sum;
 }
 
@@ -219,12 +221,15 @@ bool system_is_free(const System *system)
 
 void system_acceleration(const System *system, const double *x, double *a)
 {
-    Place at = place_at(system, x, NULL, x);
+    EvalPoint at = eval_point_at(system, x, NULL, x);
     at.w = -1;
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
-    for (const TermKind *kind; (kind = next_energy(&at));)
-        kind->gradient(&at, a);
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->gradient)
+            kind->gradient(&at, a);
+    }
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = a[i] / system->m[i / 2] + system->gravity[i % 2];
     system_clear_pinned(system, a);
@@ -232,12 +237,12 @@ void system_acceleration(const System *system, const double *x, double *a)
 
 void system_bounds(const System *system, double *stiffest, double *force)
 {
-    Place at = place_at(system, NULL, NULL, NULL);
+    EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
     *stiffest = *force = 0;
     for (int t = 0; t < system->terms; t++) {
-        at.term = &system->term[t];
-        if (at.term->kind->bounds)
-            at.term->kind->bounds(&at, stiffest, force);
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->bounds)
+            kind->bounds(&at, stiffest, force);
     }
 }
 

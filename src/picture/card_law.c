@@ -20,7 +20,7 @@
 
 /* One element, and what its law needs. */
 typedef struct LawNow {
-    Place at;
+    EvalPoint at;
     Element element;
     SpringLaw spring;
     double reach;   /* the unit of the axis */
@@ -140,7 +140,7 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
     const Term *term = law ? system_find_term(system, law->kind) : NULL;
     if (!term)
         return NULL;
-    *most = (LawNow){.at = place_at(system, x, NULL, x),
+    *most = (LawNow){.at = eval_point_at(system, x, NULL, x),
                      .reach = 1,
                      .x = NAN,
                      .felt = -INFINITY};

@@ -57,10 +57,8 @@ static const struct {
              {"backward-euler", 0xff0072b2u},
              {"verlet", 0xffb0559au},
              {"midpoint", 0xff7a5c2eu},
-             {"avf4", 0xff56b4e9u},
              {"bdf2", 0xff8a7a00u},
-             {"sdirk2", 0xff5a4fa2u},
-             {"avf", 0xff444444u}};
+             {"sdirk2", 0xff5a4fa2u}};
 
 Colour colour_named(const char *name, size_t length)
 {

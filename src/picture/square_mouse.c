@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "model/contact.h"
-#include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
@@ -107,12 +106,14 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     const double *ghost = pane->trace ? pane->trace->x_tilde : NULL;
     double h = simulation->options.timestep, force[2], tilde[2];
     double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
-    Place at = place_at(system, pane_x(pane), NULL, pane_x(pane));
+    EvalPoint at = eval_point_at(system, pane_x(pane), NULL, pane_x(pane));
     Facts facts = {0};
     at.w = -1;
-    for (const TermKind *kind; f && (kind = next_energy(&at));)
-        if (kind != &friction_energy) /* it has no energy outside of a step */
+    for (int t = 0; f && t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->gradient)
             kind->gradient(&at, f);
+    }
     for (int k = 0; k < 2; k++) {
         force[k] =
             f ? f[2 * node + k] + system->m[node] * system->gravity[k] : NAN;

@@ -64,7 +64,7 @@ SpringPen square_pen(Plot *stage, int run)
         if (!system->pinned[i])
             pen.fixed &= ~(1u << square_mesh_body(mesh, &node));
     }
-    pen.contacts = place_at(system, NULL, NULL, pen.x);
+    pen.contacts = eval_point_at(system, NULL, NULL, pen.x);
     pen.contacts.term = system_find_term(system, &contact_energy);
     pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
     pen.width = fmax(1 / unit, pen.width);

@@ -26,7 +26,7 @@ typedef struct SpringPen {
     bool plastic;           /* they are of the plastic strain ... */
     const double *ep;       /* [springs] of each; NULL: springs do not flow */
     const Contact *contact; /* NULL: there is nothing to touch */
-    Place contacts;         /* the place that tells of them */
+    EvalPoint contacts;     /* the place that tells of them */
     bool projected;         /* springs whose block was changed are lit */
     unsigned fixed;         /* bit b: of several bodies b has pins alone, and is
                                drawn as walls are */

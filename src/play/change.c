@@ -19,11 +19,10 @@ Status player_own_options(Player *player, const char *scene,
 {
     const Options *given = &player->given[0];
     *count = 1;
-    Status status =
-        page ? lecture_options(page, options, player->message,
-                               sizeof player->message)
-             : options_of_line(scene, options, player->message,
-                               sizeof player->message);
+    Status status = page ? lecture_options(page, options, player->message,
+                                           sizeof player->message)
+                         : options_of_line(scene, options, player->message,
+                                           sizeof player->message);
     if (status)
         return status;
     options->big = given->big;
@@ -444,8 +443,8 @@ Status obey_switch(Player *player, const Command *command)
     return player_ask_set(player, row, was_off ? on : off);
 }
 
-/* The next row of the table of integrators that all terms allow, and that is in
- * no pane, for this one.  NULL: refused. */
+/* The next method of the table for this pane: key M reaches it, all terms allow
+ * it, and no pane has it.  NULL: refused. */
 static const IntegratorMethod *find_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.machine[pane].simulation;
@@ -453,7 +452,8 @@ static const IntegratorMethod *find_method(Player *player, int pane)
     bool time = simulation->scene->needs & NEEDS_TIME, taken;
     do {
         next = next[1].name ? next + 1 : &integrator_methods[0];
-        taken = integrator_method_refuses(next, &simulation->system);
+        taken = next->by_name ||
+                integrator_method_refuses(next, &simulation->system);
         for (int p = 0; p < past_panes(&player->past); p++)
             taken = taken ||
                     player->past.machine[p].simulation.run[0].method == next;
@@ -463,7 +463,7 @@ static const IntegratorMethod *find_method(Player *player, int pane)
     if (time && next != own)
         return next;
     player_refuse(player,
-                  time ? "no other method knows all terms of this scene"
+                  time ? "key M has no other method for this scene"
                        : "no time passes here: there is no other method");
     return NULL;
 }

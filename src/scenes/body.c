@@ -352,8 +352,9 @@ const char *body_needs_end_of_step(const Options *options)
  *   x  [2n] m */
 static Status check_places(const System *system, const double *x, Refusal told)
 {
-    Place at = place_at(system, NULL, NULL, x);
-    for (const TermKind *kind; (kind = next_energy(&at));) {
+    EvalPoint at = eval_point_at(system, NULL, NULL, x);
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         if (!kind->element || !kind->element->reach)
             continue;
         ElementWalk walk = elements_from(&at, NULL, 0);

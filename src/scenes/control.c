@@ -141,7 +141,7 @@ static Status use_hand(Simulation *simulation, const Control *control)
 {
     static const double TIMES = 1000;
     System *system = &simulation->system;
-    Place at = place_at(system, NULL, NULL, NULL);
+    EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
     Pull wanted = {.node = control->hand, .cell = INFINITY};
     double k = 0, force = 0;
     if (wanted.node < 0) {

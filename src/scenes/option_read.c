@@ -87,6 +87,12 @@ typedef struct Gone {
  * the row goes, and the last one takes this table along. */
 static const Gone gone[] = {
     {"vtk", "", "--states and --springs write each step as CSV"},
+    {"integrator", "avf",
+     "verlet, or midpoint with a small --tolerance, keeps the energy in the "
+     "mean"},
+    {"integrator", "avf4",
+     "verlet, or midpoint with a small --tolerance, keeps the energy in the "
+     "mean"},
     {NULL, NULL, NULL},
 };
 

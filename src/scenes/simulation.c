@@ -196,8 +196,9 @@ Energies simulation_energies(const Simulation *simulation, int run)
     energies.total = energies.kinetic + energies.gravity;
     book(&energies, "total", 0);
     book(&energies, "kinetic", energies.kinetic);
-    Place at = place_at(system, NULL, NULL, x);
-    for (const TermKind *kind; (kind = next_energy(&at)) != NULL;) {
+    EvalPoint at = eval_point_at(system, NULL, NULL, x);
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         double value = kind->energy ? kind->value(&at) : 0;
         energies.total += value;
         if (kind->energy)
@@ -329,7 +330,7 @@ double simulation_fastest(const Simulation *simulation, const double *x,
                           double *mode)
 {
     const System *system = &simulation->system;
-    Place at = place_at(system, NULL, NULL, x);
+    EvalPoint at = eval_point_at(system, NULL, NULL, x);
     double omega2 = NAN;
     int n = 2 * system->nodes;
     if (n > ROOM)
@@ -343,9 +344,11 @@ double simulation_fastest(const Simulation *simulation, const double *x,
         for (int i = 0; i < n; i++)
             mode[i] /= sqrt(size);
         double pulled[ROOM] = {0}; /* M^-1 H mode, 1/s^2 */
-        for (const TermKind *kind; (kind = next_energy(&at)) != NULL;)
+        for (int t = 0; t < system->terms; t++) {
+            const TermKind *kind = eval_point_term(&at, t);
             if (kind->hessian)
                 kind->hessian(&at, FILTER_NONE, NULL, mode, pulled);
+        }
         for (int i = 0; i < n; i++)
             pulled[i] /= system->m[i / 2];
         system_clear_pinned(system, pulled);

@@ -36,8 +36,7 @@ const IntegratorMethod *race_method(int i)
 {
     static const char *const names[RACE_METHODS] = {
         "forward-euler", "symplectic-euler", "verlet", "backward-euler",
-        "bdf2",          "midpoint",         "sdirk2", "avf",
-        "avf4"};
+        "bdf2",          "midpoint",         "sdirk2"};
     return integrator_method(names[i]);
 }
 

@@ -91,7 +91,7 @@ double unit_of(double a)
 void grid_read_system(Grid *grid, const Iterate *at, const double *m)
 {
     const System *system = at->E.system;
-    const Place place = place_at(system, at->E.x_n, at->u, at->x);
+    const EvalPoint point = eval_point_at(system, at->E.x_n, at->u, at->x);
     const Rows *rows = &grid->rows;
     double *const masses[] = {grid->m, grid->per_m};
     double unit, *springs[2 * KINDS];
@@ -112,7 +112,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         springs[kind] = grid->c[kind];
         springs[KINDS + kind] = grid->l2[kind];
     }
-    grid->length = unit_of(sqrt(place.l2[system->springs - 1]));
+    grid->length = unit_of(sqrt(point.l2[system->springs - 1]));
     unit = grid->length * grid->length;
     grid->energy = grid->mass * unit;
     for (int s = 0; s < system->springs; s++) {
@@ -123,9 +123,9 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
                    : b - a == rows->nodes ? RIGHT
                    : b - a > rows->nodes  ? DIAGONAL
                                           : ANTIDIAGONAL;
-        double c = 2 * at->E.weight * place.k[s] / place.l2[s];
+        double c = 2 * at->E.weight * point.k[s] / point.l2[s];
         grid->c[kind][q] = grid->mass / unit * c;
-        grid->l2[kind][q] = unit * place.l2[s];
+        grid->l2[kind][q] = unit * point.l2[s];
     }
     share_rows(rows, springs, 2 * KINDS, grid->spring_shift + 1);
 }

@@ -6,91 +6,55 @@
 
 #include "model/inertia_energy.h"
 
-/* Where P is asked: at x; or, averaged, between x_n and x. */
-typedef struct Point {
-    Place at;
-    double t; /* at x_n + t u */
-} Point;
-
-static Point end_of(const IncrementalPotential *E, const double *u,
-                    const double *x)
+static EvalPoint eval_point_of(const IncrementalPotential *E, const double *u,
+                               const double *x)
 {
-    Point end = {place_at(E->system, E->x_n, u, x), 1};
-    end.at.w = E->weight;
-    return end;
-}
-
-/* The average vector field (Rojas, Liu, Kavan: Average Vector Field Integration
- * for St. Venant-Kirchhoff Deformable Models, 2018) minimises with Phi in the
- * place of P, whose gradient is the force averaged along the way:
- *   Phi(u)      = integral of (P(x_n + t u) - P(x_n)) / t, t = 0 ... 1
- *   grad Phi(u) = integral of grad P(x_n + t u)
- *   Hess Phi(u) = integral of t Hess P(x_n + t u)
- * Springs make these cubic in t: two points of Gauss's rule are exact.
- *   k  0, 1, ...: which point
- * Returns false where there are no more. */
-static bool next_point(const IncrementalPotential *E, const double *u,
-                       const double *x, int k, Point *point)
-{
-    static const double gauss[2] = {0.21132486540518712, 0.78867513459481288};
-    *point = end_of(E, u, x);
-    if (!E->between)
-        return k == 0;
-    if (k == 2)
-        return false;
-    double *there = E->between + 2 * k * E->system->nodes;
-    point->t = gauss[k];
-    point->at.w *= 0.5;
-    for (int i = 0; i < 2 * E->system->nodes; i++)
-        there[i] = E->x_n[i] + point->t * u[i];
-    point->at.x = there;
-    return true;
-}
-
-/* E; or its size: inertia and w |P|, for Phi is 0 for u = 0, P is not. */
-static double value(const IncrementalPotential *E, const double *u,
-                    const double *x, bool size)
-{
-    Point point;
-    double P = 0;
-    for (int k = 0; next_point(E, u, x, k, &point); k++)
-        for (const TermKind *kind; (kind = next_energy(&point.at));) {
-            double value = kind->value(&point.at);
-            Place start = point.at;
-            start.x = E->x_n;
-            if (E->between)
-                value = 0.5 * (value - kind->value(&start)) / point.t;
-            P += size ? fabs(value) : value;
-        }
-    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
-           E->weight * P;
+    EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
+    at.w = E->weight;
+    return at;
 }
 
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    return value(E, u, x, false);
+    EvalPoint at = eval_point_of(E, u, x);
+    double P = 0;
+    for (int t = 0; t < E->system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->value)
+            P += kind->value(&at);
+    }
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
+           E->weight * P;
 }
 
 double incremental_potential_scale(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    IncrementalPotential at_end = *E;
-    at_end.between = NULL;
-    return value(&at_end, u, x, true);
+    EvalPoint at = eval_point_of(E, u, x);
+    double P = 0;
+    for (int t = 0; t < E->system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->value)
+            P += fabs(kind->value(&at));
+    }
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
+           E->weight * P;
 }
 
 void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x, double *g)
 {
     const System *system = E->system;
-    Point point;
+    EvalPoint at = eval_point_of(E, u, x);
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
-    for (int k = 0; next_point(E, u, x, k, &point); k++)
-        for (const TermKind *kind; (kind = next_energy(&point.at));)
-            kind->gradient(&point.at, g);
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->gradient)
+            kind->gradient(&at, g);
+    }
     system_clear_pinned(system, g);
 }
 
@@ -98,20 +62,24 @@ void incremental_potential_gradient(const IncrementalPotential *E,
 Status incremental_potential_pattern(const System *system, Sparse *A,
                                      int **slot)
 {
-    Place at = place_at(system, NULL, NULL, NULL);
+    EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
     Triplets triplets;
     int masses = 2 * system->nodes;
     long long count = masses;
     *A = (Sparse){0};
     *slot = NULL;
-    for (const TermKind *kind; (kind = next_energy(&at));)
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         count += kind->entries ? kind->entries(&at) : 0;
+    }
     Status status = triplets_create(masses, count, &triplets);
     for (int i = 0; i < system->nodes && !status; i++)
         term_add_diagonal(system, i, &triplets);
-    for (const TermKind *kind; !status && (kind = next_energy(&at));)
+    for (int t = 0; t < system->terms && !status; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         if (kind->pattern)
             kind->pattern(&at, &triplets);
+    }
     if (!status) {
         *slot = malloc((size_t)triplets.count * sizeof **slot);
         status =
@@ -131,35 +99,32 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
 
 /* Adds all terms' Hessians to a matrix through its slots or, where q is given,
  * their products with it.  Returns how many blocks were projected. */
-static int add_hessians(const Iterate *at, Filter filter, const int *slot,
+static int add_hessians(const Iterate *iterate, Filter filter, const int *slot,
                         const double *q, double *out)
 {
-    Point first, second;
+    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     int projected = 0;
-    next_point(&at->E, at->u, at->x, 0, &first);
-    first.at.w *= first.t;
-    if (next_point(&at->E, at->u, at->x, 1, &second)) {
-        first.at.x_too = second.at.x;
-        first.at.w_too = second.at.w * second.t;
-    }
-    for (const TermKind *kind; (kind = next_energy(&first.at));) {
+    for (int t = 0; t < at.system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         if (!kind->hessian)
             continue;
-        projected += kind->hessian(&first.at, filter, slot, q, out);
+        projected += kind->hessian(&at, filter, slot, q, out);
         if (!q)
-            slot += kind->entries(&first.at);
+            slot += kind->entries(&at);
     }
     return projected;
 }
 
-Status incremental_potential_grow(const Iterate *at, bool *grown)
+Status incremental_potential_grow(const Iterate *iterate, bool *grown)
 {
-    Point end = end_of(&at->E, at->u, at->x);
+    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     Status status = STATUS_OK;
     *grown = false;
-    for (const TermKind *kind; !status && (kind = next_energy(&end.at));)
+    for (int t = 0; t < at.system->terms && !status; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         if (kind->grow)
-            status = kind->grow(&end.at, grown);
+            status = kind->grow(&at, grown);
+    }
     return status;
 }
 
@@ -183,26 +148,22 @@ void incremental_potential_product(const Iterate *at, Filter filter,
 }
 
 /* The inertia energy is quadratic; g.p is the slope of all terms. */
-Along incremental_potential_along(const Iterate *at)
+Along incremental_potential_along(const Iterate *iterate)
 {
-    const IncrementalPotential *E = &at->E;
-    const System *system = E->system;
-    Point point;
-    Along along = {.at = at};
+    const System *system = iterate->E.system;
+    const double *g = iterate->g, *p = iterate->p;
+    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
+    Along along = {.at = iterate};
     double *q = along.smooth.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        q[0] += at->g[i] * at->p[i];
-        q[1] += 0.5 * system->m[i / 2] * at->p[i] * at->p[i];
+        q[0] += g[i] * p[i];
+        q[1] += 0.5 * system->m[i / 2] * p[i] * p[i];
     }
-    for (int k = 0; next_point(E, at->u, at->x, k, &point); k++) {
-        double part[3] = {0}, t = point.t;
-        for (const TermKind *kind; (kind = next_energy(&point.at));) {
-            if (kind->along)
-                kind->along(&point.at, at->p, E->between ? part : q + 1);
-            along.rough = along.rough || kind->remainder || kind->allowed;
-        }
-        for (int i = 0; i < 3; i++, t *= point.t) /* 1/t at x_n + t u + t p */
-            q[1 + i] += t * part[i];
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->along)
+            kind->along(&at, p, q + 1);
+        along.rough = along.rough || kind->remainder || kind->allowed;
     }
     return along;
 }
@@ -213,41 +174,45 @@ double along_difference(const void *function, double alpha)
     double sum = quartic_value(&along->smooth, alpha);
     if (!along->rough)
         return sum;
-    const Iterate *at = along->at;
-    Place place = end_of(&at->E, at->u, at->x).at;
-    for (const TermKind *kind; (kind = next_energy(&place));)
+    const Iterate *iterate = along->at;
+    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
+    for (int t = 0; t < at.system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         if (kind->remainder)
-            sum += kind->remainder(&place, at->p, alpha);
+            sum += kind->remainder(&at, iterate->p, alpha);
+    }
     return sum;
 }
 
 double incremental_potential_reach(const Iterate *at)
 {
-    return fmin(1, system_reach(end_of(&at->E, at->u, at->x).at, at->p, false));
+    EvalPoint point = eval_point_of(&at->E, at->u, at->x);
+    return fmin(1, system_reach(point, at->p, false));
 }
 
 bool incremental_potential_allowed(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    Place at = end_of(E, u, x).at;
-    for (const TermKind *kind; (kind = next_energy(&at));)
+    EvalPoint at = eval_point_of(E, u, x);
+    for (int t = 0; t < E->system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
         if (kind->allowed && !kind->allowed(&at))
             return false;
+    }
     return true;
 }
 
-double incremental_potential_concave(const Iterate *at, double *sum)
+double incremental_potential_concave(const Iterate *iterate, double *sum)
 {
-    const System *system = at->E.system;
-    Point point;
+    const System *system = iterate->E.system;
+    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     double largest = 0;
     for (int i = 0; i < system->nodes; i++)
         sum[i] = 0;
-    for (int k = 0; next_point(&at->E, at->u, at->x, k, &point); k++) {
-        point.at.w *= point.t;
-        for (const TermKind *kind; (kind = next_energy(&point.at));)
-            if (kind->concave)
-                kind->concave(&point.at, sum);
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (kind->concave)
+            kind->concave(&at, sum);
     }
     for (int i = 0; i < system->nodes; i++) {
         double c = sum[i] / system->m[i];
@@ -256,27 +221,29 @@ double incremental_potential_concave(const Iterate *at, double *sum)
     return largest;
 }
 
-void incremental_potential_inertia(const Iterate *at, double *m,
+void incremental_potential_inertia(const Iterate *iterate, double *m,
                                    double *u_tilde)
 {
-    const System *system = at->E.system;
-    Place place = end_of(&at->E, at->u, at->x).at;
+    const System *system = iterate->E.system;
+    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     for (int i = 0; i < 2 * system->nodes; i++) {
         m[i] = system->m[i / 2];
-        u_tilde[i] = at->E.u_tilde[i];
-        at->g[i] = 0;
-        at->p[i] = 1;
+        u_tilde[i] = iterate->E.u_tilde[i];
+        iterate->g[i] = 0;
+        iterate->p[i] = 1;
     }
-    for (const TermKind *kind; (kind = next_energy(&place));)
-        if (kind->diagonal) {
-            kind->gradient(&place, at->g);
-            kind->hessian(&place, FILTER_NONE, NULL, at->p, m);
-        }
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        if (!kind->diagonal)
+            continue;
+        kind->gradient(&at, iterate->g);
+        kind->hessian(&at, FILTER_NONE, NULL, iterate->p, m);
+    }
     for (int i = 0; i < 2 * system->nodes; i++)
         if (m[i] != system->m[i / 2]) {
-            double away = at->u[i] - u_tilde[i];
-            double g = system->m[i / 2] * away + at->g[i];
-            u_tilde[i] = at->u[i] - g / m[i];
+            double away = iterate->u[i] - u_tilde[i];
+            double g = system->m[i / 2] * away + iterate->g[i];
+            u_tilde[i] = iterate->u[i] - g / m[i];
         }
 }
 

@@ -85,14 +85,14 @@ void multigrid_free(Multigrid *mg)
 static const char *refusal(const Newton *newton)
 {
     const NewtonSettings *settings = &newton->settings;
-    Place at = place_at(newton->system, NULL, NULL, NULL);
-    bool alone = system_find_term(at.system, &mass_spring_energy);
-    for (const TermKind *kind; alone && (kind = next_energy(&at));)
-        alone = kind == &mass_spring_energy || kind->diagonal;
-    if (newton->system->segments == 0)
+    const System *system = newton->system;
+    bool alone = system_find_term(system, &mass_spring_energy);
+    for (int t = 0; alone && t < system->terms; t++) {
+        const TermKind *kind = system->term[t].kind;
+        alone = kind == &mass_spring_energy || kind->diagonal || !kind->value;
+    }
+    if (system->segments == 0)
         return "there is no square grid";
-    if (settings->averaged)
-        return "the energy is averaged over the step";
     if (!alone)
         return "there are energies beside the springs'";
     if (settings->filter != FILTER_CLAMP)

@@ -24,10 +24,8 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
 {
     Iterate *at = &newton->at;
     int size = 2 * newton->system->nodes;
-    at->E = (IncrementalPotential){newton->system, weight, x_n, newton->u_tilde,
-                                   NULL};
-    if (newton->settings.averaged)
-        at->E.between = newton->x_trial + size;
+    at->E =
+        (IncrementalPotential){newton->system, weight, x_n, newton->u_tilde};
     for (int i = 0; i < size; i++) {
         at->u[i] = u ? u[i] : 0;
         at->x[i] = x_n[i] + at->u[i];
@@ -234,11 +232,11 @@ Status newton_create(const System *system, const NewtonSettings *settings,
     *newton = (Newton){.settings = *settings, .system = system};
     size_t size = 2 * (size_t)system->nodes;
     SearchDirection *search = &newton->search;
-    double *next = newton->at.u = calloc(14 * size, sizeof *next);
-    double **array[] = {
-        &newton->at.x,    &newton->at.g, &newton->at.p,   &newton->u_tilde,
-        &newton->u_trial, &search->b,    &search->r,      &search->z,
-        &search->q,       &search->d,    &newton->x_trial}; /* [4n], the last */
+    double *next = newton->at.u = calloc(12 * size, sizeof *next);
+    double **array[] = {&newton->at.x,    &newton->at.g,    &newton->at.p,
+                        &newton->u_tilde, &newton->u_trial, &search->b,
+                        &search->r,       &search->z,       &search->q,
+                        &search->d,       &newton->x_trial};
     for (size_t i = 0; next && i < sizeof array / sizeof *array; i++)
         *array[i] = next += size;
     return next ? STATUS_OK : STATUS_OUT_OF_MEMORY;

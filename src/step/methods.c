@@ -154,45 +154,21 @@ static void sdirk2_land(TimeIntegrator *run)
     }
 }
 
-/* ---- symmetric methods: what they aim at and where they land are numbers,
- *   u_tilde = a h v_n, w = b h^2, x_(n+1) = x_n + c u, v_(n+1) = 2 c u/h - v_n.
- *
- * Implicit midpoint: the unknown is half way, a = 1/2, b = 1/4, c = 2.  Order
- * 2; conserves quadratic invariants, damps nothing.
- *
- * Average vector field: a = 1, b = 1/2, c = 1, and P averaged over the step
- * (incremental_potential.c).  Order 2; conserves energy exactly: what Newton's
- * tolerance leaves undone is all that it can drift.
- *
- * Order 4 by composition (Suzuki 1990), g = 1/(4 - 4^(1/3)): five substeps of
- * g h, g h, (1 - 4g) h, g h, g h, each from where the one before has led. */
-static double substep(const TimeIntegrator *run)
+/* Implicit midpoint: the unknown is half way, u_tilde = (h/2) v_n,
+ * w = (h/2)^2, x_(n+1) = x_n + 2 u, v_(n+1) = 4 u/h - v_n.  Order 2; conserves
+ * quadratic invariants, damps nothing. */
+static void midpoint_aim(TimeIntegrator *run)
 {
-    const double g = 0.41449077179437571;
-    double share = run->method->stages == 1 ? 1
-                   : run->stage == 2        ? 1 - 4 * g
-                                            : g;
-    return share * run->h;
+    double half = 0.5 * run->h;
+    aim_ahead(run, half, run->v, half * half);
 }
 
-static void symmetric_aim(TimeIntegrator *run)
+static void midpoint_land(TimeIntegrator *run)
 {
-    const IntegratorMethod *method = run->method;
-    bool first = run->stage == 0;
-    double h = substep(run);
-    run->x_n = first ? run->x : run->new_x;
-    aim_ahead(run, method->a * h, first ? run->v : run->new_v,
-              method->b * h * h);
-}
-
-static void symmetric_land(TimeIntegrator *run)
-{
-    const double *u = run->newton->at.u, *x = run->x_n;
-    const double *v = run->stage == 0 ? run->v : run->new_v;
-    double c = run->method->c, h = substep(run);
+    const double *u = run->newton->at.u;
     for (size_t i = 0; i < run->size; i++) {
-        run->new_x[i] = x[i] + c * u[i];
-        run->new_v[i] = 2 * c * u[i] / h - v[i];
+        run->new_x[i] = run->x[i] + 2 * u[i];
+        run->new_v[i] = 4 * u[i] / run->h - run->v[i];
     }
 }
 
@@ -200,20 +176,14 @@ const IntegratorMethod integrator_methods[] = {
     {"backward-euler", "backward Euler", 1, .implicit = true, .at_end = true,
      .damps = true, .stages = 1, .aim = backward_euler_aim,
      .land = backward_euler_land},
-    {"forward-euler", "forward Euler", 1, .land = forward_euler_land},
     {"symplectic-euler", "symplectic Euler", 1, .land = symplectic_euler_land},
+    {"forward-euler", "forward Euler", 1, .land = forward_euler_land},
     {"verlet", "velocity Verlet", 2, .memory = 1, .land = verlet_land},
-    {"bdf2", "BDF2", 2, .implicit = true, .damps = true, .memory = 2,
-     .stages = 1, .aim = bdf2_aim, .land = bdf2_land},
     {"midpoint", "implicit midpoint", 2, .implicit = true, .stages = 1,
-     .a = 0.5, .b = 0.25, .c = 2, .aim = symmetric_aim, .land = symmetric_land},
-    {"sdirk2", "SDIRK2", 2, .implicit = true, .damps = true, .stages = 2,
-     .aim = sdirk2_aim, .land = sdirk2_land},
-    {"avf", "average vector field", 2, .implicit = true, .averaged = true,
-     .stages = 1, .a = 1, .b = 0.5, .c = 1, .aim = symmetric_aim,
-     .land = symmetric_land},
-    {"avf4", "AVF, 4th order", 4, .implicit = true, .averaged = true,
-     .stages = 5, .a = 1, .b = 0.5, .c = 1, .aim = symmetric_aim,
-     .land = symmetric_land},
+     .aim = midpoint_aim, .land = midpoint_land},
+    {"bdf2", "BDF2", 2, .implicit = true, .damps = true, .by_name = true,
+     .memory = 2, .stages = 1, .aim = bdf2_aim, .land = bdf2_land},
+    {"sdirk2", "SDIRK2", 2, .implicit = true, .damps = true, .by_name = true,
+     .stages = 2, .aim = sdirk2_aim, .land = sdirk2_land},
     {.name = NULL},
 };

@@ -22,8 +22,7 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if ((method->averaged && kind->remainder) ||
-            (kind->end_of_step && !method->at_end))
+        if (kind->end_of_step && !method->at_end)
             return true;
     }
     return false;
@@ -53,10 +52,8 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
     memcpy(run->v, v, size * sizeof *v);
     if (!method->implicit)
         return STATUS_OK;
-    NewtonSettings own = *settings;
-    own.averaged = method->averaged;
     run->newton = calloc(1, sizeof *run->newton);
-    return run->newton ? newton_create(system, &own, run->newton)
+    return run->newton ? newton_create(system, settings, run->newton)
                        : STATUS_OUT_OF_MEMORY;
 }
 
@@ -157,7 +154,7 @@ static bool make_part(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
     Contact *contact = contact_of(run->system);
-    const double *x_n = run->x_n;
+    const double *x_n = run->x;
     double *u = run->new_x, *x = run->new_v, way = part * run->h;
     double *before = run->newton->x_trial, *p = run->newton->u_trial;
     for (int i = 0; i < 2 * system->nodes; i++) {
@@ -201,7 +198,7 @@ static Status prescribed_start(TimeIntegrator *run)
     run->left = run->blocked ? 0 : run->left - part;
     run->part++;
     run->newton->rough = run->left > 0;
-    return newton_start(run->newton, run->x_n, run->new_x, run->weight);
+    return newton_start(run->newton, run->x, run->new_x, run->weight);
 }
 
 /* After one of its minimisations: whether another one follows.
@@ -233,15 +230,18 @@ static double prescribed_work(const TimeIntegrator *run, double weight)
     const Contact *contact = contact_of(system);
     const Newton *newton = run->newton;
     const double *u = newton->at.u, *x = newton->at.x;
-    Place at = place_at(system, newton->at.E.x_n, u, x);
+    EvalPoint at = eval_point_at(system, newton->at.E.x_n, u, x);
     double *g = run->new_x, pins = 0, sum = 0;
     at.w = weight;
     if (system->pin_v) {
         memset(g, 0, run->size * sizeof *g);
         inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,
                                 g);
-        for (const TermKind *kind; (kind = next_energy(&at));)
-            kind->gradient(&at, g);
+        for (int t = 0; t < system->terms; t++) {
+            const TermKind *kind = eval_point_term(&at, t);
+            if (kind->gradient)
+                kind->gradient(&at, g);
+        }
         for (int i = 0; i < 2 * system->nodes; i++)
             if (system->pinned[i / 2])
                 pins += g[i] * u[i] / weight;
@@ -293,14 +293,13 @@ static Status begin_stage(TimeIntegrator *run)
 {
     const System *system = run->system;
     Newton *newton = run->newton;
-    run->x_n = run->x;
     run->method->aim(run);
     if (system_has_gravity(system))
         for (size_t i = 0; i < run->size; i++)
             newton->u_tilde[i] += run->weight * system->gravity[i % 2];
     newton->step = run->steps + 1;
     return run->moves ? prescribed_start(run)
-                      : newton_start(newton, run->x_n, NULL, run->weight);
+                      : newton_start(newton, run->x, NULL, run->weight);
 }
 
 /* From a minimisation that is over to the next one, to the end where none is

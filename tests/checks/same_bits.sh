@@ -20,7 +20,7 @@ cat scenes - >lines <<'END'
 square --segments 16 --steps 12 --solver newton
 square --segments 48 --steps 8
 square --segments 48 --steps 6 --solver multigrid --stretch 0.7 --timestep 0.02
-square --segments 40 --steps 2 --integrator avf4
+square --segments 40 --steps 2 --integrator midpoint
 END
 
 # hashes LINES PROGRAM [OPTION...]: a hash for each line.

@@ -60,7 +60,7 @@ typedef enum LargeVerdict {
 } LargeVerdict;
 
 /* The test of Algorithm 3 with clamped blocks, at u of a minimisation by
- * springs alone, not averaged, without a matrix.  tolerance in m/s */
+ * springs alone, without a matrix.  tolerance in m/s */
 LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
                          double h, double tolerance);
 

@@ -1,6 +1,5 @@
-/* The energy of a step once more, in more digits than the solver has: averages
- * along the step by Gauss's two points, which are exact for the polynomials
- * that occur, plain sums over springs, and a dense L D L^T.
+/* The energy of a step once more, in more digits than the solver has: plain
+ * sums over springs, and a dense L D L^T.
  *
  * Squares that are too large for that are judged by conjugate gradients in
  * extended precision, which know their error: M is a lower bound of the clamped
@@ -14,16 +13,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Where along the step from x_n to x_n + u the springs are looked at. */
-static const long double gauss[2] = {0.2113248654051871177454256L,
-                                     0.7886751345948128822545744L};
-
-/* Coordinate c of x_i - x_j at x_n + t u, not rounded. */
+/* Coordinate c of x_i - x_j at x_n + u, not rounded. */
 static Wide wide_difference(const IncrementalPotential *E, const double *u,
-                            int s, int c, Wide t)
+                            int s, int c)
 {
     int i = 2 * E->system->e[2 * s] + c, j = 2 * E->system->e[2 * s + 1] + c;
-    return (Wide)E->x_n[i] - E->x_n[j] + t * ((Wide)u[i] - u[j]);
+    return (Wide)E->x_n[i] - E->x_n[j] + ((Wide)u[i] - u[j]);
 }
 
 /* E at x_n + u, not rounded, with its derivatives along `way` and q; size out,
@@ -32,15 +27,14 @@ static Jet energy(const Moment *moment, const double *u, const double *way,
                   const double *q, Random *jitter, Jet *size)
 {
     const IncrementalPotential *E = &moment->E;
-    Place place = place_at(E->system, E->x_n, u, NULL);
-    Spot spot = {.at = &place,
+    EvalPoint at = eval_point_at(E->system, E->x_n, u, NULL);
+    Spot spot = {.at = &at,
                  .h = sqrtl(E->weight),
                  .p = way,
                  .q = q,
                  .moved = moment->moved,
-                 .jitter = jitter,
-                 .averaged = E->between};
-    place.w = E->weight;
+                 .jitter = jitter};
+    at.w = E->weight;
     Jet sum = oracle_step(&spot, E->u_tilde);
     if (moment->clamped)
         sum.pq += oracle_clamping(&spot);
@@ -125,19 +119,13 @@ static void wide_spring(const IncrementalPotential *E, const double *u, int s,
                         Filter filter, Wide f[2], Wide H[3])
 {
     Wide l2 = E->system->l2[s], k = E->system->k[s];
-    f[0] = f[1] = H[0] = H[1] = H[2] = 0;
-    for (int a = 0; a < (E->between ? 2 : 1); a++) {
-        Wide t = E->between ? gauss[a] : 1;
-        Wide share = E->weight * (E->between ? (Wide)0.5 : (Wide)1);
-        Wide dx = wide_difference(E, u, s, 0, t);
-        Wide dy = wide_difference(E, u, s, 1, t);
-        Wide more = (dx * dx + dy * dy - l2) / l2;
-        f[0] += share * 2 * k * more * dx;
-        f[1] += share * 2 * k * more * dy;
-        H[0] += share * t * 2 * k * (2 * dx * dx / l2 + more);
-        H[1] += share * t * 2 * k * (2 * dx * dy / l2);
-        H[2] += share * t * 2 * k * (2 * dy * dy / l2 + more);
-    }
+    Wide dx = wide_difference(E, u, s, 0), dy = wide_difference(E, u, s, 1);
+    Wide more = (dx * dx + dy * dy - l2) / l2, factor = E->weight * 2 * k;
+    f[0] = factor * more * dx;
+    f[1] = factor * more * dy;
+    H[0] = factor * (2 * dx * dx / l2 + more);
+    H[1] = factor * (2 * dx * dy / l2);
+    H[2] = factor * (2 * dy * dy / l2 + more);
     if (filter == FILTER_CLAMP || filter == FILTER_ABS)
         cut_negative(H, filter == FILTER_ABS ? 0 : 1);
 }
@@ -178,13 +166,12 @@ static void wide_blocks(const IncrementalPotential *E, const double *u,
                         Filter filter, Wide *g, Real *blocks)
 {
     const System *system = E->system;
-    Wide way = E->between ? (Wide)0.5 : (Wide)1;
     for (int i = 0; i < 2 * system->nodes; i++) {
         Wide m = system->m[i / 2], force;
-        Wide k = wide_pull(system, i, E->x_n[i] + way * u[i], &force);
+        Wide k = wide_pull(system, i, (Wide)E->x_n[i] + u[i], &force);
         g[i] = m * ((Wide)u[i] - E->u_tilde[i]) + E->weight * force;
         if (blocks)
-            *blocks++ = (Real)(m + way * E->weight * k);
+            *blocks++ = (Real)(m + E->weight * k);
     }
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
@@ -205,15 +192,15 @@ void wide_derivatives(const IncrementalPotential *E, const double *u,
 {
     const System *system = E->system;
     int n = 2 * system->nodes;
-    Wide way = E->between ? (Wide)0.5 : (Wide)1, force;
+    Wide force;
     wide_blocks(E, u, filter, g, NULL);
     if (!H)
         return;
     for (int i = 0; i < n * n; i++)
         H[i] = 0;
     for (int i = 0; i < n; i++)
-        H[i * (n + 1)] = system->m[i / 2] +
-                         way * E->weight * wide_pull(system, i, 0, &force);
+        H[i * (n + 1)] =
+            system->m[i / 2] + E->weight * wide_pull(system, i, 0, &force);
     for (int s = 0; s < system->springs; s++) {
         int end[2] = {2 * system->e[2 * s], 2 * system->e[2 * s + 1]};
         Wide f[2], block[3];

@@ -124,7 +124,7 @@ static void judge_large(Watch *watch, const double *u, double tolerance)
 {
     IncrementalPotential E = watch_potential(watch);
     const NewtonSettings *settings = &watch->run->newton->settings;
-    if (E.between || settings->filter != FILTER_CLAMP)
+    if (settings->filter != FILTER_CLAMP)
         return;
     LargeVerdict verdict = large_judge(&E, u, settings->h, tolerance);
     watch->tally->judged++;
@@ -444,9 +444,6 @@ static void check_failure(Watch *watch, Status status)
 static void check_last_minimisation(Watch *watch, Status status)
 {
     const Newton *newton = watch->run->newton;
-    bool composed = strcmp(watch->run->method->name, "avf4") == 0;
-    if (composed && newton->record.iteration < 0)
-        return; /* where its last part began is not known here */
     int n = watch_size(watch);
     if (newton->record.iteration < 0) {
         memcpy(watch->x_n, watch->x, (size_t)n * sizeof *watch->x);

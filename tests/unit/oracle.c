@@ -53,19 +53,12 @@ static Real jittered(Spot *spot, Real x)
 /* Coordinate c of x, or of the step u that leads there. */
 static Jet coordinate(Spot *spot, int c, bool of_u)
 {
-    const Place *at = spot->at;
-    Real t = spot->t > 0 ? spot->t : 1, x;
-    if (of_u)
-        x = at->u[c];
-    else if (spot->t > 0 || !at->x)
-        x = at->x_n[c] + t * at->u[c];
-    else
-        x = at->x[c];
+    const EvalPoint *at = spot->at;
+    Real x = of_u ? at->u[c] : at->x ? at->x[c] : (Real)at->x_n[c] + at->u[c];
     if (spot->p)
-        x += t * spot->alpha * spot->p[c];
-    x = jittered(spot, x);
-    Real p = spot->from_x_n ? x - at->x_n[c] : spot->p ? t * spot->p[c] : 0;
-    return (Jet){x, p, spot->q ? t * spot->q[c] : 0, 0};
+        x += spot->alpha * spot->p[c];
+    return (Jet){jittered(spot, x), spot->p ? spot->p[c] : 0,
+                 spot->q ? spot->q[c] : 0, 0};
 }
 
 static Jet between(Spot *spot, int i, int j, int axis, bool of_u)
@@ -175,7 +168,7 @@ static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
     const Term *term = system_find_term(spot->at->system, &friction_energy);
     if (!term || !spot->at->u || !(it->friction > 0))
         return;
-    Place start = *spot->at;
+    EvalPoint start = *spot->at;
     Spot before = {.at = &start, .jitter = spot->jitter, .since = spot->moved};
     Real n[2], e = ((const Friction *)term->data)->slip_speed * spot->h;
     start.x = start.x_n;
@@ -325,7 +318,7 @@ static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p,
     const Term *term = system_find_term(system, &self_friction_energy);
     if (!term || !spot->at->u)
         return;
-    Place start = *spot->at;
+    EvalPoint start = *spot->at;
     Spot before = {.at = &start, .h = spot->h, .jitter = spot->jitter};
     Real n[2], r, e = ((const Friction *)term->data)->slip_speed * spot->h;
     start.x = start.x_n;
@@ -634,7 +627,7 @@ Real oracle_clamping(Spot *spot)
     return spot->at->w * sum;
 }
 
-static Jet energy_there(Spot *spot, const TermKind *only)
+Jet oracle_energy(Spot *spot, const TermKind *only)
 {
     const System *system = spot->at->system;
     Outline outline = outline_there(spot);
@@ -654,34 +647,6 @@ static Jet energy_there(Spot *spot, const TermKind *only)
     return plus((Jet){0}, spot->at->w, sum);
 }
 
-/* Averaged: two points of Gauss's rule are exact up to degree 3.  They find
- * P(x_n + t u) - P(x_n), too, from slopes on the way: where P is 1e20 times
- * larger than what a step changes, a difference of two P has no digits. */
-Jet oracle_energy(Spot *spot, const TermKind *only)
-{
-    static const Real gauss[2] = {0.2113248654051871177454256L,
-                                  0.7886751345948128822545744L};
-    if (!spot->averaged)
-        return energy_there(spot, only);
-    Spot way = *spot;
-    Jet sum = {0}, size = {0};
-    way.from_x_n = true;
-    for (int i = 0; i < 2; i++) {
-        spot->t = gauss[i];
-        Jet there = energy_there(spot, only);
-        there.f = 0;
-        for (int j = 0; j < 2; j++) {
-            way.t = gauss[i] * gauss[j];
-            there.f += energy_there(&way, only).p / (2 * gauss[j]);
-        }
-        sum = plus(sum, 1 / (2 * spot->t), there);
-        size = plus(size, 1 / (2 * spot->t), spot->size);
-    }
-    spot->t = 0;
-    spot->size = size;
-    return sum;
-}
-
 Jet oracle_step(Spot *spot, const double *u_tilde)
 {
     const System *system = spot->at->system;
@@ -698,7 +663,7 @@ Jet oracle_step(Spot *spot, const double *u_tilde)
 
 Real exact_potential(const System *system, const double *x)
 {
-    Place at = place_at(system, x, NULL, x);
+    EvalPoint at = eval_point_at(system, x, NULL, x);
     Spot spot = {.at = &at};
     return oracle_energy(&spot, NULL).f;
 }
@@ -710,7 +675,7 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
 {
     int size = 2 * E->system->nodes;
     double p[MOST_UNKNOWNS] = {0}, q[MOST_UNKNOWNS] = {0};
-    Place at = place_at(E->system, E->x_n, u, x);
+    EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
     Spot spot = {.at = &at, .h = 1, .p = p, .q = q};
     at.w = E->weight;
     CHECK(size <= MOST_UNKNOWNS);
@@ -814,7 +779,7 @@ Real exact_nearest(const Simulation *simulation, Real reach, Real *slip)
 double exact_gap(const System *system, const double *x, int node, int obstacle)
 {
     const Contact *contact = contact_of(system);
-    Place at = place_at(system, x, NULL, x);
+    EvalPoint at = eval_point_at(system, x, NULL, x);
     Spot spot = {.at = &at};
     Real n[2];
     return (double)(contact->barrier.d_hat *
@@ -836,7 +801,7 @@ double smallest_cell(const System *system, const double *x)
 {
     const Cells *cells = system_data(system, &cell_energy);
     const NeoHookean *solid = solid_of(system);
-    Place at = place_at(system, x, NULL, x);
+    EvalPoint at = eval_point_at(system, x, NULL, x);
     Spot spot = {.at = &at};
     double smallest = INFINITY;
     Jet J;

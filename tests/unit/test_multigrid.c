@@ -224,7 +224,7 @@ TEST(steps_take_no_more_work)
 }
 
 static const char *const implicit_names[] = {
-    "backward-euler", "bdf2", "midpoint", "sdirk2", "avf", "avf4"};
+    "backward-euler", "bdf2", "midpoint", "sdirk2"};
 enum { IMPLICIT = sizeof implicit_names / sizeof *implicit_names };
 
 /* Positions, velocities and what the method remembers. */
@@ -394,7 +394,6 @@ TEST(what_does_not_fit_is_left_to_newton)
         {"--segments 33 --integrator midpoint", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --integrator sdirk2", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --gravity 9.81 --pin top", SOLVER_MULTIGRID, NULL},
-        {"--segments 33 --integrator avf", SOLVER_NEWTON, "averaged"},
         {"--segments 33 --filter abs", SOLVER_NEWTON, "projection"},
         {"--segments 33 --line-search none", SOLVER_NEWTON, "line search"},
         {"--segments 33 --stiffness 1e17", SOLVER_NEWTON, "outweigh"},

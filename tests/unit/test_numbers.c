@@ -175,7 +175,8 @@ static void tell_values(const Trace *trace, Spot *spot, const double *u_tilde,
         near("value", before, 1e-6L * before);
         before += i < trace->updates ? trace->record[i].change : 0;
     }
-    Place aim = place_at(spot->at->system, x_n, u_tilde, trace->x_tilde);
+    EvalPoint aim =
+        eval_point_at(spot->at->system, x_n, u_tilde, trace->x_tilde);
     aim.w = spot->at->w;
     Spot there = {.at = &aim, .h = spot->h};
     near("value", oracle_step(&there, u_tilde).f, 1e-12L * before);
@@ -187,7 +188,7 @@ static void tell_start(const System *system, const Trace *trace)
     double none[UNKNOWNS] = {0}, u_tilde[UNKNOWNS];
     for (int i = 0; i < 2 * system->nodes; i++)
         u_tilde[i] = made.timestep * v_n[i];
-    Place at = place_at(system, x_n, none, x_n);
+    EvalPoint at = eval_point_at(system, x_n, none, x_n);
     at.w = made.timestep * made.timestep;
     Spot spot = {.at = &at, .h = made.timestep};
     tell_values(trace, &spot, u_tilde, oracle_step(&spot, u_tilde).f);
@@ -234,7 +235,7 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
     if (simulation->options.filter == FILTER_NONE)
         least = most = 0;
     near("projected", (least + most) / 2.0L, (most - least) / 2.0L);
-    Place at = place_at(system, x_n, u, trace->x);
+    EvalPoint at = eval_point_at(system, x_n, u, trace->x);
     at.w = E.weight;
     Spot spot = {.at = &at, .h = made.timestep};
     Real before = oracle_step(&spot, u_tilde).f;
@@ -831,7 +832,7 @@ static void tell_race(const Simulation *simulation)
     const Race *race = &simulation->exhibit.race;
     /* explicit, implicit, explicit that explodes later: ms, and its h */
     Real least[3] = {INFINITY, INFINITY, INFINITY}, h[3] = {0, 0, 0};
-    is("methods", 9);
+    is("methods", 7);
     for (int k = 0; k < race->count; k++) {
         const RacePoint *point = &race->point[k];
         Real ms = 1e3L * point->seconds;
@@ -898,7 +899,7 @@ static Jet potential_along(const System *system, const double *x,
                            const TermKind *kind, int p, int q)
 {
     static double way[2][2 * NODES];
-    Place at = place_at(system, x, NULL, x);
+    EvalPoint at = eval_point_at(system, x, NULL, x);
     Spot spot = {.at = &at, .h = 1, .p = way[0], .q = way[1]};
     way[0][p] = way[1][q] = 1;
     Jet out = oracle_energy(&spot, kind);

@@ -24,24 +24,20 @@ enum { SIZE = 2 * 40 };
 typedef struct Row {
     const char *name;
     enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID, PAIR } shape;
-    double yield, hardening;   /* side by side, as options have them */
-    double damping, pull;      /* 0: none */
-    bool rubs, averaged, flat; /* flat: no spring has a length */
-    bool solid;                /* triangles for springs */
+    double yield, hardening; /* side by side, as options have them */
+    double damping, pull;    /* 0: none */
+    bool rubs, flat;         /* flat: no spring has a length */
+    bool solid;              /* triangles for springs */
     double far; /* alpha goes up to this, where nothing limits it */
     const OptionRow *option; /* or NULL: another term, by its own numbers */
 } Row;
 
 static const Row rows[] = {
     {"one spring", SPRING, .far = 1e6},
-    {"one spring, averaged", SPRING, .averaged = true, .far = 1e3},
     {"springs", GRAPH, .far = 1e3},
     {"spring of no length", SPRING, .flat = true, .far = 1e3},
     {"springs of next to no length", GRAPH, .flat = true, .far = 1e3},
-    {"springs, averaged", GRAPH, .averaged = true, .far = 1e3},
     {"field and hand", GRAPH, .pull = 3, .far = 1e3},
-    {"field and hand, averaged", GRAPH, .pull = 3, .averaged = true,
-     .far = 1e3},
     {"damped springs", GRAPH, .damping = 0.3, .far = 1e3},
     {"flowing spring", SPRING, .yield = 0.1, .hardening = 0.3, .far = 1e3},
     {"flowing springs, damped", GRAPH, .yield = 0.1, .hardening = 0.3,
@@ -64,7 +60,7 @@ enum { ROWS = sizeof rows / sizeof *rows };
 /* One random place of a row. */
 typedef struct Case {
     System system;
-    Place at;
+    EvalPoint at;
     double x_n[SIZE], u[SIZE], x[SIZE], p[SIZE], q[SIZE], h;
     int size;
 } Case;
@@ -264,7 +260,7 @@ static void make_case(const Row *row, Random *random, Case *c)
         if (system->term[i].kind->begin)
             CHECK_OK(system->term[i].kind->begin(
                 &(TermStep){system, &system->term[i], c->x_n, c->u, c->h}));
-    c->at = place_at(system, c->x_n, c->u, c->x);
+    c->at = eval_point_at(system, c->x_n, c->u, c->x);
     c->at.w = random_logarithmic(random, 0.1, 10);
     make_place(row, random, c);
 }
@@ -292,12 +288,7 @@ static long looked;    /* how often a property said something */
 static Jet exact(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
 {
     Random random = {1};
-    Spot spot = {.at = &c->at,
-                 .h = c->h,
-                 .alpha = alpha,
-                 .p = c->p,
-                 .q = c->q,
-                 .averaged = row->averaged};
+    Spot spot = {.at = &c->at, .h = c->h, .alpha = alpha, .p = c->p, .q = c->q};
     Jet part = oracle_energy(&spot, kind), size = spot.size;
     *noise = (Jet){1e-12L * size.f, 1e-12L * size.p, 0, 1e-12L * size.pq};
     spot.jitter = &random;
@@ -458,9 +449,7 @@ static void limit(Case *c, const TermKind *kind)
  * eigenvalues cut or mirrored. */
 static void projection(Case *c, Random *random)
 {
-    double between[2 * SIZE];
-    IncrementalPotential E = {&c->system, c->at.w, c->x_n, c->u,
-                              row->averaged ? between : NULL};
+    IncrementalPotential E = {&c->system, c->at.w, c->x_n, c->u};
     Iterate iterate = {.E = E, .u = c->u, .x = c->x};
     static double plain[SIZE * SIZE], H[SIZE * SIZE];
     int n = c->size, *slot;
@@ -497,9 +486,8 @@ static void projection(Case *c, Random *random)
         Real more = 0;
         for (int i = 0; i < n * n; i++)
             more += c->p[i / n] * ((Real)H[i] - plain[i]) * c->q[i % n];
-        if (!row->averaged)
-            near("projection", more, (1 + f) * oracle_clamping(&spot),
-                 1e-14L * n * scale);
+        near("projection", more, (1 + f) * oracle_clamping(&spot),
+             1e-14L * n * scale);
     }
     sparse_free(&A);
     free(slot);
@@ -526,20 +514,15 @@ static void concavity(Case *c, const TermKind *kind, Random *random)
     }
 }
 
-/* Inertia and all terms together, or their average: E of a step, its first and
- * second derivatives, and that it does not bend down by more than it says. */
+/* Inertia and all terms together: E of a step, its first and second
+ * derivatives, and that it does not bend down by more than it says. */
 static void whole_step(Case *c, Random *random)
 {
-    double u_tilde[SIZE], g[SIZE], Hq[SIZE], between[2 * SIZE], sum[SIZE];
+    double u_tilde[SIZE], g[SIZE], Hq[SIZE], sum[SIZE];
     for (int i = 0; i < c->size; i++)
         u_tilde[i] = random_uniform(random, -1, 1);
-    IncrementalPotential E = {&c->system, c->at.w, c->x_n, u_tilde,
-                              row->averaged ? between : NULL};
-    Spot spot = {.at = &c->at,
-                 .h = c->h,
-                 .p = c->p,
-                 .q = c->q,
-                 .averaged = row->averaged};
+    IncrementalPotential E = {&c->system, c->at.w, c->x_n, u_tilde};
+    Spot spot = {.at = &c->at, .h = c->h, .p = c->p, .q = c->q};
     Jet noise, part = oracle_step(&spot, u_tilde), size = spot.size;
     exact(c, NULL, 0, &noise);
     Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
@@ -570,8 +553,10 @@ static void row_is_right(void **state)
     for (int n = 0; n < tests_many(2000, 150); n++) {
         static Case c;
         make_case(row, &random, &c);
-        for (const TermKind *kind;
-             !row->averaged && (kind = next_energy(&c.at));) {
+        for (int t = 0; t < c.system.terms; t++) {
+            const TermKind *kind = eval_point_term(&c.at, t);
+            if (!kind->value)
+                continue;
             derivatives(&c, kind);
             limit(&c, kind);
             concavity(&c, kind, &random);
@@ -592,7 +577,7 @@ static void accelerations_are_forces_over_masses(void **unused)
     System system;
     double x[MAX_SIZE], a[MAX_SIZE];
     random_system(&random, SPRINGS_MIXED, &system, x);
-    Place at = place_at(&system, x, NULL, x);
+    EvalPoint at = eval_point_at(&system, x, NULL, x);
     system_acceleration(&system, x, a);
     for (int i = 0; i < 2 * system.nodes; i++) {
         double one[MAX_SIZE] = {0};
