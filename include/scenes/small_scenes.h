@@ -179,7 +179,8 @@ typedef struct RacePoint {
     double h;       /* s */
     double error;   /* m, largest distance of a node from where it belongs;
                        NaN: the run failed */
-    double seconds; /* run time */
+    double seconds; /* run time, of the processor */
+    bool converged; /* in all steps */
     double later;   /* what is left of the energy at the start after a second,
                        of the runs of RACE_SHOWN */
     bool stable;    /* its energy stays bounded when it runs on */
@@ -189,6 +190,18 @@ typedef struct Race {
     int count; /* runs so far */
     RacePoint point[RACE_METHODS * RACE_STEP_SIZES];
 } Race;
+
+/* The motion of run 0, exact up to rounding after so many seconds: sets run 1
+ * to its end.  Only for springs alone.  STATUS_NOT_FINITE: the motion is too
+ * fast, or it explodes. */
+Status race_reference(Simulation *simulation, double time);
+
+/* Measures how long a method takes from run 0 to run 1 in so many steps, and
+ * how far from run 1 it ends.  run: where it has come, in/out; the caller frees
+ * it.  point out.  A status that is not OK: no run came to the end. */
+Status race_measure(Simulation *simulation, const IntegratorMethod *method,
+                    double time, long steps, TimeIntegrator *run,
+                    RacePoint *point);
 
 /* Stretch 1.1, where the motion is no chaos. */
 Status create_race(Simulation *simulation);

@@ -1,5 +1,6 @@
 /* trial_scenes.c - many runs of one square: the race, the envelope. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -29,8 +30,7 @@ static Status trial_run(const Options *options, const IntegratorMethod *method,
 
 /* ---- run time against error ---------------------------------------------- */
 
-/* Steps of the longest time step and of the reference. */
-enum { RACE_FIRST_STEPS = 8, RACE_FINER = 64 };
+enum { RACE_FIRST_STEPS = 8 }; /* of the longest time step */
 
 const IntegratorMethod *race_method(int i)
 {
@@ -40,26 +40,82 @@ const IntegratorMethod *race_method(int i)
     return integrator_method(names[i]);
 }
 
-/* From the start to RACE_TIME in this many steps; how well they converge, the
- * error will tell. */
-static Status run_to_end(Simulation *simulation, const IntegratorMethod *method,
-                         long steps, TimeIntegrator *run)
+/* Upper bound of the angular frequencies, 1/s.  A node has eight springs, each
+ * with a second derivative of 2k (3 |d|^2 / l2 - 1) at most: by Gershgorin
+ * omega^2 is below twice their sum over m. */
+static double frequency_bound(const System *system, const double *x)
 {
-    Options options = simulation->options;
-    options.timestep = RACE_TIME / (double)steps;
-    Status status = trial_run(&options, method, &simulation->system,
-                              &simulation->run[0], steps, run);
-    return status_is_unconverged(status) ? STATUS_OK : status;
+    double most = 0;
+    for (int s = 0; s < system->springs; s++) {
+        const double *a = x + 2 * system->e[2 * s];
+        const double *b = x + 2 * system->e[2 * s + 1];
+        double length = math_hypot(a[0] - b[0], a[1] - b[1]);
+        double strain = fmax(length * length / system->l2[s], 1);
+        most = fmax(most, 2 * system->k[s] * (3 * strain - 1));
+    }
+    return sqrt(2 * 8 * most / system->m[0]);
+}
+
+/* Velocity Verlet crosses an interval of H seconds in 1, 2, ... 6 steps; these
+ * results are extrapolated to steps of length 0.  Verlet is symmetric, its
+ * error has even powers of the step, and the error that remains is O(H^12)
+ * (Gragg 1965).  Lagrange: the polynomial in 1/n^2 through all results has at 0
+ * the sum over j of w_j times result j, with w_j = product over i of n_j^2 /
+ * (n_j^2 - n_i^2).  from, to: room, [2 size] */
+static Status cross_exactly(TimeIntegrator *run, double H, double *from,
+                            double *to)
+{
+    enum { COLUMNS = 6 };
+    size_t both = 2 * run->size, bytes = both * sizeof *to;
+    Status status = STATUS_OK;
+    memcpy(from, run->x, bytes); /* v is behind x */
+    memcpy(to, run->x, bytes);
+    for (int j = 1; j <= COLUMNS && !status; j++) {
+        double weight = 1;
+        for (int i = 1; i <= COLUMNS; i++)
+            weight *= i == j ? 1 : (double)(j * j) / (j * j - i * i);
+        memcpy(run->x, from, bytes);
+        run->memory_h = 0;
+        run->h = H / j;
+        for (int step = 0; step < j && !status; step++)
+            status = time_integrator_step(run);
+        for (size_t i = 0; i < both; i++)
+            to[i] += weight * (run->x[i] - from[i]);
+    }
+    memcpy(run->x, to, bytes);
+    return status;
+}
+
+Status race_reference(Simulation *simulation, double time)
+{
+    const double most = 1 << 14; /* intervals: more take too long */
+    const TimeIntegrator *start = &simulation->run[0];
+    TimeIntegrator *run = &simulation->run[1];
+    NewtonSettings settings = {0};
+    double bound = frequency_bound(&simulation->system, start->x);
+    double intervals = floor(1 + time * bound);
+    newton_settings_take(&simulation->options, &settings);
+    Status status =
+        time_integrator_create(integrator_method("verlet"), &simulation->system,
+                               &settings, start->x, start->v, run);
+    if (!status && !(intervals <= most))
+        status = STATUS_NOT_FINITE;
+    double *room = malloc(4 * start->size * sizeof *room);
+    if (!room)
+        return STATUS_OUT_OF_MEMORY;
+    for (int k = 0; k < intervals && !status; k++)
+        status =
+            cross_exactly(run, time / intervals, room, room + 2 * start->size);
+    free(room);
+    return status;
 }
 
 /* Run 1 is the reference: it stands at its end. */
 Status create_race(Simulation *simulation)
 {
-    long finest = (long)RACE_FIRST_STEPS << (RACE_STEP_SIZES - 1);
     Status status = create_square(simulation);
     if (!status)
-        status = run_to_end(simulation, integrator_method("verlet"),
-                            RACE_FINER * finest, &simulation->run[1]);
+        status = race_reference(simulation, RACE_TIME);
     if (status == STATUS_NOT_FINITE) { /* nothing to compare with */
         simulation->done = true;
         simulation->status = status;
@@ -100,29 +156,60 @@ static double energy_later(const Simulation *simulation, TimeIntegrator *run)
     return energy_of(run) / energy_of(&simulation->run[0]);
 }
 
+static bool has_failed(Status status)
+{
+    return status && !status_is_unconverged(status);
+}
+
 /* Runs to the end again and again, until a clock that ticks in tenths of a
  * millisecond, as a browser's does, can tell how long one takes: the least of
  * several times, for whatever disturbs it only adds to it. */
 static Status measure_run(Simulation *simulation,
-                          const IntegratorMethod *method, long steps,
+                          const IntegratorMethod *method, double h, long steps,
                           TimeIntegrator *run, double *seconds)
 {
     const double enough = 1e-3, all = 0.01; /* s, of a time, and of them all */
     double end = clock_worked() + all;
+    Options options = simulation->options;
     Status status = STATUS_OK;
+    options.timestep = h;
     *seconds = INFINITY;
-    for (int i = 0; (i < 2 || clock_worked() < end) && !status; i++) {
+    for (int i = 0; (i < 2 || clock_worked() < end) && !has_failed(status);
+         i++) {
         double start = clock_worked(), taken = 0;
         int runs = 0;
-        while (!status && taken < enough) {
+        while (!has_failed(status) && taken < enough) {
             time_integrator_free(run);
-            status = run_to_end(simulation, method, steps, run);
+            status = trial_run(&options, method, &simulation->system,
+                               &simulation->run[0], steps, run);
             taken = clock_worked() - start;
             runs++;
         }
         *seconds = fmin(*seconds, taken / runs);
     }
     return status;
+}
+
+Status race_measure(Simulation *simulation, const IntegratorMethod *method,
+                    double time, long steps, TimeIntegrator *run,
+                    RacePoint *point)
+{
+    const double *exact = simulation->run[1].x;
+    *point = (RacePoint){.method = method,
+                         .h = time / (double)steps,
+                         .error = NAN,
+                         .later = NAN};
+    Status status =
+        measure_run(simulation, method, point->h, steps, run, &point->seconds);
+    point->converged = status == STATUS_OK;
+    if (has_failed(status))
+        return status;
+    point->error = 0;
+    for (size_t i = 0; i < run->size; i += 2)
+        point->error =
+            fmax(point->error, math_hypot(run->x[i] - exact[i],
+                                          run->x[i + 1] - exact[i + 1]));
+    return STATUS_OK;
 }
 
 double race_stable(const Race *race, int method)
@@ -143,22 +230,12 @@ Status step_race(Simulation *simulation)
     RacePoint *point = &race->point[race->count];
     if (race->count >= RACE_METHODS) { /* its last one once more, later */
         RacePoint *before = point - RACE_METHODS;
-        measure_run(simulation, method, steps / 2, &run, &seconds);
+        measure_run(simulation, method, before->h, steps / 2, &run, &seconds);
         before->seconds = fmin(before->seconds, seconds);
     }
-    Status status = measure_run(simulation, method, steps, &run, &seconds);
-    *point = (RacePoint){.method = method,
-                         .h = RACE_TIME / (double)steps,
-                         .error = NAN,
-                         .later = NAN,
-                         .seconds = seconds};
+    Status status =
+        race_measure(simulation, method, RACE_TIME, steps, &run, point);
     if (!status) {
-        const double *exact = simulation->run[1].x;
-        point->error = 0;
-        for (size_t i = 0; i < run.size; i += 2)
-            point->error =
-                fmax(point->error, math_hypot(run.x[i] - exact[i],
-                                              run.x[i + 1] - exact[i + 1]));
         if (race->count / RACE_METHODS == RACE_SHOWN)
             point->later = energy_later(simulation, &run);
         point->stable = is_stable(simulation, &run);

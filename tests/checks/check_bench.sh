@@ -23,13 +23,12 @@ table() {
         END { if (NR < 3) print "no rows" }' "$1.csv" 2>&1
 }
 
-verdict quick_runs_end_well "$(for table in work steps frames; do
+verdict quick_runs_end_well "$(for table in work steps; do
     "$program" $table --quick >"$table.csv" || echo "$table ends badly"
 done 2>&1)"
 verdict tables_are_whole "$(
     table work error_m
     table steps median_ms
-    table frames bare_ms
 )"
 verdict the_table_says_where_implicit_loses \
     "$(grep -q 'implicit loses' work.csv || echo 'it does not')"
@@ -53,6 +52,20 @@ verdict solvers_end_with_the_same_energy "$(awk -F , 'NR > 2 && !/^#/ {
 verdict readme_figure_has_all_methods "$(for name in $methods; do
     grep -q "$name, " "$root/tests/data/work_precision.svg" || echo "$name is missing"
 done)"
+
+# By make, and where it fails the table that is there stays.
+unmeasured() { # make's arguments...
+    mkdir -p "$root/build/bench"
+    [ -e "$root/build/bench/steps.csv" ] || cp steps.csv "$root/build/bench"
+    cksum "$root"/build/bench/* >before
+    ! "${MAKE:-make}" -s -C "$root" bench "$@" >out 2>&1 || echo "$* is taken"
+    grep -q 'tables: work' out || cat out
+    cksum "$root"/build/bench/* | diff before -
+}
+verdict what_fails_leaves_the_table "$(
+    unmeasured TABLES=steps ARGS=--foo
+    unmeasured TABLES=foo
+)"
 
 verdict bad_usage_is_one_line "$(
     refuses 2 . "$program"
