@@ -19,7 +19,8 @@ $(B)/tests/unit/test_stress $(B)/tests/unit/test_multigrid \
   $(B)/tests/unit/test_newton $(B)/tests/unit/test_numbers: $(STRESS)
 $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc realloc) \
   -lsuitesparseconfig
-$(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw)
+$(B)/tests/unit/test_show $(B)/tests/unit/test_session: \
+  LIBS += $(call wrap,text_draw)
 $(B)/tests/unit/test_pages: LIBS += $(call wrap,font_glyph)
 
 # Multigrid's loops once more, for one number at a time, and Cholesky's for two:
@@ -28,9 +29,6 @@ $(B)/narrow/%.o: src/solve/%.c $(B)/flags
 	$(call shown,CC)
 	$(Q)$(COMPILE) -DFAST= -DAVX= -MMD -MP -c $< -o $@
 $(B)/tests/unit/test_widths: $(patsubst %,$(B)/narrow/%.o,$(GRID_LOOPS) panels)
-
-$(B)/tests/unit/test_numbers: LIBS += $(call wrap,number_with number_of \
-  plot_create plot_on)
 
 # The program with faults linked in: sanitizers see what they do.
 FAULTY = malloc calloc realloc fopen fdopen open rename mkdir

@@ -2,6 +2,7 @@
  * see, as text.  One driver puts each line in as the Input that a window would
  * send. */
 #include "attended.h"
+#include "picture/text.h"
 
 #include <ctype.h>
 #include <glob.h>
@@ -61,6 +62,31 @@ static uint64_t seen(const char *what)
     return hash_box(canvas, strcmp(what, "cards") == 0
                                 ? layout_now().column
                                 : (Box){0, 0, canvas->width, canvas->height});
+}
+
+/* The texts of the frame that was drawn last, a line each. */
+static char written[1 << 16];
+
+int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+                     double x, double y, Align align, const char *markup);
+int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+                     double x, double y, Align align, const char *markup);
+
+int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+                     double x, double y, Align align, const char *markup)
+{
+    size_t used = strlen(written);
+    snprintf(written + used, sizeof written - used, "%s\n", markup);
+    return __real_text_draw(text, canvas, style, x, y, align, markup);
+}
+
+/* Whether the window has a text with these words. */
+static void read_words(const char *words, bool wanted)
+{
+    written[0] = '\0';
+    CHECK_STATUS(player_draw(&player), STATUS_OK);
+    if ((strstr(written, words) != NULL) != wanted)
+        fail_msg("%s '%s':\n%s", wanted ? "no" : "there is", words, written);
 }
 
 static void finish_session(void)
@@ -395,6 +421,8 @@ static void session_line(const char *line)
         check_tables(rest);
     else if (strcmp(verb, "row") == 0)
         check_row(rest);
+    else if (strcmp(verb, "reads") == 0 || strcmp(verb, "lacks") == 0)
+        read_words(rest, verb[0] == 'r');
     else if (strstr("mark same other", verb))
         compare(verb, rest);
     else if (!use_mouse(verb, rest))
