@@ -1,4 +1,4 @@
-/* What each page of the lecture says with numbers, held to the simulation. */
+/* What each page of the lecture claims with numbers, held to the simulation. */
 #include "test.h"
 
 #include <limits.h>
@@ -42,26 +42,6 @@ static Simulation *open_page(const char *name, const char *more)
         keep_record, NULL, "%s%s%s", page->line, more[0] ? " " : "", more);
     simulation->options.page = page;
     return simulation;
-}
-
-/* The numbers in what a page says, in their order: what a claim's test holds,
- * or what stands in its scene. */
-static void says(const char *name, const char *numbers)
-{
-    const LecturePage *page = lecture_find(name);
-    char words[1400], found[256] = "";
-    snprintf(words, sizeof words, "%s %s %s %s %s", page->text,
-             page->ask ? page->ask : "", page->look, page->touch, page->claim);
-    for (char *at = words; (at = strchr(at, '{'));) /* live numbers */
-        memset(at, ' ', strcspn(at, "}"));
-    for (char *at = words; *(at += strcspn(at, "0123456789"));) {
-        size_t used = strlen(found), length = strspn(at, "0123456789.");
-        length -= at[length - 1] == '.'; /* the end of a sentence */
-        snprintf(found + used, sizeof found - used, "%s%.*s", used ? " " : "",
-                 (int)length, at);
-        at += length;
-    }
-    assert_string_equal(found, numbers);
 }
 
 static void check_falls(void)
@@ -113,7 +93,6 @@ static double known(const char *name, const char *fact)
 
 TEST(claim_solid)
 {
-    says("solid", "1 6 49 156 1000");
     CHECK(known("solid", "masses") == 49 && known("solid", "springs") == 156);
     for (int n = 1; n <= 32; n *= 2) {
         char more[32];
@@ -141,7 +120,6 @@ static void obey_places(Simulation *simulation, const char *page)
 
 TEST(claim_mesh)
 {
-    says("mesh", "1 2 1 0 3 0 3 1 4 1 2");
     Simulation *simulation = open_page("mesh", "");
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
@@ -174,8 +152,8 @@ TEST(claim_mesh)
                                             "j + 1, k"};
         CHECK(lit == 1);
         CHECK(strstr(code[from], texts[s / 6 < 2 ? s / 6 : 2]));
-        CHECK((strstr(code[from - 1], "(i + 1) * row + j + 1") !=
-               NULL) == (s > 12 && s % 2));
+        CHECK((strstr(code[from - 1], "(i + 1) * row + j + 1") != NULL) ==
+              (s > 12 && s % 2));
     }
 }
 
@@ -190,7 +168,6 @@ static void middle_of(const Simulation *simulation, int body, double x[2])
 
 TEST(claim_equation)
 {
-    says("equation", "0 36 25 40 200 0.3");
     CHECK(known("equation", "balanced") == 9);
     double g[50] = {0}, sum[2] = {0}, scale = 0, before[2], after[2];
     Simulation *simulation = open_page("equation", "");
@@ -236,7 +213,6 @@ static void check_euler(const char *name, double x, double y, double factor)
 
 TEST(claim_forward)
 {
-    says("forward", "2 2 1 0 0 1 0.5 1 0.5 1 0.1 2 2");
     check_euler("forward", 1, 0.5, 1.25);
     CHECK_NEAR(known("forward", "half miss"),
                hypot(1 - cos(0.25), 0.25 - sin(0.25)), 1e-15);
@@ -252,7 +228,6 @@ TEST(claim_forward)
 
 TEST(claim_backward)
 {
-    says("backward", "1 1 2 1 1 1 0 0 1 0.5 0.8 0.4 1");
     CHECK_NEAR(known("backward", "factor"), 0.8, 1e-15);
     check_euler("backward", 0.8, 0.4, 1 / 1.25);
     const double *v = make_steps(open_page("backward", ""), 1)->run[0].v;
@@ -268,7 +243,6 @@ TEST(claim_backward)
 
 TEST(claim_symplectic)
 {
-    says("symplectic", "0.5 1 2 1 2 2 2 50 1000 0.5");
     CHECK_NEAR(known("symplectic", "h limit"), 2, 0); /* as below */
     Simulation *simulation = open_page("symplectic", "");
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
@@ -293,7 +267,6 @@ TEST(claim_symplectic)
 
 TEST(claim_stability)
 {
-    says("stability", "2 2 0.3183 0.02 1.00786 4 0.31 7 0.33 10");
     double each = hypot(1, 0.02 * 2 * acos(-1));
     double often = known("stability", "doubling");
     CHECK(pow(each, often) >= 2 && pow(each, often - 1) < 2);
@@ -340,7 +313,6 @@ static Status end_of(const char *name, const char *more, int steps)
 
 TEST(claim_opening)
 {
-    says("opening", "8 20 4 8 20 4 1000 8 200");
     CHECK_STATUS(end_of("opening", "", 20), STATUS_NOT_FINITE);
     CHECK_STATUS(end_of("opening", "--timestep 0.004", 1000), STATUS_OK);
     Simulation *simulation =
@@ -353,7 +325,6 @@ TEST(claim_opening)
 
 TEST(claim_closing)
 {
-    says("closing", "0.2 0.966 0.335 0.4 0.2 1 2 0.966 0.335");
     Simulation *simulation = open_page("closing", "");
     CHECK_NEAR(simulation->options.timestep, 0.2, 0);
     const double *x = simulation->descent.point;
@@ -374,8 +345,6 @@ TEST(claim_closing)
 
 TEST(claim_explicit)
 {
-    says("explicit",
-         "4.7 30 6 2 1.84 12 20 10 1.5 60 9.5 9 1000 2 13 10 1");
     double limit = known("explicit", "h limit");
     for (int i = 0; i < 2; i++) { /* a push along it, below and above */
         char line[80];
@@ -432,7 +401,6 @@ TEST(claim_explicit)
 /* g''/(2 g') of E = (x - 2)^2/2 + 0.45 (x^2 - 1)^2 at the root of g. */
 TEST(claim_tangent)
 {
-    says("tangent", "1 1 10 0 2.5 1.17799 2 0.95");
     double x[16];
     int count = 0;
     Simulation *simulation = open_page("tangent", "");
@@ -463,7 +431,6 @@ TEST(claim_tangent)
 
 TEST(claim_newton)
 {
-    says("newton", "0.6 0.9 1 5 12 0.05 0.05");
     Simulation *simulation = open_page("newton", "");
     const Descent *descent = &simulation->descent;
     while (!simulation->done) {
@@ -486,9 +453,6 @@ TEST(claim_newton)
 
 TEST(claim_overshoot)
 {
-    says("overshoot",
-         "2 1.3 2.047 12.95 4 10 0 1.089 1.3 2.047 12.95 "
-         "4 10 1.08 1.09");
     CHECK_NEAR(known("overshoot", "next"), 1.3 - sinh(2.6) / 2, 1e-12);
     CHECK_NEAR(known("overshoot", "slope"), tanh(1.3), 1e-15);
     CHECK_NEAR(known("overshoot", "curvature"), pow(cosh(1.3), -2), 1e-15);
@@ -554,7 +518,6 @@ static void check_explosion(void)
 
 TEST(claim_explodes)
 {
-    says("explodes", "2 1 10 1 1.7 10 0.0043 2 9 62 5 10 1.7 0.0043 2 9 62 5");
     CHECK(2 * open_page("explodes", "")->system.nodes == 32);
     static const char *const watched[] = {
         "--filter clamp", "--line-search backtrack",
@@ -582,9 +545,6 @@ TEST(claim_explodes)
  * most 100 M, as it is here: h^2 k is 10 and M is 40. */
 TEST(claim_minimise)
 {
-    says("minimise", "7 0 0 0 0 4 4 10 "
-                     "3.476 4.917 2.023 "
-                     "1.984 1.983 22 0.505 0.432 0.376");
     static const double values[] = {4.917, 2.023, 1.984, 1.983, 1.983};
     Simulation *simulation = open_page("minimise", "");
     const TimeIntegrator *run = &simulation->run[0];
@@ -637,7 +597,6 @@ TEST(claim_minimise)
 
 TEST(claim_parts)
 {
-    says("parts", "100 1.5");
     Simulation *simulation = open_page("parts", "");
     for (int s = 0; s < 2; s++) {
         CHECK_NEAR(simulation->system.k[s], 100, 0);
@@ -671,7 +630,6 @@ TEST(claim_parts)
 
 TEST(claim_dial)
 {
-    says("dial", "1 10 1 2 0 1 1 10 1");
     Simulation *simulation = open_page("dial", "");
     const Walk *walk = &simulation->exhibit.walk;
     const double *target = simulation->exhibit.target;
@@ -698,7 +656,6 @@ TEST(claim_dial)
 
 TEST(claim_inertia)
 {
-    says("inertia", "1 0.6 0.9 0.2 0.3 1 1 0.4 0.6 0.26 0.4 0.6 0.6 0.9 0.26");
     const LecturePage *page = lecture_find("inertia");
     Simulation *simulation = open_page("inertia", "");
     exhibit_flip(simulation, 1);
@@ -718,7 +675,6 @@ TEST(claim_inertia)
 
 TEST(claim_algorithm2)
 {
-    says("algorithm2", "0 0 1 87 1 2 1 4 0 1 1 87 1 2 1 4 4 1");
     Simulation *simulation = open_page("algorithm2", "");
     const System *system = &simulation->system;
     double p[50] = {0}, trial[50], h2 = 0.012 * 0.012;
@@ -746,7 +702,6 @@ TEST(claim_algorithm2)
 
 TEST(claim_tamed)
 {
-    says("tamed", "2 2 1.41 1 1 2 1 4 1 2 1 2 1 4 1 2 1 1 1 1 1.41");
     static const double alpha[] = {0.25, 0.5, 1, 1, 1, 1};
     CHECK_STATUS(end_of("tamed", "", 100), STATUS_OK);
     CHECK(updates.count == 6);
@@ -758,7 +713,6 @@ TEST(claim_tamed)
 
 TEST(claim_descent)
 {
-    says("descent", "0 0.2 0.1 0.35 0.86 2.94 0.1 0.35 0.86 2.94 289");
     Simulation *simulation = open_page("descent", "");
     CHECK_NEAR(simulation->options.timestep, 0.2, 0);
     CHECK_NEAR(simulation->run[0].x[0], 0.1, 0);
@@ -775,7 +729,6 @@ TEST(claim_descent)
 
 TEST(claim_psd)
 {
-    says("psd", "0 0 4 1 4 3 1 0 100 1 0 3 0 3 0.577 0 0 3 0");
     CHECK_NEAR(known("psd", "negative"), -220, 1e-12);
     Simulation *simulation = open_page("psd", "--filter abs");
     CHECK(known_now(simulation, "projected across") == 0);
@@ -792,7 +745,6 @@ TEST(claim_psd)
 
 TEST(claim_energy)
 {
-    says("energy", "100 1 0 2 200 2 50 4 4 0 50 200 1 2 3996");
     SpringFacts rest, near;
     const double k = 100;
     spring_facts((double[2]){1, 0}, 1, k, &rest);
@@ -808,7 +760,6 @@ TEST(claim_energy)
 
 TEST(claim_force)
 {
-    says("force", "1 2 2 100 1 10 4 1.2 0.5 23.805 165.6 69");
     SpringFacts facts;
     Simulation *simulation = open_page("force", "");
     const double *x = simulation->run[0].x;
@@ -825,7 +776,6 @@ TEST(claim_force)
 
 TEST(claim_potential)
 {
-    says("potential", "16 0 4 2 4 50 72 16 676 2500");
     CHECK(known("potential", "places") == 676);
     Simulation *simulation = open_page("potential", "");
     const System *system = &simulation->system;
@@ -851,7 +801,6 @@ TEST(claim_potential)
 
 TEST(claim_algorithm3)
 {
-    says("algorithm3", "3 3 52 3 52 72 5 1");
     CHECK(known("algorithm3", "short") == 52);
     Simulation *simulation = open_page("algorithm3", "");
     make_steps(simulation, 1);
@@ -864,7 +813,6 @@ TEST(claim_algorithm3)
 
 TEST(claim_step)
 {
-    says("step", "2 10 10 36 330 392 0.01 10 2 10 20 0.009");
     make_steps(open_page("step", "--tolerance 0.01"), 1);
     CHECK(updates.count == 2);
     check_falls();
@@ -903,7 +851,6 @@ static int turned_over(const Simulation *simulation)
 
 TEST(claim_simulator)
 {
-    says("simulator", "5 50 100 14 1000 5 300");
     Simulation *simulation = open_page("simulator", "");
     double start = simulation_energies(simulation, 0).total, now = start;
     for (int i = 1; i <= 200; i++) {
@@ -936,7 +883,6 @@ static void check_ledger(const Simulation *simulation, double start)
 
 TEST(claim_contact)
 {
-    says("contact", "1000 3.2 125 5.75 0 300 5 5.75");
     double nearest = 1;
     Simulation *simulation = open_page("contact", "");
     CHECK_NEAR(total_mass(&simulation->system), 1000, 1e-9);
@@ -1002,8 +948,6 @@ static double slide(const char *more, double way[4])
 
 TEST(claim_friction)
 {
-    says("friction", "20 20 0.364 20 1.1 20 1 1.1 0.91 0.41 3 7 2 0.41 6 0.4 "
-                     "0.32 50");
     CHECK_NEAR(tan(acos(-1) / 9), 0.364, 5e-4);
     double way[4];
     slide("", way);
@@ -1018,7 +962,6 @@ TEST(claim_friction)
 
 TEST(claim_inelastic)
 {
-    says("inelastic", "4 1.5 60 1 8000 60 0.98 300 0.05");
     double nearest = 1, most = 0;
     Simulation *simulation = open_page("inelastic", "");
     double start = simulation_energies(simulation, 0).total;
@@ -1089,7 +1032,6 @@ static Simulation *bodies_after(const char *name, const char *more, int steps)
 
 TEST(claim_bodies)
 {
-    says("bodies", "0 8.2 28 400 8.2 4");
     const Simulation *stack = bodies_after("bodies", "", 400);
     double x[3][2];
     for (int body = 0; body < 3; body++) {
@@ -1112,7 +1054,6 @@ TEST(claim_bodies)
 
 TEST(claim_rub)
 {
-    says("rub", "1 2 0.6 100 1 0.6");
     for (int i = 0; i < 2; i++) {
         double x[2], rigid = 1 / (2 * (i ? 0.6 : 0.2) * 9.81);
         middle_of(bodies_after("rub", i ? "--friction 0.6" : "", 100), 1, x);
@@ -1122,8 +1063,6 @@ TEST(claim_rub)
 
 TEST(claim_gap)
 {
-    says("gap", "0.5 0.3 36 462 20 259 978 200 000 36 462 20 259 978 100 "
-                "200000");
     for (int i = 0; i < 2; i++) {
         double x[2];
         middle_of(bodies_after("gap", i ? "--young 200000" : "", 100), 0, x);
@@ -1153,7 +1092,6 @@ TEST(claim_gap)
 
 TEST(claim_fracture)
 {
-    says("fracture", "1 20 45 45 100 100");
     Simulation *simulation = open_page("fracture", "");
     CHECK(simulation->options.segments == 24);
     double start = simulation_energies(simulation, 0).total;
@@ -1215,7 +1153,6 @@ static Simulation *whole_race(const char *name)
 
 TEST(claim_order)
 {
-    says("order", "0.064 2 4 2 10 10 2 4");
     static const double factor[RACE_METHODS] = {2, 2, 4, 2, 4, 4, 4};
     const Race *race = &whole_race("order")->exhibit.race;
     for (int i = 0; i < RACE_METHODS; i++) {
@@ -1245,8 +1182,15 @@ TEST(claim_order)
 
 TEST(claim_race)
 {
-    says("race", "1 1 1 10 1.01 8 8 4 1 100 100 10 1.01 1");
-    const Race *race = &whole_race("race")->exhibit.race;
+    Simulation *raced = whole_race("race");
+    const Race *race = &raced->exhibit.race;
+    double quickest = INFINITY;
+    for (int i = 0; i < race->count; i++) {
+        const RacePoint *point = &race->point[i];
+        if (point->stable && !point->method->implicit && point->error <= 0.01)
+            quickest = fmin(quickest, point->seconds);
+    }
+    CHECK_NEAR(known_now(raced, "explicit ms"), 1e3 * quickest, 0);
     enum { VERLET = 2 }; /* h = 8 ms comes first, then 4 ms */
     CHECK(race->point[VERLET].method == integrator_method("verlet"));
     CHECK(race->point[VERLET].error < 0.01 && !race->point[VERLET].stable);
@@ -1271,7 +1215,6 @@ TEST(claim_race)
 
 TEST(claim_trust)
 {
-    says("trust", "1000 21 10 280 550 97 100 10");
     int undone = 0, good = 0, all = ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     Simulation *simulation = open_page("trust", "");
     CHECK(!speaks_of_all(simulation));
@@ -1494,31 +1437,6 @@ TEST(large_words_fit_on_all_pages)
             paper_free(&paper);
         }
         free_all_begun();
-    }
-}
-
-/* An algorithm with lines off goes by another name. */
-TEST(listings_are_called_by_what_is_on)
-{
-    static const char *const rows[][2] = {
-        {"square", "Algorithm 3: projected Newton"},
-        {"square --filter none", "Algorithm 3, line 3 is off"},
-        {"square --line-search none", "Algorithm 3, line 5 is off"},
-        {"landscape --filter none --line-search none",
-         "Algorithm 1: Newton's method"},
-        {"square --filter none --line-search none",
-         "Algorithm 3, lines 3 and 5 are off"},
-        {"overshoot", "Algorithm 1: Newton's method"},
-        {"overshoot --line-search backtrack",
-         "Algorithm 1; line 4 is Algorithm 2"},
-        {"square --integrator forward-euler", "Forward Euler"}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        Show show;
-        show_create(simulate("%s", rows[i][0]), &show);
-        show_know(&show);
-        assert_string_equal(
-            text_first(&show.pane[0].facts, card_listing.title).words,
-            rows[i][1]);
     }
 }
 

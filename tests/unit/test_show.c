@@ -468,27 +468,16 @@ static bool is_drawn(const char *text)
 
 /* ---- contact ------------------------------------------------------------- */
 
-/* Two of the slopes let the body slide, the third holds it; words compare mu
- * with the slope; arrows of forces end at their nodes, so that they come out of
- * the slope. */
+/* Two of the slopes let the body slide, the third holds it; arrows of forces
+ * end at their nodes, so that they come out of the slope. */
 TEST(contacts_slide_or_hold)
 {
-    static const double part[] = {0.5, 0.9, 1.1};
     stand_up("slope", 60);
     draw(); /* the paper has the size of its letters */
     Plot stage = show_stage(&paper, &show, &layout, 0);
     for (int r = 0; r < 3; r++) {
         const SpringPen pen = square_pen(&stage, r);
-        const double *n = pen.contact->obstacle[0].n;
-        double angle = atan2(fabs(n[0]), n[1]), lowest = 0, at[2];
-        char words[64];
-        for (int k = 0; k < 2; k++) { /* with another mu, and as it is */
-            double mu = k ? tan(angle) : 0.45;
-            simulation_set(&simulation, OPTION_SLOT(friction), mu);
-            snprintf(words, sizeof words, "\u03bc = %.3g tan %.3g\u00b0",
-                     part[r] * mu / tan(angle), angle * 180 / M_PI);
-            CHECK(is_drawn(words));
-        }
+        double lowest = 0, at[2];
         for (ElementWalk to = square_contacts(&pen); elements_next(&to);) {
             Touch touch = square_touch(&pen, &to.element);
             CHECK(touch.rough && touch.slides == (r < 2));
@@ -499,41 +488,6 @@ TEST(contacts_slide_or_hold)
         square_contact_forces(&pen, 1);
         Box below = {0, (int)lowest + 6, 900, 60};
         CHECK(lowest > 0 && count_colour(below, COLOUR_FORCE) > 10);
-    }
-}
-
-/* What the mouse is over is told in numbers (which test_numbers calculates
- * again); what projection makes of eigenvalues only where one is below 0.  A
- * tolerance at which bodies could hang in the air is named; the scene's own one
- * is not. */
-TEST(a_stage_tells_in_words)
-{
-    static const struct {
-        const char *line, *text;
-        PickKind kind;
-        int index;
-        bool told;
-    } rows[] = {
-        {"square", "node 7", PICK_NODE, 7, true},
-        {"square --pin 4", "node 4, pinned", PICK_NODE, 4, true},
-        {"square", "v = (0, 0) m/s", PICK_NODE, 7, true},
-        {"square", "spring 0\u20135", PICK_SPRING, 0, true},
-        {"square --stretch 1", "eigenvalues 0, 0, 0, 8\u00b710^{5}",
-         PICK_SPRING, 0, true},
-        {"square --stretch 0.9 --turn 9", "after projection", PICK_SPRING, 0,
-         true},
-        {"square --stretch 0.9 --filter none", "after projection", PICK_SPRING,
-         0, false},
-        {"square", "after projection", PICK_SPRING, 0, false},
-        {"drop --segments 4", "\u03b5 is loose", PICK_NONE, 0, false},
-        {"drop --segments 4 --tolerance 0.01", "\u03b5 is loose", PICK_NONE, 0,
-         true},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        stand_up(rows[i].line, 0);
-        show.hover = (Pick){.kind = rows[i].kind, .index = rows[i].index};
-        if (is_drawn(rows[i].text) != rows[i].told)
-            fail_msg("%s: %s", rows[i].line, rows[i].text);
     }
 }
 
