@@ -62,6 +62,7 @@ mutants:
 
 # What other tools find in the sources.
 analyse: build/config.mk
+	clang-format --dry-run --Werror include/*/*.h src/*.c src/*/*.[ch] tests/*/*.[ch]
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability \
 	  --inline-suppr --error-exitcode=1 -Iinclude -Isrc src
 	for file in $$(ls src/*.c src/*/*.c | grep -v -e _web.c -e homework); do clang-tidy --quiet $$file -- -std=c11 \
