@@ -146,8 +146,6 @@ typedef struct Held {
     bool on, away; /* the mouse has left the stage: the view follows again */
     int pane;
     double bounds[4];
-    bool boxes;    /* a box is drawn around nodes that are placed together: */
-    double box[4]; /* m, two of its corners */
 } Held;
 
 /* ---- around the stage --------------------------------------------------- */
@@ -240,11 +238,9 @@ typedef struct Show {
     Hit over;                   /* and which part of the window */
     const struct Control *hand; /* that pulls in the active pane; NULL: none */
     Held held;
-    int along_nodes;
-    const unsigned char *along; /* [along_nodes] 1: placed with others */
-    bool strain;                /* springs coloured by strain */
-    bool bare;                  /* the picture of the slide and nothing else */
-    bool print; /* stage and cards alone, and the page's question */
+    bool strain; /* springs coloured by strain */
+    bool bare;   /* the picture of the slide and nothing else */
+    bool print;  /* stage and cards alone, and the page's question */
     struct Text
         *text;     /* what a page's words are measured with; NULL: guessed */
     double letter; /* pixels that an em has at least; 0: the usual ones */

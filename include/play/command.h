@@ -36,11 +36,11 @@ typedef struct Command {
 
 /* Who listens to the keys; a row of the table says for whom its keys are. */
 typedef enum Keyboard {
-    AT_RUN = 1,       /* the run, */
-    AT_NUMBER = 2,    /* while a number is selected, */
-    AT_LIST = 4,      /* or the list of pages is open; */
-    AT_FIELD = 8,     /* what is typed: it takes every key */
-    AT_SHEET = 16,    /* while all scenes are shown: no key of the run */
+    AT_RUN = 1,    /* the run, */
+    AT_NUMBER = 2, /* while a number is selected, */
+    AT_LIST = 4,   /* or the list of pages is open; */
+    AT_FIELD = 8,  /* what is typed: it takes every key */
+    AT_SHEET = 16, /* while the sheet of scenes is shown: no key of the run */
     AT_QUESTION = 32, /* a page waits for a number */
     AT_PLAY = AT_RUN | AT_NUMBER | AT_LIST | AT_QUESTION,
     AT_ANY = AT_PLAY | AT_SHEET

@@ -109,9 +109,7 @@ typedef struct Past {
     int now;            /* the present one; those above it were undone */
     long step;          /* shown, in all panes */
     Machine machine[OPTIONS_MAX_PANES];
-    bool keeps;           /* somebody may go back, or looks at steps behind */
-    unsigned char *along; /* [along_nodes] 1: placed with any of them; NULL */
-    int along_nodes;
+    bool keeps;   /* somebody may go back, or looks at steps behind */
     bool goes_on; /* when one of several panes fails the others go on */
     long same; /* what was told of later steps is no more so; whoever tells of
                   them makes that good and sets LONG_MAX */
@@ -152,9 +150,6 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
  * Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture);
-
-/* The nodes of a pane that are placed with this one; NULL: it alone. */
-const unsigned char *past_along(const Past *past, int pane, long node);
 
 /* Wants this step shown, 0 ... newest + 1; work that is under way is given up.
  *   again  it is made once more, also where that is long work, to know all of

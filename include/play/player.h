@@ -121,7 +121,7 @@ typedef struct Player {
 
     /* What only the screen shows. */
     Column column;
-    struct Sheet *sheet;     /* of all scenes; NULL: it is closed */
+    struct Sheet *sheet;     /* of scenes; NULL: it is closed */
     const LecturePage *left; /* the page that was last open, or NULL */
     const LecturePage *told; /* the page whose answer is shown, or NULL */
     bool opens;              /* a page: its own lines are obeyed */

@@ -21,12 +21,7 @@ typedef enum InputKind {
     INPUT_LEAVE    /* the mouse is elsewhere */
 } InputKind;
 
-enum {
-    BUTTON_LEFT = 1,
-    BUTTON_MIDDLE = 2,
-    BUTTON_RIGHT = 3,
-    BUTTON_BOX = 4 /* the left one with Shift */
-};
+enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
 
 typedef struct Input {
     InputKind kind;

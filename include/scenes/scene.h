@@ -71,7 +71,9 @@ typedef struct Scene {
     const char *turn; /* what one step is; NULL: a step in time */
     bool explains; /* it is looked at step by step: a window waits at step 0 */
     const char *group; /* of scenes that begins with it; NULL: none does */
-    const char *pin;   /* as --pin, or NULL */
+    bool by_name;    /* opened by name or by a page only: neither a key nor the
+                        sheet has it */
+    const char *pin; /* as --pin, or NULL */
     /* What the command line has no words for: rows over columns, 0: a square;
      * k_c over k, 0: one half; whether pins are moved. */
     double aspect, cell_stiffness;
@@ -91,7 +93,8 @@ typedef struct Scene {
     const char *parts[SCENE_MAX_SWITCHES];
 } Scene;
 
-/* The table; the first row is the default; it ends with a NULL name. */
+/* The table; the first row is the default; those by_name are the last ones; it
+ * ends with a NULL name. */
 extern const Scene scenes[];
 
 /* The points that can be dragged, m: at out; the parts that can be switched.

@@ -125,13 +125,12 @@ Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
 Status simulation_has_room(const Simulation *simulation, const Options *options,
                            char *message, size_t size);
 
-/* Puts a node at (x, y), m, at rest, and others as far as it goes; really: else
- * it is only tried.  What this does to the energy is booked as work.
- *   along  [nodes] in, 1: goes as far; NULL: none does
+/* Puts a node at (x, y), m, at rest; really: else it is only tried.  What this
+ * does to the energy is booked as work.
  * Returns OK; INVALID_INPUT: there is no such node, or a cell would be turned
  * over there, or an obstacle is. */
 Status simulation_place(Simulation *simulation, int node, double x, double y,
-                        const unsigned char *along, bool really);
+                        bool really);
 
 /* Whether a hand can take hold of its nodes. */
 bool simulation_is_handled(const Simulation *simulation);

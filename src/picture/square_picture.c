@@ -118,8 +118,7 @@ static void draw_direction(const SpringPen *pen)
                 factor == 1 ? "" : number_of(factor).text);
 }
 
-/* Nodes that are placed together, the box that is drawn around some; what the
- * mouse is over; the hand's spring. */
+/* What the mouse is over, and the hand's spring. */
 static void draw_mouse(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
@@ -127,16 +126,6 @@ static void draw_mouse(const SpringPen *pen)
     const System *system = pen->system;
     const Control *hand = stage->pane == show->active ? show->hand : NULL;
     const Pick *hover = &show->hover;
-    const double *box = show->held.box;
-    for (int i = 0; i < system->nodes; i++)
-        if (show->along_nodes == system->nodes && show->along[i])
-            plot_ring(stage, pen->x + 2 * (size_t)i, pen->radius + 3, 2,
-                      COLOUR_HAND);
-    const double corner[4][2] = {
-        {box[0], box[1]}, {box[2], box[1]}, {box[2], box[3]}, {box[0], box[3]}};
-    for (int i = 0; i < 4 && show->held.boxes; i++)
-        plot_dashes(stage, corner[i], corner[(i + 1) % 4], 2, NULL,
-                    COLOUR_HAND);
     bool over = hover->pane == stage->pane;
     bool writes = show->lecture && show->lecture->writes;
     int lit = hover->kind == PICK_SPRING ? hover->index
@@ -372,8 +361,7 @@ static void draw_lens(const SpringPen *pen)
         !law_gap(pen->simulation, &gap))
         return;
     bool paired = gap.pair[0] >= 0;
-    double most =
-        paired && lens.box.width > 3 * PAIR * lens.em ? PAIR : LENS;
+    double most = paired && lens.box.width > 3 * PAIR * lens.em ? PAIR : LENS;
     for (int i = 0; i < 4 * LENS_SIZES; i++) {
         int side = (int)((most - 2 * (i / 4)) * lens.em);
         int left = i & 2 ? air : stage.width - side - air;

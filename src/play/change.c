@@ -557,46 +557,13 @@ Status obey_place(Player *player, const Command *command)
         return player_refuse(player, "nothing to be placed here");
     for (int p = 0; p < past_panes(&player->past); p++) {
         Simulation *simulation = &player->past.machine[p].simulation;
-        if (simulation_place(
-                simulation, (int)command->number, command->x, command->y,
-                past_along(&player->past, p, command->number), false))
+        if (simulation_place(simulation, (int)command->number, command->x,
+                             command->y, false))
             return player_refuse(player,
                                  "no room for it there: an obstacle, a "
                                  "body, or a cell that would turn over");
     }
     return change_all(player, command);
-}
-
-/* From now on the nodes in a box are placed together; where it has none, each
- * is by itself again. */
-Status obey_box(Player *player, const Command *command)
-{
-    Past *past = &player->past;
-    const Simulation *simulation = player_simulation(player);
-    const double *x = simulation->run[0].x;
-    int nodes = simulation->system.nodes, count = 0;
-    double a[2], b[2];
-    if (!simulation_is_handled(simulation))
-        return player_refuse(player, "nothing to be placed here");
-    if (sscanf(command->text, "%lf,%lf,%lf,%lf", &a[0], &a[1], &b[0], &b[1]) !=
-        4)
-        return player_refuse(player, "a box is X,Y,X,Y, two of its corners");
-    free(past->along);
-    past->along = malloc((size_t)nodes);
-    past->along_nodes = past->along ? nodes : 0;
-    for (int i = 0; i < past->along_nodes; i++) {
-        bool in = true;
-        for (int k = 0; k < 2; k++)
-            in = in && (x[2 * i + k] - a[k]) * (x[2 * i + k] - b[k]) <= 0;
-        past->along[i] = in;
-        count += in;
-    }
-    if (count > 0)
-        player_note(player,
-                    "%d nodes go together: drag one of them; a click with "
-                    "Shift lets them go",
-                    count);
-    return STATUS_OK;
 }
 
 /* A ground or a ball goes where the bodies leave room. */

@@ -143,6 +143,9 @@ Status command_parse(const char *line, Command *command, char *message,
     while (kind < COMMAND_KINDS && (!command_rows[kind].word ||
                                     strcmp(command_rows[kind].word, word) != 0))
         kind++;
+    if (strcmp(word, "box") == 0) /* for one release */
+        return refuse((Refusal){message, size},
+                      "'box' is gone: place puts one node somewhere");
     if (kind == COMMAND_KINDS)
         return refuse((Refusal){message, size},
                       "there is no command '%.20s': elasto --help commands",

@@ -31,14 +31,13 @@ static void fill_help(Show *show)
     static const HelpRow mouse[] = {
         {"drag", "pulls a node; paused: places it", false},
         {"", "a pin, a ground, a ball: moves it", false},
-        {"Shift+drag", "paused: a box of nodes to place", false},
         {"drag an edge", "of the paused square: stretch", false},
         {"right click", "pins a node, or frees it", false},
         {"wheel", "zooms, or changes a number", false},
         {"middle drag", "moves the picture", false},
         {"double click", "a ball; on a number: default", false},
         {"digits", "open a lit number; Enter, Esc", false},
-        {"1 \u2026 9", "a scene; G shows all", false},
+        {"1 \u2026 9", "a scene; G shows more", false},
     };
     HelpRow *row = show->help + sizeof mouse / sizeof *mouse;
     memcpy(show->help, mouse, sizeof mouse);
@@ -340,8 +339,6 @@ void player_fill(Player *player)
     fill_chips(player);
     if (control->hand >= 0 && player->side[player->active].place < 0)
         show->hand = control;
-    show->along = player->past.along;
-    show->along_nodes = player->past.along_nodes;
     show->bars = player->past.keeps ? past_newest(&player->past) : 0;
     show->bar = bar_of;
     show->past = player;

@@ -308,10 +308,6 @@ static Status follow(Player *player)
     case COMMAND_GOTO:
         return ask(player, COMMAND_GOTO,
                    show_step_at(&player->show, &under.layout, mouse->x));
-    case COMMAND_BOX:
-        memcpy(player->show.held.box + 2, under.at, sizeof under.at);
-        player->changed = true;
-        return STATUS_OK;
     case COMMAND_PAN:
         lens_move(&player->show.lens, under.layout.pane[under.pane], dx, dy);
         player->changed = true;
@@ -414,7 +410,6 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
 static Status pressed(Player *player, const Input *input)
 {
     Mouse *mouse = &player->mouse;
-    Held *held = &player->show.held;
     Under under = look(player);
     bool stage = under.hit.zone == ZONE_STAGE;
     const Scene *scene = player_simulation(player)->scene;
@@ -425,15 +420,7 @@ static Status pressed(Player *player, const Input *input)
     mouse->grip[0] = mouse->grip[1] = 0;
     mouse->moved = false;
     player->note[0] = '\0'; /* of what was before */
-    if (input->button == BUTTON_BOX && stage && player_stands(player)) {
-        mouse->drag = COMMAND_BOX;
-        show_hold(&player->show, under.pane);
-        held->boxes = true;
-        for (int k = 0; k < 4; k++)
-            held->box[k] = under.at[k % 2];
-        return STATUS_OK;
-    }
-    if (input->button == BUTTON_LEFT || input->button == BUTTON_BOX)
+    if (input->button == BUTTON_LEFT)
         return left_pressed(player, &under, input->clicks);
     if (!stage)
         return STATUS_OK;
@@ -447,24 +434,17 @@ static Status pressed(Player *player, const Input *input)
     return STATUS_OK;
 }
 
-/* The nodes in a box go together; a click with Shift lets them go.  A click on
- * a name takes the next one; on a node it does nothing by itself. */
+/* A click on a name takes the next one; a click on a node only says what drag
+ * and right click do. */
 Status player_release(Player *player)
 {
     Mouse *mouse = &player->mouse;
-    Command box = {.kind = COMMAND_BOX, .joins = true};
     const Simulation *simulation = player_simulation(player);
-    const double *at = player->show.held.box;
     CommandKind drag = mouse->drag;
     int node = mouse->index;
     mouse->drag = COMMAND_NONE;
     mouse->leaves = false;
-    player->show.held.on = player->show.held.boxes = false;
-    if (drag == COMMAND_BOX) {
-        snprintf(box.text, sizeof box.text, "%.6g,%.6g,%.6g,%.6g", at[0], at[1],
-                 at[2], at[3]);
-        return player_obey(player, &box);
-    }
+    player->show.held.on = false;
     if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,

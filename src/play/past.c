@@ -765,7 +765,6 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     Branch *branch = push_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
-    past->along_nodes = 0; /* those were other nodes */
     forget_behind(past, -1);
     for (int p = 0; p < panes && !status; p++) {
         Entry *entry = &branch->entry[p];
@@ -823,13 +822,6 @@ static const Control *changed(const Control *from, const Command *edit)
     return control;
 }
 
-const unsigned char *past_along(const Past *past, int pane, long node)
-{
-    int nodes = past->machine[pane].simulation.system.nodes;
-    bool has = past->along && past->along_nodes == nodes && node < nodes;
-    return has && past->along[node] ? past->along : NULL;
-}
-
 /* A change of an entry of the topmost branch. */
 static Status change_entry(Past *past, int pane, const Command *edit,
                            Entry *entry)
@@ -846,8 +838,7 @@ static Status change_entry(Past *past, int pane, const Command *edit,
     if (edit->kind == COMMAND_HANDLE)
         exhibit_drag(simulation, (int)edit->number, edit->x, edit->y);
     else if (edit->kind == COMMAND_PLACE)
-        simulation_place(simulation, (int)edit->number, edit->x, edit->y,
-                         past_along(past, pane, edit->number), true);
+        simulation_place(simulation, (int)edit->number, edit->x, edit->y, true);
     else
         exhibit_flip(simulation, (int)edit->number);
     Status status = keep_state(past, pane, entry);
@@ -925,7 +916,6 @@ void past_free(Past *past)
 {
     drop_branches(past, 0);
     free(past->branch);
-    free(past->along);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free_simulation(&past->machine[p]);
         rounds_free(&past->machine[p].rounds);

@@ -303,7 +303,7 @@ Status player_create(const Options *options, int count, const char *line,
     else if (!status && player->asks &&
              simulation_is_handled(player_simulation(player)))
         player_note(player, "pull at a node with the mouse; right click pins "
-                            "it; G: all scenes; Page Down: the guided tour");
+                            "it; G: scenes; Page Down: the guided tour");
     return status;
 }
 

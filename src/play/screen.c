@@ -171,7 +171,8 @@ void player_close_sheet(Player *player)
     player->sheet = NULL;
 }
 
-/* All scenes, or the run again.  The one that is open is chosen. */
+/* All scenes but those by name, or the run again.  The open scene is chosen,
+ * the tour where the sheet does not have it. */
 Status obey_sheet(Player *player, const Command *command)
 {
     const Options *options = player_settings(player);
@@ -183,11 +184,14 @@ Status obey_sheet(Player *player, const Command *command)
     player->sheet = calloc(1, sizeof *player->sheet);
     if (!player->sheet)
         return STATUS_OUT_OF_MEMORY;
-    int *cells = &player->sheet->cells;
-    for (*cells = 1; scenes[*cells - 1].name && *cells < LAYOUT_CELLS; ++*cells)
-        continue;
-    player->show.chosen =
-        options->page ? 0 : (int)(options->scene - scenes) + 1;
+    int cells = 1; /* the first one is the tour's */
+    while (cells < LAYOUT_CELLS && scenes[cells - 1].name &&
+           !scenes[cells - 1].by_name)
+        cells++;
+    player->sheet->cells = cells;
+    player->show.chosen = options->page || options->scene->by_name
+                              ? 0
+                              : (int)(options->scene - scenes) + 1;
     return STATUS_OK;
 }
 
@@ -249,7 +253,7 @@ void player_fill_sheet(Player *player)
             snprintf(show->sentence, SHOW_TEXT, "%s: %s", show->cell[i].name,
                      i > 0 ? scene->sentence : "the lecture, page by page");
     }
-    show->topic = "All scenes";
+    show->topic = "Scenes";
     snprintf(show->method, SHOW_TEXT, "arrows, Enter");
     snprintf(show->state, SHOW_VALUE, "digits: a page of the tour");
 }

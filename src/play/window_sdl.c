@@ -33,7 +33,7 @@ static bool tab; /* Tab is down and has asked for nothing yet */
 
 /* As they were at the event that is read: it may have waited, and SDL only
  * tells what is held now. */
-static bool tab_held, shift;
+static bool tab_held;
 static SDL_Point mouse;
 
 const char *window_failure(void)
@@ -188,7 +188,6 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
     bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
     bool down = event->state == SDL_PRESSED, is_tab = key == SDLK_TAB;
     bool told = is_tab ? tab && !down : down;
-    shift = (mod & KMOD_SHIFT) != 0;
     if (is_tab)
         tab_held = down;
     if ((mod & (KMOD_ALT | KMOD_GUI)) || (typed && !(mod & KMOD_CTRL)) ||
@@ -259,10 +258,9 @@ static Input read_event(const SDL_Event *event)
     case SDL_MOUSEBUTTONUP:
         mouse = (SDL_Point){event->button.x, event->button.y};
         input.kind = press ? INPUT_PRESS : INPUT_RELEASE;
-        input.button = button == SDL_BUTTON_LEFT && shift ? BUTTON_BOX
-                       : button == SDL_BUTTON_LEFT        ? BUTTON_LEFT
-                       : button == SDL_BUTTON_RIGHT       ? BUTTON_RIGHT
-                                                          : BUTTON_MIDDLE;
+        input.button = button == SDL_BUTTON_LEFT    ? BUTTON_LEFT
+                       : button == SDL_BUTTON_RIGHT ? BUTTON_RIGHT
+                                                    : BUTTON_MIDDLE;
         input.clicks = event->button.clicks;
         break;
     case SDL_MOUSEWHEEL:

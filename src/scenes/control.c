@@ -185,19 +185,16 @@ Status simulation_use(Simulation *simulation, const Control *control)
 }
 
 Status simulation_place(Simulation *simulation, int node, double x, double y,
-                        const unsigned char *along, bool really)
+                        bool really)
 {
     TimeIntegrator *run = &simulation->run[0];
     double *before = run->new_x, *p = run->new_v; /* the next step's */
     if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
         !isfinite(y))
         return STATUS_INVALID_INPUT;
-    const double way[2] = {x - run->x[2 * node], y - run->x[2 * node + 1]};
     double had[SIMULATION_MAX_RUNS];
     dissipated_so_far(simulation, had);
     memcpy(before, run->x, run->size * sizeof *before);
-    for (size_t i = 0; along && i < run->size; i++)
-        run->x[i] += along[i / 2] ? way[i % 2] : 0;
     run->x[2 * node] = x;
     run->x[2 * node + 1] = y;
     Status status = system_check(run->system, run->x);
@@ -209,9 +206,7 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
         memcpy(run->x, before, run->size * sizeof *before);
         return status;
     }
-    for (int i = 0; i < simulation->system.nodes; i++)
-        if (i == node || (along && along[i]))
-            stop_node(run, i);
+    stop_node(run, node);
     book_change(simulation, had);
     return STATUS_OK;
 }

@@ -236,7 +236,7 @@ canvas.addEventListener('blur', () => (tabHeld = tabAlone = false));
 
 // Inputs, as in view.h.
 const [REDRAW, MOVE, PRESS, RELEASE, WHEEL, LEAVE] = [3, 4, 5, 6, 7, 8];
-const [LEFT, MIDDLE, RIGHT, BOX] = [1, 2, 3, 4]; // BOX: left with Shift
+const [LEFT, MIDDLE, RIGHT] = [1, 2, 3];
 const LONG_TOUCH = 500; // ms
 const ZOOM = 1.15; // of one notch of the wheel
 const STILL = 8; // points that a finger may move and still touch one place
@@ -327,7 +327,7 @@ canvas.addEventListener('pointerdown', (event) => {
   canvas.setPointerCapture(event.pointerId);
   event.preventDefault();
   if (isTouch(event)) touchDown(event);
-  else press(event, event.shiftKey && !event.button ? BOX : BUTTONS[event.button] || 0);
+  else press(event, BUTTONS[event.button] || 0);
 });
 canvas.addEventListener('pointermove', (event) => {
   if (isTouch(event)) touchMove(event);

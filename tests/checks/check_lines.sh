@@ -5,7 +5,7 @@
 work_apart
 
 # ---- what is refused ---------------------------------------------------------
-# k.csv has a link and one of a link; d is a folder; jump is a script: nothing else is there, and nothing is made or changed.  Code, words of
+# k.csv has a link and one of a link; d is a folder; jump and box are scripts: nothing else is there, and nothing is made or changed.  Code, words of
 # the one line on standard error, arguments.
 pages=$("$elasto" --lecture --list | wc -l)
 refusals() {
@@ -15,6 +15,7 @@ refusals() {
     ln -s round round
     mkdir d
     echo '0 jump' >jump
+    echo '0 box 0,0,1,1' >box
     ls -A >../before.$$
     while IFS='|' read -r expected words arguments; do
         # shellcheck disable=SC2086
@@ -39,6 +40,7 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|'circle'|circle --lecture
 1|missing/x.html|--handout missing/x.html
 2|line 1.*'jump'.*--help commands$|--headless --script jump
+2|line 1.*'box' is gone: place|--headless --script box
 2|nowhere: No such file|--headless --script nowhere
 2|--states and --log are one file, 'k.csv'|--states k.csv --log k.csv
 2|--states and --log are one file|--states chain --log k.csv

@@ -15,7 +15,7 @@ awk '{ step = $1; sub("[0-9]* ", ""); n = split($0, all, "; ")
 0 zoom 150 0.1 0.2; pan 0.1 -0.1; blank; blank; sheet; sheet; full-screen
 0 full-screen; select; raise; lower; default stretch; start 0.3 0.2
 0 set timestep 0.005; handle 0 0.2 0.1; flip 0; predict 0.5 0.2; cell 3
-0 options; options; add gravity; box 0,0,1,1; place 1 0.1 0.1; obstacle 0 0 -2; grab 2; play
+0 options; options; add gravity; place 1 0.1 0.1; obstacle 0 0 -2; grab 2; play
 2 drag 0.6 -0.5
 3 drag 0.7 -0.2
 4 release; pin 1

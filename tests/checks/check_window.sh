@@ -200,14 +200,12 @@ hand_arrives() {
     [ "$a" = 4 ] || echo "the time line was dragged to $a, not 4"
     key End
     # what is held counts as it was, not as it is when it is read
-    at_once keydown Shift mousemove --window "$window" 200 120 mousedown 1 \
-        mousemove_relative 400 400 mouseup 1 keyup Shift \
-        mousemove --window "$window" 160 757 click 4 mousemove_relative 90 -90 \
+    at_once mousemove --window "$window" 160 757 click 4 mousemove_relative 90 -90 \
         keydown Tab key m keyup Tab
     key n
     same_again square --segments 2 --stretch 1
     for word in 'set stretch 1\.' 'set timestep 0.0' 'set stiffness 50000$' \
-        'set timestep 0.0166666666666666' grab drag release pin box \
+        'set timestep 0.0166666666666666' grab drag release pin \
         'set stiffness 70000$' add-pane; do
         grep -q " $word" session || echo "no $word"
     done

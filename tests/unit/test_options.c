@@ -106,7 +106,7 @@ TEST(values_are_read)
     CHECK(o.grounds == 1 && o.ground[0][3] == -2);
     /* the scene stands anywhere */
     CHECK(parse_good("--segments 3 hang --side 2").scene == scene_find("hang"));
-    CHECK(parse_good("--segments 3 7").scene == scene_find("hang"));
+    CHECK(parse_good("--segments 3 6").scene == scene_find("hang"));
     CHECK(parse_good("--segments 3 7").segments == 3);
 }
 

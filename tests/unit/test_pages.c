@@ -114,7 +114,7 @@ static void obey_places(Simulation *simulation, const char *page)
         int node = 0;
         double x = 0, y = 0;
         assert_int_equal(sscanf(at, "place %d %lf %lf", &node, &x, &y), 3);
-        CHECK(!simulation_place(simulation, node, x, y, NULL, true));
+        CHECK(!simulation_place(simulation, node, x, y, true));
     }
 }
 

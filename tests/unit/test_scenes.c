@@ -391,9 +391,9 @@ TEST(no_node_is_placed_in_another_body)
 {
     Simulation *scene = simulate("--segments 4 --body 0,0 --body 0,1.1");
     for (int i = 0; i < 2; i++)
-        CHECK_STATUS(simulation_place(scene, 25, 0, -2 * i, NULL, true),
+        CHECK_STATUS(simulation_place(scene, 25, 0, -2 * i, true),
                      STATUS_INVALID_INPUT);
-    CHECK_OK(simulation_place(scene, 25, -0.5, 0.55, NULL, true));
+    CHECK_OK(simulation_place(scene, 25, -0.5, 0.55, true));
     CHECK(exact_crossings(&scene->system, scene->run[0].x) == 0);
 }
 

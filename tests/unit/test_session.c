@@ -194,7 +194,6 @@ static bool use_mouse(const char *verb, const char *place)
         {"release", {.kind = INPUT_RELEASE, .button = BUTTON_LEFT}},
         {"right", {.kind = INPUT_PRESS, .button = BUTTON_RIGHT}},
         {"middle", {.kind = INPUT_PRESS, .button = BUTTON_MIDDLE}},
-        {"shift", {.kind = INPUT_PRESS, .button = BUTTON_BOX}},
         {"move", {.kind = INPUT_MOVE}},
         {"wheel", {.kind = INPUT_WHEEL, .amount = 1}}};
     for (size_t i = 0; i < sizeof deeds / sizeof *deeds; i++)
