@@ -1,14 +1,10 @@
-/* output.h - files that appear under their name only when they are whole; and
- * tables in them.
+/* output.h - files that get their name when they are whole, and tables in them.
  *
- *   "-", /dev/stdout               standard output
- *   a file, or nothing yet          NAME.part beside it takes its place at the
- *                                   end, with the old permissions
- *   a symbolic link to a file       the same where it leads; it stays
- *   a pipe, a terminal, a device    is written as it comes
- * Whoever writes NAME.part holds a lock on it: nobody else can open the same,
- * whatever it is called.
- * What a run that failed or was killed left there is written over by the next.
+ *   "-", /dev/stdout          standard output
+ *   a file, or nothing yet    NAME.part beside it takes its place at the end
+ *   a pipe, a device          is written as it comes
+ * A run that failed, or was killed, leaves NAME.part; the next run writes over
+ * it.
  */
 #ifndef ELASTO_OUTPUT_H
 #define ELASTO_OUTPUT_H
@@ -27,7 +23,6 @@ enum {
 typedef struct Output {
     FILE *file;                  /* NULL: not open */
     char name[OUTPUT_NAME];      /* as it was given, for messages */
-    char target[OUTPUT_NAME];    /* where it shall stand, no link */
     char temporary[OUTPUT_NAME]; /* where it is written; "": directly */
     char *told; /* [OUTPUT_TOLD] out, not owned: "NAME: why", if it is "" when
                    something fails; or NULL */
@@ -64,7 +59,6 @@ enum { TABLE_COLUMNS = 32, TABLE_LETTERS = 16 }; /* at most */
 
 typedef struct Table {
     Output output;
-    long head; /* where the names end, in a file */
     int columns;
     struct {
         char name[TABLE_LETTERS];
@@ -87,15 +81,5 @@ void table_add(Table *table, const double *value);
 /* Returns FILE_FAILED (told) if something could not be written so far, else OK;
  * OK too if it is not open, as all that follow. */
 Status table_check(const Table *table);
-
-/* Takes back the rows of later steps; below 0: of all.  From a pipe nothing can
- * be taken back, and new rows follow.  Returns as table_check. */
-Status table_cut(Table *table, long last);
-
-/* Flushes its rows.  Returns as table_check. */
-Status table_end(Table *table);
-
-/* Behind its end.  Returns as output_close. */
-Status table_close(Table *table, Keep keep);
 
 #endif

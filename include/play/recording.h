@@ -11,7 +11,9 @@
  *             as in the states; 1 where it is not broken; rest length, m;
  *             Green's strain |d|^2/rest^2 - 1; ep and kappa of plasticity.h
  * Of several panes states, log and springs have a column that says which, from
- * 1, and steps are those that they have together.
+ * 1, and steps are those that they have together.  Where somebody goes back and
+ * changes something, the rows of the new steps follow those that were written
+ * before: the last rows of a step count.
  *
  * Films are made by the program ffmpeg: frames go to it through a pipe, and the
  * end of the name says what it makes of them: .mp4, .webm, .gif or .apng.  All
@@ -84,9 +86,6 @@ Status recording_open(const Options *options, int panes, Recording *recording);
  * shall stand in a film. */
 Status recording_frame(Recording *recording, const Canvas *canvas, long step,
                        int shown);
-
-/* Takes back the rows of later steps; below 0: of all. */
-Status recording_cut(Recording *recording, long step);
 
 /* States and energies of `count` simulations now, if they are asked for; nodes
  * and runs of the second follow those of the first. */

@@ -1,10 +1,9 @@
+/* output.c - files that get their name when they are whole, and tables in them.
+ */
 #include "play/output.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,7 +15,6 @@ bool output_is_standard(const char *name)
 const char *output_reason(Status status)
 {
     return status != STATUS_FILE_FAILED ? status_text(status)
-           : errno == EBUSY             ? "it is being written already"
                                         : strerror(errno ? errno : EIO);
 }
 
@@ -33,40 +31,7 @@ Status output_fail(const Output *output, const char *why)
     return output_tell(output->told, output->name, STATUS_FILE_FAILED, why);
 }
 
-/* ---- opening ------------------------------------------------------------- */
-
-/* NAME.part as a stream that nobody else writes, with the permissions of the
- * file whose place it will take (info, or NULL: there is none).  NULL: errno
- * tells why not. */
-static FILE *open_temporary(const struct stat *info, Output *output)
-{
-    if (!info)
-        memcpy(output->target, output->name, sizeof output->name);
-    else if (!realpath(output->name, output->target) ||
-             access(output->name, W_OK)) /* somebody protected it */
-        return NULL;
-    snprintf(output->temporary, OUTPUT_NAME, "%.4096s.part", output->target);
-    int file = open(output->temporary,
-                    O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file < 0)
-        return NULL;
-    struct stat ours, there; /* another run may have taken the name away before
-                                the lock was ours */
-    FILE *stream = NULL;
-    bool alone =
-        (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
-        fstat(file, &ours) == 0 && lstat(output->temporary, &there) == 0 &&
-        ours.st_ino == there.st_ino;
-    errno = alone ? errno : EBUSY;
-    if (alone && ftruncate(file, 0) == 0 &&
-        (!info || fchmod(file, info->st_mode & 0777) == 0))
-        stream = fdopen(file, "w+b");
-    int reason = errno;
-    if (!stream)
-        close(file);
-    errno = reason;
-    return stream;
-}
+/* ---- files --------------------------------------------------------------- */
 
 Status output_open(const char *name, char *told, Output *output)
 {
@@ -79,23 +44,21 @@ Status output_open(const char *name, char *told, Output *output)
     if (standard)
         output->file = stdout;
     else if (exists && !S_ISREG(info.st_mode))
-        output->file = fopen(name, "wb");
-    else if (exists || errno == ENOENT) /* so the name is not too long */
-        output->file = open_temporary(exists ? &info : NULL, output);
+        output->file = fopen(name, "wbe");
+    else if (!exists || access(name, W_OK) == 0) { /* nobody protected it */
+        snprintf(output->temporary, OUTPUT_NAME, "%.4096s.part", name);
+        output->file = fopen(output->temporary, "wbe");
+    }
     return output->file ? STATUS_OK : output_fail(output, NULL);
 }
 
-/* ---- its end ------------------------------------------------------------- */
-
-/* Every call that can tell of a failed write is asked.  A second descriptor
- * holds the lock until the file has its name. */
+/* Every call that can report a failed write is asked. */
 Status output_close(Output *output, Keep keep)
 {
     FILE *file = output->file;
     bool beside = output->temporary[0];
     if (!file)
         return STATUS_OK;
-    int lock = beside ? dup(fileno(file)) : -1;
     bool whole = !ferror(file);
     whole = fflush(file) == 0 && whole;
     if (file != stdout)
@@ -103,12 +66,9 @@ Status output_close(Output *output, Keep keep)
     if (beside && keep == KEEP_NOTHING)
         remove(output->temporary);
     else if (beside && keep == KEEP_WHOLE && whole)
-        whole = rename(output->temporary, output->target) == 0;
-    Status status = whole ? STATUS_OK : output_fail(output, NULL);
-    if (lock >= 0)
-        close(lock);
+        whole = rename(output->temporary, output->name) == 0;
     output->file = NULL;
-    return status;
+    return whole ? STATUS_OK : output_fail(output, NULL);
 }
 
 /* ---- rows ---------------------------------------------------------------- */
@@ -138,7 +98,6 @@ Status table_open(const char *name, char *told, Table *table)
     for (int c = 0; c < table->columns; c++)
         fprintf(table->output.file, "%s%c", table->column[c].name,
                 c + 1 < table->columns ? ',' : '\n');
-    table->head = table->output.temporary[0] ? ftell(table->output.file) : 0;
     return table_check(table);
 }
 
@@ -162,33 +121,4 @@ Status table_check(const Table *table)
 {
     FILE *file = table->output.file;
     return file && ferror(file) ? output_fail(&table->output, NULL) : STATUS_OK;
-}
-
-Status table_cut(Table *table, long last)
-{
-    double step;
-    FILE *file = table->output.file;
-    if (!file || !table->output.temporary[0])
-        return table_check(table);
-    long end = table->head;
-    bool whole = fseek(file, end, SEEK_SET) == 0;
-    while (whole && fscanf(file, "%lf%*[^\n]%*c", &step) == 1 &&
-           step <= (double)last)
-        end = ftell(file);
-    whole = whole && fseek(file, end, SEEK_SET) == 0 &&
-            fflush(file) == 0 && /* what it has read */
-            ftruncate(fileno(file), end) == 0;
-    return whole ? table_check(table) : output_fail(&table->output, NULL);
-}
-
-Status table_end(Table *table)
-{
-    if (table->output.file)
-        fflush(table->output.file);
-    return table_check(table);
-}
-
-Status table_close(Table *table, Keep keep)
-{
-    return output_close(&table->output, keep);
 }

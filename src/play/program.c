@@ -1,7 +1,6 @@
 #include "play/player.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -255,28 +254,17 @@ static void join_line(int argc, char **argv, char *line, size_t size)
     }
 }
 
-/* Where a file or folder is or will be, without links and .part; "": a device,
- * which may be meant twice. */
-static void find_file(const char *name, char path[2 * PATH_MAX])
+/* Whether two names are those of one file or folder; a device may be named
+ * twice. */
+static bool is_one_file(const char *a, const char *b)
 {
-    const char *slash = strrchr(name, '/'), *last = slash ? slash + 1 : name;
-    char folder[PATH_MAX];
-    struct stat info;
-    bool standard = output_is_standard(name);
-    path[0] = '\0';
-    if (standard)
-        append(path, 2 * PATH_MAX, "-");
-    if (standard || (stat(name, &info) == 0 && S_ISCHR(info.st_mode)))
-        return;
-    if (!realpath(name, path)) {
-        snprintf(folder, sizeof folder, "%.*s.", (int)(last - name), name);
-        if (!realpath(folder, path))
-            path[0] = '\0';
-        append(path, 2 * PATH_MAX, "/%s", path[0] ? last : name);
-    }
-    size_t end = strlen(path), part = strlen(".part");
-    for (; end > part && strcmp(path + end - part, ".part") == 0; end -= part)
-        path[end - part] = '\0';
+    struct stat info[2];
+    if (output_is_standard(a) || output_is_standard(b))
+        return output_is_standard(a) && output_is_standard(b);
+    if (stat(a, &info[0]) || stat(b, &info[1]))
+        return strcmp(a, b) == 0;
+    return !S_ISCHR(info[0].st_mode) && info[0].st_dev == info[1].st_dev &&
+           info[0].st_ino == info[1].st_ino;
 }
 
 /* What an option names: a file or folder, or NULL. */
@@ -291,16 +279,11 @@ static const char *file_of(const Options *options, const OptionRow *row)
  * one reads or writes. */
 static Status check_files(const Options *options, Refusal told)
 {
-    char path[2][2 * PATH_MAX];
     for (const OptionRow *row = option_rows; row->name; row++)
         for (const OptionRow *other = option_rows; other < row; other++) {
             const char *one = file_of(options, other);
             const char *two = file_of(options, row);
-            if (!one || !two)
-                continue;
-            find_file(one, path[0]);
-            find_file(two, path[1]);
-            if (path[0][0] && strcmp(path[0], path[1]) == 0)
+            if (one && two && is_one_file(one, two))
                 return refuse(told,
                               "--%s and --%s are one file, '%.200s': "
                               "each needs a name of its own",

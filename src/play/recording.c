@@ -229,25 +229,21 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
     return table_check(log);
 }
 
-Status recording_cut(Recording *recording, long step)
-{
-    Status status = STATUS_OK;
-    for (int t = 0; t < RECORDING_TABLES && !status; t++)
-        status = table_cut(&recording->table[t], step);
-    return status;
-}
-
-/* All tables are ended before the first file is given its name. */
+/* All tables are flushed before the first file gets its name. */
 Status recording_close(Recording *recording, Keep keep)
 {
     bool failed = recording->message[0];
-    for (int t = 0; t < RECORDING_TABLES; t++)
-        failed = table_end(&recording->table[t]) || failed;
+    for (int t = 0; t < RECORDING_TABLES; t++) {
+        FILE *file = recording->table[t].output.file;
+        if (file)
+            fflush(file);
+        failed = table_check(&recording->table[t]) || failed;
+    }
     keep = failed && !keep ? KEEP_PART : keep;
     failed = film_close(&recording->film, keep) || failed;
     for (int t = 0; t < RECORDING_TABLES; t++) {
         keep = failed && !keep ? KEEP_PART : keep;
-        failed = table_close(&recording->table[t], keep) || failed;
+        failed = output_close(&recording->table[t].output, keep) || failed;
     }
     return failed ? STATUS_FILE_FAILED : STATUS_OK;
 }

@@ -131,7 +131,7 @@ static void enter_scene(Player *player)
 
 /* The past is another one behind some step; where time stands still that is
  * drawn anew, too. */
-static Status follow(Player *player)
+static void follow(Player *player)
 {
     Past *past = &player->past;
     long same = past->same;
@@ -145,10 +145,8 @@ static Status follow(Player *player)
     const Options *now = player_settings(player);
     if (now->scene != player->scene || now->page != player->page)
         enter_scene(player);
-    if (player->written <= same)
-        return STATUS_OK;
-    player->written = same;
-    return recording_cut(&player->recording, same);
+    if (player->written > same)
+        player->written = same;
 }
 
 Status player_begin(Player *player, const Options *options, int count,
@@ -164,8 +162,8 @@ Status player_begin(Player *player, const Options *options, int count,
     player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
     player->sampled = -1;
     player->warned = player->holds = false;
-    status = follow(player);
-    return status ? status : record_step(player);
+    follow(player);
+    return record_step(player);
 }
 
 Status player_change(Player *player, const Command *change, int from, int to,
@@ -175,7 +173,9 @@ Status player_change(Player *player, const Command *change, int from, int to,
     if (player->mode >= MODE_HELD)
         player->mode = MODE_RUN; /* something may move again */
     Status status = past_edit(past, change, from, to, again, player->gesture);
-    return status ? status : follow(player);
+    if (!status)
+        follow(player);
+    return status;
 }
 
 /* ---- where it stops by itself -------------------------------------------- */
@@ -642,8 +642,8 @@ Status obey_undo(Player *player, const Command *command)
     player->mode = MODE_PAUSE;
     player->holds = false;
     player->mouse.gesture = ++player->gestures; /* if a drag goes on */
-    Status status = follow(player);
+    follow(player);
     player_leave_step(player);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
-    return status;
+    return STATUS_OK;
 }

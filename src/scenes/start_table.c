@@ -30,7 +30,9 @@ static bool put_number(const Start *start, int i, int number, double value)
     return isfinite(value);
 }
 
-/* step,time,node,x,y,vx,vy and perhaps more.  Returns false at another line. */
+/* step,time,node,x,y,vx,vy and perhaps more.  Where somebody went back the table
+ * has a step several times: the last one counts.  Returns false at another
+ * line. */
 static bool read_lines(Start *start)
 {
     static const char names[] = "step,time,node,x,y,vx,vy";
@@ -50,17 +52,18 @@ static bool read_lines(Start *start)
                    &row[1], &row[2], &row[3], &end) < 6 ||
             end == 0 || (line[end] != '\n' && line[end] != ','))
             return false;
-        if (start->step >= 0 && (double)step > start->step)
-            break;
-        start->count = step == last ? start->count + 1 : 1;
+        bool follows = step == last;
         last = step;
+        if (start->step >= 0 && (double)step != start->step)
+            continue;
+        start->count = node == 0 ? 1 : follows ? start->count + 1 : 0;
         if (node != start->count - 1)
             return false;
         for (int k = 0; k < 4; k++)
             if (!put_number(start, node, k, row[k]))
                 return false;
     }
-    start->has_step = start->step < 0 || (double)last == start->step;
+    start->has_step = start->step < 0 || start->count > 0;
     return true;
 }
 

@@ -2,24 +2,19 @@
  * library's calls too, or with -DFAULT_WRAP linked into the program by
  * -Wl,--wrap=..., where sanitizers can look on.
  *
- *   FAULT       which call: memory, open, write, close, rename, folder; hang:
- *               renaming never ends; late: what is opened for writing comes
- *               when there is a file "go"
+ *   FAULT       which call: memory, open, write, rename; hang: renaming never
+ *               ends
  *   FAULT_AT    the number of the one that fails, from 1; 0: only count
- *   FAULT_ALL   set: and all after it
  *   FAULT_FILE  the number of calls goes to this file at the end
  *
  * Counting begins with main.  Streams opened for writing are replaced by ones
- * whose writes and closes can fail.
+ * whose writes can fail.
  */
 #include <dlfcn.h>
 #include <errno.h>
-#include <fcntl.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #ifdef FAULT_WRAP
@@ -39,7 +34,6 @@ void *REAL_MEMORY(realloc)(void *old, size_t size);
 
 static const char *fault_kind;
 static long fault_at, fault_count;
-static int fault_all;
 
 static int is_kind(const char *kind)
 {
@@ -51,9 +45,8 @@ static int fails(const char *kind, int reason)
 {
     if (!is_kind(kind))
         return 0;
-    long number = __atomic_add_fetch(&fault_count, 1, __ATOMIC_RELAXED);
     int fault =
-        fault_all && fault_at > 0 ? number >= fault_at : number == fault_at;
+        __atomic_add_fetch(&fault_count, 1, __ATOMIC_RELAXED) == fault_at;
     if (fault)
         errno = reason;
     return fault;
@@ -84,47 +77,20 @@ static ssize_t fault_write(void *cookie, const char *bytes, size_t count)
 
 static int fault_close(void *cookie)
 {
-    int result = fclose(cookie);
-    return fails("close", EIO) ? EOF : result;
+    return fclose(cookie);
 }
 
-static FILE *fault_stream(FILE *file, const char *mode)
+FILE *FAULTY(fopen)(const char *name, const char *mode)
 {
-    if (!file || (!is_kind("write") && !is_kind("close")))
+    if (mode[0] == 'w' && fails("open", EMFILE))
+        return NULL;
+    FILE *file = REAL(fopen)(name, mode);
+    if (!file || mode[0] != 'w' || !is_kind("write"))
         return file;
     setvbuf(file, NULL, _IONBF, 0);
     cookie_io_functions_t functions = {.write = fault_write,
                                        .close = fault_close};
     return fopencookie(file, mode, functions);
-}
-
-FILE *FAULTY(fopen)(const char *name, const char *mode)
-{
-    if (mode[0] != 'w')
-        return REAL(fopen)(name, mode);
-    if (fails("open", EMFILE))
-        return NULL;
-    return fault_stream(REAL(fopen)(name, mode), mode);
-}
-
-FILE *FAULTY(fdopen)(int file, const char *mode)
-{
-    return fault_stream(REAL(fdopen)(file, mode), mode);
-}
-
-/* Only of files that may be new. */
-int FAULTY(open)(const char *name, int flags, ...)
-{
-    va_list arguments;
-    va_start(arguments, flags);
-    unsigned mode = flags & O_CREAT ? va_arg(arguments, unsigned) : 0;
-    va_end(arguments);
-    if ((flags & O_CREAT) && fails("open", EMFILE))
-        return -1;
-    int file = REAL(open)(name, flags, mode);
-    while ((flags & O_CREAT) && is_kind("late") && access("go", F_OK) != 0)
-        usleep(1000);
-    return file;
 }
 
 int FAULTY(rename)(const char *from, const char *to)
@@ -134,13 +100,6 @@ int FAULTY(rename)(const char *from, const char *to)
     if (fails("rename", EIO))
         return -1;
     return REAL(rename)(from, to);
-}
-
-int FAULTY(mkdir)(const char *name, mode_t mode)
-{
-    if (fails("folder", ENOSPC))
-        return -1;
-    return REAL(mkdir)(name, mode);
 }
 
 /* How many calls there were. */
@@ -160,7 +119,6 @@ static void fault_begin(void)
     const char *at = getenv("FAULT_AT");
     atexit(fault_report);
     fault_at = at ? strtol(at, NULL, 10) : 0;
-    fault_all = getenv("FAULT_ALL") != NULL;
     fault_kind = getenv("FAULT");
 }
 
