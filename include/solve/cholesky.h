@@ -34,7 +34,4 @@ Status cholesky_factor(Cholesky *cholesky);
  * 1e-8 of b; only INDEFINITE looks). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
-/* Entries of the factor. */
-double cholesky_factor_entries(const Cholesky *cholesky);
-
 #endif

@@ -3,7 +3,6 @@
  */
 #include <SDL.h>
 #include <ctype.h>
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,22 +10,6 @@
 #include "play/view.h"
 
 enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800 };
-
-/* SDL's functions, which are looked for when a window opens: to load SDL takes
- * as long as all else of a start, and without a window nobody needs it. */
-/* clang-format off */
-#define CALLS(F)                                                               \
-    F(Init) F(Quit) F(SetHint) F(GetError) F(SetError) F(Delay)                \
-    F(GetCurrentVideoDriver) F(GetDisplayUsableBounds) F(CreateWindow)         \
-    F(DestroyWindow) F(SetWindowTitle) F(SetWindowFullscreen) F(GetWindowSize) \
-    F(GetWindowFlags) F(GetWindowSurface) F(UpdateWindowSurface) F(UpperBlit)  \
-    F(FreeSurface) F(CreateRGBSurfaceWithFormatFrom) F(StartTextInput)         \
-    F(GetKeyName) F(PeepEvents) F(PollEvent) F(PumpEvents) F(HasEvents)
-/* clang-format on */
-#define MEMBER(name) __typeof__(SDL_##name) *name;
-static struct {
-    CALLS(MEMBER)
-} sdl;
 
 static SDL_Window *window;
 static bool tab; /* Tab is down and has asked for nothing yet */
@@ -38,23 +21,7 @@ static SDL_Point mouse;
 
 const char *window_failure(void)
 {
-    const char *why = sdl.GetError ? sdl.GetError() : dlerror();
-    return why ? why : "SDL is not whole";
-}
-
-static bool find_sdl(void)
-{
-    bool found = true;
-#ifdef __linux__
-    void *library = dlopen("libSDL2-2.0.so.0", RTLD_LAZY);
-#define FIND(name)                                                             \
-    *(void **)&sdl.name = library ? dlsym(library, "SDL_" #name) : NULL;       \
-    found = found && sdl.name;
-#else
-#define FIND(name) sdl.name = SDL_##name;
-#endif
-    CALLS(FIND)
-    return found;
+    return SDL_GetError();
 }
 
 /* ---- opening and closing ------------------------------------------------- */
@@ -66,24 +33,24 @@ static bool open_video(void)
 {
 #ifdef __linux__
     if (!getenv("XDG_RUNTIME_DIR"))
-        sdl.SetHint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
+        SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
 #endif
-    bool began = sdl.Init(SDL_INIT_VIDEO) == 0;
-    const char *driver = began ? sdl.GetCurrentVideoDriver() : NULL;
+    bool began = SDL_Init(SDL_INIT_VIDEO) == 0;
+    const char *driver = began ? SDL_GetCurrentVideoDriver() : NULL;
     if (driver && strcmp(driver, "offscreen") && strcmp(driver, "dummy"))
         return true;
-    sdl.SetError("SDL finds no display");
+    SDL_SetError("SDL finds no display");
     return false;
 }
 
 void window_set_full(bool full)
 {
-    sdl.SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
 }
 
 bool window_is_full(void)
 {
-    return (sdl.GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+    return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
 /* Pixels that go to an X server as they are cost less than half of what an
@@ -92,49 +59,46 @@ bool window_is_full(void)
 bool window_open(const char *title, const int size[2], bool full)
 {
     SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
-    if (!find_sdl())
-        return false;
-    sdl.SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    sdl.SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    sdl.SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
-    sdl.SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+    SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
     if (!open_video())
         return false;
-    if (strcmp(sdl.GetCurrentVideoDriver(), "x11") == 0)
-        sdl.SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    sdl.GetDisplayUsableBounds(0, &area);
+    if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0)
+        SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    SDL_GetDisplayUsableBounds(0, &area);
     window =
-        sdl.CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+        SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                          size[0] > 0 ? size[0] : SDL_min(area.w, WINDOW_WIDTH),
                          size[1] > 0 ? size[1] : SDL_min(area.h, WINDOW_HEIGHT),
                          SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-    if (!window || !sdl.GetWindowSurface(window))
+    if (!window || !SDL_GetWindowSurface(window))
         return false;
     if (full)
         window_set_full(true);
-    sdl.StartTextInput();
+    SDL_StartTextInput();
     return true;
 }
 
 void window_close(void)
 {
     if (window)
-        sdl.DestroyWindow(window);
+        SDL_DestroyWindow(window);
     window = NULL;
-    if (sdl.Quit)
-        sdl.Quit();
+    SDL_Quit();
 }
 
 /* ---- what it shows ------------------------------------------------------- */
 
 void window_set_title(const char *title)
 {
-    sdl.SetWindowTitle(window, title);
+    SDL_SetWindowTitle(window, title);
 }
 
 void window_size(int size[2])
 {
-    const SDL_Surface *surface = sdl.GetWindowSurface(window);
+    const SDL_Surface *surface = SDL_GetWindowSurface(window);
     size[0] = surface ? surface->w : 1;
     size[1] = surface ? surface->h : 1;
 }
@@ -144,7 +108,7 @@ static void window_scale(double scale[2])
 {
     int size[2], points[2] = {0, 0};
     window_size(size);
-    sdl.GetWindowSize(window, &points[0], &points[1]);
+    SDL_GetWindowSize(window, &points[0], &points[1]);
     for (int i = 0; i < 2; i++)
         scale[i] = points[i] > 0 ? (double)size[i] / points[i] : 1;
 }
@@ -159,14 +123,14 @@ double window_letter(void)
 
 Status window_show(const Canvas *canvas)
 {
-    SDL_Surface *surface = sdl.GetWindowSurface(window);
-    SDL_Surface *picture = sdl.CreateRGBSurfaceWithFormatFrom(
+    SDL_Surface *surface = SDL_GetWindowSurface(window);
+    SDL_Surface *picture = SDL_CreateRGBSurfaceWithFormatFrom(
         canvas->pixels, canvas->width, canvas->height, 32,
         canvas->width * (int)sizeof *canvas->pixels, SDL_PIXELFORMAT_RGB888);
     bool shown = surface && picture &&
-                 sdl.UpperBlit(picture, NULL, surface, NULL) == 0 &&
-                 sdl.UpdateWindowSurface(window) == 0;
-    sdl.FreeSurface(picture);
+                 SDL_UpperBlit(picture, NULL, surface, NULL) == 0 &&
+                 SDL_UpdateWindowSurface(window) == 0;
+    SDL_FreeSurface(picture);
     return shown ? STATUS_OK : STATUS_SCREEN_FAILED;
 }
 
@@ -201,7 +165,7 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
     input->repeats = event->repeat != 0;
     snprintf(input->key, sizeof input->key, "%s%s%s%s",
              mod & KMOD_CTRL ? "Ctrl+" : "", mod & KMOD_SHIFT ? "Shift+" : "",
-             tab_held ? "Tab+" : "", sdl.GetKeyName(key));
+             tab_held ? "Tab+" : "", SDL_GetKeyName(key));
 }
 
 /* ---- mouse and window ---------------------------------------------------- */
@@ -283,9 +247,9 @@ Input window_input(void)
 {
     SDL_Event event, next;
     Input input = {.kind = INPUT_NONE};
-    while (window && input.kind == INPUT_NONE && sdl.PollEvent(&event))
+    while (window && input.kind == INPUT_NONE && SDL_PollEvent(&event))
         if (event.type != SDL_MOUSEMOTION ||
-            sdl.PeepEvents(&next, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT,
+            SDL_PeepEvents(&next, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT,
                            SDL_LASTEVENT) != 1 ||
             next.type != SDL_MOUSEMOTION)
             input = read_event(&event);
@@ -299,9 +263,9 @@ void window_wait(int milliseconds)
 {
     enum { PAUSE = 8 }; /* ms */
     for (; milliseconds > 0; milliseconds -= PAUSE) {
-        sdl.PumpEvents();
-        if (sdl.HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
+        SDL_PumpEvents();
+        if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
             return;
-        sdl.Delay((Uint32)(milliseconds < PAUSE ? milliseconds : PAUSE));
+        SDL_Delay((Uint32)(milliseconds < PAUSE ? milliseconds : PAUSE));
     }
 }

@@ -189,8 +189,3 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
     }
     return residual <= 1e-8 * size ? STATUS_OK : STATUS_SINGULAR;
 }
-
-double cholesky_factor_entries(const Cholesky *cholesky)
-{
-    return cholesky->common.lnz;
-}

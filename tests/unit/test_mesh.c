@@ -107,24 +107,6 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     CHECK(seen == 12 && twice == BODIES * 2 * 2.5 * 1.5);
 }
 
-/* Entries of the factor of a square. */
-static double factor_entries(int segments)
-{
-    Simulation *square = simulate("--segments %d", segments);
-    make_steps(square, 1);
-    return cholesky_factor_entries(square->run[0].newton->search.cholesky);
-}
-
-/* Nested dissection: the factor has n log n entries.  From 12 to 24 segments
- * nodes grow 3.7 times, entries less than 6 times (a band matrix would have 7.4
- * times as many); CHOLMOD's own order (AMD) has 41519 with 24 segments. */
-TEST(order_keeps_the_factor_small)
-{
-    double ours = factor_entries(24);
-    CHECK_AT_MOST(ours, 41519);
-    CHECK_AT_MOST(ours, 6 * factor_entries(12));
-}
-
 /* What hangs evenly around the height 0 has no energy there. */
 TEST(a_square_begins_at_the_height_0)
 {

@@ -262,17 +262,17 @@ static void shell(const char *line)
         fail_msg("%s", line);
 }
 
-/* Column 12 of a log has seconds. */
+/* The rows of the last step. */
 static void check_tables(const char *line)
 {
     char whole[160];
     finish_session();
-    snprintf(whole, sizeof whole, "%s --states states2 --log log2", line);
+    snprintf(whole, sizeof whole, "%s --states states2", line);
     begin_script("0 play\n", whole);
     player_run(&player);
     end();
-    shell("cmp states states2");
-    shell("cut -d, -f1-11,13- log >log1; cut -d, -f1-11,13- log2 | cmp - log1");
+    shell("nodes=$(grep -c '^0,' states2); tail -n $nodes states >rows; "
+          "tail -n $nodes states2 | cmp - rows");
 }
 
 /* A row of the states, "STEP,": its end. */
