@@ -30,19 +30,12 @@ $(B)/narrow/%.o: src/solve/%.c $(B)/flags
 	$(Q)$(COMPILE) -DFAST= -DAVX= -MMD -MP -c $< -o $@
 $(B)/tests/unit/test_widths: $(patsubst %,$(B)/narrow/%.o,$(GRID_LOOPS) panels)
 
-# The program with faults linked in: sanitizers see what they do.
-FAULTY = malloc calloc realloc fopen rename
-$(B)/elasto-faults: $(B)/main.o $(LIBRARY) tests/checks/faults.c
-	$(call shown,LINK)
-	$(Q)$(COMPILE) -DFAULT_WRAP tests/checks/faults.c $(B)/main.o $(LIBRARY) \
-	  -o $@ $(LDFLAGS) $(DEP_LIBS) $(LDLIBS) $(call wrap,$(FAULTY))
-
 # test: every promise once, in a minute.  long-test: also all variations, and
 # the benchmark.  What was tested is then in build/, ready to be used.
 suites: $(SUITES)
 long-test: $(B)/elasto-bench
 test long-test: $(SUITES) $(B)/elasto $(B)/lecture \
-                $(if $(SANITIZE),$(B)/elasto-faults,build/elasto build/lecture)
+                $(if $(SANITIZE),,build/elasto build/lecture)
 	@$(SETTINGS) LONG=$(filter long-test,$@) sh tests/checks/run.sh $(SUITES)
 
 SETTINGS = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' BLAS_LIBS='$(BLAS_LIBS)' \

@@ -1,6 +1,4 @@
-/* Makes calls fail: preloaded as a library (LD_PRELOAD), where it sees every
- * library's calls too, or with -DFAULT_WRAP linked into the program by
- * -Wl,--wrap=..., where sanitizers can look on.
+/* Makes calls fail, those of all libraries, too: it is preloaded (LD_PRELOAD).
  *
  *   FAULT       which call: memory, open, write, rename; hang: renaming never
  *               ends
@@ -17,17 +15,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#ifdef FAULT_WRAP
-#define FAULTY(name)      __wrap_##name
-#define REAL_MEMORY(name) __real_##name
-#else
-#define FAULTY(name)      name
-#define REAL_MEMORY(name) __libc_##name
-#endif
-
-void *REAL_MEMORY(malloc)(size_t size);
-void *REAL_MEMORY(calloc)(size_t count, size_t size);
-void *REAL_MEMORY(realloc)(void *old, size_t size);
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *old, size_t size);
 
 /* A function of the C library. */
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
@@ -52,19 +42,19 @@ static int fails(const char *kind, int reason)
     return fault;
 }
 
-void *FAULTY(malloc)(size_t size)
+void *malloc(size_t size)
 {
-    return fails("memory", ENOMEM) ? NULL : REAL_MEMORY(malloc)(size);
+    return fails("memory", ENOMEM) ? NULL : __libc_malloc(size);
 }
 
-void *FAULTY(calloc)(size_t count, size_t size)
+void *calloc(size_t count, size_t size)
 {
-    return fails("memory", ENOMEM) ? NULL : REAL_MEMORY(calloc)(count, size);
+    return fails("memory", ENOMEM) ? NULL : __libc_calloc(count, size);
 }
 
-void *FAULTY(realloc)(void *old, size_t size)
+void *realloc(void *old, size_t size)
 {
-    return fails("memory", ENOMEM) ? NULL : REAL_MEMORY(realloc)(old, size);
+    return fails("memory", ENOMEM) ? NULL : __libc_realloc(old, size);
 }
 
 /* A stream around another one. */
@@ -80,7 +70,7 @@ static int fault_close(void *cookie)
     return fclose(cookie);
 }
 
-FILE *FAULTY(fopen)(const char *name, const char *mode)
+FILE *fopen(const char *name, const char *mode)
 {
     if (mode[0] == 'w' && fails("open", EMFILE))
         return NULL;
@@ -93,7 +83,7 @@ FILE *FAULTY(fopen)(const char *name, const char *mode)
     return fopencookie(file, mode, functions);
 }
 
-int FAULTY(rename)(const char *from, const char *to)
+int rename(const char *from, const char *to)
 {
     while (is_kind("hang"))
         pause();
@@ -122,12 +112,6 @@ static void fault_begin(void)
     fault_kind = getenv("FAULT");
 }
 
-#ifdef FAULT_WRAP
-__attribute__((constructor)) static void fault_early(void)
-{
-    fault_begin();
-}
-#else
 typedef int Main(int, char **, char **);
 typedef int Start(Main *, int, char **, void (*)(void), void (*)(void),
                   void (*)(void), void *);
@@ -148,4 +132,3 @@ int __libc_start_main(Main *function, int argc, char **argv, void (*init)(void),
     return REAL(__libc_start_main)(fault_main, argc, argv, init, fini,
                                    rtld_fini, stack_end);
 }
-#endif
