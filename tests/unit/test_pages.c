@@ -869,6 +869,9 @@ TEST(claim_simulator)
                    0.14 * start);
     }
     CHECK(turned > 0);
+    CHECK_STATUS(
+        end_of("simulator", "--integrator verlet --timestep 0.005", 300),
+        STATUS_NOT_FINITE);
 }
 
 /* total at the start + work = what there is + what was lost, within a
