@@ -1,19 +1,15 @@
-/* What the texts of pages and cards know of the square by name (facts.h) is
- * calculated again, in extended precision and by formulas that stand here or in
- * the oracle.  (Other pictures, and numbers beside the mouse and in cards, are
- * held by test_session, digits and axes by test_picture, a page's claims by
- * test_pages, what plasticity, fracture and friction took by test_laws.) */
+/* What texts know of a step of the square by name (facts.h), and its energies,
+ * are calculated again, in extended precision and by formulas of the oracle.
+ * (All other numbers of a frame are held by test_session, those of a page by
+ * test_pages, digits and axes by test_picture, what plasticity, fracture and
+ * friction took by test_laws.) */
 #include "attended.h"
 #include "stress.h"
 #include "test.h"
 
 #include <math.h>
 
-#include "model/fracture.h"
-#include "model/friction.h"
 #include "model/mass_spring_energy.h"
-#include "model/neo_hookean.h"
-#include "model/plasticity.h"
 #include "picture/cards.h"
 
 enum { MOST = 200, UNKNOWNS = 50, NODES = 700 };
@@ -22,7 +18,6 @@ enum { MOST = 200, UNKNOWNS = 50, NODES = 700 };
 
 typedef struct Truth {
     char name[24];
-    int run;
     Real value, slack;
 } Truth;
 
@@ -36,21 +31,14 @@ static void wrong(const char *name, const char *what, double value)
 }
 
 static Truth truth[MOST];
-static int truths, run_now;
+static int truths;
 
 static void near(const char *name, Real value, Real slack)
 {
     assert_true(truths < MOST);
     Truth *one = &truth[truths++];
-    *one = (Truth){.run = run_now, .value = value, .slack = slack};
+    *one = (Truth){.value = value, .slack = slack};
     snprintf(one->name, sizeof one->name, "%s", name);
-}
-
-/* A symmetric matrix, xx, xy, yy: "Hxx", "Hxy", "Hyy". */
-static void near_matrix(char letter, const Real H[3], Real slack)
-{
-    for (int i = 0; i < 3; i++)
-        near((const char[]){letter, "xxy"[i], "xyy"[i], 0}, H[i], slack);
 }
 
 static void is(const char *name, Real value)
@@ -199,190 +187,6 @@ static void tell_energies(const Simulation *simulation)
         is(ledger.row[i].name, ledger.row[i].value);
 }
 
-/* ---- what pages say of the square ---------------------------------------- */
-
-/* The triangle with the smallest area over its area at rest, or with less, and
- * its energy over that area. */
-static Real flattest(const Simulation *simulation, Real *energy)
-{
-    const NeoHookean *solid = solid_of(&simulation->system);
-    Real least = INFINITY, nu = simulation->options.poisson;
-    Real mu = simulation->options.young / (2 * (1 + nu));
-    Real lambda = 2 * mu * nu / (1 - 2 * nu);
-    for (int t = 0; t < solid->triangles; t++) {
-        Real F[4] = {0}, F2 = 0;
-        for (int k = 0; k < 12; k++) {
-            const double *x = simulation->run[0].x + 2 * solid->node[t][k % 3];
-            F[k / 3] += (Real)solid->weight[t][k / 6][k % 3] * x[k / 3 % 2];
-        }
-        for (int k = 0; k < 4; k++)
-            F2 += F[k] * F[k];
-        Real J = F[0] * F[3] - F[1] * F[2];
-        if (J > least - 1e-13L)
-            continue;
-        least = J;
-        *energy =
-            mu / 2 * (F2 - 2) - mu * logl(J) + lambda / 2 * powl(logl(J), 2);
-    }
-    return least;
-}
-
-/* The strain of the spring that flowed most, or the part of its strength of the
- * one nearest to breaking; its force in the same unit, its plastic strain. */
-static Real most_loaded(const System *system, const double *x,
-                        const Plasticity *flow, Real *force, Real *rest)
-{
-    Real most = -1, at = NAN;
-    for (int i = 0; i < system->springs; i++) {
-        Real strain = exact_strain(system, x, i), ep = flow ? flow->ep[i] : 0;
-        Real load =
-            flow
-                ? fabsl(ep) + 1e-3L * fabsl(strain)
-                : strain / fracture_strength(system_data(system, &fracture), i);
-        if (system->k[i] == 0 || load <= most)
-            continue;
-        most = load;
-        at = flow ? strain : load;
-        *force = flow ? strain - ep : load;
-        *rest = ep;
-    }
-    return at;
-}
-
-/* Where the scene is on the law that its page draws. */
-static void tell_law(const Simulation *simulation)
-{
-    const System *system = &simulation->system;
-    const Options *o = &simulation->options;
-    const char *law = o->page->law ? o->page->law : "";
-    const double *x = simulation->run[0].x;
-    const Plasticity *flow = system_data(system, &plastic_energy);
-    Real at = INFINITY, value = 0, slip = 0, s, rest = 0;
-    Real reach = o->barrier[0] > 0 ? o->barrier[0] : o->side / 100;
-    Real kappa = o->barrier[1] > 0 ? o->barrier[1] : 4 * o->stiffness;
-    Real c = o->side / o->segments * reach * kappa / 2;
-    if (strcmp(law, "barrier") == 0) {
-        const Contact *contact = contact_of(system);
-        for (int k = 0; k < contact->obstacles * system->nodes; k++)
-            at = fminl(
-                at, exact_gap(system, x, k % system->nodes, k / system->nodes));
-        s = at / reach;
-        value = c * (s - 1) * logl(s);
-        /* by differences over a ten thousandth of d to either side */
-        near("law force", c / reach * (1 / s - 1 - logl(s)), 1e-2L);
-    } else if (strcmp(law, "near") == 0) {
-        at = exact_nearest(simulation, reach, &slip);
-        s = powl(at / reach, 2);
-        c /= 8;
-        value = c * (s - 1) * logl(s);
-        near("law force", 2 * c * at / reach / reach * (1 / s - 1 - logl(s)),
-             1e-2L);
-    } else if (strcmp(law, "rub") == 0) {
-        exact_nearest(simulation, reach, &at);
-        Real gone = 0; /* the upper block, whose nodes come last */
-        for (int i = system->nodes; i < 2 * system->nodes; i += 2)
-            gone += ((Real)x[i] - o->body[1][0]) / (system->nodes / 2);
-        near("gone", gone, 1e-9L);
-        near("rigid", 1 / (2 * 9.81L * o->friction), 1e-12L);
-        s = fminl(at / o->slip_speed, 1);
-        value = s * (2 - s);
-    } else if (strcmp(law, "triangle") == 0) {
-        at = flattest(simulation, &value);
-    }
-    if (strcmp(law, flow ? "yield" : "break") == 0)
-        at = most_loaded(system, x, flow, &value, &rest);
-    near("s_p", rest, 0);
-    near("c", c, 1e-10L);
-    near("d hat", 1e3L * reach, 1e-10L);
-    near("law mm", 1e3L * at, 1e-10L);
-    near("law x", at, 1e-12L * (1 + fabsl(at)));
-    near("law y", value, 1e-10L * (1 + fabsl(value)));
-}
-
-/* What a stretched spring adds to the Hessian of E, kg, by P'' of its length
- * and P' over it; and where. */
-static void tell_block(const Simulation *simulation, int spring)
-{
-    const System *system = &simulation->system;
-    const int *e = system->e + 2 * spring;
-    const double *x = simulation->run[0].x;
-    Real d[2], k = system->k[spring], l2 = system->l2[spring];
-    for (int c = 0; c < 2; c++)
-        d[c] = (Real)x[2 * e[0] + c] - x[2 * e[1] + c];
-    Real r2 = d[0] * d[0] + d[1] * d[1];
-    Real across = fmaxl(0, 2 * k * (r2 / l2 - 1));
-    Real along = fmaxl(0, 2 * k * (3 * r2 / l2 - 1));
-    Real h = simulation->options.timestep, H[3];
-    for (int i = 0; i < 3; i++) {
-        Real part = d[i / 2] * d[(i + 1) / 2] / r2;
-        H[i] = h * h * (part * along + ((i != 1) - part) * across);
-    }
-    near_matrix('B', H, 1e-12L * h * h * k);
-}
-
-static void tell_fastest(Real omega, Real h)
-{
-    Real half = omega * h / 2, grows = expl(2 * acoshl(half));
-    near("fastest", omega, 1e-4L * omega);
-    near("h limit", 2 / omega, 2e-4L / omega);
-    near("h omega", 2 * half, 2e-4L * half);
-    near("short h omega", 2 * half, 2e-4L * half);
-    /* its slope, times the slack above */
-    near("growth", grows, 2e-4L * grows * half / sqrtl(half * half - 1));
-}
-
-/* -g, of all nodes and of the last one. */
-static void tell_forces(const System *system, const Real *g)
-{
-    int balanced = 0, size = 2 * system->nodes;
-    for (int i = 0; i < size; i += 2)
-        balanced += hypotl(g[i], g[i + 1]) < 1e-8L;
-    is("balanced", balanced);
-    for (int i = size - 2; i < size; i++) {
-        near("f", -g[i], 1e-9L * (1 + fabsl(g[i])));
-        near("a", -g[i] / system->m[i / 2], 1e-11L * (1 + fabsl(g[i])));
-    }
-}
-
-/* Its mesh, its fastest oscillation, and the force on its last node. */
-static void tell_page(const Simulation *simulation)
-{
-    static Real H[UNKNOWNS * UNKNOWNS], v[UNKNOWNS * UNKNOWNS];
-    const System *system = &simulation->system;
-    const Options *o = &simulation->options;
-    const double *x = simulation->run[0].x;
-    int size = 2 * system->nodes, shorter = 0;
-    Real n = o->segments, nodes = (n + 1) * (n + 1), top = 0, g[UNKNOWNS];
-    Real side = simulation->mesh.side;
-    Real mass = o->density * side * side;
-    const IncrementalPotential E = {.system = system, .weight = 1, .x_n = x};
-    tell_law(simulation);
-    for (int s = 0; s < system->springs; s++)
-        shorter += exact_strain(system, x, s) < -1e-9L;
-    if (o->bodies > 0 || o->scene->create != scene_find("square")->create)
-        nodes = system->nodes;
-    is("masses", nodes);
-    near("mass", system->nodes * (Real)system->m[0], 1e-9L * mass);
-    is("node mass", system->m[0]);
-    is("places", 4 * (nodes + 2 * (Real)system->springs));
-    is("short", shorter);
-    int newest = (int)(simulation->steps % system->springs);
-    tell_block(simulation, newest);
-    if (size > UNKNOWNS)
-        return;
-    exact_derivatives(&E, NULL, x, g, H);
-    tell_forces(system, g);
-    if (!o->page->modes)
-        return;
-    exact_derivatives(&E, NULL, rest_of(simulation), g, H);
-    for (int i = 0; i < size * size; i++) /* masses are equal */
-        H[i] /= system->m[0];
-    exact_eigen(size, H, v);
-    for (int i = 0; i < size; i++)
-        top = fmaxl(top, H[i * size + i]);
-    tell_fastest(sqrtl(top), o->timestep);
-}
-
 /* ---- a frame ------------------------------------------------------------- */
 
 static void tell_all(const Show *show)
@@ -393,24 +197,16 @@ static void tell_all(const Show *show)
         tell_trace(pane->simulation, pane->trace);
     for (int p = 0; p < show->panes; p++)
         tell_energies(show->pane[p].simulation);
-    if (pane->simulation->options.page)
-        tell_page(pane->simulation);
 }
 
-/* Settings, counts, and where a spring stands in its matrix. */
-static const char not_calculated[] =
-    " page pages panes runs springs segments side rho k stretch h epsilon "
-    "newest "
-    "from to last row 1 row 2 row 3 row 4 tolerance h then ";
-
-/* Whether some truth of this name and run is the value. */
-static bool is_true(const char *name, int run, double value)
+/* Whether some truth of this name is the value; others calculate names of which
+ * there is none. */
+static bool is_true(const char *name, double value)
 {
-    char word[32];
     bool named = false;
     for (int i = 0; i < truths; i++) {
         Real true_value = truth[i].value, slack = truth[i].slack;
-        if (strcmp(truth[i].name, name) != 0 || truth[i].run != run)
+        if (strcmp(truth[i].name, name) != 0)
             continue;
         named = true;
         if (isinf(true_value) ? isinf(value)
@@ -418,12 +214,7 @@ static bool is_true(const char *name, int run, double value)
                                     slack + 1e-13L * fabsl(true_value))
             return true;
     }
-    snprintf(word, sizeof word, " %s ", name);
-    if (!named && strstr(not_calculated, word))
-        return true;
-    if (!named)
-        print_error("no formula for %s\n", name);
-    return false;
+    return !named;
 }
 
 /* Facts, and what the energies' card says. */
@@ -435,11 +226,11 @@ static void check_facts(const char *name)
     double now = simulation_time(pane->simulation);
     for (const Fact *one = facts->fact; one < facts->fact + facts->count; one++)
         for (int k = 0; k <= one->point && !one->words; k++)
-            if (!is_true(one->name, one->run, one->value[k]))
+            if (!is_true(one->name, one->value[k]))
                 wrong(name, one->name, one->value[k]);
     for (int s = 0; history && s < history->series; s++) {
         double value = energies_value(pane->simulation, history, s, now);
-        if (!isnan(value) && !is_true(history->name[s], 0, value))
+        if (!isnan(value) && !is_true(history->name[s], value))
             wrong(name, history->name[s], value);
     }
 }

@@ -331,12 +331,9 @@ TEST(texts_become_one_line)
     }
 }
 
-/* Rows of 80 with every option and scene. */
+/* Rows of 80 with every option. */
 TEST(help_fits_a_terminal)
 {
-    static const char *const words[] = {
-        "1 ... 4096 [4]", "J/m^2 [100000]",   "m/s^2 downwards [0]",
-        "clamp, none",    "symplectic-euler", "springs flow\n"};
     char line[128], text[8192] = "";
     const char *help = text;
     FILE *file = tmpfile();
@@ -345,17 +342,10 @@ TEST(help_fits_a_terminal)
     CHECK(fread(text, 1, sizeof text, file) < sizeof text);
     fclose(file);
     CHECK(strncmp(help, "usage: ", 7) == 0);
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        CHECK(strstr(help, words[i]) != NULL);
     for (const OptionRow *row = option_rows; row->name; row++) {
         snprintf(line, sizeof line, "\n  --%s%s%s", row->name,
                  row->value ? " " : "", row->value ? row->value : "");
         CHECK(strstr(help, row->name[0] ? line : row->help) != NULL);
-    }
-    for (int i = 0; scenes[i].name; i++) {
-        snprintf(line, sizeof line, "\n  %2d %-15s  %s\n", i + 1,
-                 scenes[i].name, scenes[i].sentence);
-        CHECK(strstr(help, line) != NULL);
     }
     for (const char *end; *help; help = end + 1) {
         end = strchr(help, '\n');
