@@ -49,16 +49,6 @@ missing_words() {
 }
 verdict the_script_has_every_command "$(missing_words)"
 
-# README's table of hands and keys has each key of the list.
-keys_without_a_word() {
-    words=$(sed -n '/^| hand or key/,/^$/p' "$root/README.md" | tr -s ',;|' ' ')
-    "$elasto" --help commands | sed -n 's/.* \[\(.*\)\]$/\1/p' |
-        sed 's/Page/Page /; s/Escape/Esc/' | while read -r key; do
-        case $words in *" $key "*) ;; *) echo "no $key" ;; esac
-    done
-}
-verdict the_readme_names_every_key "$(keys_without_a_word)"
-
 # run SCENE: prints the hash of the end.
 run() {
     sed "s/SCENE/$1/" commands >"$1.script"
