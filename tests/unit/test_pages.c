@@ -753,6 +753,7 @@ TEST(claim_energy)
     spring_facts((double[2]){0, 0}, 1, k, &near);
     CHECK_NEAR(near.energy, 50, 0);
     CHECK_NEAR(near.root_energy, 200, 0);
+    CHECK_NEAR(known("energy", "tip"), 200, 1e-12);
     spring_facts((double[2]){1e-3, 0}, 1, k, &near);
     CHECK_NEAR(near.across, -2 * k, 1e-5 * k);
     CHECK_NEAR(near.root_across, -3996 * k, 1e-9 * k);
@@ -766,6 +767,7 @@ TEST(claim_force)
     const System *system = &simulation->system;
     spring_facts(x, system->l2[0], system->k[0], &facts);
     CHECK_NEAR(facts.energy, 23.805, 1e-12);
+    CHECK_NEAR(known_now(simulation, "energy"), 23.805, 1e-12);
     CHECK_NEAR(facts.force[0], -165.6, 1e-12);
     CHECK_NEAR(facts.force[1], -69, 1e-12);
     CHECK_NEAR(system_potential(system, x), facts.energy, 1e-12);
