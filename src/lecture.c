@@ -24,6 +24,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+_Static_assert(!__FINITE_MATH_ONLY__, "no -ffast-math: NaN must be seen");
 
 /* n of these lie in memory like one vector of 2n numbers: x, y, x, y, ... */
 /* clang-format off */
@@ -328,12 +329,10 @@ static void step_forward(Solid *solid, double h, double tol, int step,
     Vec2 *x = solid->x, *v = solid->v;
     Vec2 *x_n = allocate(4 * n, sizeof(Vec2)), *x_tilde = x_n + n;
     Vec2 *p = x_tilde + n, *x_new = p + n;
-
     for (int i = 0; i < n; i++) {
         x_n[i] = x[i]; /* Newton's method starts here too */
         x_tilde[i] = add(x[i], mul(h, v[i]));
     }
-
     search_dir(solid, x, x_tilde, h, p);
     for (int update = 0; residual(solid, p, h) > tol; update++) {
         if (update == 10000)
@@ -519,19 +518,23 @@ typedef struct Parameter {
     const char *name;
     double value, least, most;
 } Parameter;
-#define NAMES "side_len rho k initial_stretch n_seg h tol method steps states"
-/* NAME=VALUE; p ends with NULL. */
+#define DEFAULTS                                                               \
+    "side_len=1 rho=1000 k=1e5 initial_stretch=1.4 n_seg=4 h=0.004 tol=0.01 "  \
+    "method=0 steps=N states=FILE"
+/* NAME=VALUE, or h=1/60; p ends with NULL. */
 static void read_argument(const char *text, Parameter *const *p)
 {
-    char name[20] = "", rest;
-    double value = 0;
-    int read = sscanf(text, "%19[a-z_]=%lf%c", name, &value, &rest);
+    char name[20] = "";
+    double value = 0, below = 1;
+    int end = 0; /* of what could be read */
+    sscanf(text, "%19[a-z_]=%lf%n/%lf%n", name, &value, &end, &below, &end);
+    value /= below;
     while (*p && strcmp(name, (*p)->name) != 0)
         p++;
     if (!*p)
-        FAIL(2, "'%s' is not NAME=VALUE with a NAME out of %s\n", text, NAMES);
+        FAIL(2, "'%s' is none of " DEFAULTS "\n", text);
     bool whole = (*p)->most < 1e30; /* it counts something */
-    if (read != 2 || !(value >= (*p)->least && value <= (*p)->most) ||
+    if (!(value >= (*p)->least && value <= (*p)->most) || text[end] ||
         (whole && value != floor(value)))
         FAIL(2, "'%s': %s is a %snumber from %g to %g\n", text, name,
              whole ? "whole " : "", (*p)->least, (*p)->most);
@@ -557,7 +560,6 @@ int main(int argc, char **argv)
             states = argv[a] + 7;
         else
             read_argument(argv[a], all);
-
     Solid solid = square(side_len.value, (int)n_seg.value, rho.value, k.value);
     for (int i = 0; i < solid.nodes; i++)
         solid.x[i].x *= stretch.value; /* the springs keep their rest length */

@@ -6,6 +6,12 @@
 #ifndef ELASTO_MATHEMATICS_H
 #define ELASTO_MATHEMATICS_H
 
+/* Input is refused and runs end where a number is NaN or infinite; sums keep
+ * their order, so that a run has one hash. */
+#if defined __FAST_MATH__ || __FINITE_MATH_ONLY__ || __ASSOCIATIVE_MATH__
+#error "elasto needs NaN, infinity and sums in order: no -ffast-math, no -Ofast"
+#endif
+
 /* sqrt(x^2 + y^2), without overflow on the way. */
 double math_hypot(double x, double y);
 

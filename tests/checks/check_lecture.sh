@@ -33,7 +33,8 @@ ends() { # CODE ARGUMENT...
 }
 verdict bad_arguments_end_with_2 "$(
     for argument in --help foo k k= =1 k=1x 'k= ' k=nan k=inf rho=0 h=-1 \
-        n_seg=1.5 n_seg=1e9 steps=0.5 method=3 K=1 states k=1=2 'k=1 h=2' 1e5; do
+        n_seg=1.5 n_seg=1e9 steps=0.5 method=3 K=1 states k=1=2 h=1/0 h=1/ \
+        h=1/2/3 n_seg=5/2 h=0,02 h=20ms 'k=1 h=2' 1e5; do
         ends 2 steps=1 "$argument"
     done
 )"
@@ -41,7 +42,21 @@ verdict the_line_names_value_and_range "$(
     ends 2 n_seg=0
     grep -q "n_seg=0.*from 1 to 1000" error || cat error
     ends 2 side=2
-    grep -q "side=2.*side_len rho k" error || cat error
+    grep -q "side=2.*side_len=1 rho=1000 k=1e5" error || cat error
+)"
+# The message for a wrong name has the value of each one that is not given.
+verdict the_line_names_what_stands_without "$(
+    "$lecture" steps=3 states=plain >updates
+    "$lecture" x 2>error
+    given=$(grep -o '[a-z_]*=[0-9][0-9e.]*' error)
+    [ "$(echo "$given" | wc -l)" = 8 ] || cat error
+    # shellcheck disable=SC2086
+    "$lecture" $given steps=3 states=given | cmp - updates && cmp given plain
+)"
+verdict a_fraction_is_a_number "$(
+    "$lecture" steps=1 h=1/64 n_seg=8/4 states=fraction >updates
+    "$lecture" steps=1 h=0.015625 n_seg=2 states=plain | cmp - updates
+    cmp fraction plain
 )"
 verdict what_does_not_end_is_ended "$(
     ends 1 steps=1 n_seg=1 tol=1e-30

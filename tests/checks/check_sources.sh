@@ -25,6 +25,21 @@ headers_alone() {
 }
 verdict headers_compile_alone "$(headers_alone)"
 
+# A flag that forgets NaN or the order of sums ends the build, in words.
+fast_math() {
+    for flag in -ffast-math -Ofast -ffinite-math-only; do
+        for source in src/base/mathematics.c src/lecture.c; do
+            # shellcheck disable=SC2086
+            ${CC:-cc} -std=c11 -D_GNU_SOURCE -O2 $flag -Iinclude -Isrc \
+                ${DEP_CFLAGS:-} -fsyntax-only $source 2>"$temporary/log" &&
+                echo "$source is compiled with $flag"
+            grep -q 'error.*no -ffast-math' "$temporary/log" ||
+                head -n 1 "$temporary/log"
+        done
+    done
+}
+verdict fast_math_is_refused "$(fast_math)"
+
 # The floor of a file goes to $number: the number of its room, or of the programs
 # above them.
 floor() { # room/file, or file
