@@ -22,13 +22,13 @@
 typedef struct NeoHookean {
     int triangles;
     double area;            /* m^2, A0 of each */
-    double mu, lambda;      /* J/m^2, Pa times a thickness of 1 m */
+    double mu, lambda;      /* J/m^2, of an area */
     double (*weight)[2][3]; /* [triangles] 1/m, of its nodes in f1 and in f2 */
     int (*node)[3];         /* [triangles] anticlockwise at rest */
 } NeoHookean;
 
 /* sum of W over the triangles; data: NeoHookean.  Its option's numbers are: 1
- * for triangles, Young's modulus E in Pa, Poisson's ratio nu.  The springs
+ * for triangles, Young's modulus E in J/m^2, Poisson's ratio nu.  The springs
  * leave the list of terms; in the system stay the triangles' sides. */
 extern const TermKind neo_hookean_energy;
 

@@ -265,8 +265,10 @@ static void open_view(Player *player)
         fprintf(stderr, "no screen: %s; the frames go to %s%s\n", reason, shown,
                 options->frames ? "/" : "");
     }
-    if (!player->window && options->steps < 0 && !options->script)
-        options->steps = UNSEEN_STEPS;
+    if (!player->window && !options->script) {
+        options->steps = options->steps < 0 ? UNSEEN_STEPS : options->steps;
+        options->paused = 0; /* nobody could go on */
+    }
     player->draws = player->window || options->frames || options->film;
     for (int i = 0; i < 2 && !player->window; i++)
         player->size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
@@ -288,6 +290,7 @@ Status player_create(const Options *options, int count, const char *line,
     open_view(player);
     player->asks = player->window && !options->script;
     player->attended = player->window || options->script || options->page;
+    options = player->given;
     if (options->paused || (player->asks && options->steps < 0 &&
                             (options->page || options->scene->explains)))
         player->mode = MODE_PAUSE;

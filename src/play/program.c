@@ -1,11 +1,13 @@
 #include "play/player.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/clock.h"
 #include "picture/show.h"
@@ -28,13 +30,22 @@ __attribute__((format(printf, 2, 3))) static int tell(int code,
     return code;
 }
 
+/* Whether nobody reads standard output any more: head(1) has seen enough, and
+ * is told nothing. */
+static bool reader_is_gone(void)
+{
+    struct pollfd out = {.fd = STDOUT_FILENO};
+    return poll(&out, 1, 0) == 1 && out.revents & (POLLERR | POLLHUP);
+}
+
 /* Whether everything printed arrived; errno was 0 before. */
 static int check_output(void)
 {
-    return !ferror(stdout) && fflush(stdout) == 0
-               ? EXIT_FINE
-               : tell(EXIT_FAILED, "standard output: %s",
-                      output_reason(STATUS_FILE_FAILED));
+    if (!ferror(stdout) && fflush(stdout) == 0)
+        return EXIT_FINE;
+    return reader_is_gone() ? EXIT_FAILED
+                            : tell(EXIT_FAILED, "standard output: %s",
+                                   output_reason(STATUS_FILE_FAILED));
 }
 
 /* What a presenter says, page by page, and when it begins, min. */
@@ -103,6 +114,9 @@ static int report_failure(const Player *player, Status status)
     const char *message = player->message;
     int panes = past_panes(&player->past), p = 0;
     char pane[32] = "";
+    if (status == STATUS_FILE_FAILED && player->recording.standard &&
+        reader_is_gone())
+        return code;
     if (!message[0])
         message = player->recording.message;
     while (p < panes && player->past.machine[p].simulation.status != status)

@@ -13,20 +13,36 @@ static bool goes_on(char byte)
     return ((unsigned char)byte & 0xC0) == 0x80;
 }
 
+/* Whether a character moves the cursor, ends a line, has no width, or turns the
+ * direction of writing: a terminal would obey it, and nobody would see it. */
+static bool is_control(long letter)
+{
+    static const long hidden[][2] = {
+        {0, 0x1F},        {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},
+        {0x200B, 0x200F}, {0x2028, 0x202E}, {0x2060, 0x206F}, {0xFEFF, 0xFEFF},
+    };
+    for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++)
+        if (letter >= hidden[i][0] && letter <= hidden[i][1])
+            return true;
+    return false;
+}
+
 /* Bytes of the character of UTF-8 at the beginning of a text; 0: it is none, or
- * may be a control: ASCII's, those before U+00C0, or of U+2000 ... U+2FFF,
- * where those are that turn the direction of writing. */
+ * a control. */
 static int letter_bytes(const char *text)
 {
+    static const long least[] = {0, 0, 0x80, 0x800, 0x10000}; /* of so many */
     unsigned char first = (unsigned char)text[0];
     int size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    if (first < 0x20 || (first >= 0x7F && first < 0xC3) || first == 0xE2 ||
-        first > 0xF4)
+    long letter = size == 1 ? first : first & (0x7F >> size);
+    if ((first >= 0x80 && first < 0xC0) || first > 0xF4)
         return 0;
-    for (int i = 1; i < size; i++)
+    for (int i = 1; i < size; i++) {
         if (!goes_on(text[i]))
             return 0;
-    return size;
+        letter = letter << 6 | (text[i] & 0x3F);
+    }
+    return letter < least[size] || is_control(letter) ? 0 : size;
 }
 
 void one_line(const char *text, char *line, size_t size)

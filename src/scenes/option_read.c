@@ -61,7 +61,8 @@ static Text meant(const char *text, const char *before, Names names)
 typedef struct Word {
     const OptionRow *row; /* NULL: a scene */
     const char *text;
-    char picked[64]; /* text, where it was a list of values: one of them */
+    const char *list; /* of values, of which the text is one; or NULL */
+    char picked[64];  /* the text, where there is a list */
 } Word;
 
 enum { WORDS_MOST = 256 };
@@ -106,6 +107,15 @@ static const Gone *find_gone(const char *option, const char *value)
     return NULL;
 }
 
+/* How many values a list has, with commas between them. */
+static int count_parts(const char *list)
+{
+    int count = 1;
+    for (; *list; list++)
+        count += *list == ',';
+    return count;
+}
+
 /* ---- values ------------------------------------------------------------- */
 
 /* A decimal number at the beginning of a text, no "inf", "0x1" or blanks;
@@ -121,29 +131,45 @@ static const char *read_decimal(const char *text, double *number)
     return end;
 }
 
+/* Whether a text is the row's unit, as the table or as the window writes it:
+ * "J/m^2", "J/m\u00b2"; an angle has "deg", too. */
+static bool is_unit(const OptionRow *row, const char *text)
+{
+    size_t length = strcspn(row->unit, " ");
+    char shown[32];
+    option_unit(row, shown, sizeof shown);
+    return (strlen(text) == length && !strncmp(text, row->unit, length)) ||
+           strcmp(text, shown) == 0 ||
+           (strcmp(text, "deg") == 0 && strcmp(row->unit, "degrees") == 0);
+}
+
 /* What is meant by "1/60", "140%", "5 ms", as a number in the row's unit; NaN:
  * nobody knows. */
 static double number_meant(const OptionRow *row, const char *text)
 {
-    static const char letters[] = "kcmu"; /* kilo, centi, milli, micro */
-    static const double over[] = {1e-3, 1e2, 1e3, 1e6};
-    size_t length = strcspn(row->unit, " ");
+    static const struct {
+        const char *sign;
+        double over; /* parts of the unit */
+    } prefixes[] = {{"", 1},    {"k", 1e-3},     {"c", 1e2},     {"m", 1e3},
+                    {"u", 1e6}, {"\u00b5", 1e6}, {"\u03bc", 1e6}};
     double number, below = 1;
-    const char *end = read_decimal(text, &number), *letter;
+    const char *end = read_decimal(text, &number);
     if (end && *end == '/')
         end = read_decimal(end + 1, &below);
     if (!end)
         return NAN;
     end += strspn(end, " ");
-    if (length == 0 && strcmp(end, "%") == 0)
-        return number / 100 / below;
-    letter = *end && strlen(end) == length + 1 ? strchr(letters, *end) : NULL;
-    if (letter && length > 0) {
-        below *= over[letter - letters];
-        end++;
+    if (*end == '\0')
+        return number / below;
+    if (!row->unit[0])
+        return strcmp(end, "%") == 0 ? number / 100 / below : NAN;
+    for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++) {
+        size_t length = strlen(prefixes[i].sign);
+        if (strncmp(end, prefixes[i].sign, length) == 0 &&
+            is_unit(row, end + length))
+            return number / (below * prefixes[i].over);
     }
-    bool unit = strlen(end) == length && !strncmp(end, row->unit, length);
-    return *end == '\0' || unit ? number / below : NAN;
+    return NAN;
 }
 
 /* As many numbers as the row has, or fewer if it allows that, each in its
@@ -188,6 +214,32 @@ bool option_read(const OptionRow *row, const char *text, double *value)
     return i >= 0;
 }
 
+/* "; '0,004' is a list of 2 values, the number 0.004 has a point": what is said
+ * of commas where a number is refused. */
+static Text hint_at_comma(const Line *line, const OptionRow *row, int count,
+                          const char *text)
+{
+    Text hint = {""};
+    char number[32];
+    double value;
+    for (int i = 0; i < line->words; i++) {
+        const Word *word = &line->word[i];
+        if (!word->list || word->text != text)
+            continue;
+        snprintf(hint.text, sizeof hint.text,
+                 "; '%.60s' is a list of %d values", word->list,
+                 count_parts(word->list));
+        if (!option_read(row, word->list, &value))
+            continue;
+        option_write(row, value, number, sizeof number);
+        append(hint.text, sizeof hint.text, ", the number %s has a point",
+               number);
+    }
+    if (count > 1 && count_parts(text) == 2 * count)
+        return (Text){"; a number has a point, a comma ends it"};
+    return hint;
+}
+
 /* "is none of: clamp, none", "is not X,Y, each from -1 to 1, in m" */
 static Status refuse_value(const Line *line, const OptionRow *row, int count,
                            const char *text)
@@ -206,12 +258,13 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
         return refuse(line->told, "--%s: '%.60s' is none of: %s%s", row->name,
                       text, list_text(row->names).text,
                       meant(text, "", row->names).text);
-    return refuse(line->told, "--%s: '%.60s' is not %s%s from %g to %g%s%s",
+    return refuse(line->told, "--%s: '%.60s' is not %s%s from %g to %g%s%s%s",
                   row->name, text, count > 1 ? row->value : "",
                   count > 1                    ? ", each"
                   : row->kind == OPTION_NUMBER ? "a number"
                                                : "a whole number",
-                  row->low, row->high, row->unit[0] ? ", in " : "", row->unit);
+                  row->low, row->high, row->unit[0] ? ", in " : "", row->unit,
+                  hint_at_comma(line, row, count, text).text);
 }
 
 /* A name, or numbers; where a scene is a curve, its start may be x alone. */
@@ -363,7 +416,7 @@ static Status read_words(int argc, char **argv, Line *line)
     for (int i = 1; i < argc;) {
         const char *text = argv[i++], *equals = strchr(text, '=');
         const char *next = i < argc ? argv[i] : "--";
-        Word word = {NULL, text, ""};
+        Word word = {NULL, text, NULL, ""};
         if (line->words == WORDS_MOST)
             return refuse(line->told, "'%.60s': more than %d words", text,
                           WORDS_MOST);
@@ -475,16 +528,15 @@ static Status pick_values(Line *line, int pane)
         const OptionRow *row = &option_rows[i];
         Word *word = given(line, row);
         const char *text = word ? word->text : "";
-        int count = 1;
-        if (!row->label || !strchr(text, ','))
+        int count = count_parts(text);
+        if (!row->label || count == 1)
             continue;
-        for (const char *at = text; *at; at++)
-            count += *at == ',';
         line->options->panes *= count;
         if (line->options->panes > OPTIONS_MAX_PANES)
             return refuse(line->told,
                           "--%s: '%.60s' makes more than %d side by side",
                           row->name, text, OPTIONS_MAX_PANES);
+        word->list = text;
         for (int k = pane % count; k > 0; k--)
             text = strchr(text, ',') + 1;
         snprintf(word->picked, sizeof word->picked, "%.*s",
@@ -533,6 +585,21 @@ static Status check_body(Line *line)
     return body_check(options, line->told);
 }
 
+/* What needs a window, or somebody who goes on, is not said of a run without
+ * one. */
+static Status check_window(const Line *line)
+{
+    const Options *options = line->options;
+    if (options->headless && options->fullscreen)
+        return refuse(line->told, "--fullscreen: with --headless there is no "
+                                  "window");
+    if (options->headless && options->paused && !options->script)
+        return refuse(line->told,
+                      "--paused: with --headless nobody could go on, and no "
+                      "step would be made; --steps 0 is the start alone");
+    return STATUS_OK;
+}
+
 /* The words that were read, into the options. */
 static Status apply_words(Line *line, int pane)
 {
@@ -549,7 +616,7 @@ static Status apply_words(Line *line, int pane)
             (check_scene(line, row) || apply(line, row, line->word[i].text)))
             return STATUS_INVALID_INPUT;
     }
-    return check_body(line);
+    return check_window(line) ? STATUS_INVALID_INPUT : check_body(line);
 }
 
 Status options_parse(int argc, char **argv, int pane, Options *options,

@@ -104,7 +104,8 @@ REASON(nothing_flows, options->yield > 0,
 
 /* No range lets a product of two numbers become infinite, or lose digits. */
 const OptionRow option_rows[] = {
-    {SECTION("the square:")},
+    {SECTION(
+        "the square (flat: mass and stiffness of an area, kg/m^2, J/m^2):")},
     {WHOLE(segments, "N", "springs along a side", "", 4, 1,
            SQUARE_MESH_MAX_SEGMENTS),
      NEEDS(MESH), LIST("segments"), ROW(4, 4, 1)},
@@ -117,8 +118,9 @@ const OptionRow option_rows[] = {
     {NAME("material", material, "M", "of springs, or of triangles", 0,
           materials),
      NEEDS(BODY), LIST("material"), TERM(neo_hookean_energy)},
-    {NUMBER(young, "E", "its stiffness, of triangles", "Pa", 1e5, 1e-30, 1e30),
-     NEEDS(BODY), IDLE(no_triangles), LIST("E"), LIVE, ROW(12, 8, 0)},
+    {NUMBER(young, "E", "its stiffness, of triangles", "J/m^2", 1e5, 1e-30,
+            1e30),
+     NEEDS(BODY), IDLE(no_triangles), LIST("E"), LIVE, ROW(12, 11, 0)},
     {NUMBER(poisson, "NU", "how far it keeps its area", "", 0.4, 0, 0.499),
      NEEDS(BODY), IDLE(no_triangles), LIST("\u03bd"), LIVE, ROW(13, 8, 0.02)},
     {NUMBER(stretch, "S", "horizontal, at the start", "", 1.4, -1e200, 1e200),
@@ -165,7 +167,7 @@ const OptionRow option_rows[] = {
              -1e9, 1e9),
      NEEDS(BODY), TERM(contact_energy)},
     {NUMBERS(barrier, 2, "DHAT,KAPPA",
-             "width (m) and stiffness (J/m^3) of contact", "", 1e-12, 1e18),
+             "width (m) and stiffness (J/m^2) of contact", "", 1e-12, 1e18),
      NEEDS(BODY), IDLE(nothing_meets), LIVE},
     {NUMBER(friction, "MU", "coefficient of all obstacles", "", 0, 0, 1e3),
      NEEDS(BODY), IDLE(nothing_meets), LIST("\u03bc"), LIVE,
