@@ -1,6 +1,7 @@
 /* recording.h - what a run leaves in files: frames, films, tables.
  *
- *   frames  FOLDER/frame_000000.png, ...: the number is that of the step
+ *   frames  FOLDER/frame_000000.png, ...: the number is that of the step;
+ *           frames of an earlier run that this one does not reach stay there
  * and tables (output.h), which begin at step 0:
  *   states    step,time,node,x,y,vx,vy of every node at every step; nodes of
  *             run 0 first, those of run 1 numbered on
@@ -65,9 +66,15 @@ typedef enum RecordingTable {
     RECORDING_TABLES
 } RecordingTable;
 
+enum { FRAMES_MOST = 1000000 }; /* that have six digits */
+
 typedef struct Recording {
     const char *folder;            /* of the frames, or NULL: none */
     long frames;                   /* written */
+    unsigned char *older;          /* [FRAMES_MOST] 1: the frame of this step is
+                                      an earlier run's; NULL: not known */
+    long stayed[3];                /* after the end: how many of those are
+                                      left, the first, the last */
     Film film;                     /* of the frames */
     int panes;                     /* when it was opened */
     Table table[RECORDING_TABLES]; /* not open: not written */

@@ -5,15 +5,18 @@
 #include <string.h>
 #include <sys/stat.h>
 
+/* Colours that every player knows, which share one value between four pixels;
+ * so width and height are made even. */
+#define COMMON "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"
+
 static const struct FilmKind {
     const char *end;   /* of the name; without its dot the name of the format */
     int rate;          /* frames a second */
     const char *words; /* what ffmpeg is told behind its input */
 } film_kinds[] = {
-    {".mp4", 60,
-     "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"},
+    {".mp4", 60, COMMON},
     {".webm", 60,
-     "-c:v libvpx-vp9 -crf 30 -b:v 0 -deadline realtime -cpu-used 5"},
+     COMMON " -c:v libvpx-vp9 -crf 30 -b:v 0 -deadline realtime -cpu-used 5"},
     {".gif", 50, /* each frame with colours of its own */
      "-vf 'split[a][b];[a]palettegen=stats_mode=single[p];"
      "[b][p]paletteuse=new=1'"},

@@ -221,6 +221,21 @@ static void print_summary(FILE *file, const Player *player)
           (unsigned long long)player_hash(player));
 }
 
+/* Frames of an earlier, longer run in the same folder, which a film of all its
+ * pictures would show behind those of this one. */
+static void print_older(const Recording *recording)
+{
+    char folder[256];
+    const long *stayed = recording->stayed;
+    one_line(recording->folder, folder, sizeof folder);
+    if (stayed[0] > 0)
+        fprintf(stderr,
+                "%s/: %ld %s of an earlier run %s: frame_%06ld.png ... "
+                "frame_%06ld.png\n",
+                folder, stayed[0], stayed[0] > 1 ? "frames" : "frame",
+                stayed[0] > 1 ? "stay" : "stays", stayed[1], stayed[2]);
+}
+
 /* ---- the end ------------------------------------------------------------- */
 
 int program_end(Player *player, Status status)
@@ -235,6 +250,7 @@ int program_end(Player *player, Status status)
     errno = 0;
     if (!player->given[0].quiet)
         print_summary(player->recording.standard ? stderr : stdout, player);
+    print_older(&player->recording);
     int code = check_output();
     if (code == EXIT_FINE && player->refused)
         return EXIT_MISUSED;

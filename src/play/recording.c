@@ -1,5 +1,6 @@
 #include "play/recording.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <png.h>
 #include <stdio.h>
@@ -136,6 +137,38 @@ Status png_file_write(const char *name, char *told, const Canvas *canvas)
     return status;
 }
 
+/* ---- frames of an earlier run -------------------------------------------- */
+
+/* The frames that stand in the folder before the first one is written. */
+static void find_older(Recording *recording)
+{
+    DIR *folder = opendir(recording->folder);
+    struct dirent *file;
+    recording->older = calloc(FRAMES_MOST, 1);
+    while (folder && recording->older && (file = readdir(folder))) {
+        int end = 0, step = 0;
+        if (sscanf(file->d_name, "frame_%6d.png%n", &step, &end) == 1 &&
+            end == (int)strlen("frame_000000.png") && !file->d_name[end] &&
+            step >= 0)
+            recording->older[step] = 1;
+    }
+    if (folder)
+        closedir(folder);
+}
+
+/* Counts those that nothing has replaced. */
+static void count_older(Recording *recording)
+{
+    for (long step = 0; recording->older && step < FRAMES_MOST; step++)
+        if (recording->older[step]) {
+            if (recording->stayed[0]++ == 0)
+                recording->stayed[1] = step;
+            recording->stayed[2] = step;
+        }
+    free(recording->older);
+    recording->older = NULL;
+}
+
 /* ---- all together -------------------------------------------------------- */
 
 /* Opens a table, if the options name one.  The ledger has a column for each
@@ -170,6 +203,8 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     Status status = STATUS_OK;
     if (folder && mkdir(folder, 0777) && errno != EEXIST)
         status = output_tell(told, folder, STATUS_FILE_FAILED, NULL);
+    if (!status && folder)
+        find_older(recording);
     if (!status && options->film)
         status = film_open(options->film, told, &recording->film);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
@@ -187,6 +222,8 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
     recording->frames++;
+    if (recording->older && step < FRAMES_MOST)
+        recording->older[step] = 0;
     return png_file_write(name, recording->message, canvas);
 }
 
@@ -233,6 +270,7 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
 Status recording_close(Recording *recording, Keep keep)
 {
     bool failed = recording->message[0];
+    count_older(recording);
     for (int t = 0; t < RECORDING_TABLES; t++) {
         FILE *file = recording->table[t].output.file;
         if (file)

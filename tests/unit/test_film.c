@@ -21,14 +21,14 @@ static char folder[] = "/tmp/elasto-film-XXXXXX";
  * few colours as it is; the others are looked at in the middle of the block,
  * where they lose what no eye sees (7 of 255 with ffmpeg 5.1). */
 static const struct Row {
-    const char *name;
+    const char *name, *format; /* of its pixels */
     double rate;
     int error, width, height;
 } rows[] = {
-    {"a film.apng", 60, 0, WIDTH, HEIGHT},
-    {"x:y.gif", 50, 0, WIDTH, HEIGHT},
-    {"-film.mp4", 60, 12, WIDTH + 1, HEIGHT + 1}, /* even numbers */
-    {"film%03d.webm", 60, 12, WIDTH, HEIGHT},
+    {"a film.apng", "rgb24", 60, 0, WIDTH, HEIGHT},
+    {"x:y.gif", "bgra", 50, 0, WIDTH, HEIGHT},
+    {"-film.mp4", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1}, /* even numbers */
+    {"film%03d.webm", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1},
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
@@ -102,6 +102,17 @@ static double rate_of(const char *name, int count)
     return (count - 1) / (last - first);
 }
 
+/* Not every browser plays another one than yuv420p. */
+static void check_format(const struct Row *row)
+{
+    char format[16] = "";
+    FILE *answer = ask("ffprobe -v error -show_entries stream=pix_fmt -of "
+                       "csv=p=0 'file:%s'",
+                       row->name);
+    CHECK(fscanf(answer, "%15[a-z0-9]", format) == 1 && pclose(answer) == 0);
+    assert_string_equal(format, row->format);
+}
+
 static void check_frames(const struct Row *row, const uint8_t *bytes, int count)
 {
     int wrong = 0;
@@ -131,6 +142,7 @@ TEST(films_show_what_was_drawn)
         int frames =
             read_film(row->name, row->width, row->height, bytes, FRAMES + 1);
         assert_int_equal(frames, count);
+        check_format(row);
         check_frames(row, bytes, frames);
         if (frames == FRAMES) /* .webm counts milliseconds */
             CHECK(fabs(rate_of(row->name, frames) / row->rate - 1) < 1e-2);
