@@ -65,6 +65,7 @@ typedef struct Options {
     const struct LecturePage *page; /* of the lecture, or NULL */
     const char *pin;                /* which nodes never move, or NULL */
     const char *state;              /* the table it begins in, or NULL */
+    const char *state_springs;      /* the table of its springs, or NULL */
     const char *frames, *states, *log, *energies, *springs, *film, *script,
         *handout; /* or NULL */
     int panes;    /* side by side, 1: no lists of values */

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "model/contact.h"
 #include "picture/show.h"
 #include "scenes/one_line.h"
 #include "scenes/pages.h"
@@ -322,6 +323,22 @@ static Status check_files(const Options *options, Refusal told)
     return STATUS_OK;
 }
 
+/* What a table of states does not know, and a run that begins in one has as at
+ * its start. */
+static void print_forgotten(const Options *options)
+{
+    const Scene *scene = options->scene;
+    bool moves = options->ceiling[1] != 0 ||
+                 (scene->own && scene->own(options).motion.phases > 0);
+    bool springs =
+        !options->state_springs && (options->tear > 0 || options->yield > 0);
+    if (options->state && springs)
+        fprintf(stderr, "--state: the springs begin whole and unbent; "
+                        "--state-springs FILE has what became of them\n");
+    if (options->state && moves)
+        fprintf(stderr, "--state: the ceiling begins where it did\n");
+}
+
 int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
                   Player *player)
 {
@@ -357,6 +374,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
         output_tell(message, options->handout, status, NULL);
         return status ? tell(EXIT_FAILED, "%s", message) : EXIT_FINE;
     }
+    print_forgotten(options);
     join_line(argc, argv, line, sizeof line);
     Status status = player_create(options, options->panes, line, stop, player);
     return status ? program_end(player, status) : PROGRAM_PLAYS;

@@ -235,6 +235,12 @@ static Status set_terms(const Options *options, System *system)
     return status;
 }
 
+/* Runs of the scene, each with a body of its own. */
+static int runs_of(const Options *options)
+{
+    return options->scene->create == create_slope ? SIMULATION_MAX_RUNS : 1;
+}
+
 /* Where the body of a run begins, x and v [2 nodes] out: in the last step of a
  * table, or stretched, turned and moved as the options say, 0 degrees leave
  * every bit; and the scene's ball where it is. */
@@ -247,10 +253,9 @@ static Status place_body(const Options *options, int run, double *x, double *v,
         at[0], at[1], options->turn, speed[0], speed[1], options->stretch, 1};
     int ball = ball_of(options);
     if (options->state)
-        return start_table_read(
-            options->state, options->state_step, shape.nodes + (ball >= 0), run,
-            options->scene->create == create_slope ? SIMULATION_MAX_RUNS : 1, x,
-            v, told);
+        return start_table_read(options->state, options->state_step,
+                                shape.nodes + (ball >= 0), run,
+                                runs_of(options), x, v, told);
     for (int i = 0; i < shape.nodes; i++) {
         double rest[2];
         int node = i, body = square_mesh_body(&shape, &node);
@@ -295,7 +300,11 @@ static Status build(const Options *options, int run, System *system, double **x,
     *x = status ? NULL : malloc(2 * size * sizeof **x);
     if (status || !*x)
         return status ? status : STATUS_OUT_OF_MEMORY;
-    return place_body(options, run, *x, *x + size, told);
+    status = place_body(options, run, *x, *x + size, told);
+    return status || !options->state_springs
+               ? status
+               : start_springs_read(options, run, runs_of(options), system,
+                                    told);
 }
 
 /* What is pinned does not move. */

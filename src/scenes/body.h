@@ -60,15 +60,20 @@ const char *body_needs_end_of_step(const Options *options);
  * all gaps and cells are > 0.  Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status body_check(const Options *options, Refusal told);
 
-/* One step of the table that --states wrote, of the nodes of one run.
+/* A step of the table that --states wrote, for the nodes of one run; and of the
+ * table that --springs wrote, for its springs: which are broken, what has
+ * flowed.  Columns are found by their names, others may stand between them.
  *   step     below 0: the last one
  *   nodes    n of each run; those of run r follow those of run r - 1
  *   runs     of the scene
  *   x, v     [2n] out, m, m/s
- * Returns OK; INVALID_INPUT: there is no such table or step, or it has other
- * nodes or fewer runs, or more of them and no panes.  (Of a table of several
- * panes it takes the first.) */
+ *   system   in/out, with all its terms
+ * Returns OK; INVALID_INPUT: there is no such table or step, a line is no row
+ * of it, or it has other nodes or springs or fewer runs, or more of them and no
+ * panes.  (Of a table of several panes it takes the first.) */
 Status start_table_read(const char *name, double step, int nodes, int run,
                         int runs, double *x, double *v, Refusal told);
+Status start_springs_read(const Options *options, int run, int runs,
+                          System *system, Refusal told);
 
 #endif

@@ -108,7 +108,8 @@ Status create_bend(Simulation *simulation)
         return status;
     double a = mesh->spacing, half = 0.5 * mesh->rows * a;
     simulation->system.m[mesh->nodes] = 60;
-    simulation->run[0].v[2 * mesh->nodes + 1] = -3;
+    if (!simulation->options.state) /* else the table has its velocity */
+        simulation->run[0].v[2 * mesh->nodes + 1] = -3;
     cut(simulation, 0.5 * a, -2 * half, -half + 0.6 * a);
     return STATUS_OK;
 }

@@ -1,94 +1,282 @@
-/* A start out of a file: a step of a table of states. */
+/* start_table.c - a start out of files: a step of a table of states, and the
+ * springs of that step.
+ */
 #include "scenes/body.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* What is looked for, and what was found. */
-typedef struct Start {
-    FILE *file;
-    double step; /* below 0: the last */
-    int nodes, run;
-    double *x, *v; /* [2 nodes] */
-    bool has_step; /* the file has it */
-    bool has_panes;
-    int count; /* nodes of it */
-    long line; /* of the file, the last one that was read */
-} Start;
+#include "model/fracture.h"
+#include "model/mass_spring_energy.h"
+#include "model/plasticity.h"
 
-/* Node i of all has this x, y, vx or vy (number 0 ... 3).  Returns whether it
- * is a number. */
-static bool put_number(const Start *start, int i, int number, double value)
+/* ---- CSV ----------------------------------------------------------------- */
+
+enum { MOST_COLUMNS = 8 };
+
+/* A table of numbers with a line of names.  The columns that are wanted are
+ * found by their names, the others are only counted. */
+typedef struct Reader {
+    FILE *file;
+    char *text; /* the line that was read last, */
+    size_t room;
+    long line;                /* and its number, from 1 */
+    int columns;              /* names in the first line */
+    const char *const *names; /* wanted; NULL ends them */
+    const char
+        *field[MOST_COLUMNS]; /* what the line has there; NULL: nothing */
+    int place[MOST_COLUMNS];  /* of each one among all columns */
+    bool has_panes;           /* there is a column of that name */
+    char why[200];            /* the table cannot be read; "" */
+} Reader;
+
+/* The next line without its end, be it LF, CR LF or that of the file, and
+ * without the mark that some programs put before UTF-8. */
+static bool next_line(Reader *reader)
 {
-    int own = i - start->run * start->nodes;
-    double *to = number < 2 ? start->x : start->v;
-    if (own >= 0 && own < start->nodes)
-        to[2 * own + number % 2] = value;
-    return isfinite(value);
+    static const char mark[] = "\xef\xbb\xbf";
+    ssize_t length = getline(&reader->text, &reader->room, reader->file);
+    if (length < 0)
+        return false;
+    reader->text[strcspn(reader->text, "\r\n")] = '\0';
+    if (reader->line++ == 0 && strncmp(reader->text, mark, strlen(mark)) == 0)
+        memmove(reader->text, reader->text + strlen(mark),
+                strlen(reader->text + strlen(mark)) + 1);
+    return true;
 }
 
-/* step,time,node,x,y,vx,vy and perhaps more.  Where somebody went back the table
- * has a step several times: the last one counts.  Returns false at another
- * line. */
-static bool read_lines(Start *start)
+/* The next field of a line, without blanks and quotes around it; NULL: there is
+ * none.  It is cut out of the line. */
+static char *next_field(char **rest)
 {
-    static const char names[] = "step,time,node,x,y,vx,vy";
-    char line[256];
-    double row[4] = {0};
-    long step = -1, last = -1;
-    int node = 0;
-    start->line = 1;
-    if (!fgets(line, sizeof line, start->file) ||
-        strncmp(line, names, strlen(names)) != 0)
-        return false;
-    start->has_panes = strstr(line, ",pane") != NULL;
-    while (fgets(line, sizeof line, start->file)) {
-        int end = 0;
-        start->line++;
-        if (sscanf(line, "%ld,%*f,%d,%lf,%lf,%lf,%lf%n", &step, &node, &row[0],
-                   &row[1], &row[2], &row[3], &end) < 6 ||
-            end == 0 || (line[end] != '\n' && line[end] != ','))
-            return false;
-        bool follows = step == last;
-        last = step;
-        if (start->step >= 0 && (double)step != start->step)
-            continue;
-        start->count = node == 0 ? 1 : follows ? start->count + 1 : 0;
-        if (node != start->count - 1)
-            return false;
-        for (int k = 0; k < 4; k++)
-            if (!put_number(start, node, k, row[k]))
-                return false;
+    char *field = strsep(rest, ",");
+    if (!field)
+        return NULL;
+    field += strspn(field, " \t\"");
+    size_t length = strlen(field);
+    while (length > 0 && strchr(" \t\"", field[length - 1]))
+        length--;
+    field[length] = '\0';
+    return field;
+}
+
+/* What is wrong with a first line in which a name is not found. */
+static const char *hint_at_names(const char *line)
+{
+    return strchr("\xff\xfe", line[0]) && line[0] ? "; UTF-8 is wanted"
+           : !strchr(line, ',') && strpbrk(line, ";\t")
+               ? "; commas must be between the columns"
+               : "";
+}
+
+/* Finds the columns in the first line. */
+static void read_names(Reader *reader)
+{
+    char shown[40], *rest;
+    if (!next_line(reader)) {
+        snprintf(reader->why, sizeof reader->why, "it is empty");
+        return;
     }
-    start->has_step = start->step < 0 || start->count > 0;
-    return true;
+    snprintf(shown, sizeof shown, "%s", reader->text);
+    const char *hint = hint_at_names(reader->text);
+    for (int k = 0; reader->names[k]; k++)
+        reader->place[k] = -1;
+    rest = reader->text;
+    for (char *name; (name = next_field(&rest)); reader->columns++) {
+        reader->has_panes = reader->has_panes || !strcmp(name, "pane");
+        for (int k = 0; reader->names[k]; k++)
+            if (strcmp(name, reader->names[k]) == 0)
+                reader->place[k] = reader->columns;
+    }
+    for (int k = 0; reader->names[k] && !reader->why[0]; k++)
+        if (reader->place[k] < 0)
+            snprintf(reader->why, sizeof reader->why,
+                     "its first line, '%s', has no column '%s'%s", shown,
+                     reader->names[k], hint);
+}
+
+/* A field as a finite number. */
+static bool read_number(const char *field, double *number)
+{
+    char *end;
+    *number = strtod(field, &end);
+    return end != field && *end == '\0' && isfinite(*number);
+}
+
+/* The next row.
+ *   value  out, of the columns that are wanted
+ * Returns false at the end, and where the row cannot be read, which `why` says
+ * then. */
+static bool next_row(Reader *reader, double *value)
+{
+    int fields = 0;
+    do
+        if (reader->why[0] || !next_line(reader))
+            return false;
+    while (reader->text[0] == '\0');
+    char *rest = reader->text;
+    for (char *field; (field = next_field(&rest)); fields++)
+        for (int k = 0; reader->names[k]; k++)
+            if (reader->place[k] == fields)
+                reader->field[k] = field;
+    if (fields != reader->columns)
+        snprintf(reader->why, sizeof reader->why,
+                 "line %ld has %d columns, the first line %d%s", reader->line,
+                 fields, reader->columns,
+                 fields > reader->columns
+                     ? "; a number has a point, a comma ends it"
+                     : "");
+    for (int k = 0; reader->names[k] && !reader->why[0]; k++)
+        if (!read_number(reader->field[k], &value[k]))
+            snprintf(reader->why, sizeof reader->why,
+                     "line %ld: %s is '%.40s', not a number", reader->line,
+                     reader->names[k], reader->field[k]);
+    return !reader->why[0];
+}
+
+/* ---- a step of a table --------------------------------------------------- */
+
+/* What is read: rows of a step, numbered from 0 in the second column. */
+typedef struct Part {
+    const char *option, *name; /* for messages: the table's */
+    const char *what;          /* the rows are about */
+    double step;               /* below 0: the last */
+    int size, run, runs;       /* rows of a run; the run; how many there are */
+} Part;
+
+/* Takes row i of the run; returns why it cannot be taken, or NULL. */
+typedef const char *TakeRow(void *into, int i, const double *value);
+
+/* Reads all rows of the step, or of all steps: those that come later replace
+ * what was read before.  Where somebody went back a table has a step several
+ * times, and the last one counts. */
+static void read_rows(Reader *reader, const Part *part, TakeRow *take,
+                      void *into)
+{
+    double value[MOST_COLUMNS], last = -1;
+    int count = 0, bodies;
+    while (next_row(reader, value)) {
+        bool follows = value[0] == last && value[1] != 0;
+        last = value[0];
+        if (part->step >= 0 && value[0] != part->step)
+            continue;
+        count = follows ? count : 0;
+        int i = count - part->run * part->size;
+        const char *why =
+            i >= 0 && i < part->size ? take(into, i, value) : NULL;
+        if (value[1] != count)
+            snprintf(reader->why, sizeof reader->why,
+                     "line %ld has %s %g where %s %d is missing", reader->line,
+                     part->what, value[1], part->what, count);
+        else if (why)
+            snprintf(reader->why, sizeof reader->why, "line %ld: %s",
+                     reader->line, why);
+        count++;
+    }
+    if (reader->why[0])
+        return;
+    bodies = count / part->size;
+    if (part->step >= 0 && count == 0)
+        snprintf(reader->why, sizeof reader->why, "step %.0f is not in it",
+                 part->step);
+    else if (count == 0 || count % part->size != 0 ||
+             (!reader->has_panes && bodies > part->runs))
+        snprintf(reader->why, sizeof reader->why,
+                 "its %sstep has %d %ss, the body %d",
+                 part->step < 0 ? "last " : "", count, part->what, part->size);
+    else if (part->run >= bodies)
+        snprintf(reader->why, sizeof reader->why,
+                 "body %d of the scene is not in it", part->run + 1);
+}
+
+static Status read_part(const Part *part, const char *const *names,
+                        TakeRow *take, void *into, Refusal told)
+{
+    Reader reader = {.file = fopen(part->name, "r"), .names = names};
+    errno = reader.file ? 0 : errno;
+    if (reader.file) {
+        read_names(&reader);
+        read_rows(&reader, part, take, into);
+    }
+    if (!reader.file || ferror(reader.file))
+        snprintf(reader.why, sizeof reader.why, "%s", strerror(errno));
+    free(reader.text);
+    if (reader.file)
+        fclose(reader.file);
+    return reader.why[0] ? refuse(told, "--%s '%.60s': %s", part->option,
+                                  part->name, reader.why)
+                         : STATUS_OK;
+}
+
+/* ---- nodes --------------------------------------------------------------- */
+
+static const char *take_node(void *into, int i, const double *value)
+{
+    double *const *xv = into;
+    memcpy(xv[0] + 2 * i, value + 2, 2 * sizeof *value);
+    memcpy(xv[1] + 2 * i, value + 4, 2 * sizeof *value);
+    return NULL;
 }
 
 Status start_table_read(const char *name, double step, int nodes, int run,
                         int runs, double *x, double *v, Refusal told)
 {
-    Start start = {fopen(name, "r"), step, nodes, run, x, v, .line = 0};
-    char why[128] = "";
-    bool whole = start.file && read_lines(&start);
-    if (!start.file || ferror(start.file))
-        snprintf(why, sizeof why, "%s", strerror(errno));
-    else if (!whole)
-        snprintf(why, sizeof why,
-                 "line %ld is not one that --states writes, "
-                 "step,time,node,x,y,vx,vy",
-                 start.line);
-    else if (!start.has_step)
-        snprintf(why, sizeof why, "step %.0f is not in it", step);
-    else if (start.count == 0 || start.count % nodes != 0 ||
-             (!start.has_panes && start.count / nodes > runs))
-        snprintf(why, sizeof why, "its %sstep has %d nodes, the body %d",
-                 step < 0 ? "last " : "", start.count, nodes);
-    else if (run >= start.count / nodes)
-        snprintf(why, sizeof why, "body %d of the scene is not in it", run + 1);
-    if (start.file)
-        fclose(start.file);
-    return why[0] ? refuse(told, "--state '%.60s': %s", name, why) : STATUS_OK;
+    static const char *const names[] = {"step", "node", "x", "y",
+                                        "vx",   "vy",   NULL};
+    const Part part = {"state", name, "node", step, nodes, run, runs};
+    double *xv[] = {x, v};
+    return read_part(&part, names, take_node, xv, told);
+}
+
+/* ---- springs ------------------------------------------------------------- */
+
+/* What springs become. */
+typedef struct Springs {
+    System *system;
+    double stiffness; /* J/m^2, of those that are whole */
+} Springs;
+
+/* Breaks the spring where it was broken, and bends it as far as it was. */
+static const char *take_spring(void *into, int i, const double *value)
+{
+    const Springs *springs = into;
+    System *system = springs->system;
+    Plasticity *flow = system_data(system, &plastic_energy);
+    const int *e = system->e + 2 * i;
+    bool broken = value[4] == 0, breaks = system_find_term(system, &fracture);
+    if (value[3] - value[2] != e[1] - e[0])
+        return "this spring is another square's";
+    if (broken && !spring_is_broken(system, i) && !breaks)
+        return "this spring is broken, and nothing breaks; --tear lets it";
+    if (value[6] != 0 && !flow)
+        return "this spring has flowed, and none flows; --yield lets it";
+    if (breaks)
+        system->k[i] = broken ? 0 : springs->stiffness;
+    if (flow) {
+        flow->ep[i] = value[5];
+        flow->kappa[i] = value[6];
+    }
+    return NULL;
+}
+
+Status start_springs_read(const Options *options, int run, int runs,
+                          System *system, Refusal told)
+{
+    static const char *const names[] = {"step",  "spring",  "i",      "j",
+                                        "whole", "plastic", "flowed", NULL};
+    const Part part = {"state-springs",
+                       options->state_springs,
+                       "spring",
+                       options->state_step,
+                       system->springs,
+                       run,
+                       runs};
+    Springs springs = {system, options->stiffness};
+    Status status = read_part(&part, names, take_spring, &springs, told);
+    system_changed(system, false);
+    return status;
 }
