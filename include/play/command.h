@@ -131,8 +131,9 @@ Status script_add(Script *script, long step, const Command *command,
 Status script_read(const char *name, Script *script, char *message,
                    size_t size);
 
-/* Writes what script_read reads.  Returns OK, OUT_OF_MEMORY, FILE_FAILED. */
-Status script_write(const char *name, const Script *script);
+/* Writes what script_read reads, behind a comment with the command line that
+ * plays it.  Returns OK, OUT_OF_MEMORY, FILE_FAILED. */
+Status script_write(const char *name, const char *line, const Script *script);
 
 /* The next command if it is due, or NULL.
  *   waits  the run goes on by itself: later steps are waited for */

@@ -72,9 +72,10 @@ typedef struct Side {
 
 typedef struct Player {
     Options given[OPTIONS_MAX_PANES]; /* of the command line */
-    char line[1024];                  /* it, without files and scripts */
-    Script script;                    /* of the command line */
-    bool draws;                       /* frames, on this paper */
+    char *const *words; /* of the command line, not owned; NULL ends them, or
+                           there are none */
+    Script script;      /* of the command line */
+    bool draws;         /* frames, on this paper */
     Paper paper;
     int size[2];   /* its pixels; 0: those of the window */
     bool window;   /* it is a window's, which takes keys */
@@ -144,11 +145,12 @@ typedef struct Player {
 /* Sets everything up.  Says on standard error if there is no screen, and then
  * asks for frames in the folder "frames" and 100 steps.
  *   options  [count] in, of the panes
- *   line     in, how the program was called, for messages
+ *   words    in, how the program was called: its name, words, NULL; or NULL.
+ *            They must live as long as the player
  *   stop     in, must live as long; not 0 ends the run after the present step
  *   player   out; must stay where it is; close it in any case
  * Returns OK, or why it failed; INVALID_INPUT: player->message may say more. */
-Status player_create(const Options *options, int count, const char *line,
+Status player_create(const Options *options, int count, char *const *words,
                      const volatile sig_atomic_t *stop, Player *player);
 
 /* The next step, known or new, with its records; in a window it may only begin.
@@ -222,7 +224,13 @@ enum ExitCode {
     EXIT_UNCONVERGED = 3 /* the run ended, but steps did not converge */
 };
 
+/* The place of the word from i on that decides what is simulated, not how long
+ * it runs and what it leaves behind.  0: there is none.  A loop over all of
+ * them is for (i = 0; (i = player_next_word(player, i + 1));) */
+int player_next_word(const Player *player, int i);
+
 /* Does what a command line asks for, until it is to be played.
+ *   argv    in, NULL ends it; it must live as long as the player
  *   stop    in, must live as long; not 0 ends the run after the present step
  *   player  out, before its first frame; free it in any case
  * Returns PROGRAM_PLAYS, or the exit code where nothing is to be played. */

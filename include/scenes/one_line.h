@@ -3,6 +3,7 @@
 #ifndef ELASTO_ONE_LINE_H
 #define ELASTO_ONE_LINE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/status.h"
@@ -14,6 +15,9 @@
  *   text  in, or NULL: ""
  *   line  [size] out, 12 at least; may be the text itself */
 void one_line(const char *text, char *line, size_t size);
+
+/* Whether a text is UTF-8 without any of those. */
+bool is_one_line(const char *text);
 
 /* Writes behind what the text has; what does not fit is cut off.
  *   text  [size] in/out */

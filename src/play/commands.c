@@ -250,13 +250,14 @@ static bool is_covered(const ScriptLine *line)
            line->command.number == line[1].command.number;
 }
 
-Status script_write(const char *name, const Script *script)
+Status script_write(const char *name, const char *line, const Script *script)
 {
     Output output;
     Status status = output_open(name, NULL, &output);
     if (status)
         return status;
     errno = 0;
+    fprintf(output.file, "# %s\n", line);
     int gesture = 0; /* of the line before */
     for (size_t i = 0; i < script->count; i++) {
         char line[512];

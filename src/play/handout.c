@@ -77,7 +77,7 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
     const Command next = {.kind = COMMAND_NEXT};
     options->headless = options->quiet = true;
     options->steps = page->picture;
-    Status status = player_create(options, 1, "elasto", stop, player);
+    Status status = player_create(options, 1, NULL, stop, player);
     player->draws = true;
     player->size[0] = PICTURE_WIDTH;
     player->size[1] = PICTURE_HEIGHT;

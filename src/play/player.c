@@ -274,13 +274,13 @@ static void open_view(Player *player)
         player->size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
 }
 
-Status player_create(const Options *options, int count, const char *line,
+Status player_create(const Options *options, int count, char *const *words,
                      const volatile sig_atomic_t *stop, Player *player)
 {
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
-    *player = (Player){.stop = stop, .left = options->page, .written = -1};
-    snprintf(player->line, sizeof player->line, "%s", line);
+    *player = (Player){
+        .words = words, .stop = stop, .left = options->page, .written = -1};
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();
     Status status = script_read(options->script, &player->script,

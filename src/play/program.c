@@ -264,25 +264,24 @@ int program_end(Player *player, Status status)
     return code;
 }
 
-/* The words of the command line that decide what is simulated, for messages:
- * not how long it runs and what it leaves behind. */
-static void join_line(int argc, char **argv, char *line, size_t size)
+int player_next_word(const Player *player, int i)
 {
+    char *const *words = player->words;
     const OptionRow *first = option_find("steps");
-    snprintf(line, size, "elasto");
-    for (int i = 1; i < argc; i++) {
-        char name[32], shown[256];
-        size_t length = strcspn(argv[i], "=");
-        snprintf(name, sizeof name, "%.*s", (int)length, argv[i]);
+    for (; words && words[0] && words[i]; i++) {
+        char name[32];
+        size_t length = strcspn(words[i], "=");
+        snprintf(name, sizeof name, "%.*s", (int)length, words[i]);
         const OptionRow *row =
             strncmp(name, "--", 2) == 0 ? option_find(name + 2) : NULL;
-        one_line(argv[i], shown, sizeof shown);
         if (!row || row < first || row == option_find("lecture") ||
             row == option_find("headless"))
-            append(line, size, " %s", shown);
-        else if (row->kind != OPTION_SWITCH && argv[i][length] == '\0')
+            return i;
+        if (row->kind != OPTION_SWITCH && words[i][length] == '\0' &&
+            words[i + 1])
             i++; /* its value is the next word */
     }
+    return 0;
 }
 
 /* Whether two names are those of one file or folder; a device may be named
@@ -343,7 +342,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
                   Player *player)
 {
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
-    char message[OUTPUT_TOLD] = "", line[1024];
+    char message[OUTPUT_TOLD] = "";
     *player = (Player){0};
     if (argc == 3 && strcmp(argv[1], "--help") == 0 &&
         strcmp(argv[2], "commands") == 0) {
@@ -375,7 +374,6 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
         return status ? tell(EXIT_FAILED, "%s", message) : EXIT_FINE;
     }
     print_forgotten(options);
-    join_line(argc, argv, line, sizeof line);
-    Status status = player_create(options, options->panes, line, stop, player);
+    Status status = player_create(options, options->panes, argv, stop, player);
     return status ? program_end(player, status) : PROGRAM_PLAYS;
 }

@@ -15,7 +15,10 @@
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-enum { WATCHED_SPEED = -5 }; /* of iterations that are watched one by one */
+enum {
+    WATCHED_SPEED = -5, /* of iterations that are watched one by one */
+    NOTE_LINE = 100 /* letters of a command line that the window has room for */
+};
 
 int player_first_speed(const Options *options)
 {
@@ -357,29 +360,87 @@ Status obey_film(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* The hash of the state; where commands have led here they are written down as
- * a script, which leads here again and stays. */
-Status obey_hash(Player *player, const Command *command)
+/* A word as a shell takes it: as it is, in quotes or, where it has what no
+ * terminal should see, as bash, zsh and ksh write that. */
+static void put_word(FILE *file, const char *word)
+{
+    static const char plain[] = "%+,-./0123456789:=@_"
+                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                "abcdefghijklmnopqrstuvwxyz";
+    bool bare = word[0] && word[strspn(word, plain)] == '\0';
+    bool clean = is_one_line(word);
+    fputs(bare ? " " : clean ? " '" : " $'", file);
+    for (; *word; word++)
+        if (clean && *word == '\'')
+            fputs("'\\''", file);
+        else if (clean || strchr(plain, *word))
+            fputc(*word, file);
+        else
+            fprintf(file, "\\%03o", (unsigned)(unsigned char)*word);
+    fputs(bare ? "" : "'", file);
+}
+
+/* The command line that leads to the present step, by a script where commands
+ * have led to it (else NULL).  NULL: not enough memory; free it. */
+static char *make_line(const Player *player, const char *script)
+{
+    char *line = NULL;
+    size_t size;
+    FILE *file = open_memstream(&line, &size);
+    if (!file)
+        return NULL;
+    fputs("elasto", file);
+    for (int i = 0; (i = player_next_word(player, i + 1));)
+        put_word(file, player->words[i]);
+    if (script)
+        fprintf(file, " --script %s", script);
+    else
+        fprintf(file, " --steps %ld", player->past.step);
+    if (fclose(file) == 0)
+        return line;
+    free(line);
+    return NULL;
+}
+
+/* The journal as a script under this name, which begins with the line that
+ * plays it, and ends with a pause. */
+static Status write_journal(Player *player, const char *name, const char *line)
 {
     const Command pause = {.kind = COMMAND_PAUSE};
-    char name[80], way[200];
     Script *journal = &player->journal;
     size_t count = journal->count;
-    long step = player->past.step;
     Status status = STATUS_OK;
-    free_name(player, ".script", name, sizeof name);
     if (!player_stands(player))
-        status = script_add(journal, step, &pause, 0);
-    if (!status && count > 0)
-        status = script_write(name, journal);
+        status = script_add(journal, player->past.step, &pause, 0);
+    if (!status)
+        status = script_write(name, line, journal);
     journal->count = count;
-    if (count == 0)
-        snprintf(way, sizeof way, "%.80s --steps %ld", player->line, step);
-    else if (status)
-        snprintf(way, sizeof way, "no script: %s", output_reason(status));
-    else
-        snprintf(way, sizeof way, "%.60s --script %s", player->line, name);
-    player_note(player, "state %016llx at step %ld: %s",
-                (unsigned long long)player_hash(player), step, way);
+    return status;
+}
+
+/* The hash of the state and the line that leads to it, whole on the terminal;
+ * where commands have led here they are written down as a script, which leads
+ * here again and stays. */
+Status obey_hash(Player *player, const Command *command)
+{
+    char name[80], hash[64];
+    bool commands = player->journal.count > 0;
+    free_name(player, ".script", name, sizeof name);
+    char *line = make_line(player, commands ? name : NULL);
+    Status status = line ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    if (!status && commands)
+        status = write_journal(player, name, line);
+    snprintf(hash, sizeof hash, "state %016llx at step %ld",
+             (unsigned long long)player_hash(player), player->past.step);
+    if (status) {
+        player_note(player, "%s: no script: %s", hash, output_reason(status));
+    } else {
+        const char *where = commands ? name : "the terminal";
+        bool fits = strlen(line) <= NOTE_LINE;
+        player_note(player, "%s: %s%s", hash, fits ? "" : "its line is in ",
+                    fits ? line : where);
+        fprintf(stderr, "%s: %s\n", hash, line);
+    }
+    free(line);
     return STATUS_OK;
 }

@@ -11,7 +11,7 @@
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-enum { MOST_WORDS = 128, MOST_TEXT = 4096 };
+enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
 
 /* Of states of the past; a tab may have little memory, and what gives way is
  * made again. */
@@ -22,7 +22,7 @@ static const size_t PAST_ROOM = 8 << 20;
 typedef struct Run {
     Player player;
     char text[MOST_TEXT];
-    char *word[MOST_WORDS];
+    char *word[MOST_WORDS + 1]; /* NULL ends them */
 } Run;
 
 static volatile sig_atomic_t never = 0;
@@ -40,6 +40,7 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
     next->word[0] = strtok(next->text, "\n");
     while (count < MOST_WORDS && (next->word[count] = strtok(NULL, "\n")))
         count++;
+    next->word[count] = NULL;
     int code = program_begin(count, next->word, &never, &next->player);
     if (code != PROGRAM_PLAYS) {
         player_free(&next->player);
@@ -73,14 +74,11 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
         (!same &&
          player_own_options(player, now->scene->name, now->page, base, &count)))
         return words;
-    snprintf(words, sizeof words, "%s",
-             same        ? player->line + strlen("elasto")
-             : now->page ? "--lecture "
-                         : now->scene->name);
-    if (!same && now->page)
-        append(words, sizeof words, "%s", now->page->name);
-    for (char *blank = words; (blank = strchr(blank, ' '));)
-        *blank = '\n';
+    for (int i = 0; same && (i = player_next_word(player, i + 1));)
+        append(words, sizeof words, "%s\n", player->words[i]);
+    if (!same)
+        append(words, sizeof words, "%s%s", now->page ? "--lecture\n" : "",
+               now->page ? now->page->name : now->scene->name);
     for (const OptionRow *row = option_rows; row->name && words[0]; row++) {
         char was[64], is[64];
         if (!row->label || panes > 1)

@@ -102,6 +102,34 @@ ends_of_runs() {
 }
 verdict runs_have_ends "$(ends_of_runs)"
 
+# The line that Y tells leads to its state, whatever the command line was.
+leads() { # ARGUMENT...
+    "$elasto" --headless --quiet "$@" --script y.script 2>told
+    told=$(sed -n 's/^state \([0-9a-f]*\) at step [0-9]*: elasto /\1 /p' told)
+    eval "\"\$elasto\" ${told#* }" >out 2>error
+    grep -qx "state hash  *${told%% *}" out || echo "$*: $(cat told error out)"
+    for file in elasto_*.script; do
+        [ ! -e "$file" ] ||
+            [ "$(head -n 1 "$file")" = "# elasto ${told#* }" ] || cat "$file"
+        rm -f "$file"
+    done
+}
+lines_of_y() {
+    "$elasto" --headless --quiet --steps 1 --states "it's a \"table\".csv"
+    echo '3 hash' >y.script
+    leads --state "it's a \"table\".csv" --turn '5 deg' --pin ''"$(seq -s , 24)"
+    leads --lecture
+    printf '0 set segments 3\n1 set stiffness 2e4\n3 hash\n' >y.script
+    leads --at '0 m,1 m' --steps=9 --gravity=9.81 --states y.csv
+    leads drop --pin "$(seq -s , 0 9)" --log y.csv
+    set --
+    for i in $(seq 16); do
+        set -- "$@" --body "$((2 * i)).00000000,0.00000000,$i.000000"
+    done
+    leads "$@" --speed 2 --timestep 0.002,0.004
+}
+verdict the_line_of_y_leads_there "$(lines_of_y)"
+
 # Each pane counts: for the hash, and for the exit code.
 each_pane() {
     hashes=$(for pair in 1e-2,1e-6 1e-2,1e-9 1e-9,1e-6; do

@@ -41,7 +41,7 @@ static inline void begin_script(const char *script, const char *line)
             options_parse(argc, argv, i, &options[i], message, sizeof message));
         count = options[0].panes;
     }
-    CHECK_OK(player_create(options, count, "elasto", &stop, &player));
+    CHECK_OK(player_create(options, count, NULL, &stop, &player));
     unlink(name);
 }
 
