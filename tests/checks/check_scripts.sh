@@ -108,7 +108,8 @@ verdict runs_have_ends "$(ends_of_runs)"
 leads() { # ARGUMENT...
     "$elasto" --headless --quiet "$@" --script y.script 2>told
     told=$(sed -n 's/^state \([0-9a-f]*\) at step [0-9]*: elasto /\1 /p' told)
-    eval "\"\$elasto\" ${told#* }" >out 2>error
+    echo "'$elasto' ${told#* }" >line
+    sh line >out 2>error
     grep -qx "state hash  *${told%% *}" out || echo "$*: $(cat told error out)"
     for file in elasto_*.script; do
         [ ! -e "$file" ] ||
