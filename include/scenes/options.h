@@ -76,7 +76,9 @@ typedef struct Options {
 
 _Static_assert(OPTION_SLOT(scene) == OPTIONS_NUMBERS, "each number has a slot");
 
-enum { OPTIONS_MAX_PANES = 6 };
+/* Runs of one command line: as many as are drawn side by side, or more where
+ * nothing is drawn. */
+enum { OPTIONS_MAX_DRAWN = 6, OPTIONS_MAX_PANES = 64 };
 
 /* ---- the table ---------------------------------------------------------- */
 

@@ -484,7 +484,7 @@ Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);
     const TimeIntegrator *run = player_simulation(player)->run;
-    if (panes == OPTIONS_MAX_PANES)
+    if (panes >= OPTIONS_MAX_DRAWN)
         return player_refuse(player, "six are side by side: no room for more");
     if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "

@@ -211,13 +211,15 @@ static void fill_chips(Player *player)
 
 /* ---- the picture --------------------------------------------------------- */
 
+_Static_assert((int)OPTIONS_MAX_DRAWN == (int)LAYOUT_PANES, "all are drawn");
+
 /* One picture on the stage. */
 static void fill_pane(Player *player, int p)
 {
     const Machine *machine = &player->past.machine[p];
     const Simulation *simulation = &machine->simulation;
-    static History histories[OPTIONS_MAX_PANES];
-    static Trace traces[OPTIONS_MAX_PANES];
+    static History histories[LAYOUT_PANES];
+    static Trace traces[LAYOUT_PANES];
     const Side *side = &player->side[p];
     Pane *pane = &player->show.pane[p];
     past_history(&player->past, p, &histories[p]);
@@ -326,9 +328,11 @@ void player_fill(Player *player)
     const Show before = *show;
     show_create(player_simulation(player), show);
     show->panes = past_panes(&player->past);
-    show->active = player->active;
+    if (show->panes > LAYOUT_PANES) /* of a run that only a script draws */
+        show->panes = LAYOUT_PANES;
+    show->active = player->active < show->panes ? player->active : 0;
     player_label_panes(player);
-    for (int i = 0; i < past_panes(&player->past); i++)
+    for (int i = 0; i < show->panes; i++)
         fill_pane(player, i);
     show->hover = before.hover;
     show->over = before.over;

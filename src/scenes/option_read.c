@@ -524,6 +524,10 @@ static Status begin_options(Line *line)
  * fastest. */
 static Status pick_values(Line *line, int pane)
 {
+    bool drawn = !given(line, option_find("headless")) ||
+                 given(line, option_find("frames")) ||
+                 given(line, option_find("film"));
+    int most = drawn ? OPTIONS_MAX_DRAWN : OPTIONS_MAX_PANES;
     for (int i = names_count(NAMES_OF(option_rows)) - 1; i >= 0; i--) {
         const OptionRow *row = &option_rows[i];
         Word *word = given(line, row);
@@ -532,10 +536,13 @@ static Status pick_values(Line *line, int pane)
         if (!row->label || count == 1)
             continue;
         line->options->panes *= count;
-        if (line->options->panes > OPTIONS_MAX_PANES)
+        if (line->options->panes > most)
             return refuse(line->told,
-                          "--%s: '%.60s' makes more than %d side by side",
-                          row->name, text, OPTIONS_MAX_PANES);
+                          "--%s: '%.60s' makes more than %d side by side%s",
+                          row->name, text, most,
+                          drawn ? "; --headless, where nothing is drawn, takes "
+                                  "more"
+                                : "");
         word->list = text;
         for (int k = pane % count; k > 0; k--)
             text = strchr(text, ',') + 1;
