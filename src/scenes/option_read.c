@@ -30,31 +30,94 @@ static Text list_text(Names names)
     return list;
 }
 
-/* How many letters two names begin with alike; small letters, '-' for '_'. */
-static int alike(const char *a, const char *b)
+/* Whether two letters are one for somebody who types: large or small, '_' or
+ * '-'. */
+static bool alike(char typed, char letter)
 {
-    int n = 0;
-    while (a[n] &&
-           (tolower((unsigned char)a[n]) == tolower((unsigned char)b[n]) ||
-            (a[n] == '-' && b[n] == '_')))
-        n++;
-    return n;
+    return tolower((unsigned char)typed) == tolower((unsigned char)letter) ||
+           (typed == '_' && letter == '-');
 }
 
-/* "; did you mean --timestep?"  Of the names the first one of those that begin
- * most like a text; "" where that is less than two letters. */
+/* Mistakes that turn the beginning of a name, or all of it, into a text: each a
+ * letter too many, too few, another one, or two that changed places (Damerau
+ * 1964).  The name may go on: who types "seg" means segments. */
+static int count_mistakes(const char *text, const char *name)
+{
+    enum { LETTERS = 24 }; /* of a name, at most */
+    int row[3][LETTERS + 1] = {{0}}, length = (int)strnlen(name, LETTERS);
+    int *now = row[0], *last = row[1], *before = row[2];
+    for (int j = 0; j <= length; j++)
+        now[j] = j;
+    for (int i = 1; text[i - 1]; i++) {
+        int *oldest = before;
+        before = last;
+        last = now;
+        now = oldest;
+        now[0] = i;
+        for (int j = 1; j <= length; j++) {
+            int other = last[j - 1] + !alike(text[i - 1], name[j - 1]);
+            int more = (last[j] < now[j - 1] ? last[j] : now[j - 1]) + 1;
+            now[j] = other < more ? other : more;
+            if (i > 1 && j > 1 && alike(text[i - 1], name[j - 2]) &&
+                alike(text[i - 2], name[j - 1]) && before[j - 2] < now[j])
+                now[j] = before[j - 2] + 1;
+        }
+    }
+    int best = now[0];
+    for (int j = 1; j <= length; j++)
+        best = now[j] < best ? now[j] : best;
+    return best;
+}
+
+/* "; did you mean --timestep?"  The name that fewest mistakes lead to, one in
+ * three letters at most, two in five; "" where there is none. */
 static Text meant(const char *text, const char *before, Names names)
 {
     Text hint = {""};
     const char *name;
-    int most = 1;
-    for (int i = 0; (name = name_at(names, i)); i++)
-        if (alike(name, text) > most) {
-            most = alike(name, text);
+    int letters = (int)strlen(text);
+    int fewest = letters > 2 ? (letters + 1) / 3 + 1 : 1;
+    for (int i = 0; letters > 1 && (name = name_at(names, i)); i++) {
+        int mistakes = count_mistakes(text, name);
+        if (name[0] && mistakes < fewest) {
+            fewest = mistakes;
             snprintf(hint.text, sizeof hint.text, "; did you mean %s%s?",
                      before, name);
         }
+    }
     return hint;
+}
+
+/* Of a value that is no option's. */
+#define STANDS_ALONE "; a value stands right behind its option, without blanks"
+
+/* The same for an option: also by its letter in formulas, or its name in
+ * lecture.c. */
+static Text meant_option(const char *text)
+{
+    static const char *const others[][2] = {{"h", "timestep"},
+                                            {"dt", "timestep"},
+                                            {"k", "stiffness"},
+                                            {"rho", "density"},
+                                            {"e", "young"},
+                                            {"nu", "poisson"},
+                                            {"mu", "friction"},
+                                            {"eta", "damping"},
+                                            {"g", "gravity"},
+                                            {"method", "integrator"},
+                                            {"n_seg", "segments"},
+                                            {"side_len", "side"},
+                                            {"initial_stretch", "stretch"}};
+    Text hint;
+    if (isdigit((unsigned char)text[0]))
+        return (Text){STANDS_ALONE};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strcasecmp(text, others[i][0]) == 0) {
+            snprintf(hint.text, sizeof hint.text, "; did you mean --%s?",
+                     others[i][1]);
+            return hint;
+        }
+    return meant(text, "--", NAMES_OF(option_rows));
 }
 
 /* A word of a line: an option with its value, or the name of a scene. */
@@ -406,8 +469,7 @@ static const OptionRow *find_option(const Line *line, const char *word)
         refuse(line->told, "--%s is gone: %s", name, went->instead);
     else if (!found)
         refuse(line->told, "no option %.*s; see elasto --help%s",
-               length < 60 ? length : 60, word,
-               meant(name, "--", NAMES_OF(option_rows)).text);
+               length < 60 ? length : 60, word, meant_option(name).text);
     return found;
 }
 
@@ -463,6 +525,21 @@ static Word *given(Line *line, const OptionRow *row)
     return NULL;
 }
 
+/* A word that is no scene: perhaps it is an option without its dashes or with
+ * those that editors make of them, or a part of a value with a blank in it. */
+static Status refuse_scene(const Line *line, const char *text)
+{
+    Text hint = meant(text, "", NAMES_OF(scenes));
+    if (option_find(text))
+        snprintf(hint.text, sizeof hint.text, "; did you mean --%s?", text);
+    else if (strncmp(text, "\u2013", 2) == 0) /* U+2000 and what follows */
+        hint = (Text){"; an option begins with two signs '-'"};
+    else if (text[0] && strchr("%+.0123456789", text[0]))
+        hint = (Text){STANDS_ALONE};
+    return refuse(line->told, "there is no scene '%.60s'; see elasto --list%s",
+                  text, hint.text);
+}
+
 /* The scene, by its name or its number in the list, or the page, and what
  * cannot be said in one line whatever they are: of two files only one would be
  * written. */
@@ -482,9 +559,7 @@ static Status check_words(Line *line)
             return refuse(line->told, "'%.60s': one scene at a time, please",
                           word->text);
         if (!row && !(options->scene = scene_find(word->text)))
-            return refuse(
-                line->told, "there is no scene '%.60s'; see elasto --list%s",
-                word->text, meant(word->text, "", NAMES_OF(scenes)).text);
+            return refuse_scene(line, word->text);
     }
     if (options->scene && options->page)
         return refuse(line->told,
@@ -554,6 +629,23 @@ static Status pick_values(Line *line, int pane)
     return STATUS_OK;
 }
 
+/* Each part of a list of nodes is a node or names some. */
+static Status check_pins(const Line *line, const SquareMesh *shape)
+{
+    char part[64];
+    const char *at = line->options->pin;
+    for (size_t length; at; at = at[length] ? at + length + 1 : NULL) {
+        length = strcspn(at, ",");
+        snprintf(part, sizeof part, "%.*s", (int)length, at);
+        if (pins_read(part, shape, NULL))
+            return refuse(
+                line->told,
+                "--pin: '%s' is no node from 0 to %d, and none of: " PINS_WORDS,
+                part, shape->nodes - 1);
+    }
+    return STATUS_OK;
+}
+
 /* What depends on several options: which nodes there are to be pinned, what
  * says something about what is not there, the projection, unless it was chosen,
  * and where the body begins. */
@@ -563,11 +655,8 @@ static Status check_body(Line *line)
     const SquareMesh shape = body_shape(options);
     if (!(options->scene->needs & NEEDS_BODY))
         return STATUS_OK;
-    if (options->pin && pins_read(options->pin, &shape, NULL))
-        return refuse(line->told,
-                      "--pin: '%.60s' is no list of node numbers from 0 to %d, "
-                      "or of: " PINS_WORDS,
-                      options->pin, shape.nodes - 1);
+    if (check_pins(line, &shape))
+        return STATUS_INVALID_INPUT;
     if (options->bodies > 1 && !given(line, option_find("self-contact")))
         options->self_contact = 1;
     for (int i = 0; i < line->words; i++) {
@@ -592,18 +681,37 @@ static Status check_body(Line *line)
     return body_check(options, line->told);
 }
 
-/* What needs a window, or somebody who goes on, is not said of a run without
- * one. */
-static Status check_window(const Line *line)
+/* Without a window, and without a script that could change something later,
+ * what would have no effect is refused. */
+static Status check_headless(Line *line)
 {
+    static const char *const minimising[] = {"tolerance", "solver", "filter",
+                                             "line-search", NULL};
     const Options *options = line->options;
+    const IntegratorMethod *method = options_method(options);
+    const Word *chosen = given(line, option_find("integrator"));
+    bool explicit = chosen && !chosen->list && !method->implicit;
     if (options->headless && options->fullscreen)
         return refuse(line->told, "--fullscreen: with --headless there is no "
                                   "window");
-    if (options->headless && options->paused && !options->script)
+    if (!options->headless || options->script)
+        return STATUS_OK;
+    if (options->paused)
         return refuse(line->told,
                       "--paused: with --headless nobody could go on, and no "
                       "step would be made; --steps 0 is the start alone");
+    if (options->speed > 1)
+        return refuse(line->told, "--speed: with --headless each step is a "
+                                  "frame; below 1 a film is slower");
+    if (given(line, option_find("size")) && !options->frames && !options->film)
+        return refuse(line->told, "--size: with --headless only --frames and "
+                                  "--film are drawn");
+    for (int i = 0; explicit && minimising[i]; i++)
+        if (given(line, option_find(minimising[i])))
+            return refuse(line->told,
+                          "--%s: '%s' minimises nothing, of all methods only "
+                          "implicit ones do",
+                          minimising[i], method->name);
     return STATUS_OK;
 }
 
@@ -623,7 +731,7 @@ static Status apply_words(Line *line, int pane)
             (check_scene(line, row) || apply(line, row, line->word[i].text)))
             return STATUS_INVALID_INPUT;
     }
-    return check_window(line) ? STATUS_INVALID_INPUT : check_body(line);
+    return check_headless(line) ? STATUS_INVALID_INPUT : check_body(line);
 }
 
 Status options_parse(int argc, char **argv, int pane, Options *options,

@@ -53,7 +53,9 @@ REASON(nothing_meets,
        "there is nothing to touch; --ground or --ball put it there")
 REASON(no_self_contact, options->self_contact != 0,
        "bodies do not see each other; --self-contact on")
-REASON(bodies_say_it, options->bodies == 0, "each --body says its own")
+REASON(start_is_said, options->bodies == 0 && !options->state,
+       options->state ? "the table of --state says it"
+                      : "each --body says its own")
 REASON(has_its_own, options->scene->create == create_square,
        "the scene has bodies of its own")
 REASON(no_springs, options->material == 0,
@@ -124,14 +126,14 @@ const OptionRow option_rows[] = {
     {NUMBER(poisson, "NU", "how far it keeps its area", "", 0.4, 0, 0.499),
      NEEDS(BODY), IDLE(no_triangles), LIST("\u03bd"), LIVE, ROW(13, 8, 0.02)},
     {NUMBER(stretch, "S", "horizontal, at the start", "", 1.4, -1e200, 1e200),
-     NEEDS(MESH), LIST("stretch"), IDLE(bodies_say_it), ROW(3, 5, 0.05)},
+     NEEDS(MESH), LIST("stretch"), IDLE(start_is_said), ROW(3, 5, 0.05)},
     {NUMBER(turn, "DEG", "the square, anticlockwise", "degrees", 0, -1e6, 1e6),
-     NEEDS(BODY), LIST("turned by"), IDLE(bodies_say_it)},
+     NEEDS(BODY), LIST("turned by"), IDLE(start_is_said)},
     {NUMBERS(at, 2, "X,Y", "where its centre begins", "m", -1e30, 1e30),
-     NEEDS(BODY), IDLE(bodies_say_it)},
+     NEEDS(BODY), IDLE(start_is_said)},
     {NUMBERS(velocity, 2, "VX,VY", "of every node at the start", "m/s", -1e30,
              1e30),
-     NEEDS(BODY), IDLE(bodies_say_it)},
+     NEEDS(BODY), IDLE(start_is_said)},
     {NUMBERS(body, BODY_NUMBERS, "X,Y[,DEG[,VX,VY[,SX,SY]]]",
              "a square: centre, turn, velocity, stretch; up to 16", "", -1e9,
              1e9),
