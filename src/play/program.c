@@ -226,15 +226,16 @@ static void print_summary(FILE *file, const Player *player)
  * pictures would show behind those of this one. */
 static void print_older(const Recording *recording)
 {
-    char folder[256];
+    char folder[256], last[32] = "";
     const long *stayed = recording->stayed;
+    bool several = stayed[0] > 1;
     one_line(recording->folder, folder, sizeof folder);
+    if (several)
+        snprintf(last, sizeof last, " ... frame_%06ld.png", stayed[2]);
     if (stayed[0] > 0)
-        fprintf(stderr,
-                "%s/: %ld %s of an earlier run %s: frame_%06ld.png ... "
-                "frame_%06ld.png\n",
-                folder, stayed[0], stayed[0] > 1 ? "frames" : "frame",
-                stayed[0] > 1 ? "stay" : "stays", stayed[1], stayed[2]);
+        fprintf(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s\n",
+                folder, stayed[0], several ? "frames" : "frame",
+                several ? "stay" : "stays", stayed[1], last);
 }
 
 /* ---- the end ------------------------------------------------------------- */

@@ -67,6 +67,19 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 1|nowhere/pictures: No such|--headless --quiet --frames nowhere/pictures
 1|k.csv/.*: Not a directory|--headless --quiet --frames k.csv
 1|step .*NaN or infinite.*--timestep|--headless --quiet --integrator forward-euler --timestep 1
+2|d: its name does not end|--headless --film d
+2|--script: d: Is a directory|--headless --script d
+2|--script: k.csv, line 1: a line is STEP COMMAND|--headless --script k.csv
+2|--state 'd': Is a directory|--headless --state d
+2|--state 'nowhere': No such file|--headless --state nowhere
+2|--state 'k.csv': its first line, 'precious', has no column 'step'|--headless --state k.csv
+2|--state 'jump': its first line|--headless --state jump
+1|d/: Is a directory|--headless --energies d/
+1|k.csv/s.csv: Not a directory|--headless --springs k.csv/s.csv
+1|nowhere/f.mp4: No such file|--headless --film nowhere/f.mp4
+1|/proc/frames: No such file|--headless --frames /proc/frames
+1|aaa: File name too long|--headless --states $(printf 'a%.0s' $(seq 300))
+2|more than 64 side by side|--headless --stiffness $(seq -s , 65)
 1|pane 2, step .*NaN|--headless --quiet --timestep 0.05 --integrator bdf2,forward-euler
 END
 )"
@@ -123,6 +136,48 @@ if [ -c /dev/full ]; then
         done
     )"
 fi
+
+# As many runs as a list has values, each as it is alone; and a reader that has
+# seen enough ends them without a word.
+verdict a_sweep_has_a_run_for_each_value "$(
+    values=$(seq -s , 1000 1000 20000)
+    "$elasto" --headless --quiet --steps 3 --stiffness "$values" --states all ||
+        echo "exit $?"
+    for pane in 1 7 20; do
+        "$elasto" --headless --quiet --steps 3 --stiffness "${pane}000" \
+            --states one
+        awk -F, -v pane=$pane 'NR > 1 && $8 == pane' all | cut -d, -f4-7 >its
+        tail -n +2 one | cut -d, -f4-7 | cmp - its
+    done
+    rm -f all one its
+)"
+# Frames that an earlier run left and this one does not replace: which they are.
+verdict frames_of_an_earlier_run_are_named "$(
+    frames() { # STEPS MESSAGE
+        "$elasto" --headless --quiet --size 64x64 --steps "$1" --frames fr \
+            2>error || echo "exit $?"
+        [ "$(cat error)" = "$2" ] || cat error
+    }
+    mkdir fr
+    : >fr/frame_7.png && : >fr/frame_0000070.png && : >fr/frame_000001.png.part
+    frames 4 ''
+    frames 4 ''
+    frames 3 'fr/: 1 frame of an earlier run stays: frame_000004.png'
+    frames 1 'fr/: 3 frames of an earlier run stay: frame_000002.png ... frame_000004.png'
+    frames 4 ''
+    rm -r fr
+)"
+verdict a_reader_that_leaves_is_told_nothing "$(
+    for arguments in --help --list '--help commands' '--headless --steps 5' \
+        '--headless --states -'; do
+        # shellcheck disable=SC2086
+        (sleep 0.2; "$elasto" $arguments 2>error; echo $? >code) | :
+        until_true test -s code
+        [ "$(cat code)" = 1 ] && [ ! -s error ] ||
+            echo "$arguments: exit $(cat code): $(cat error)"
+        rm -f code
+    done
+)"
 
 # ---- what scenes leave -------------------------------------------------------
 # Code, rows of the states, arguments; below it a test in awk: what it prints is
