@@ -120,7 +120,7 @@ leads() { # ARGUMENT...
 lines_of_y() {
     "$elasto" --headless --quiet --steps 1 --states "it's a \"table\".csv"
     echo '3 hash' >y.script
-    leads --state "it's a \"table\".csv" --turn '5 deg' --pin ''"$(seq -s , 24)"
+    leads --state "it's a \"table\".csv" --gravity '9 m/s^2' --pin ''"$(seq -s , 24)"
     leads --lecture
     printf '0 set segments 3\n1 set stiffness 2e4\n3 hash\n' >y.script
     leads --at '0 m,1 m' --steps=9 --gravity=9.81 --states y.csv
