@@ -98,16 +98,24 @@ addEventListener('drop', async (event) => {
 
 // ---- the address ------------------------------------------------------------
 
-// #circle+--timestep+0.05&bare: the words of a command line; bare: the picture
-// alone.
+// #circle+--timestep+0.05&bare: the words of a command line, whose signs may be
+// written as in any address (%20); bare: the picture alone.  The + of 1e+6 is no
+// blank, and a % that begins no sign is itself.
 let line = [];
 let bare = false;
 let shown = ''; // the address that was read or written
+const decoded = (word) => {
+  try {
+    return decodeURIComponent(word);
+  } catch {
+    return word;
+  }
+};
 const fromAddress = () => {
   shown = location.hash;
   const [words, mark] = location.hash.slice(1).split('&');
   bare = mark === 'bare';
-  return words ? words.split('+').filter(Boolean).map(decodeURIComponent) : ['--lecture'];
+  return words ? words.split(/(?<!\de)\+/i).filter(Boolean).map(decoded) : ['--lecture'];
 };
 const toAddress = (words) =>
   '#' +

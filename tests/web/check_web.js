@@ -244,6 +244,15 @@ const addresses = async (browser) => {
   await tab.run(`location.hash = 'circle+--timestep+0.05&bare'`);
   await follows('', 'circle+--timestep+0.05&bare');
   if (!(await tab.run('document.body.className === "bare"'))) wrong.push('not bare');
+  // Blanks in a value, the + of a number, a % that begins no sign.
+  for (const [given, written] of [
+    ['square+--timestep+8%20ms', 'square+--timestep+8%20ms'],
+    ['square+--stiffness+1e+6', 'square+--stiffness+1e%2B6'],
+    ['square+--stretch+7%', 'square+--stretch+7%25'],
+  ]) {
+    await tab.run(`location.hash = '${given}'`);
+    await follows('', written);
+  }
   await tab.run(`heard = ''; new MutationObserver(() => (heard += $('said').textContent))
     .observe($('said'), { childList: true })`); // it goes by itself
   await tab.key('y');
