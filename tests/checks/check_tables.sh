@@ -80,6 +80,16 @@ verdict springs_go_on_from_their_tables "$(
     springs_go_on 60 dent
     springs_go_on 100 bend
     springs_go_on 20 slope --yield 0.01
+    # what broke in steps that were taken back is whole
+    printf '%s\n' '60 goto 20' '20 set timestep 0.001' '20 play' >back
+    echo '20 set timestep 0.001' >straight
+    for name in back straight; do
+        run tear --steps 60 --script $name --states states --springs springs
+        run tear --steps 1 --state states --state-springs springs \
+            --states $name.csv
+    done
+    cmp back.csv straight.csv
+    awk -F, '$6 == 0 { n[$1]++ } END { if (n[60] <= n[20]) print "none" }' springs
 )"
 verdict what_a_table_does_not_know_is_said "$(
     for line in tear dent '--yield 0.1' squeeze '--ceiling 9,-1,8'; do
