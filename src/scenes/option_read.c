@@ -292,7 +292,7 @@ static Text hint_at_comma(const Line *line, const OptionRow *row, int count,
         snprintf(hint.text, sizeof hint.text,
                  "; '%.60s' is a list of %d values", word->list,
                  count_parts(word->list));
-        if (!option_read(row, word->list, &value))
+        if (word->list[0] == ',' || !option_read(row, word->list, &value))
             continue;
         option_write(row, value, number, sizeof number);
         append(hint.text, sizeof hint.text, ", the number %s has a point",
@@ -534,7 +534,8 @@ static Status refuse_scene(const Line *line, const char *text)
         snprintf(hint.text, sizeof hint.text, "; did you mean --%s?", text);
     else if (strncmp(text, "\u2013", 2) == 0) /* U+2000 and what follows */
         hint = (Text){"; an option begins with two signs '-'"};
-    else if (text[0] && strchr("%+.0123456789", text[0]))
+    else if (text[strspn(text, "+.")] == '%' ||
+             isdigit((unsigned char)text[strspn(text, "+.")]))
         hint = (Text){STANDS_ALONE};
     return refuse(line->told, "there is no scene '%.60s'; see elasto --list%s",
                   text, hint.text);
