@@ -16,6 +16,7 @@
 #define ELASTO_CONTACT_H
 
 #include "model/elements.h"
+#include "model/square_mesh.h"
 
 typedef enum ObstacleKind { OBSTACLE_WALL, OBSTACLE_BALL } ObstacleKind;
 
@@ -38,6 +39,8 @@ typedef struct Obstacle {
     double v[2];     /* m/s, its velocity in the present step */
     double friction; /* mu >= 0 */
     int node;        /* the ball's centre is this free node; -1: it is o */
+    double given[2]; /* m, o as the options last gave it; a hand may have moved
+                        the obstacle from there */
 } Obstacle;
 
 /* How the barrier acts. */
@@ -70,12 +73,23 @@ double contact_force(const Barrier *barrier, double d);
 /* Walls and balls of the command line, and a few that a scene moves. */
 enum { CONTACT_MAX_OBSTACLES = 20 };
 
+/* An obstacle that a hand draws to a point (push.c). */
+typedef struct Push {
+    bool on;          /* Whether a hand holds an obstacle. */
+    int obstacle;     /* Number of the obstacle. */
+    double to[2];     /* m, where the hand wants the obstacle's point o. */
+    SquareMesh shape; /* Of the bodies: no ball enters their cells. */
+    bool stopped;     /* Whether the obstacle was stopped in this step. */
+    double moved;     /* Part of its way that it had made then. */
+} Push;
+
 /* The term's data. */
 typedef struct Contact {
     Barrier barrier;
     int obstacles;
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
     int ball; /* the obstacle whose centre is a node, at most one; -1 */
+    Push push;
 } Contact;
 
 /* sum of W over all pairs of nodes and obstacles, its elements, of which s is
@@ -97,5 +111,19 @@ bool contact_has_pair(const Contact *contact, const System *system, int node,
 
 /* m, of a node: 0, a point, but for the centre of the free ball. */
 double contact_node_radius(const Contact *contact, int node);
+
+/* ---- an obstacle that a hand moves (push.c) ---------------------------- */
+
+/* Before a step of h seconds from x [2n] m: sets the velocity of the obstacle
+ * that a hand holds.  The obstacle goes a part of the way to the hand, with a
+ * bounded speed.  It stands still where a node in front of it is pressed as
+ * strongly as the hand can, and stops before pinned nodes that do not give way
+ * and before its centre enters a cell. */
+void push_begin(Contact *contact, const System *system, const double *x,
+                double h);
+
+/* The largest part of a step's way that the held obstacle may make at once: a
+ * ball half of its radius, so that it jumps over no node. */
+double push_most(const Contact *contact, double h);
 
 #endif

@@ -139,7 +139,8 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
  *   edit     which the caller has checked: COMMAND_SET with a row of the
  *            options and its number x or its text; COMMAND_PIN with a node,
  *            x = 1 to pin it and 0 to set it free; COMMAND_GRAB with a node and
- *            where the hand is, m; COMMAND_DRAG, COMMAND_RELEASE;
+ *            where the hand is, m, and COMMAND_PUSH with an obstacle alike;
+ *            COMMAND_DRAG, COMMAND_RELEASE;
  *            COMMAND_PLACE, COMMAND_OBSTACLE, COMMAND_HANDLE, COMMAND_FLIP;
  *            COMMAND_ADD_PANE: one more with the past of the last one;
  *            COMMAND_END_PANE: it goes

@@ -15,6 +15,7 @@ typedef struct Control {
     int users; /* counted; 0: freed */
     Options options;
     int hand;     /* the node that it holds; -1: none */
+    int push;     /* Number of the obstacle that the hand holds; -1: none. */
     double at[2]; /* m, where it pulls it */
     int nodes;
     unsigned char pinned[]; /* [nodes] 1: it never moves */
@@ -25,8 +26,20 @@ typedef struct Control {
 Control *control_of(const Simulation *simulation);
 Control *control_copy(const Control *from);
 
+/* Whether the hand holds a node or an obstacle. */
+bool control_holds(const Control *control);
+
 /* [2] m, where a ground or, behind those, a ball of the options is. */
 double *obstacle_at(Options *options, int number);
+
+/* at [2] m, out: where a run has this obstacle now, as the options count it. */
+void simulation_obstacle(const Simulation *simulation, int run, int number,
+                         double at[2]);
+
+/* Gives the obstacle with this number the place in the options that it has now
+ * in the simulation, unless its runs differ in that. */
+void control_keep_place(Control *control, int number,
+                        const Simulation *simulation);
 
 /* One user more, one less; NULL is accepted. */
 const Control *control_keep(const Control *control);

@@ -125,6 +125,12 @@ Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
 Status simulation_has_room(const Simulation *simulation, const Options *options,
                            char *message, size_t size);
 
+/* How far a ground or, numbered on, a ball of these options can be moved
+ * straight towards `to` [2] m: all of the way, 1, if there is room at its end;
+ * else the part of it before it touches a body. */
+double simulation_way(const Simulation *simulation, const Options *options,
+                      int number, const double to[2]);
+
 /* Puts a node at (x, y), m, at rest; really: else it is only tried.  What this
  * does to the energy is booked as work.
  * Returns OK; INVALID_INPUT: there is no such node, or a cell would be turned

@@ -85,6 +85,27 @@ void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
     side[2] = spring[before];
 }
 
+/* m^2, twice the area of the triangle abp, below 0 where it is clockwise. */
+static double twice_area(const double *a, const double *b, const double *p)
+{
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+int square_mesh_cell_at(const SquareMesh *shape, const double *x,
+                        const double *at)
+{
+    int node[3], side[3];
+    for (int t = 0; t < 4 * shape->cells; t++) {
+        square_mesh_triangle(shape, t, node, side);
+        const double *a = x + 2 * node[0], *b = x + 2 * node[1];
+        const double *c = x + 2 * node[2];
+        double first = twice_area(a, b, at), second = twice_area(b, c, at);
+        if (first * second > 0 && first * twice_area(c, a, at) > 0)
+            return t / 4;
+    }
+    return -1;
+}
+
 bool square_mesh_is_half(const SquareMesh *shape, int t)
 {
     int c = t / 4;

@@ -118,6 +118,16 @@ static void draw_direction(const SpringPen *pen)
                 factor == 1 ? "" : number_of(factor).text);
 }
 
+/* Where the hand wants the ball that it pushes. */
+static void draw_push(const SpringPen *pen, const Control *hand)
+{
+    const Obstacle *obstacle = &pen->contact->obstacle[hand->push];
+    if (obstacle->kind != OBSTACLE_BALL)
+        return;
+    plot_dashes(pen->stage, obstacle->o, hand->at, 2, NULL, COLOUR_HAND);
+    plot_disc(pen->stage, hand->at, 4, COLOUR_HAND);
+}
+
 /* What the mouse is over, and the hand's spring. */
 static void draw_mouse(const SpringPen *pen)
 {
@@ -136,7 +146,9 @@ static void draw_mouse(const SpringPen *pen)
                   COLOUR_TEXT);
     if (over && lit >= 0 && lit < system->springs)
         square_spring(pen, lit, 4.5, writes ? COLOUR_PROJECT : COLOUR_TEXT);
-    if (!hand)
+    if (hand && hand->push >= 0 && pen->contact)
+        draw_push(pen, hand);
+    if (!hand || hand->hand < 0)
         return;
     const double *node = pen->x + 2 * (size_t)hand->hand;
     plot_dashes(stage, node, hand->at, 2, NULL, COLOUR_HAND);

@@ -581,10 +581,30 @@ Status obey_obstacle(Player *player, const Command *command)
     return status ? status : change_all(player, command);
 }
 
-/* It pulls, or lets go. */
+/* The hand takes a ground or a ball where it is. */
+Status obey_push(Player *player, const Command *command)
+{
+    const Simulation *simulation = player_simulation(player);
+    if (!simulation_is_handled(simulation))
+        return player_refuse(player, "nothing to push here");
+    double at[2];
+    simulation_obstacle(simulation, 0, (int)command->number, at);
+    const Command change = {.kind = COMMAND_PUSH,
+                            .number = command->number,
+                            .x = at[0],
+                            .y = at[1]};
+    Status status = change_all(player, &change);
+    player->holds = player->holds || !status;
+    if (!status && player_stands(player))
+        player_note(player, "paused: the hand pushes as soon as time goes on "
+                            "(Space, N)");
+    return status;
+}
+
+/* It pulls or pushes, or lets go. */
 Status obey_drag(Player *player, const Command *command)
 {
-    if (past_control(&player->past, player->active)->hand < 0)
+    if (!control_holds(past_control(&player->past, player->active)))
         return player_refuse(player, "the hand holds nothing");
     player->holds = command->kind == COMMAND_DRAG;
     player->pulled = player->past.step;

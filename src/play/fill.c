@@ -341,7 +341,7 @@ void player_fill(Player *player)
     fill_time(player);
     fill_settings(player);
     fill_chips(player);
-    if (control->hand >= 0 && player->side[player->active].place < 0)
+    if (control_holds(control) && player->side[player->active].place < 0)
         show->hand = control;
     show->bars = player->past.keeps ? past_newest(&player->past) : 0;
     show->bar = bar_of;

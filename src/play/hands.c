@@ -211,20 +211,25 @@ static Status load_cell(Player *player, long cell)
     return status;
 }
 
+/* Whether a drag places things; else it pulls and pushes. */
+static bool is_paused(const Player *player)
+{
+    return player->mode == MODE_PAUSE || player->mode == MODE_END;
+}
+
 /* Takes what is under the mouse. */
 static Status take(Player *player, const Under *under)
 {
     Mouse *mouse = &player->mouse;
-    Options options = *player_settings(player);
-    const LecturePage *page = options.page;
-    const double *point;
-    bool paused = player->mode == MODE_PAUSE || player->mode == MODE_END;
+    const LecturePage *page = player_settings(player)->page;
+    double point[2];
+    bool paused = is_paused(player);
     mouse->index = under->pick.index;
     show_hold(&player->show, under->pane);
     switch (under->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
-        point = obstacle_at(&options, mouse->index);
+        simulation_obstacle(player_simulation(player), 0, mouse->index, point);
         mouse->grip[0] = point[0] - under->at[0];
         mouse->grip[1] = point[1] - under->at[1];
         return STATUS_OK;
@@ -277,6 +282,32 @@ static Status put_ball(Player *player, const double at[2])
     return status;
 }
 
+/* A ground or a ball follows the mouse: while time goes on it pushes what it
+ * meets; while time stands still it is put there, or as far on the way as there
+ * is room in all panes. */
+static Status drag_obstacle(Player *player, const double at[2])
+{
+    Past *past = &player->past;
+    int number = player->mouse.index;
+    double part = 1, from[2];
+    if (player->holds || !is_paused(player)) {
+        Status status =
+            player->holds ? STATUS_OK : ask(player, COMMAND_PUSH, number);
+        return status ? status : ask_at(player, COMMAND_DRAG, 0, at);
+    }
+    for (int p = 0; p < past_panes(past); p++) {
+        const Options *options = &past_control(past, p)->options;
+        part = fmin(part, simulation_way(&past->machine[p].simulation, options,
+                                         number, at));
+    }
+    simulation_obstacle(player_simulation(player), 0, number, from);
+    if (part == 0)
+        return player_refuse(player, "no room: the square is in its way");
+    const double to[2] = {from[0] + part * (at[0] - from[0]),
+                          from[1] + part * (at[1] - from[1])};
+    return ask_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
+}
+
 /* What is held follows the mouse. */
 static Status follow(Player *player)
 {
@@ -297,6 +328,9 @@ static Status follow(Player *player)
         }
         return status ? status : ask_at(player, COMMAND_DRAG, 0, under.at);
     case COMMAND_OBSTACLE:
+        under.at[0] += mouse->grip[0];
+        under.at[1] += mouse->grip[1];
+        return drag_obstacle(player, under.at);
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
@@ -449,6 +483,8 @@ Status player_release(Player *player)
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,
                     simulation->system.pinned[node] ? "frees" : "pins");
+    if (drag == COMMAND_OBSTACLE && player->holds)
+        return ask(player, COMMAND_RELEASE, 0);
     if (drag == COMMAND_GRAB && player->holds) {
         Status status = ask(player, COMMAND_RELEASE, 0);
         return !status && mouse->pins ? ask(player, COMMAND_PIN, node) : status;
@@ -487,8 +523,9 @@ static Status mouse_used(Player *player, const Input *input)
     if (input->kind == INPUT_PRESS)
         return pressed(player, input);
     if (input->kind == INPUT_RELEASE) {
-        mouse->leaves = player->holds && mouse->drag == COMMAND_GRAB &&
-                        player_pulls(player);
+        bool pulls =
+            mouse->drag == COMMAND_GRAB || mouse->drag == COMMAND_OBSTACLE;
+        mouse->leaves = player->holds && pulls && player_pulls(player);
         return mouse->leaves ? STATUS_OK : player_release(player);
     }
     if (input->kind == INPUT_WHEEL)

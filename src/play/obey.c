@@ -47,7 +47,7 @@ static void begin_gesture(Player *player, const Command *command)
         player->gesture = player->held;
     else if (!command->joins)
         player->gesture = ++player->gestures;
-    if (command->kind == COMMAND_GRAB)
+    if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
         player->held = player->gesture;
 }
 
@@ -71,6 +71,7 @@ static long parts_of(const Player *player, int pane, CommandKind kind)
     case COMMAND_FLIP:
         return exhibit_switches(simulation, part);
     case COMMAND_OBSTACLE:
+    case COMMAND_PUSH:
         return (long)(simulation->options.grounds + simulation->options.balls);
     case COMMAND_PANE:
         return past_panes(&player->past);

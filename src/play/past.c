@@ -792,8 +792,10 @@ static bool moves(const Command *edit)
     return drags(edit) || edit->kind == COMMAND_PIN;
 }
 
-/* The control after a change, for one user more.  NULL: no memory. */
-static const Control *changed(const Control *from, const Command *edit)
+/* The control after a change, for one user more.  NULL: no memory.
+ *   simulation  in, that stands where the change is made */
+static const Control *changed(const Control *from, const Command *edit,
+                              const Simulation *simulation)
 {
     char message[256];
     Control *control = control_copy(from);
@@ -811,11 +813,14 @@ static const Control *changed(const Control *from, const Command *edit)
     }
     if (edit->kind == COMMAND_PIN)
         control->pinned[edit->number] = edit->x != 0;
-    if (edit->kind == COMMAND_GRAB)
-        control->hand = (int)edit->number;
-    if (edit->kind == COMMAND_RELEASE)
-        control->hand = -1;
-    if (edit->kind == COMMAND_GRAB || edit->kind == COMMAND_DRAG) {
+    bool takes = edit->kind == COMMAND_GRAB || edit->kind == COMMAND_PUSH;
+    if ((takes || edit->kind == COMMAND_RELEASE) && from->push >= 0)
+        control_keep_place(control, from->push, simulation);
+    if (takes || edit->kind == COMMAND_RELEASE) {
+        control->hand = edit->kind == COMMAND_GRAB ? (int)edit->number : -1;
+        control->push = edit->kind == COMMAND_PUSH ? (int)edit->number : -1;
+    }
+    if (takes || edit->kind == COMMAND_DRAG) {
         control->at[0] = edit->x;
         control->at[1] = edit->y;
     }
@@ -828,7 +833,7 @@ static Status change_entry(Past *past, int pane, const Command *edit,
 {
     Simulation *simulation = &past->machine[pane].simulation;
     if (!drags(edit)) {
-        const Control *control = changed(entry->control, edit);
+        const Control *control = changed(entry->control, edit, simulation);
         if (!control)
             return STATUS_OUT_OF_MEMORY;
         control_drop(entry->control);

@@ -258,7 +258,7 @@ static void judge(Player *player)
         if (past_ended(past, p, past->step) >= 0)
             continue;
         bool free = (simulation->scene->needs & NEEDS_TIME) &&
-                    simulation->runs == 1 && machine->control->hand < 0;
+                    simulation->runs == 1 && !control_holds(machine->control);
         going++;
         ended = ended && (simulation->done || machine->failed);
         idle = idle && free && is_idle(machine);
@@ -496,13 +496,13 @@ Status player_work(Player *player)
     return status;
 }
 
-/* A node that was held when this step was shown, long ago; it is undone by
- * itself. */
+/* Lets go of what was held when this step was shown, long ago; that is undone
+ * by itself. */
 static Status let_go(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
     int gesture = player->gesture, panes = past_panes(&player->past);
-    if (past_control(&player->past, 0)->hand < 0 || player->holds)
+    if (!control_holds(past_control(&player->past, 0)) || player->holds)
         return STATUS_OK;
     player->gesture = ++player->gestures;
     Status status = player_change(player, &release, 0, panes, false);

@@ -10,6 +10,7 @@
 #include "model/elements.h"
 #include "model/friction.h"
 #include "model/self_contact.h"
+#include "scenes/control.h"
 #include "base/mathematics.h"
 
 /* ---- pins --------------------------------------------------------------- */
@@ -160,7 +161,17 @@ static int list_obstacles(const Options *options,
     }
     if (options->scene->own)
         list[count++] = options->scene->own(options);
+    for (int k = 0; k < count; k++)
+        memcpy(list[k].given, list[k].o, sizeof list->o);
     return count;
+}
+
+/* Whether the options still give an obstacle the place that they gave it before
+ * a hand moved it. */
+static bool is_given_again(const Obstacle *had, const Obstacle *now)
+{
+    return had->kind == now->kind && had->given[0] == now->given[0] &&
+           had->given[1] == now->given[1];
 }
 
 /* kappa = 4 k and d_hat = side/100 unless they were chosen; a node stands for
@@ -177,7 +188,8 @@ static Barrier barrier_of(const Options *options)
 }
 
 /* Contact and friction.  A ceiling and the scene's own obstacle, the last ones,
- * are where they have come to, all others are where the options have them. */
+ * are where they have come to.  Each other obstacle is where a hand has moved
+ * it to, unless the options give it another place. */
 static Status set_obstacles(const Options *options, System *system)
 {
     const Barrier barrier = barrier_of(options);
@@ -188,6 +200,9 @@ static Status set_obstacles(const Options *options, System *system)
     int had = contact ? contact->obstacles : 0;
     for (int k = 1; k <= count - fixed && k <= had; k++)
         memcpy(list[count - k].o, contact->obstacle[had - k].o, sizeof list->o);
+    for (int k = 0; k < fixed && k < had; k++)
+        if (is_given_again(&contact->obstacle[k], &list[k]))
+            memcpy(list[k].o, contact->obstacle[k].o, sizeof list->o);
     Status status = contact_set(system, &barrier, count, list);
     return status ? status
                   : friction_set(system, &friction_energy,
@@ -358,8 +373,11 @@ const char *body_needs_end_of_step(const Options *options)
 }
 
 /* Whether no node is on or in an obstacle, no cell or triangle turned over.
- *   x  [2n] m */
-static Status check_places(const System *system, const double *x, Refusal told)
+ *   x      [2n] m
+ *   apart  m, gap that nodes have at least to the obstacle `number`; to all
+ *          others it must be above 0 */
+static Status check_places(const System *system, const double *x, double apart,
+                           int number, Refusal told)
 {
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
     for (int t = 0; t < system->terms; t++) {
@@ -369,7 +387,8 @@ static Status check_places(const System *system, const double *x, Refusal told)
         ElementWalk walk = elements_from(&at, NULL, 0);
         const Element *element = &walk.element;
         while (elements_next(&walk)) {
-            if (element->s > 0)
+            bool own = kind == &contact_energy && element->from == number;
+            if (element->s > (own ? apart : 0))
                 continue;
             return kind == &contact_energy
                        ? refuse(told,
@@ -411,26 +430,11 @@ static double side_of(const double *a, const double *b, const double *p)
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-/* Contact sees nodes alone: a small ball may have none near it in a cell. */
-static bool is_in_a_cell(const SquareMesh *mesh, const double *x,
-                         const double *at)
+/* Whether the obstacles of these options leave room for the bodies, and the
+ * obstacle `number` so many parts of the barrier's width. */
+static Status check_room(const Simulation *simulation, const Options *options,
+                         double apart, int number, Refusal told)
 {
-    int node[3], side[3];
-    for (int t = 0; t < 4 * mesh->cells; t++) {
-        square_mesh_triangle(mesh, t, node, side);
-        const double *a = x + 2 * node[0], *b = x + 2 * node[1];
-        const double *c = x + 2 * node[2];
-        double first = side_of(a, b, at), second = side_of(b, c, at);
-        if (first * second > 0 && first * side_of(c, a, at) > 0)
-            return true;
-    }
-    return false;
-}
-
-Status simulation_has_room(const Simulation *simulation, const Options *options,
-                           char *message, size_t size)
-{
-    Refusal told = {message, size};
     Status status = check_numbers(options, told);
     for (int run = 0; run < simulation->runs && !status; run++) {
         const Options its = options_of_run(simulation, run, options);
@@ -442,13 +446,41 @@ Status simulation_has_room(const Simulation *simulation, const Options *options,
             contact.ball = count - 1;
         system.terms = 1;
         system.term[0] = (Term){&contact_energy, &contact};
-        status = check_places(&system, simulation->run[run].x, told);
+        status = check_places(&system, simulation->run[run].x,
+                              apart * contact.barrier.d_hat, number, told);
     }
     for (int k = 0; k < options->balls && !status; k++)
-        if (is_in_a_cell(&simulation->mesh, simulation->run[0].x,
-                         options->ball[k]))
+        if (square_mesh_cell_at(&simulation->mesh, simulation->run[0].x,
+                                options->ball[k]) >= 0)
             status = refuse(told, "ball %d would be inside of a cell", k);
     return status;
+}
+
+Status simulation_has_room(const Simulation *simulation, const Options *options,
+                           char *message, size_t size)
+{
+    return check_room(simulation, options, 0, -1, (Refusal){message, size});
+}
+
+double simulation_way(const Simulation *simulation, const Options *options,
+                      int number, const double to[2])
+{
+    enum { HALVINGS = 20 };
+    static const double APART = 0.999; /* no force yet */
+    Options moved = *options;
+    double *at = obstacle_at(&moved, number), free = 0, from[2];
+    memcpy(from, at, sizeof from);
+    memcpy(at, to, sizeof from);
+    if (!check_room(simulation, &moved, 0, -1, (Refusal){0}))
+        return 1;
+    double step = 0.5;
+    for (int i = 0; i < HALVINGS; i++, step /= 2) {
+        for (int c = 0; c < 2; c++)
+            at[c] = from[c] + (free + step) * (to[c] - from[c]);
+        if (!check_room(simulation, &moved, APART, number, (Refusal){0}))
+            free += step;
+    }
+    return free;
 }
 
 /* Whether two edges have a point in common. */
@@ -501,7 +533,7 @@ Status body_check(const Options *options, Refusal told)
     if (!status)
         status = check_overlap(options, x, told);
     if (!status)
-        status = check_places(&system, x, told);
+        status = check_places(&system, x, 0, -1, told);
     free(x);
     system_free(&system);
     return status;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathematics.h"
+#include "model/contact.h"
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/pull_energy.h"
@@ -13,7 +15,8 @@ static Control *make_control(int nodes)
 {
     Control *control = calloc(1, sizeof *control + (size_t)nodes);
     if (control)
-        *control = (Control){.users = 1, .nodes = nodes, .hand = -1};
+        *control =
+            (Control){.users = 1, .nodes = nodes, .hand = -1, .push = -1};
     return control;
 }
 
@@ -28,6 +31,11 @@ Control *control_of(const Simulation *simulation)
     if (hand) {
         control->hand = hand->node;
         memcpy(control->at, hand->mouse, sizeof control->at);
+    }
+    const Contact *contact = contact_of(system);
+    if (contact && contact->push.on) {
+        control->push = contact->push.obstacle;
+        memcpy(control->at, contact->push.to, sizeof control->at);
     }
     memcpy(control->pinned, system->pinned, (size_t)system->nodes);
     return control;
@@ -47,6 +55,43 @@ double *obstacle_at(Options *options, int number)
 {
     int ball = number - (int)options->grounds;
     return ball < 0 ? options->ground[number] + 2 : options->ball[ball];
+}
+
+bool control_holds(const Control *control)
+{
+    return control->hand >= 0 || control->push >= 0;
+}
+
+/* m, how much higher a run has an obstacle than the options say: grounds go
+ * with their run. */
+static double lift_of(const Simulation *simulation, int run,
+                      const Obstacle *obstacle)
+{
+    return obstacle->kind == OBSTACLE_WALL ? simulation->lift[run] : 0;
+}
+
+void simulation_obstacle(const Simulation *simulation, int run, int number,
+                         double at[2])
+{
+    const Contact *contact = contact_of(simulation->run[run].system);
+    const Obstacle *obstacle = &contact->obstacle[number];
+    at[0] = obstacle->o[0];
+    at[1] = obstacle->o[1] - lift_of(simulation, run, obstacle);
+}
+
+void control_keep_place(Control *control, int number,
+                        const Simulation *simulation)
+{
+    static const double SAME = 1e-9; /* sides */
+    double *at = obstacle_at(&control->options, number), place[2], other[2];
+    simulation_obstacle(simulation, 0, number, place);
+    for (int r = 1; r < simulation->runs; r++) {
+        simulation_obstacle(simulation, r, number, other);
+        double away = math_hypot(other[0] - place[0], other[1] - place[1]);
+        if (!(away < SAME * simulation->options.side))
+            return;
+    }
+    memcpy(at, place, sizeof place);
 }
 
 const Control *control_keep(const Control *control)
@@ -161,6 +206,24 @@ static Status use_hand(Simulation *simulation, const Control *control)
     return pull_set(system, &hand_energy, &wanted);
 }
 
+/* The hand holds the obstacle of the control in each run, or none. */
+static void use_push(Simulation *simulation, const Control *control)
+{
+    for (int r = 0; r < simulation->runs; r++) {
+        Contact *contact = contact_of(simulation->run[r].system);
+        if (!contact)
+            continue;
+        contact->push = (Push){.on = 0 <= control->push &&
+                                     control->push < contact->obstacles,
+                               .obstacle = control->push,
+                               .to = {control->at[0], control->at[1]},
+                               .shape = simulation->mesh};
+        if (contact->push.on)
+            contact->push.to[1] +=
+                lift_of(simulation, r, &contact->obstacle[control->push]);
+    }
+}
+
 Status simulation_use(Simulation *simulation, const Control *control)
 {
     System *system = &simulation->system;
@@ -179,6 +242,7 @@ Status simulation_use(Simulation *simulation, const Control *control)
     memcpy(system->pinned, control->pinned, (size_t)system->nodes);
     if (!status)
         status = use_hand(simulation, control);
+    use_push(simulation, control);
     if (!status)
         book_change(simulation, had);
     return status;

@@ -83,9 +83,23 @@ enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
  * barrier's width. */
 #define CARRIED_GAP 0.3
 
-static bool moves(const Obstacle *obstacle)
+/* Halvings of a part of the way of an obstacle that a hand moves, and parts of
+ * it; the hand goes on in the next step. */
+enum { HAND_HALVINGS = 6, HAND_PARTS = 8 };
+
+/* Whether obstacle k moves in the rest of this step. */
+static bool moves(const Contact *contact, int k)
 {
-    return obstacle->v[0] != 0 || obstacle->v[1] != 0;
+    const double *v = contact->obstacle[k].v;
+    bool stopped = contact->push.stopped && k == contact->push.obstacle;
+    return !stopped && (v[0] != 0 || v[1] != 0);
+}
+
+/* Whether a hand moves an obstacle in the rest of this step. */
+static bool hand_moves(const Contact *contact)
+{
+    return contact && contact->push.on &&
+           moves(contact, contact->push.obstacle);
 }
 
 /* Before a step: each obstacle's v is what its motion has for this step.
@@ -107,8 +121,11 @@ static bool prescribed_begin(TimeIntegrator *run)
         for (int i = motion->phases - 1; i >= 0; i--)
             if (half_way < motion->until[i])
                 memcpy(obstacle->v, motion->v[i], sizeof obstacle->v);
-        any = any || moves(obstacle);
     }
+    if (contact)
+        push_begin(contact, run->system, run->x, run->h);
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        any = any || moves(contact, k);
     return any;
 }
 
@@ -116,7 +133,7 @@ static bool prescribed_begin(TimeIntegrator *run)
 static void move_obstacles(Contact *contact, double way)
 {
     for (int k = 0; contact && k < contact->obstacles; k++)
-        for (int c = 0; c < 2; c++)
+        for (int c = 0; c < 2 && moves(contact, k); c++)
             contact->obstacle[k].o[c] += way * contact->obstacle[k].v[c];
 }
 
@@ -129,7 +146,7 @@ static void carry(const System *system, const Contact *contact, double way,
         const Obstacle *obstacle = &contact->obstacle[k];
         double back[2] = {obstacle->o[0] - way * obstacle->v[0],
                           obstacle->o[1] - way * obstacle->v[1]};
-        if (!moves(obstacle))
+        if (!moves(contact, k))
             continue;
         for (int i = 0; i < system->nodes; i++) {
             if (!contact_has_pair(contact, system, i, k) ||
@@ -178,24 +195,43 @@ static bool make_part(TimeIntegrator *run, double part)
     return false;
 }
 
+/* Makes the largest part of the rest of the way that there is room for, which
+ * is halved so often at most, in so many parts at most.  Returns the part; 0:
+ * there was no room. */
+static double make_most(TimeIntegrator *run, double part, int halvings,
+                        int parts)
+{
+    for (int i = 0; i < halvings && run->part < parts; i++, part /= 2)
+        if (make_part(run, part))
+            return part;
+    return 0;
+}
+
 /* Puts things on their way, as far as there is room, and starts to minimise E
- * with u_tilde as target from there; roughly, where another part follows.
+ * with u_tilde as target from there; roughly, where another part follows.  What
+ * a hand moves stops where there is no room, and all else goes on.
  * Returns as newton_start. */
 static Status prescribed_start(TimeIntegrator *run)
 {
-    double part = run->left;
-    int halvings = 0;
-    while (halvings < MAX_HALVINGS && run->part < MAX_PARTS &&
-           !make_part(run, part)) {
-        part /= 2;
-        halvings++;
+    Contact *contact = contact_of(run->system);
+    double part = 0;
+    if (hand_moves(contact)) {
+        part = make_most(run, fmin(run->left, push_most(contact, run->h)),
+                         HAND_HALVINGS, HAND_PARTS);
+        contact->push.stopped = part == 0;
+        contact->push.moved = run->moved;
     }
-    run->blocked = halvings == MAX_HALVINGS || run->part == MAX_PARTS;
-    if (run->blocked) /* nothing moves any more in this step */
+    bool others = run->system->pin_v != NULL;
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        others = others || moves(contact, k);
+    if (part == 0 && others)
+        part = make_most(run, run->left, MAX_HALVINGS, MAX_PARTS);
+    run->blocked = part == 0 && others;
+    if (part == 0) /* nothing moves any more in this step */
         make_part(run, 0);
     else
         run->moved += part;
-    run->left = run->blocked ? 0 : run->left - part;
+    run->left = part == 0 ? 0 : run->left - part;
     run->part++;
     run->newton->rough = run->left > 0;
     return newton_start(run->newton, run->x, run->new_x, run->weight);
@@ -250,13 +286,14 @@ static double prescribed_work(const TimeIntegrator *run, double weight)
     if (at.term)
         for (ElementWalk walk = elements_from(&at, NULL, 0);
              elements_next(&walk);) {
-            const double *v = contact->obstacle[walk.element.from].v;
-            const double *n = walk.element.n;
-            sum += contact_force(&contact->barrier, walk.element.s) *
+            int k = walk.element.from;
+            const double *v = contact->obstacle[k].v, *n = walk.element.n;
+            bool stopped = contact->push.stopped && k == contact->push.obstacle;
+            sum += (stopped ? contact->push.moved : run->moved) *
+                   contact_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }
-    return pins +
-           (run->moved * run->h * sum + friction_work_of_obstacles(system, u));
+    return pins + (run->h * sum + friction_work_of_obstacles(system, u));
 }
 
 /* ---- a step ------------------------------------------------------------- */

@@ -1,0 +1,127 @@
+/* push.c - an obstacle that a hand moves: how far it goes in a step. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mathematics.h"
+#include "model/contact.h"
+
+/* The distance falls by e in TIME s, but at most by MOST of itself in a step;
+ * the speed is at least SLOW and at most FAST sides in a second. */
+static const double TIME = 0.06, MOST = 0.5, SLOW = 0.1, FAST = 5;
+
+/* Sides that the obstacle goes in a step at most, and may go however short the
+ * step is. */
+static const double LONGEST = 0.25, SHORTEST = 0.005;
+
+/* The hand is as strong as the barrier at this part of its width: there a wall
+ * has pressed springs flat long ago. */
+static const double STRENGTH = 0.1;
+
+/* The part of the barrier's width that is kept before pinned nodes. */
+static const double KEPT = 0.3;
+
+enum { HALVINGS = 8, MOST_LOOKS = 16 };
+
+/* The way of a free obstacle in a step of h seconds. */
+static void wanted_way(const Push *push, const double *o, double h,
+                       double way[2])
+{
+    double side = push->shape.side;
+    double d[2] = {push->to[0] - o[0], push->to[1] - o[1]};
+    double away = math_hypot(d[0], d[1]);
+    double most = side * fmin(fmax(FAST * h, SHORTEST), LONGEST);
+    double go = fmax(fmin(h / TIME, MOST) * away, SLOW * side * h);
+    go = fmin(go, fmin(most, away));
+    for (int c = 0; c < 2; c++)
+        way[c] = away > 0 ? go / away * d[c] : 0;
+}
+
+/* Whether a node in front of the obstacle is pressed as strongly as the hand
+ * can. */
+static bool is_pressed(const Contact *contact, const System *system,
+                       const double *x, const double way[2])
+{
+    int k = contact->push.obstacle;
+    const Obstacle *obstacle = &contact->obstacle[k];
+    for (int i = 0; i < system->nodes; i++) {
+        Gap gap = contact_gap(obstacle, obstacle->o, x + 2 * i,
+                              contact_node_radius(contact, i));
+        if (gap.d < STRENGTH * contact->barrier.d_hat &&
+            gap.n[0] * way[0] + gap.n[1] * way[1] > 0 &&
+            contact_has_pair(contact, system, i, k))
+            return true;
+    }
+    return false;
+}
+
+/* Whether the obstacle may be at o [2]: no pinned node that it does not push
+ * comes nearer than it was and than is kept, and no ball enters a cell. */
+static bool has_room(const Contact *contact, const System *system,
+                     const double *x, const double o[2])
+{
+    int k = contact->push.obstacle;
+    const Obstacle *obstacle = &contact->obstacle[k];
+    const double keep = KEPT * contact->barrier.d_hat;
+    for (int i = 0; i < system->nodes; i++) {
+        if (!system->pinned[i] || contact_has_pair(contact, system, i, k))
+            continue;
+        double before = contact_gap(obstacle, obstacle->o, x + 2 * i, 0).d;
+        double after = contact_gap(obstacle, o, x + 2 * i, 0).d;
+        if (after < fmin(before, keep))
+            return false;
+    }
+    return obstacle->kind == OBSTACLE_WALL ||
+           square_mesh_cell_at(&contact->push.shape, x, o) < 0 ||
+           square_mesh_cell_at(&contact->push.shape, x, obstacle->o) >= 0;
+}
+
+/* The largest part of the way that has room, up to the first place that has
+ * none. */
+static double free_part(const Contact *contact, const System *system,
+                        const double *x, const double way[2])
+{
+    const Obstacle *obstacle = &contact->obstacle[contact->push.obstacle];
+    double length = math_hypot(way[0], way[1]), free = 0, step = 1;
+    if (obstacle->kind == OBSTACLE_BALL)
+        step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MOST_LOOKS), 1);
+    for (int i = 0; i < HALVINGS && free < 1;) {
+        double part = fmin(free + step, 1);
+        const double o[2] = {obstacle->o[0] + part * way[0],
+                             obstacle->o[1] + part * way[1]};
+        if (has_room(contact, system, x, o)) {
+            free = part;
+        } else {
+            step /= 2;
+            i++;
+        }
+    }
+    return free;
+}
+
+void push_begin(Contact *contact, const System *system, const double *x,
+                double h)
+{
+    Push *push = &contact->push;
+    double way[2];
+    push->stopped = false;
+    push->moved = 0;
+    push->on = push->on && push->obstacle < contact->obstacles;
+    if (!push->on)
+        return;
+    Obstacle *obstacle = &contact->obstacle[push->obstacle];
+    wanted_way(push, obstacle->o, h, way);
+    double part = is_pressed(contact, system, x, way)
+                      ? 0
+                      : free_part(contact, system, x, way);
+    for (int c = 0; c < 2; c++)
+        obstacle->v[c] = part * way[c] / h;
+}
+
+double push_most(const Contact *contact, double h)
+{
+    const Obstacle *obstacle = &contact->obstacle[contact->push.obstacle];
+    double length = h * math_hypot(obstacle->v[0], obstacle->v[1]);
+    return obstacle->kind == OBSTACLE_BALL && length > 0
+               ? 0.5 * obstacle->radius / length
+               : 1;
+}
