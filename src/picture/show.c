@@ -39,21 +39,36 @@ void show_create(const Simulation *simulation, Show *show)
     }
 }
 
-/* The part of the world that fits a pane; all panes of a page have the scale of
- * the last one. */
-static void find_bounds(const Show *show, int pane, double bounds[4])
+/* The part of the world that a pane would show by itself. */
+static void own_bounds(const Show *show, int pane, double bounds[4])
 {
-    pane = show->lecture ? show->panes - 1 : pane;
     const Plot stage = {
         .show = show, .simulation = show->pane[pane].simulation, .pane = pane};
     const Picture *picture = picture_of(stage.simulation->scene);
-    const Held *held = &show->held;
-    if (held->on && !held->away && held->pane == pane)
-        memcpy(bounds, held->bounds, sizeof held->bounds);
-    else if (picture->bounds)
+    if (picture->bounds)
         picture->bounds(&stage, bounds);
     else
         memcpy(bounds, picture->around, sizeof picture->around);
+}
+
+/* The part of the world that fits a pane; all panes of a page have that of the
+ * last one, unless what is in them has left it. */
+static void find_bounds(const Show *show, int pane, double bounds[4])
+{
+    const Held *held = &show->held;
+    int last = show->lecture ? show->panes - 1 : pane;
+    double own[4];
+    if (held->on && !held->away && (held->pane == pane || held->pane == last)) {
+        memcpy(bounds, held->bounds, sizeof held->bounds);
+        return;
+    }
+    own_bounds(show, last, bounds);
+    if (last == pane)
+        return;
+    own_bounds(show, pane, own);
+    if (own[0] < bounds[0] || own[1] < bounds[1] || own[2] > bounds[2] ||
+        own[3] > bounds[3])
+        memcpy(bounds, own, sizeof own);
 }
 
 Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
@@ -70,8 +85,7 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
     bool stretched = picture_of(stage.simulation->scene)->stretched;
     Box room = stage.box, beside;
     int words = (int)(WORDS_ROOM * layout->em); /* above, and some below */
-    if (show->lecture &&
-        (show->panes > 1 || room.height < LOW * layout->em)) {
+    if (show->lecture && (show->panes > 1 || room.height < LOW * layout->em)) {
         box_cut_off(&room, EDGE_TOP, stretched ? 2 * words : words);
         box_cut_off(&room, EDGE_BOTTOM,
                     show->panes > 1 || stretched ? words : 0);

@@ -20,6 +20,9 @@ static const double ROOM = 1.14;       /* of the stage around the square */
 static const double LENS = 12;         /* ems, the side of a lens, at most; */
 static const double PAIR = 17;         /* of one with a point and an edge */
 enum { LENS_SIZES = 3 };
+static const double FAR = 5;          /* times the view: then it follows */
+static const double BALL_REACH = 4;   /* times the view, balls are shown in; */
+static const double GROUND_REACH = 2; /* and grounds */
 static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
 
 /* ---- how much of the world is seen -------------------------------------- */
@@ -31,55 +34,150 @@ static bool has_frame(const Simulation *simulation)
     return frame[2] > frame[0];
 }
 
-/* The square as it starts, or with the room that a squeezed one needs to spring
- * out and bulge, around the middle or where a free one has drifted,
- * less the way that the view has room for; where nodes have left that, 1.5,
- * 1.5^2, ... times as much, so that the view jumps seldom. */
-void square_bounds(const Plot *stage, double bounds[4])
+/* A part of the world: so far, m, from its middle to its sides. */
+typedef struct View {
+    double middle[2], size[2];
+} View;
+
+/* Whether the scene has nothing that holds the body or is in its way: then the
+ * view follows the body from the start. */
+static bool is_free(const Simulation *simulation)
 {
-    const Show *show = stage->show;
-    const Simulation *simulation = stage->simulation;
-    const double *x = pane_x(&show->pane[stage->pane]);
-    int nodes = simulation->system.nodes;
     const Options *options = &simulation->options;
-    /* Nothing holds the body or is in its way: the view follows it. */
-    bool drifts = options->grounds + options->balls == 0 &&
-                  !simulation->scene->own && options->ceiling[1] == 0 &&
-                  simulation->runs == 1;
+    return options->grounds + options->balls == 0 && !simulation->scene->own &&
+           options->ceiling[1] == 0 && simulation->runs == 1;
+}
+
+/* The view of the scene; else the square as it starts, or with the room that a
+ * squeezed one needs to spring out and bulge. */
+static View first_view(const Show *show, const Simulation *simulation)
+{
+    const Options *options = &simulation->options;
+    const double *frame = simulation->scene->frame;
+    View view = {{0, 0}, {0, 0}};
     double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
-    const double size[2] = {half * extent,
-                            half * (show->bare ? extent : fmin(extent, 1.25))};
-    double middle[2] = {0, 0}, need = 1, grown = 1, tall = 0;
-    if (has_frame(simulation)) {
-        memcpy(bounds, simulation->scene->frame, 4 * sizeof *bounds);
-        return;
+    view.size[0] = half * extent;
+    view.size[1] = half * (show->bare ? extent : fmin(extent, 1.25));
+    for (int k = 0; k < 2 && has_frame(simulation); k++) {
+        view.middle[k] = 0.5 * (frame[2 + k] + frame[k]);
+        view.size[k] = 0.5 * (frame[2 + k] - frame[k]);
     }
+    return view;
+}
+
+/* Widens the view so that it has a point and so much around it, m, if that is
+ * at most so many times as far from its first middle as its sides are. */
+static void widen_view(const View *first, const double at[2], double around,
+                       double times, View *view)
+{
+    for (int k = 0; k < 2; k++)
+        if (!(fabs(at[k] - first->middle[k]) + around < times * first->size[k]))
+            return;
     for (int k = 0; k < 2; k++) {
-        double centre = 0, room = 0.5 * size[k];
-        for (int i = 0; i < nodes && drifts; i++)
-            centre += x[2 * i + k];
-        centre /= nodes;
-        if (isfinite(centre) && fabs(centre) > room)
-            middle[k] = centre - copysign(room, centre);
+        double low = fmin(view->middle[k] - view->size[k], at[k] - around);
+        double high = fmax(view->middle[k] + view->size[k], at[k] + around);
+        if (low < view->middle[k] - view->size[k] ||
+            high > view->middle[k] + view->size[k]) {
+            view->middle[k] = 0.5 * (low + high);
+            view->size[k] = 0.5 * (high - low);
+        }
     }
+}
+
+/* Widens the view by the balls and grounds in reach. */
+static void add_obstacles(const Simulation *simulation, View *view)
+{
+    const Options *options = &simulation->options;
+    const Contact *contact = contact_of(&simulation->system);
+    const View first = *view;
+    double air = 0.04 * fmin(first.size[0], first.size[1]);
+    for (int k = 0; contact && k < options->grounds + options->balls; k++) {
+        const Obstacle *obstacle = &contact->obstacle[k];
+        Gap gap = contact_gap(obstacle, obstacle->o, first.middle, 0);
+        if (obstacle->kind == OBSTACLE_BALL)
+            widen_view(&first, obstacle->o, obstacle->radius + air, BALL_REACH,
+                       view);
+        else
+            widen_view(&first, along(first.middle, -gap.d, gap.n).at, air,
+                       GROUND_REACH, view);
+    }
+}
+
+/* Moves the view as little as needed so that the middle of the body is in its
+ * inner half. */
+static void follow_body(const Simulation *simulation, const double *x,
+                        View *view)
+{
+    int nodes = simulation->system.nodes;
+    for (int k = 0; k < 2; k++) {
+        double centre = 0, room = 0.5 * view->size[k];
+        for (int i = 0; i < nodes; i++)
+            centre += x[2 * i + k];
+        centre = centre / nodes - view->middle[k];
+        if (isfinite(centre) && fabs(centre) > room)
+            view->middle[k] += centre - copysign(room, centre);
+    }
+}
+
+/* How many times as large the view must be to have all nodes x [2n]; or that
+ * and what the others before needed.  tall in/out: the same upwards alone. */
+static double view_needs(const View *view, int nodes, const double *x,
+                         double need, double *tall)
+{
     for (int i = 0; i < nodes; i++) {
-        double right = fabs(x[2 * i] - middle[0]) / size[0];
-        double up = fabs(x[2 * i + 1] - middle[1]) / size[1];
+        double right = fabs(x[2 * i] - view->middle[0]) / view->size[0];
+        double up = fabs(x[2 * i + 1] - view->middle[1]) / view->size[1];
         double reach = right > up ? right : up;
         if (isfinite(right) && isfinite(up) && reach > need)
             need = reach;
-        tall = up > tall ? up : tall;
+        *tall = up > *tall ? up : *tall;
+    }
+    return need;
+}
+
+/* The same of all runs of a pane. */
+static double pane_needs(const Pane *pane, const View *view, double *tall)
+{
+    const Simulation *simulation = pane->simulation;
+    double need =
+        view_needs(view, simulation->system.nodes, pane_x(pane), 1, tall);
+    for (int r = 1; r < simulation->runs; r++)
+        need = view_needs(view, simulation->run[r].system->nodes,
+                          simulation->run[r].x, need, tall);
+    return need;
+}
+
+/* The first view, with the balls and grounds in reach; where nodes have left
+ * that, 1.5, 1.5^2, ... times as much, so that the view jumps seldom.  Where
+ * that is too far, and where the body is free, the view follows the body. */
+void square_bounds(const Plot *stage, double bounds[4])
+{
+    const Show *show = stage->show;
+    const Pane *pane = &show->pane[stage->pane];
+    const Simulation *simulation = stage->simulation;
+    View view = first_view(show, simulation);
+    double tall = 0, grown = 1;
+    add_obstacles(simulation, &view);
+    double need = pane_needs(pane, &view, &tall);
+    if (is_free(simulation) || need > FAR) {
+        view = first_view(show, simulation);
+        follow_body(simulation, pane_x(pane), &view);
+        add_obstacles(simulation, &view);
+        tall = 0;
+        need = pane_needs(pane, &view, &tall);
     }
     while (grown < need && grown < MOST_SEEN)
         grown *= 1.5;
     /* A wide window has no less room for it than beside cards. */
-    double low = show->bare ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown) : 1;
+    double low = show->bare && !has_frame(simulation)
+                     ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown)
+                     : 1;
     for (int k = 0; k < 2; k++) {
-        double reach = grown * size[k] * (k == 1 ? fmin(low, 1) : 1);
-        bounds[k] = middle[k] - reach;
-        bounds[2 + k] = middle[k] + reach;
+        double reach = grown * view.size[k] * (k == 1 ? fmin(low, 1) : 1);
+        bounds[k] = view.middle[k] - reach;
+        bounds[2 + k] = view.middle[k] + reach;
     }
 }
 

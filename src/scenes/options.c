@@ -316,15 +316,20 @@ void option_value(const OptionRow *row, const Options *options, char *text,
     if (row->times)
         times = (int)options->number[row->counter];
     const double *value = options->number + row->slot + (times - 1) * count;
-    size_t used = 0;
-    if (times < 1 || *value < row->low) /* it was not given */
+    enum { MOST_DIGITS = 6, ROOM = 20 }; /* letters of a list */
+    if (times < 1 || *value < row->low)  /* it was not given */
         snprintf(text, size, "none");
     else if (row->kind == OPTION_NAME)
         option_write(row, *value, text, size);
     else
-        for (int i = 0; i < count && used < size; i++)
-            used += (size_t)snprintf(text + used, size - used, "%s%g",
-                                     i ? "," : "", value[i]);
+        for (int digits = MOST_DIGITS; digits > 1; digits--) {
+            size_t used = 0;
+            for (int i = 0; i < count && used < size; i++)
+                used += (size_t)snprintf(text + used, size - used, "%s%.*g",
+                                         i ? "," : "", digits, value[i]);
+            if (count == 1 || used <= ROOM)
+                break;
+        }
 }
 
 /* ---- the row of numbers ------------------------------------------------- */
