@@ -86,7 +86,8 @@ static void widen_view(const View *first, const double at[2], double around,
     }
 }
 
-/* Widens the view by the balls and grounds in reach. */
+/* Widens the view by the balls and grounds in reach; of a ground as much is
+ * seen as a hand needs to take hold of it. */
 static void add_obstacles(const Simulation *simulation, View *view)
 {
     const Options *options = &simulation->options;
@@ -100,7 +101,7 @@ static void add_obstacles(const Simulation *simulation, View *view)
             widen_view(&first, obstacle->o, obstacle->radius + air, BALL_REACH,
                        view);
         else
-            widen_view(&first, along(first.middle, -gap.d, gap.n).at, air,
+            widen_view(&first, along(first.middle, -gap.d, gap.n).at, 3 * air,
                        GROUND_REACH, view);
     }
 }

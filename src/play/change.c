@@ -10,6 +10,7 @@
 
 #include "picture/plot.h"
 #include "play/playing.h"
+#include "scenes/body.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
@@ -75,12 +76,67 @@ static bool plays_again(const Player *player, const LecturePage *page)
            strstr(page->tell, "play");
 }
 
-/* From step 0 with the present numbers, or from another start; a pause that
- * nobody asked for ends.  A page opens again, and runs again. */
+/* Obstacles that stand where the body begins go back to where they began.
+ * INVALID_INPUT: one was not there then. */
+static Status make_room(Player *player, int pane, Options *options)
+{
+    Options began = past_start(&player->past, pane)->options;
+    Options kept = *options;
+    int count = (int)(options->grounds + options->balls);
+    Refusal told = {player->message, sizeof player->message};
+    if (!(options->scene->needs & NEEDS_BODY) || !body_check(options, told))
+        return STATUS_OK;
+    if (began.grounds != options->grounds || began.balls != options->balls)
+        return STATUS_INVALID_INPUT;
+    for (int k = 0; k < count; k++)
+        memcpy(obstacle_at(&kept, k), obstacle_at(&began, k),
+               sizeof began.at);
+    for (int k = 0; k < count; k++) {
+        double *at = obstacle_at(&kept, k);
+        memcpy(at, obstacle_at(options, k), sizeof began.at);
+        if (body_check(&kept, told))
+            memcpy(at, obstacle_at(&began, k), sizeof began.at);
+    }
+    *options = kept;
+    return body_check(options, told);
+}
+
+/* New runs in which the nodes are pinned that are pinned now, unless their
+ * bodies have other nodes; then the page opens, where it is to. */
+static Status begin_again(Player *player, const Options *options, int panes,
+                          bool opens, const Command *edit)
+{
+    const Control *before = control_keep(past_control(&player->past, 0));
+    Status status = player_begin(player, options, panes, edit);
+    player->fine = opens ? 0 : player->fine;
+    if (!status && opens && player->asks) /* a script has these commands */
+        status = player_open_page(player);
+    const Control *now = past_control(&player->past, 0);
+    bool same = now->options.scene == before->options.scene &&
+                now->options.page == before->options.page &&
+                now->nodes == before->nodes;
+    for (int i = 0; i < before->nodes && same && !status; i++) {
+        const Command pin = {
+            .kind = COMMAND_PIN, .number = i, .x = before->pinned[i]};
+        now = past_control(&player->past, 0);
+        if (now->pinned[i] != before->pinned[i])
+            status = player_change(player, &pin, 0, past_panes(&player->past),
+                                   false);
+    }
+    control_drop(before);
+    return status;
+}
+
+/* From step 0 with the present numbers, pins, balls and grounds, or from
+ * another start; a pause that nobody asked for ends.  A page opens again, and
+ * runs again. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     int panes = player_options(player, options);
+    for (int p = 0; p < panes; p++)
+        if (make_room(player, p, &options[p]))
+            return STATUS_INVALID_INPUT;
     bool moves = command->kind == COMMAND_START;
     if (moves && !(options->scene->needs & NEEDS_START))
         return player_refuse(player, "this scene has no start to choose");
@@ -96,10 +152,8 @@ Status obey_restart(Player *player, const Command *command)
     if (!moves)
         player->show.lens = LENS_FITS;
     bool opens = !moves && opens_again(player, options);
-    Status status = player_begin(player, options, opens ? 1 : panes, command);
-    player->fine = opens ? 0 : player->fine;
-    if (!status && opens && player->asks) /* a script has these commands */
-        status = player_open_page(player);
+    Status status =
+        begin_again(player, options, opens ? 1 : panes, opens, command);
     if (!moves && plays_again(player, options->page))
         player->mode = MODE_RUN;
     return status;
@@ -376,8 +430,8 @@ Status obey_set(Player *player, const Command *command)
           player_stands(player)) ||
          (player->fine > 0 && player->side[player->active].place >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)
-        return player_begin(player, options, past_panes(&player->past),
-                            command);
+        return begin_again(player, options, past_panes(&player->past), false,
+                           command);
     if (again && change.x != old)
         return player_retake(player, &change, from, to);
     return player_change(player, &change, from, to, false);
