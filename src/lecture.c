@@ -476,7 +476,9 @@ static bool handle(Screen *screen, Solid *solid, const SDL_Event *event)
                 screen->held = i;
         solid->m[screen->held] *= HEAVY;
     }
-    if (event->type == SDL_MOUSEBUTTONUP && screen->held >= 0) {
+    bool leaves = event->type == SDL_WINDOWEVENT &&
+                  event->window.event == SDL_WINDOWEVENT_FOCUS_LOST;
+    if ((leaves || event->type == SDL_MOUSEBUTTONUP) && screen->held >= 0) {
         solid->m[screen->held] /= HEAVY;
         screen->held = -1;
     }

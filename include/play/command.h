@@ -41,7 +41,7 @@ typedef enum Keyboard {
     AT_LIST = 4,   /* or the list of pages is open; */
     AT_FIELD = 8,  /* what is typed: it takes every key */
     AT_SHEET = 16, /* while the sheet of scenes is shown: no key of the run */
-    AT_QUESTION = 32, /* a page waits for a number */
+    AT_QUESTION = 32, /* a page waits for a guess */
     AT_PLAY = AT_RUN | AT_NUMBER | AT_LIST | AT_QUESTION,
     AT_ANY = AT_PLAY | AT_SHEET
 } Keyboard;
@@ -64,7 +64,8 @@ typedef struct CommandRow {
     const char *word; /* in scripts; NULL: not there */
     const char *does; /* for whoever reads or writes one */
     unsigned flags;
-    const char *keys; /* "Space", "Ctrl+R", several: "?|F1", "*": any; NULL */
+    const char *keys; /* "Space", "Ctrl+R", several: "?|F1"; "*": any;
+                         "letters": all that can be typed; NULL: none */
     /* What it does, for the list of keys; "": told with the row before it;
      * NULL: not in the list. */
     const char *label;

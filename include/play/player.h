@@ -134,7 +134,7 @@ typedef struct Player {
     uint64_t added; /* bit r: row r of the options is in the row of numbers */
     bool typing;    /* every key belongs into what is typed: */
     char typed[28]; /* for the selected number, or a page of the list */
-    bool leaving;   /* Escape found nothing to close: once more ends it */
+    CommandKind leaving; /* Escape or Q, which once more ends the program */
     CommandKind chip[LAYOUT_CHIPS];        /* what the chips ask for */
     const OptionRow *number[OPTIONS_MOST]; /* what the row has */
     int numbers;

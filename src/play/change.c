@@ -89,8 +89,7 @@ static Status make_room(Player *player, int pane, Options *options)
     if (began.grounds != options->grounds || began.balls != options->balls)
         return STATUS_INVALID_INPUT;
     for (int k = 0; k < count; k++)
-        memcpy(obstacle_at(&kept, k), obstacle_at(&began, k),
-               sizeof began.at);
+        memcpy(obstacle_at(&kept, k), obstacle_at(&began, k), sizeof began.at);
     for (int k = 0; k < count; k++) {
         double *at = obstacle_at(&kept, k);
         memcpy(at, obstacle_at(options, k), sizeof began.at);
@@ -194,7 +193,8 @@ bool player_veils(const Player *player)
            !player->opens;
 }
 
-/* Two of a hundred are near enough for what was calculated on paper. */
+/* Two of a hundred are near enough for what was calculated on paper.  Where the
+ * answer is no number the page itself is what the guess is compared with. */
 Status player_unveil(Player *player, const char *typed)
 {
     const LecturePage *page = player_settings(player)->page;
@@ -207,6 +207,9 @@ Status player_unveil(Player *player, const char *typed)
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
     player->told = page;
     Status status = player_obey_lines(player, page->tell);
+    if (typed && !page->answer)
+        player_note(player, "your answer %s: the page tells what happens",
+                    typed);
     if (page->answer && !isnan(truth))
         player_note(player, "%s%sit is %s", typed ? typed : "",
                     !typed  ? ""

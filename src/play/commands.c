@@ -18,14 +18,26 @@ const CommandRow command_rows[COMMAND_KINDS] = {
 #undef ROW
 };
 
+/* Whether a key belongs into a text: a letter, a digit, a sign, a blank, or the
+ * key that takes one back. */
+static bool is_typed(const char *key)
+{
+    if (strncmp(key, "Shift+", 6) == 0)
+        key += 6;
+    return !key[1] || strcmp(key, "Space") == 0 ||
+           strcmp(key, "Backspace") == 0;
+}
+
 /* Whether `key` is one of the keys in "A|B". */
 static bool is_one_of(const char *keys, const char *key)
 {
     size_t length = strlen(key);
     for (const char *at = keys; at && length > 0; at = strchr(at, '|')) {
         at += *at == '|';
-        if (strcmp(at, "*") == 0 || (strncmp(at, key, length) == 0 &&
-                                     (at[length] == '\0' || at[length] == '|')))
+        if (strcmp(at, "*") == 0 ||
+            (strcmp(at, "letters") == 0 && is_typed(key)) ||
+            (strncmp(at, key, length) == 0 &&
+             (at[length] == '\0' || at[length] == '|')))
             return true;
     }
     return false;

@@ -30,13 +30,14 @@ static void fill_help(Show *show)
 {
     static const HelpRow mouse[] = {
         {"drag", "pulls a node; paused: places it", false},
-        {"", "a pin, a ground, a ball: moves it", false},
+        {"", "a ground, a ball: pushes; a pin: moves", false},
+        {"", "where nothing is: moves the picture", false},
         {"drag an edge", "of the paused square: stretch", false},
         {"right click", "pins a node, or frees it", false},
         {"wheel", "zooms, or changes a number", false},
-        {"middle drag", "moves the picture", false},
+        {"middle drag", "moves the picture, too", false},
         {"double click", "a ball; on a number: default", false},
-        {"digits", "open a lit number; Enter, Esc", false},
+        {"letters", "go into a lit number; Enter, Esc", false},
         {"1 \u2026 9", "a scene; G shows more", false},
     };
     HelpRow *row = show->help + sizeof mouse / sizeof *mouse;

@@ -81,7 +81,7 @@ static Keyboard keyboard_now(const Player *player)
 {
     bool number = player->lit;
     bool list = lists(player);
-    bool asks = player_veils(player) && player_settings(player)->page->answer;
+    bool asks = player_veils(player);
     return player->typing && (number || list || asks) ? AT_FIELD
            : player->sheet                            ? AT_SHEET
            : number                                   ? AT_NUMBER
@@ -489,6 +489,8 @@ Status player_release(Player *player)
         Status status = ask(player, COMMAND_RELEASE, 0);
         return !status && mouse->pins ? ask(player, COMMAND_PIN, node) : status;
     }
+    if (drag == COMMAND_SET && mouse->moved)
+        player_deselect(player); /* a drag sets it, a click waits for keys */
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
         player->lit && player->lit->kind == OPTION_NAME)
         return player_pace(player, player->lit, 1);

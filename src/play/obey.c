@@ -161,7 +161,8 @@ Status player_obey(Player *player, const Command *asked)
     begin_gesture(player, &command);
     player->changed = true;
     player->message[0] = '\0';
-    player->leaving = player->leaving && command.kind == COMMAND_ESCAPE;
+    if (player->leaving != command.kind)
+        player->leaving = COMMAND_NONE;
     if (!(flags & QUIET || (flags & LATEST && player->mouse.drag)))
         player->note[0] = '\0';
     if (past->works && command.kind == COMMAND_NEXT)

@@ -301,12 +301,16 @@ Status player_create(const Options *options, int count, char *const *words,
         status = player_begin(player, player->given, count, &begin);
     if (!status && player_stands(player)) /* scripts begin to run */
         status = script_add(&player->journal, 0, &pause, 0);
+    bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
     if (!status && player->asks && options->page)
         status = player_open_page(player);
     else if (!status && player->asks &&
              simulation_is_handled(player_simulation(player)))
-        player_note(player, "pull at a node with the mouse; right click pins "
-                            "it; G: scenes; Page Down: the guided tour");
+        player_note(player,
+                    "pull at a %s with the mouse%s; G: scenes; Page "
+                    "Down: the guided tour",
+                    nodes ? "node" : "mass",
+                    nodes ? "; right click pins it" : "");
     return status;
 }
 

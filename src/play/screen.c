@@ -28,6 +28,15 @@ int player_first_speed(const Options *options)
     return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
 }
 
+/* Whether the session has something to lose: changes, or a run of a minute. */
+static bool has_work(const Player *player)
+{
+    static const double LONG = 60; /* s */
+    const Past *past = &player->past;
+    return past->now > 0 ||
+           (past_newest(past) > 0 && clock_now() - player->started > LONG);
+}
+
 /* Speed, which doubles or halves; what is on or off; which pane's numbers are
  * shown. */
 Status obey_screen(Player *player, const Command *command)
@@ -59,7 +68,7 @@ Status obey_screen(Player *player, const Command *command)
         player_deselect(player);
         break;
     default:
-        player->quit = true;
+        break;
     }
     return STATUS_OK;
 }
@@ -80,11 +89,24 @@ Status obey_column(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* What is open ends first; then, asked twice, the program. */
+/* Ends the program; the key asks first where there is something to lose. */
+Status obey_quit(Player *player, const Command *command)
+{
+    bool key = command->text[0] != '\0', asked = player->leaving;
+    player->quit = !key || asked || !has_work(player);
+    player->leaving = COMMAND_QUIT;
+    if (!player->quit)
+        player_note(player, "Q once more ends the program; Y writes down first "
+                            "what leads here");
+    return STATUS_OK;
+}
+
+/* What is open ends first; then, asked twice, the program, unless there is
+ * something to lose. */
 Status obey_escape(Player *player, const Command *command)
 {
-    bool asked = player->leaving;
-    player->leaving = false;
+    bool asked = player->leaving == COMMAND_ESCAPE;
+    player->leaving = COMMAND_NONE;
     if (player->blank)
         player->blank = false;
     else if (player->sheet)
@@ -97,10 +119,12 @@ Status obey_escape(Player *player, const Command *command)
         player->column = COLUMN_CARDS;
     else if (player->window && window_is_full())
         window_set_full(false);
+    else if (has_work(player))
+        player_note(player, "nothing is open; Q ends the program");
     else if (asked)
         player->quit = true;
     else
-        player->leaving = true;
+        player->leaving = COMMAND_ESCAPE;
     if (player->leaving)
         player_note(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;

@@ -220,13 +220,13 @@ static void tell_rest(Player *player)
             folded += pane_folded(&pane);
     }
     if (player->mode == MODE_REST)
-        player_note(
-            player,
-            folded ? "at rest, with folded cells: springs alone do "
-                     "not mind, cells on (A) forbids it; pull a node, "
-                     "or R begins again"
-                   : "at rest, as far as \u03b5 tells; pull a node, change "
-                     "a number, or R begins again");
+        player_note(player,
+                    folded ? "at rest, with folded cells: springs alone do "
+                             "not mind, cells on (A) forbids it; %s"
+                             "or R begins again"
+                           : "at rest, as far as \u03b5 tells; %schange "
+                             "a number, or R begins again",
+                    simulation_is_handled(simulation) ? "pull a node, " : "");
     else if (simulation_is_loose(simulation, &needed))
         player_note(player,
                     "within the tolerance, perhaps not at rest: bodies may "

@@ -1,4 +1,4 @@
-/* window_sdl.c - the window on a computer.  SDL only carries the finished
+/* window_SDL_c - the window on a computer.  SDL only carries the finished
  * picture to the screen, so that it is the same on all of them.
  */
 #include <SDL.h>
@@ -10,6 +10,10 @@
 #include "play/view.h"
 
 enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800 };
+
+/* Points, that the frame of a window has at left and right, and above and
+ * below, where nobody tells. */
+enum { FRAME_WIDTH = 10, FRAME_HEIGHT = 40 };
 
 static SDL_Window *window;
 static bool tab; /* Tab is down and has asked for nothing yet */
@@ -53,6 +57,28 @@ bool window_is_full(void)
     return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
+/* The usual size, or what the screen has room for beside a frame. */
+static void usual_size(const SDL_Rect *area, const int frame[2], int size[2])
+{
+    size[0] = SDL_max(SDL_min(WINDOW_WIDTH, area->w - frame[0]), 1);
+    size[1] = SDL_max(SDL_min(WINDOW_HEIGHT, area->h - frame[1]), 1);
+}
+
+/* Makes a window that is larger than the screen with the frame that it got as
+ * small as needed. */
+static void fit_frame(const SDL_Rect *area, const int now[2])
+{
+    int top = 0, left = 0, low = 0, right = 0, fits[2];
+    if (SDL_GetWindowBordersSize(window, &top, &left, &low, &right))
+        return;
+    usual_size(area, (const int[]){left + right, top + low}, fits);
+    if (fits[0] >= now[0] && fits[1] >= now[1])
+        return;
+    SDL_SetWindowSize(window, SDL_min(fits[0], now[0]),
+                      SDL_min(fits[1], now[1]));
+    SDL_SetWindowPosition(window, area->x + left, area->y + top);
+}
+
 /* Pixels that go to an X server as they are cost less than half of what an
  * OpenGL takes that the processor computes, and no time to begin (measured: 6
  * instead of 14 ms a frame of 900 x 900 pixels). */
@@ -68,13 +94,16 @@ bool window_open(const char *title, const int size[2], bool full)
     if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0)
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     SDL_GetDisplayUsableBounds(0, &area);
-    window =
-        SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                         size[0] > 0 ? size[0] : SDL_min(area.w, WINDOW_WIDTH),
-                         size[1] > 0 ? size[1] : SDL_min(area.h, WINDOW_HEIGHT),
-                         SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    int usual[2];
+    usual_size(&area, (const int[]){FRAME_WIDTH, FRAME_HEIGHT}, usual);
+    window = SDL_CreateWindow(
+        title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+        size[0] > 0 ? size[0] : usual[0], size[1] > 0 ? size[1] : usual[1],
+        SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!window || !SDL_GetWindowSurface(window))
         return false;
+    if (size[0] <= 0 && size[1] <= 0)
+        fit_frame(&area, usual);
     if (full)
         window_set_full(true);
     SDL_StartTextInput();
@@ -170,7 +199,8 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
 
 /* ---- mouse and window ---------------------------------------------------- */
 
-/* Uncovered, resized, left or closed. */
+/* Uncovered, resized, left or closed.  A drag ends where the keys go to another
+ * window: who gets the button's release then is not known. */
 static InputKind change_of_window(const SDL_WindowEvent *event)
 {
     switch (event->event) {
@@ -178,6 +208,8 @@ static InputKind change_of_window(const SDL_WindowEvent *event)
         return INPUT_CLOSE;
     case SDL_WINDOWEVENT_LEAVE:
         return INPUT_LEAVE;
+    case SDL_WINDOWEVENT_FOCUS_LOST:
+        return INPUT_RELEASE;
     case SDL_WINDOWEVENT_EXPOSED:
     case SDL_WINDOWEVENT_SHOWN:
     case SDL_WINDOWEVENT_RESTORED:
