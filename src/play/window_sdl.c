@@ -1,4 +1,4 @@
-/* window_SDL_c - the window on a computer.  SDL only carries the finished
+/* window_sdl.c - the window on a computer.  SDL only carries the finished
  * picture to the screen, so that it is the same on all of them.
  */
 #include <SDL.h>
