@@ -31,6 +31,12 @@ int paper_pixels(const Paper *paper, double ems);
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 
+/* Takes last words away, with an ellipsis in their place, until the rest is at
+ * most so many pixels wide.
+ *   words  [room] in/out, markup */
+void paper_shorten(Paper *paper, Face face, double size, int width, char *words,
+                   size_t room);
+
 /* In the middle of a box's height; smaller, to 0.6 of the size, where it is
  * wider than the box. */
 int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_WIDTH = 4096 }; /* pixels, of a line */
+enum { MOST_WIDTH = 4096 };  /* pixels, of a line */
 enum { FARTHEST = 1 << 29 }; /* pixels, of what is not seen any more */
 
 /* Numbers of 16 bits before and 16 bits after the binary point. */

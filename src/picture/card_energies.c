@@ -12,7 +12,9 @@ static const double MOST_LOG = 1e9;    /* the same: where that axis ends */
 static const double LEAST_LOG = 1e-12; /* the same: where that axis begins */
 static const double LEAST_SEEN =
     2e-3; /* of the largest: less lies on the axis */
-static const double LEGEND = 0.85, CROWDED = 0.6; /* ems, its letters */
+static const double LEGEND = 0.85, CROWDED = 0.75; /* ems, its letters */
+static const double ROUNDING = 1e-20;      /* times k side^2: less is nothing */
+static const double LEAST = 8, MORE = 2.4; /* ems, the card; crowded */
 
 /* A quantity over time. */
 typedef struct Curve {
@@ -108,6 +110,21 @@ double energies_value(const Simulation *simulation, const History *history,
     return fabs(value) < 1e-15 * fmin(size, first) ? 0 : value;
 }
 
+double energies_needs(const Show *show, double wide, double em)
+{
+    (void)wide;
+    (void)em;
+    return LEAST + (find_curves(show).count > 4 ? MORE : 0);
+}
+
+/* J, below which all energies of the simulation are rounding. */
+static double rounding_of(const Simulation *simulation)
+{
+    const Options *options = &simulation->options;
+    return ROUNDING * fmax(options->stiffness, options->young) * options->side *
+           options->side;
+}
+
 /* An axis that holds still is easier to read: it is that of the whole run as
  * long as what is shown so far can be seen on it. */
 Axis energies_axis(const Show *show, double *last)
@@ -137,9 +154,10 @@ Axis energies_axis(const Show *show, double *last)
         low = lowest;
         high = highest;
     }
-    high = high > 0 ? fmin(high, 1e300) : 1;
+    double nothing = rounding_of(simulation);
+    high = high > nothing ? fmin(high, 1e300) : 1;
     low = fmax(low, -1e300);
-    if (!(first > 0)) /* at rest in a field: what came first tells */
+    if (!(first > nothing)) /* at rest in a field: what came first tells */
         first = -low;
     bool modes = show->lecture && show->lecture->modes;
     if (first > 0 && (modes || high > LOG_FROM * first))

@@ -238,8 +238,8 @@ bool law_way(const Simulation *simulation, double way[2])
         sum += simulation->run[0].x[2 * i];
     way[0] = sum / nodes - options->body[last][0];
     way[0] = fabs(way[0]) < 1e-9 ? 0 : way[0];
-    double mu = options->self_friction < 0 ? options->friction
-                                           : options->self_friction;
+    double mu =
+        options->self_friction < 0 ? options->friction : options->self_friction;
     way[1] = v * v / (2 * mu * options->gravity);
     return page && page->law && strcmp(page->law, "rub") == 0;
 }

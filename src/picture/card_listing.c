@@ -5,7 +5,7 @@
 #include "picture/colour_map.h"
 
 static const double WIDE_PITCH = 2.1; /* ems, of a line with room on a page */
-static const double PRINT_WIDE = 36; /* ems, of lines printed in size 1 */
+static const double PRINT_WIDE = 36;  /* ems, of lines printed in size 1 */
 
 /* A line of what the active pane does: number, text, value; lit or struck
  * through. */

@@ -76,9 +76,11 @@ int show_help_row(const Show *show, const Layout *layout, double x, double y)
     return row < grid.rows && at < show->help_rows ? at : -1;
 }
 
-/* Key and meaning, row by row. */
+/* Key and meaning, row by row, without the last words where there is no room
+ * for them in letters that can be read. */
 static void draw_help(Paper *paper, Box inside, const Show *show)
 {
+    const double SMALLEST = 0.85; /* of the usual letters */
     HelpGrid grid = help_grid(show, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.line / (1.3 * em));
     double key = 0, wide = inside.width / (double)grid.columns;
@@ -87,6 +89,10 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
     key += 0.6 * size * em;
     for (int i = 0; i < show->help_rows; i++) {
         const HelpRow *row = &show->help[i];
+        char text[SHOW_TEXT];
+        snprintf(text, sizeof text, "%s", row->text);
+        paper_shorten(paper, FACE_REGULAR, SMALLEST * size,
+                      (int)(wide - key - 0.6 * em), text, sizeof text);
         double x = inside.x + i / grid.rows * wide;
         double y = inside.y + i % grid.rows * grid.line;
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
@@ -95,7 +101,7 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
                   row->grey ? COLOUR_GREY : COLOUR_TEXT,
                   (Box){(int)(x + key), (int)y, (int)(wide - key - 0.5 * em),
                         (int)fmax(grid.line, 1.3 * size * em)},
-                  ALIGN_LEFT, row->text);
+                  ALIGN_LEFT, text);
     }
 }
 
@@ -136,9 +142,9 @@ static void draw_code(Paper *paper, Box inside, const Show *show)
     double wide = floor((cell + 0.49) / letter);
     double size = fmin(wide, inside.height / (low * lines)) / paper->em;
     size = fmax(fmin(size, most), paper->least);
-    int line = (int)fmax(fmin(paper_pixels(paper, high * size),
-                              inside.height / lines),
-                         low * size * paper->em);
+    int line =
+        (int)fmax(fmin(paper_pixels(paper, high * size), inside.height / lines),
+                  low * size * paper->em);
     int fit = inside.height / line, lit = 0, gone;
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
     for (int i = 0; i < lines; i++)

@@ -48,7 +48,7 @@ extern StageSample square_sample, mass_sample;
 extern CardDraw page_draw, prints_draw, line_draw,
     residual_draw, values_draw, updates_draw, energies_draw, budget_draw,
     radius_draw, law_draw, spy_draw, profile_draw, table_draw;
-extern CardNeeds page_needs, listing_needs;
+extern CardNeeds page_needs, listing_needs, energies_needs;
 
 /* The size of its letters in ems: the same for all pages that fit. */
 double page_letters(Paper *paper, Box inside, const Show *show);

@@ -197,7 +197,9 @@ static const Trace *descent_trace(const Simulation *simulation,
         .iteration = descent->count,
         .residual = given_up ? record->residual : descent->residual,
         .given_up = given_up,
-        .slope = !aims ? 0 : made ? record->slope : descent->slope,
+        .slope = !aims  ? 0
+                 : made ? record->slope
+                        : descent->slope,
         .projected = taken ? record->projected : -1,
         .difference = aims ? descent_difference : NULL,
         .function = space,

@@ -9,6 +9,8 @@
 
 enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 
+static const double FIT_LEAST = 0.6; /* of the size that letters shrink to */
+
 Status paper_create(int width, int height, Paper *paper)
 {
     *paper = (Paper){.em = PAPER_EM, .unit = 1};
@@ -55,14 +57,45 @@ int paper_width(Paper *paper, Face face, double size, const char *markup)
     return (int)text_extent(paper->text, &style, markup).width;
 }
 
+/* Text without its last word, an ellipsis behind it; markup stays whole.
+ * Returns false where a single word is left. */
+static bool drop_word(char *words, size_t size)
+{
+    static const char end[] = " \u2026";
+    size_t length = strlen(words), tail = sizeof end - 1;
+    if (length >= tail && strcmp(words + length - tail, end) == 0)
+        length -= tail;
+    int open = 0;
+    for (size_t i = length; i-- > 1;) {
+        open += words[i] == '}';
+        open -= words[i] == '{';
+        if (words[i] != ' ' || open != 0 || i + sizeof end > size)
+            continue;
+        memcpy(words + i, end, sizeof end);
+        return true;
+    }
+    return false;
+}
+
+void paper_shorten(Paper *paper, Face face, double size, int width, char *words,
+                   size_t room)
+{
+    while (paper_width(paper, face, size, words) > width &&
+           drop_word(words, room))
+        continue;
+}
+
 int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
               Align align, const char *markup)
 {
     int air = paper_pixels(paper, 0.35); /* of what is raised */
     Box room = {box.x, box.y - air, box.width, box.height + 2 * air};
     Box before = canvas_clip(&paper->canvas, room);
-    double wide = paper_width(paper, face, size, markup);
-    size *= wide > box.width ? fmax(0.6, box.width / wide) : 1;
+    double least = FIT_LEAST * size;
+    for (int wide = paper_width(paper, face, size, markup);
+         wide > box.width && size > least;
+         wide = paper_width(paper, face, size, markup))
+        size = fmax(least, 0.99 * size * box.width / wide);
     TextStyle style = paper_style(paper, face, size, colour);
     double over = text_extent(paper->text, &style, markup).above -
                   text_extent(paper->text, &style, "").above;

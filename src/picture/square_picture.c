@@ -67,22 +67,25 @@ static View first_view(const Show *show, const Simulation *simulation)
     return view;
 }
 
-/* Widens the view so that it has a point and so much around it, m, if that is
- * at most so many times as far from its first middle as its sides are. */
+/* Widens the view so that it has a point and so much around it, m, with some
+ * air, if that is at most so many times as far from its first middle as its
+ * sides are. */
 static void widen_view(const View *first, const double at[2], double around,
-                       double times, View *view)
+                       double air, double times, View *view)
 {
     for (int k = 0; k < 2; k++)
         if (!(fabs(at[k] - first->middle[k]) + around < times * first->size[k]))
             return;
     for (int k = 0; k < 2; k++) {
-        double low = fmin(view->middle[k] - view->size[k], at[k] - around);
-        double high = fmax(view->middle[k] + view->size[k], at[k] + around);
-        if (low < view->middle[k] - view->size[k] ||
-            high > view->middle[k] + view->size[k]) {
-            view->middle[k] = 0.5 * (low + high);
-            view->size[k] = 0.5 * (high - low);
-        }
+        double low = view->middle[k] - view->size[k];
+        double high = view->middle[k] + view->size[k];
+        bool below = at[k] - around<low, above = at[k] + around> high;
+        if (!below && !above)
+            continue;
+        low = below ? at[k] - around - air : low;
+        high = above ? at[k] + around + air : high;
+        view->middle[k] = 0.5 * (low + high);
+        view->size[k] = 0.5 * (high - low);
     }
 }
 
@@ -97,12 +100,12 @@ static void add_obstacles(const Simulation *simulation, View *view)
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
         Gap gap = contact_gap(obstacle, obstacle->o, first.middle, 0);
+        const Point foot = along(first.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
-            widen_view(&first, obstacle->o, obstacle->radius + air, BALL_REACH,
+            widen_view(&first, obstacle->o, obstacle->radius, air, BALL_REACH,
                        view);
         else
-            widen_view(&first, along(first.middle, -gap.d, gap.n).at, 3 * air,
-                       GROUND_REACH, view);
+            widen_view(&first, foot.at, 0, 3 * air, GROUND_REACH, view);
     }
 }
 

@@ -368,6 +368,7 @@ void player_fill(Player *player)
     show_lecture(player->column, player->left, show);
     show->closed ^= player->closed;
     player_fill_sheet(player);
+    player_look_again(player);
     show_describe(show);
     if (player->explains && explained && !player->typing)
         show->message[0] = '\0';

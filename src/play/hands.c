@@ -379,6 +379,21 @@ static Status hover(Player *player)
                : STATUS_OK;
 }
 
+void player_look_again(Player *player)
+{
+    Show *show = &player->show;
+    const Mouse *mouse = &player->mouse;
+    const Canvas *canvas = &player->paper.canvas;
+    PickKind kind = show->hover.kind;
+    bool body = kind == PICK_NODE || kind == PICK_SPRING ||
+                kind == PICK_OBSTACLE || kind == PICK_EDGE;
+    if (!body || !canvas->pixels || !mouse->placed || mouse->drag ||
+        show->over.zone != ZONE_STAGE)
+        return;
+    Layout layout = show_layout(show, canvas->width, canvas->height);
+    show->hover = show_pick(show, &layout, mouse->x, mouse->y);
+}
+
 static Status number_pressed(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->mouse;

@@ -136,6 +136,9 @@ void player_close_sheet(Player *player);
 /* Without a number that is lit or typed. */
 void player_deselect(Player *player);
 
+/* What is under a mouse that rests, in the Show as it is filled now. */
+void player_look_again(Player *player);
+
 /* What the mouse holds it lets go. */
 Status player_release(Player *player);
 

@@ -15,7 +15,7 @@
 
 const Scene scenes[] = {
     {"square", "A stretched square", "the stretched square relaxes", SQUARE,
-     NULL, create_square, .settles = true,
+     "--speed 0.25", create_square, .settles = true,
      .group = "Time steps and Newton's method"},
     {"circle", "Stability on a circle",
      "one circle, three Euler methods: out, in, or on it", PICTURE_CIRCLE,
@@ -66,7 +66,7 @@ const Scene scenes[] = {
     {"return", "Solids that never turn over",
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
-     "--material neo-hookean",
+     "--material neo-hookean --speed 0.125",
      .create = create_square, .settles = true, .frame = {-1.1, -1.1, 1.1, 1.1}},
     {"stack", "Self-contact: three squares",
      "three soft squares fall on one another", SQUARE,
@@ -127,7 +127,7 @@ const Scene scenes[] = {
     {"arrows", "One mass",
      "one mass on a spring: the arrows of three Euler steps", PICTURE_MASS,
      NEEDS_TIME | NEEDS_START, "--timestep 0.5 --start 1,0", create_mass,
-     .grips = "xv", .by_name = true},
+     .explains = true, .grips = "xv", .by_name = true},
     {"tangent", "Newton in one dimension",
      "Newton in one dimension: tangents of g, parabolas of E", PICTURE_TANGENT,
      NEEDS_START | NEEDS_MINIMUM | NEEDS_ONE_NUMBER | NEEDS_STEP,

@@ -447,7 +447,7 @@ TEST(commands_are_written_as_they_are_read)
 TEST(keys_are_given_once)
 {
     CHECK(command_from_key("R", true, AT_RUN).kind == COMMAND_NONE);
-    for (int kind = 1; kind < COMMAND_TYPE_NUMBER; kind++) {
+    for (int kind = 1; kind < COMMAND_TYPE_ANSWER; kind++) {
         const char *all = command_rows[kind].keys;
         for (; all && *all; all += *all == '|') {
             char key[16];
