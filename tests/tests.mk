@@ -78,7 +78,7 @@ pictures: build/elasto
 	  rm -rf build/frames-$$name; echo "tests/data/$$name.png"; \
 	done <tests/data/pictures.txt
 	@echo '0 bare' >build/bare.txt; ./build/elasto --headless --quiet \
-	  --segments 10 --steps 75 --size 360x360 --script build/bare.txt \
+	  --segments 10 --steps 75 --speed 1 --size 360x360 --script build/bare.txt \
 	  --film build/relax.apng && ffmpeg -v error -nostdin -y \
 	  -i build/relax.apng -vf "fps=25,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1" \
 	  tests/data/relax.gif && echo tests/data/relax.gif

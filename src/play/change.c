@@ -15,16 +15,6 @@
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
 
-/* Whether the speed of the command line is another one than its scene's. */
-static bool has_own_speed(const Options *given)
-{
-    Options scene;
-    char message[256];
-    return options_of_line(given->scene->name, &scene, message,
-                           sizeof message) ||
-           scene.speed != given->speed;
-}
-
 Status player_own_options(Player *player, const char *scene,
                           const LecturePage *page, Options *options, int *count)
 {
@@ -39,8 +29,7 @@ Status player_own_options(Player *player, const char *scene,
     options->big = given->big;
     if (page)
         return STATUS_OK;
-    if (has_own_speed(given))
-        options->speed = given->speed;
+    options->speed = given->speed;
     if (options->scene == given->scene && !given->page) {
         *count = given->panes;
         memcpy(options, given, (size_t)*count * sizeof *given);

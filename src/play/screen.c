@@ -22,9 +22,11 @@ enum {
 
 int player_first_speed(const Options *options)
 {
-    if (options->speed > 0)
-        return (int)lrint(
-            fmin(fmax(log2(options->speed), SPEED_LEAST), SPEED_MOST));
+    double speed = options->speed;
+    if (speed == 0 && !options->page)
+        speed = options->scene->speed;
+    if (speed > 0)
+        return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));
     return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
 }
 

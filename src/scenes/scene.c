@@ -15,7 +15,7 @@
 
 const Scene scenes[] = {
     {"square", "A stretched square", "the stretched square relaxes", SQUARE,
-     "--speed 0.25", create_square, .settles = true,
+     NULL, create_square, .speed = 0.25, .settles = true,
      .group = "Time steps and Newton's method"},
     {"circle", "Stability on a circle",
      "one circle, three Euler methods: out, in, or on it", PICTURE_CIRCLE,
@@ -66,8 +66,9 @@ const Scene scenes[] = {
     {"return", "Solids that never turn over",
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
-     "--material neo-hookean --speed 0.125",
-     .create = create_square, .settles = true, .frame = {-1.1, -1.1, 1.1, 1.1}},
+     "--material neo-hookean",
+     .create = create_square, .speed = 0.125, .settles = true,
+     .frame = {-1.1, -1.1, 1.1, 1.1}},
     {"stack", "Self-contact: three squares",
      "three soft squares fall on one another", SQUARE,
      SOLIDS "--segments 6 --side 0.45 --friction 0.4 --barrier 0.01875,1e5 "

@@ -37,7 +37,7 @@ TEST(scenes_are_complete)
         snprintf(words, sizeof words, "%s", scene->line ? scene->line : "");
         for (char *word = strtok_r(words, " ", &rest); word;
              word = strtok_r(NULL, " ", &rest))
-            if (strncmp(word, "--", 2) == 0 && strcmp(word, "--speed") != 0)
+            if (strncmp(word, "--", 2) == 0)
                 CHECK(option_find(word + 2)->needs & scene->needs);
         Simulation *simulation = simulate("%s", scene->name);
         CHECK(simulation->scene == scene && simulation->runs >= 1);
