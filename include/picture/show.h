@@ -275,7 +275,7 @@ Layout show_layout(const Show *show, int width, int height);
 Camera show_camera(const Show *show, const Layout *layout, int pane);
 
 /* The camera holds still from now on. */
-void show_hold(Show *show, int pane);
+void show_hold(Show *show, const Layout *layout, int pane);
 
 /* What is at this pixel of the stage; PICK_NONE elsewhere. */
 Pick show_pick(const Show *show, const Layout *layout, double x, double y);

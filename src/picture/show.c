@@ -39,11 +39,29 @@ void show_create(const Simulation *simulation, Show *show)
     }
 }
 
-/* The part of the world that a pane would show by itself. */
-static void own_bounds(const Show *show, int pane, double bounds[4])
+/* The box of a pane without what words need of it. */
+static Box pane_room(const Show *show, const Layout *layout, int pane)
 {
-    const Plot stage = {
-        .show = show, .simulation = show->pane[pane].simulation, .pane = pane};
+    const Simulation *simulation = show->pane[pane].simulation;
+    bool stretched = picture_of(simulation->scene)->stretched;
+    Box room = layout->pane[pane];
+    int words = (int)(WORDS_ROOM * layout->em); /* above, and some below */
+    if (show->lecture && (show->panes > 1 || room.height < LOW * layout->em)) {
+        box_cut_off(&room, EDGE_TOP, stretched ? 2 * words : words);
+        box_cut_off(&room, EDGE_BOTTOM,
+                    show->panes > 1 || stretched ? words : 0);
+    }
+    return room;
+}
+
+/* The part of the world that a pane would show by itself. */
+static void own_bounds(const Show *show, const Layout *layout, int pane,
+                       double bounds[4])
+{
+    const Plot stage = {.show = show,
+                        .simulation = show->pane[pane].simulation,
+                        .box = pane_room(show, layout, pane),
+                        .pane = pane};
     const Picture *picture = picture_of(stage.simulation->scene);
     if (picture->bounds)
         picture->bounds(&stage, bounds);
@@ -53,7 +71,8 @@ static void own_bounds(const Show *show, int pane, double bounds[4])
 
 /* The part of the world that fits a pane; all panes of a page have that of the
  * last one, unless what is in them has left it. */
-static void find_bounds(const Show *show, int pane, double bounds[4])
+static void find_bounds(const Show *show, const Layout *layout, int pane,
+                        double bounds[4])
 {
     const Held *held = &show->held;
     int last = show->lecture ? show->panes - 1 : pane;
@@ -62,10 +81,10 @@ static void find_bounds(const Show *show, int pane, double bounds[4])
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
     }
-    own_bounds(show, last, bounds);
+    own_bounds(show, layout, last, bounds);
     if (last == pane)
         return;
-    own_bounds(show, pane, own);
+    own_bounds(show, layout, pane, own);
     if (own[0] < bounds[0] || own[1] < bounds[1] || own[2] > bounds[2] ||
         own[3] > bounds[3])
         memcpy(bounds, own, sizeof own);
@@ -83,14 +102,8 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
                   .em = layout->em};
     double bounds[4];
     bool stretched = picture_of(stage.simulation->scene)->stretched;
-    Box room = stage.box, beside;
-    int words = (int)(WORDS_ROOM * layout->em); /* above, and some below */
-    if (show->lecture && (show->panes > 1 || room.height < LOW * layout->em)) {
-        box_cut_off(&room, EDGE_TOP, stretched ? 2 * words : words);
-        box_cut_off(&room, EDGE_BOTTOM,
-                    show->panes > 1 || stretched ? words : 0);
-    }
-    find_bounds(show, pane, bounds);
+    Box room = pane_room(show, layout, pane), beside;
+    find_bounds(show, layout, pane, bounds);
     stage.camera = camera_create(room, bounds, stretched, &show->lens);
     beside = room; /* of the switches, where it is no smaller there */
     box_cut_off(&beside, EDGE_RIGHT, (int)(SWITCH_WIDE * layout->em));
@@ -108,10 +121,10 @@ Camera show_camera(const Show *show, const Layout *layout, int pane)
     return show_stage(NULL, show, layout, pane).camera;
 }
 
-void show_hold(Show *show, int pane)
+void show_hold(Show *show, const Layout *layout, int pane)
 {
     Held held = {.on = true, .pane = pane};
-    find_bounds(show, pane, held.bounds);
+    find_bounds(show, layout, pane, held.bounds);
     show->held = held;
 }
 

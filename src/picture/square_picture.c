@@ -67,23 +67,35 @@ static View first_view(const Show *show, const Simulation *simulation)
     return view;
 }
 
-/* Widens the view so that it has a point and so much around it, m, with some
- * air, if that is at most so many times as far from its first middle as its
- * sides are. */
-static void widen_view(const View *first, const double at[2], double around,
-                       double air, double times, View *view)
+/* What the stage shows when the view fits it: more at two sides. */
+static View view_seen(const Plot *stage, const View *view)
 {
-    for (int k = 0; k < 2; k++)
-        if (!(fabs(at[k] - first->middle[k]) + around < times * first->size[k]))
-            return;
+    View seen = *view;
+    const double box[2] = {stage->box.width, stage->box.height};
+    double scale = fmin(box[0] / view->size[0], box[1] / view->size[1]);
+    for (int k = 0; k < 2 && scale > 0; k++)
+        seen.size[k] = box[k] / scale;
+    return seen;
+}
+
+/* Widens the view so that it has a point that is not seen and so much around
+ * it, m, if that is at most so many times as far from the middle as the sides
+ * of the view are. */
+static void widen_view(const View *seen, const double at[2], double around,
+                       double times, View *view)
+{
+    bool hidden[2];
     for (int k = 0; k < 2; k++) {
-        double low = view->middle[k] - view->size[k];
-        double high = view->middle[k] + view->size[k];
-        bool below = at[k] - around<low, above = at[k] + around> high;
-        if (!below && !above)
+        double away = fabs(at[k] - seen->middle[k]);
+        hidden[k] = away > seen->size[k];
+        if (!(away < times * seen->size[k]))
+            return;
+    }
+    for (int k = 0; k < 2; k++) {
+        double low = fmin(view->middle[k] - view->size[k], at[k] - around);
+        double high = fmax(view->middle[k] + view->size[k], at[k] + around);
+        if (!hidden[k])
             continue;
-        low = below ? at[k] - around - air : low;
-        high = above ? at[k] + around + air : high;
         view->middle[k] = 0.5 * (low + high);
         view->size[k] = 0.5 * (high - low);
     }
@@ -91,21 +103,22 @@ static void widen_view(const View *first, const double at[2], double around,
 
 /* Widens the view by the balls and grounds in reach; of a ground as much is
  * seen as a hand needs to take hold of it. */
-static void add_obstacles(const Simulation *simulation, View *view)
+static void add_obstacles(const Plot *stage, View *view)
 {
+    const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
-    const View first = *view;
-    double air = 0.04 * fmin(first.size[0], first.size[1]);
+    const View seen = view_seen(stage, view);
+    double air = 0.04 * fmin(view->size[0], view->size[1]);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
-        Gap gap = contact_gap(obstacle, obstacle->o, first.middle, 0);
-        const Point foot = along(first.middle, -gap.d, gap.n);
+        Gap gap = contact_gap(obstacle, obstacle->o, seen.middle, 0);
+        const Point foot = along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
-            widen_view(&first, obstacle->o, obstacle->radius, air, BALL_REACH,
+            widen_view(&seen, obstacle->o, obstacle->radius + air, BALL_REACH,
                        view);
         else
-            widen_view(&first, foot.at, 0, 3 * air, GROUND_REACH, view);
+            widen_view(&seen, foot.at, 3 * air, GROUND_REACH, view);
     }
 }
 
@@ -163,12 +176,12 @@ void square_bounds(const Plot *stage, double bounds[4])
     const Simulation *simulation = stage->simulation;
     View view = first_view(show, simulation);
     double tall = 0, grown = 1;
-    add_obstacles(simulation, &view);
+    add_obstacles(stage, &view);
     double need = pane_needs(pane, &view, &tall);
     if (is_free(simulation) || need > FAR) {
         view = first_view(show, simulation);
         follow_body(simulation, pane_x(pane), &view);
-        add_obstacles(simulation, &view);
+        add_obstacles(stage, &view);
         tall = 0;
         need = pane_needs(pane, &view, &tall);
     }

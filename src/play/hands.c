@@ -225,7 +225,7 @@ static Status take(Player *player, const Under *under)
     double point[2];
     bool paused = is_paused(player);
     mouse->index = under->pick.index;
-    show_hold(&player->show, under->pane);
+    show_hold(&player->show, &under->layout, under->pane);
     switch (under->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
