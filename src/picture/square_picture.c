@@ -166,22 +166,18 @@ static double pane_needs(const Pane *pane, const View *view, double *tall)
     return need;
 }
 
-/* The first view, with the balls and grounds in reach; where nodes have left
- * that, 1.5, 1.5^2, ... times as much, so that the view jumps seldom.  Where
- * that is too far, and where the body is free, the view follows the body. */
+/* The first view; where nodes have left that, 1.5, 1.5^2, ... times as much, so
+ * that the view jumps seldom; and the balls and grounds in reach.  Where nodes
+ * are too far, and where the body is free, the view follows the body. */
 void square_bounds(const Plot *stage, double bounds[4])
 {
     const Show *show = stage->show;
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = stage->simulation;
     View view = first_view(show, simulation);
-    double tall = 0, grown = 1;
-    add_obstacles(stage, &view);
-    double need = pane_needs(pane, &view, &tall);
+    double tall = 0, grown = 1, need = pane_needs(pane, &view, &tall);
     if (is_free(simulation) || need > FAR) {
-        view = first_view(show, simulation);
         follow_body(simulation, pane_x(pane), &view);
-        add_obstacles(stage, &view);
         tall = 0;
         need = pane_needs(pane, &view, &tall);
     }
@@ -191,10 +187,12 @@ void square_bounds(const Plot *stage, double bounds[4])
     double low = show->bare && !has_frame(simulation)
                      ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown)
                      : 1;
+    view.size[0] *= grown;
+    view.size[1] *= grown * fmin(low, 1);
+    add_obstacles(stage, &view);
     for (int k = 0; k < 2; k++) {
-        double reach = grown * view.size[k] * (k == 1 ? fmin(low, 1) : 1);
-        bounds[k] = view.middle[k] - reach;
-        bounds[2 + k] = view.middle[k] + reach;
+        bounds[k] = view.middle[k] - view.size[k];
+        bounds[2 + k] = view.middle[k] + view.size[k];
     }
 }
 
