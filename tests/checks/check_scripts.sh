@@ -15,7 +15,7 @@ awk '{ step = $1; sub("[0-9]* ", ""); n = split($0, all, "; ")
 0 zoom 150 0.1 0.2; pan 0.1 -0.1; blank; blank; sheet; sheet; full-screen
 0 full-screen; select; raise; lower; default stretch; start 0.3 0.2
 0 set timestep 0.005; handle 0 0.2 0.1; flip 0; predict 0.5 0.2; cell 3
-0 options; options; add gravity; place 1 0.1 0.1; obstacle 0 0 -2; grab 2; play
+0 options; options; add gravity; place 1 0.1 0.1; obstacle 0 0 -2; push 0; grab 2; play
 2 drag 0.6 -0.5
 3 drag 0.7 -0.2
 4 release; pin 1
@@ -132,6 +132,21 @@ lines_of_y() {
     leads "$@" --speed 2 --timestep 0.002,0.004
 }
 verdict the_line_of_y_leads_there "$(lines_of_y)"
+
+# Twenty seconds of pushing, pressing and throwing end in the state that the
+# script tells, with pictures and without.
+pushes_end() {
+    script=$root/tests/data/push.script
+    line=$(sed -n 's/^# line: //p' "$script")
+    wanted=$(sed -n 's/^# ends: //p' "$script")
+    for frames in '' '--frames frames --size 40x30'; do
+        # shellcheck disable=SC2086
+        found=$("$elasto" $line --headless $frames --script "$script" |
+            sed -n 's/^state hash *//p')
+        [ "$found" = "$wanted" ] || echo "$found, not $wanted"
+    done
+}
+verdict twenty_seconds_of_pushing_have_one_hash "$(pushes_end)"
 
 # Each pane counts: for the hash, and for the exit code.
 each_pane() {

@@ -108,6 +108,83 @@ TEST(a_belt_takes_its_load_along)
     CHECK_NEAR(speed, W, 1e-4);
 }
 
+/* The hand takes the wall at o = (-0.1, 0), which looks along x, to (1, 0); a
+ * body has a side of 1 m. */
+static Obstacle *push_wall(void)
+{
+    Contact *contact = contact_of(&few);
+    contact->obstacle[0].o[0] = -0.1;
+    contact->push = (Push){.on = true, .to = {1, 0}, .shape = {.side = 1}};
+    return &contact->obstacle[0];
+}
+
+/* A mass that rests before a wall which a hand pushes: the wall is no faster
+ * than 5 m/s, passes no mass, and comes to the hand; what the hand has done is
+ * what the mass has and what backward Euler took. */
+TEST(a_hand_pushes_with_a_bounded_speed)
+{
+    const double h = 0.01, still[2] = {0, 0}, right[2] = {1, 0};
+    point_on_wall(right, 0, 0, 0);
+    Obstacle *wall = push_wall();
+    let_go(h, still, still);
+    for (int i = 0; i < 200; i++) {
+        double before = wall->o[0];
+        step();
+        CHECK(wall->o[0] >= before && wall->o[0] - before <= 5 * h + 1e-12);
+        CHECK(run.x[0] > wall->o[0]);
+    }
+    CHECK_NEAR(wall->o[0], 1, 1e-12);
+    CHECK(run.v[0] > 1 && run.work >= 0.5 * run.v[0] * run.v[0]);
+    contact_of(&few)->push.on = false;
+    double work = run.work;
+    step();
+    CHECK(wall->o[0] == 1 && run.work == work);
+}
+
+/* A pinned mass stops the wall at 0.3 of the barrier's width before it, and a
+ * second wall behind a free mass does, where the hand is too weak: there each
+ * gap is about a tenth of that width.  No step is called blocked. */
+TEST(what_cannot_give_way_stops_a_hand)
+{
+    const double still[2] = {0, 0}, right[2] = {1, 0}, left[2] = {-1, 0};
+    point_on_wall(right, 0, 0, 0);
+    few.pinned[0] = 1;
+    Obstacle *wall = push_wall();
+    let_go(0.01, still, still);
+    for (int i = 0; i < 100; i++)
+        step();
+    CHECK(-0.0035 < wall->o[0] && wall->o[0] <= -0.003 && run.x[0] == 0);
+    few_masses(1, 0);
+    Obstacle walls[2] = {{.n = {right[0], 0}, .o = {-0.1, 0}, .node = -1},
+                         {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
+    CHECK_OK(contact_set(&few, &(Barrier){0.01, 1}, 2, walls));
+    wall = push_wall();
+    let_go(0.01, still, still);
+    for (int i = 0; i < 300; i++)
+        step();
+    double room = 0.05 - wall->o[0];
+    CHECK(0.0005 < room && room < 0.003);
+    CHECK_NEAR(run.x[0], 0.05 - 0.5 * room, 1e-6);
+}
+
+/* A ball of 2 cm that goes 5 cm in a step passes no mass: it takes it along. */
+TEST(a_ball_that_is_pushed_jumps_over_nothing)
+{
+    const double still[2] = {0, 0};
+    const Obstacle ball = {
+        .kind = OBSTACLE_BALL, .o = {-0.05, 0}, .radius = 0.02, .node = -1};
+    few_masses(1, 0);
+    CHECK_OK(contact_set(&few, &(Barrier){0.002, 1}, 1, &ball));
+    Contact *contact = contact_of(&few);
+    contact->push = (Push){.on = true, .to = {9, 0}, .shape = {.side = 1}};
+    let_go(0.01, still, still);
+    for (int i = 0; i < 50; i++) {
+        step();
+        CHECK(run.x[0] - contact->obstacle[0].o[0] > 0.02);
+    }
+    CHECK(contact->obstacle[0].o[0] > 1);
+}
+
 /* A spring that is broken stays as it was, however far its ends part: it does
  * not flow, and nothing is damped. */
 TEST(broken_springs_do_nothing)

@@ -172,7 +172,7 @@ const sessions = async (browser) => {
       if (name !== 'keys' && !/grab|drag/.test(fs.readFileSync(file, 'utf8')))
         wrong.push('no hand');
       if (name !== 'keys' && !/pin/.test(fs.readFileSync(file, 'utf8'))) wrong.push('no pin');
-      if (name === 'mouse') await dropped(browser, file, hashIn(text));
+      if (name === 'mouse') await dropped(browser, SQUARE, file, hashIn(text));
     }
     verdict(`a_session_by_${name}_is_the_programs`, wrong);
   }
@@ -186,17 +186,24 @@ const drop = (tab, name, text) =>
     dispatchEvent(new DragEvent('drop', { dataTransfer, cancelable: true }));
   })()`);
 
-const dropped = async (browser, file, hash) => {
-  const tab = await browser.open(at(SQUARE + ' --headless --steps 0'));
+const dropped = async (browser, scene, file, hash) => {
+  const tab = await browser.open(at(scene + ' --headless --steps 0'));
   const wrong = [];
-  await tab.run(`line = ${JSON.stringify((SQUARE + ' --headless').split(' '))}`);
+  await tab.run(`line = ${JSON.stringify((scene + ' --headless').split(' '))}`);
   await drop(tab, 'mine.script', fs.readFileSync(file, 'utf8'));
   await tab.until(
     `/state hash/.test($('summary').textContent) && !/steps +0\\n/.test($('summary').textContent)`,
   );
   const text = await tab.run(`$('summary').textContent`);
   if (hashIn(text) !== hash) wrong.push(`${hashIn(text)} for ${hash}`);
-  verdict('a_dropped_script_is_played', [...wrong, ...tab.trouble]);
+  verdict(`the_dropped_${path.basename(file)}_is_played`, [...wrong, ...tab.trouble]);
+};
+
+// Twenty seconds of pushing, pressing and throwing end as natively.
+const pushed = async (browser) => {
+  const file = path.join(__dirname, '../data/push.script');
+  const told = (word) => new RegExp(`^# ${word}: (.*)$`, 'm').exec(fs.readFileSync(file, 'utf8'))[1];
+  await dropped(browser, told('line'), file, told('ends'));
 };
 
 // The saved picture is what the canvas shows, also at 2x.
@@ -347,7 +354,7 @@ const lacking = async (browser) => {
   }
   const browser = await launch();
   try {
-    const quick = [addresses, sessions, saved, sameTables, memory, lacking];
+    const quick = [addresses, sessions, pushed, saved, sameTables, memory, lacking];
     for (const check of [...quick, sameHashes, samePixels]) await check(browser);
   } finally {
     await browser.close();
