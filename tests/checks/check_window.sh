@@ -106,7 +106,7 @@ keys_arrive() {
     until_true has_title circle || echo '2 is not circle'
     key 1
     until_true has_title square || echo '1 is not square'
-    key Escape Escape
+    key Escape Escape Escape q q # there is something to lose
     end 0
     awk -F, 'NR > 1 && $3 > 8 { print "not two segments: " $0; exit }' states
 }
@@ -118,7 +118,7 @@ same_again() {
     key y
     until_true is_written || echo 'Y leaves no script'
     mv elasto_*.script session
-    key q
+    key q q
     end 0
     tail -n 9 states >seen
     "$elasto" "$@" --headless --quiet --script session --states again \
@@ -151,6 +151,49 @@ typed() { # TEXT KEY...: into the first number of the row
     key "$@"
 }
 
+# The keys go to another window during a drag: the hand lets go, and takes
+# nothing along when the mouse comes back.
+focus_ends_a_drag() {
+    side=500
+    begin square --segments 2 --gravity 1
+    frame 2
+    point 155 215
+    xdotool mousedown 1
+    point 175 195
+    frame 9
+    timeout $timeout xdotool windowfocus \
+        "$(xdotool search --maxdepth 0 --name '.*' | head -n 1)"
+    timeout $timeout xdotool windowfocus --sync "$window"
+    point 250 280
+    point 260 290
+    key space
+    same_again square --segments 2 --gravity 1
+    xdotool mouseup 1
+    grep -q release session || echo 'the hand does not let go'
+    sed -n '/release/,$p' session | grep drag
+}
+verdict focus_ends_a_drag "$(focus_ends_a_drag)"
+
+# On a small screen the window has room for its frame.
+the_window_fits() {
+    for screen_size in 1280x800 1366x768; do
+        new_screen small "$screen_size" || echo "no screen of $screen_size"
+        DISPLAY=:$(cat small) "$elasto" hang --quiet --paused 2>error &
+        pid=$!
+        export DISPLAY=:"$(cat small)"
+        until_true find_window hang || echo 'no window'
+        xdotool getwindowgeometry --shell "$window" >geometry
+        awk -F= -v size="$screen_size" '{ split(size, most, "x") }
+            $1 == "WIDTH" && $2 > most[1] - 10 { print $2, "of", size }
+            $1 == "HEIGHT" && $2 > most[2] - 40 { print $2, "of", size }' geometry
+        kill $pid
+        wait $pid
+        pid=
+        kill "$server"
+    done
+}
+verdict the_window_fits_its_screen "$(the_window_fits)"
+
 # A real hand: the edge, a number that is dragged, and others that are typed;
 # it pulls the middle while the square runs, lets go, pins a corner, zooms,
 # moves, drags the time line, and adds a pane.
@@ -159,7 +202,7 @@ hand_arrives() {
     begin square --segments 2 --stretch 1 --paused
     drag 1 '524 260' '36 0'
     drag 1 '60 757' '50 0'
-    key Tab Up 5 0 0 0 0 Return
+    key Tab Tab Up 5 0 0 0 0 Return
     typed 1/60 Return
     typed '4qsm?' Return Escape
     point 279 389
