@@ -62,7 +62,7 @@ typedef struct Scene {
                          the command line; NULL: there are none */
     /* Fills simulation->system, mesh and the start. */
     Status (*create)(struct Simulation *simulation);
-    double speed;     /* Steps a frame that a window begins with; 0: 1. */
+    double speed;     /* Steps a frame, as somebody first sees it; 0: 1. */
     double frame[4];  /* m, left, bottom, right, top of what is seen; 0: the
                          picture's choice */
     double strain;    /* its springs are coloured by strain from the start, the

@@ -248,7 +248,7 @@ Status obey_page(Player *player, const Command *command)
     if (status)
         return status;
     status = player_begin(player, &options, 1, command);
-    player->speed = player_first_speed(&options);
+    player->speed = player_first_speed(player, &options);
     player->left = page;
     player->told = NULL;
     player->column = COLUMN_CARDS;

@@ -120,9 +120,9 @@ const char *player_idle(const Player *player, const OptionRow *row);
 
 /* ---- screen.c ------------------------------------------------------------ */
 
-/* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, else one step a
- * frame through time, and iterations one at a time. */
-int player_first_speed(const Options *options);
+/* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, or the scene where
+ * somebody attends, else one step a frame through time, and iterations one at a time. */
+int player_first_speed(const Player *player, const Options *options);
 
 /* The scenes on the sheet go on for a slice of time, where it is open. */
 void player_live(Player *player);

@@ -20,10 +20,10 @@ enum {
     NOTE_LINE = 100 /* letters of a command line that the window has room for */
 };
 
-int player_first_speed(const Options *options)
+int player_first_speed(const Player *player, const Options *options)
 {
     double speed = options->speed;
-    if (speed == 0 && !options->page)
+    if (speed == 0 && !options->page && player->attended)
         speed = options->scene->speed;
     if (speed > 0)
         return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));

@@ -116,7 +116,7 @@ static void enter_scene(Player *player)
     char title[128];
     player->scene = options->scene;
     player->page = options->page;
-    player->speed = player_first_speed(options);
+    player->speed = player_first_speed(player, options);
     player->show.lens = LENS_FITS;
     player->closed = 0;
     player->large = -1;

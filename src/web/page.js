@@ -238,7 +238,10 @@ canvas.addEventListener('keyup', (event) => {
   if (tabAlone) key(event.shiftKey ? 'Shift+Tab' : 'Tab', false);
   tabHeld = tabAlone = false;
 });
-canvas.addEventListener('blur', () => (tabHeld = tabAlone = false));
+canvas.addEventListener('blur', () => {
+  tabHeld = tabAlone = false;
+  if (last.clicks) tell(RELEASE, last); // a drag ends where the keys go elsewhere
+});
 
 // ---- mouse, pen and fingers -------------------------------------------------
 
