@@ -345,7 +345,6 @@ static void step_forward(Solid *solid, double h, double tol, int step,
         memcpy(x, x_new, (size_t)n * sizeof(Vec2));
         search_dir(solid, x, x_tilde, h, p);
     }
-
     for (int i = 0; i < n; i++)
         v[i] = mul(1 / h, sub(x[i], x_n[i]));
     free(x_n);
@@ -565,7 +564,6 @@ int main(int argc, char **argv)
     Solid solid = square(side_len.value, (int)n_seg.value, rho.value, k.value);
     for (int i = 0; i < solid.nodes; i++)
         solid.x[i].x *= stretch.value; /* the springs keep their rest length */
-
     /* FILE.part becomes FILE when it is complete; a device has no .part. */
     char part[2 * FILENAME_MAX];
     snprintf(part, sizeof part, "%s%s", states,
