@@ -114,7 +114,8 @@ double energies_needs(const Show *show, double wide, double em)
 {
     (void)wide;
     (void)em;
-    return LEAST + (find_curves(show).count > 4 ? MORE : 0);
+    int count = find_curves(show).count;
+    return LEAST + (count <= 4 ? 0 : show->panes > 1 ? 2 * MORE : MORE);
 }
 
 /* J, below which all energies of the simulation are rounding. */
@@ -193,8 +194,14 @@ void energies_draw(const Plot *card)
         double value =
             energies_value(one->simulation, one->history, one->series,
                            simulation_time(one->simulation));
-        snprintf(line.words, sizeof line.words, "%s %s J",
-                 one->name ? one->name : "", number_of(value).text);
+        char name[SHOW_TEXT], sum[60];
+        snprintf(name, sizeof name, "%s", one->name ? one->name : "");
+        snprintf(sum, sizeof sum, " %s J", number_of(value).text);
+        paper_shorten(card->paper, FACE_REGULAR, size,
+                      card->box.width -
+                          paper_width(card->paper, FACE_REGULAR, size, sum),
+                      name, sizeof name);
+        snprintf(line.words, sizeof line.words, "%.150s%s", name, sum);
         used = words_flow(card, at, size, 1.05 * size, &line);
     }
     box_cut_off(&rest.box, EDGE_TOP, used);

@@ -1,6 +1,7 @@
 /* show.c - a Show: what it is of, where its stages look, what the mouse finds
  * there, how all of it is drawn. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
@@ -276,6 +277,51 @@ void history_add(History *history, double time, int rows, const Energy *row)
 
 /* ---- all of it ----------------------------------------------------------- */
 
+/* The first parts of a label, with ", " between, that fit into a line.  Returns
+ * what is left of it.
+ *   line  [SHOW_VALUE * 4] out */
+static const char *take_line(const Plot *stage, const char *label, char *line)
+{
+    const size_t room = 4 * SHOW_VALUE;
+    const char *rest = label;
+    line[0] = '\0';
+    while (*rest) {
+        char longer[4 * SHOW_VALUE];
+        const char *end = strstr(rest, ", ");
+        end = end ? end : rest + strlen(rest);
+        snprintf(longer, room, "%.*s", (int)(end - label), label);
+        if (line[0] && paper_width(stage->paper, FACE_BOLD, 1, longer) >
+                           stage->box.width - stage->em)
+            break;
+        memcpy(line, longer, room);
+        rest = *end ? end + 2 : end;
+    }
+    return rest;
+}
+
+/* What is different in a pane, in as many lines as it takes, above the scale
+ * where it is long. */
+static void draw_label(const Plot *stage, const char *label)
+{
+    enum { LINES = 3 };
+    Paper *paper = stage->paper;
+    const Box *box = &stage->box;
+    char line[LINES][4 * SHOW_VALUE];
+    int lines = 0, wide = 0;
+    while (*label && lines < LINES) {
+        label = take_line(stage, label, line[lines]);
+        int own = paper_width(paper, FACE_BOLD, 1, line[lines++]);
+        wide = own > wide ? own : wide;
+    }
+    bool high = wide > box->width - 10 * paper->em;
+    double low = box->y + box->height - (high ? 4.2 : 1.7) * paper->em;
+    for (int i = 0; i < lines; i++)
+        paper_panel(paper, FACE_BOLD, 1, colour_of_run(stage->pane),
+                    box->x + 0.5 * box->width,
+                    low - 1.36 * (lines - 1 - i) * paper->em, ALIGN_CENTRE,
+                    line[i]);
+}
+
 /* One pane, its words, where it is not alone its label in the colour of its
  * curve, and what the mouse is over in it. */
 static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
@@ -297,16 +343,8 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
         stage_handles(&stage);
     stage_switches(&stage);
     stage_prediction(&stage);
-    const char *label = layout->panes > 1 ? show->pane[pane].label : NULL;
-    if (label) { /* above the scale where it is long */
-        int wide = paper_width(paper, FACE_BOLD, 1, label);
-        bool high = wide > stage.box.width - 10 * paper->em;
-        paper_panel(paper, FACE_BOLD, 1, colour_of_run(pane),
-                    stage.box.x + 0.5 * stage.box.width,
-                    stage.box.y + stage.box.height -
-                        (high ? 4.2 : 1.7) * paper->em,
-                    ALIGN_CENTRE, label);
-    }
+    if (layout->panes > 1 && show->pane[pane].label)
+        draw_label(&stage, show->pane[pane].label);
     if (picture->hover && stage.text && hover->pane == pane &&
         hover->kind != PICK_NONE && !show->hand)
         picture->hover(&stage);

@@ -78,7 +78,7 @@ static bool plays_again(const Player *player, const LecturePage *page)
 
 /* Obstacles that stand where the body begins go back to where they began.
  * INVALID_INPUT: one was not there then. */
-static Status make_room(Player *player, int pane, Options *options)
+static Status clear_start(Player *player, int pane, Options *options)
 {
     Options began = past_start(&player->past, pane)->options;
     Options kept = *options;
@@ -134,7 +134,7 @@ Status obey_restart(Player *player, const Command *command)
     Options options[OPTIONS_MAX_PANES];
     int panes = player_options(player, options);
     for (int p = 0; p < panes; p++)
-        if (make_room(player, p, &options[p]))
+        if (clear_start(player, p, &options[p]))
             return STATUS_INVALID_INPUT;
     bool moves = command->kind == COMMAND_START;
     if (moves && !(options->scene->needs & NEEDS_START))
