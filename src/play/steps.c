@@ -621,6 +621,38 @@ Status obey_goto(Player *player, const Command *command)
     return player_show(player, step, THEN_NOTHING);
 }
 
+/* What a hand did, in words; anything else as a script says it, with digits as
+ * the row of numbers has them. */
+static void tell_deed(const Player *player, Command edit, char *line,
+                      size_t size)
+{
+    bool ground = edit.number < player_settings(player)->grounds;
+    const char *thing = ground ? "ground" : "ball";
+    double *at[] = {&edit.x, &edit.y};
+    switch (edit.kind) {
+    case COMMAND_PUSH:
+        snprintf(line, size, "%s pushed", thing);
+        return;
+    case COMMAND_OBSTACLE:
+        snprintf(line, size, "%s moved", thing);
+        return;
+    case COMMAND_GRAB:
+        snprintf(line, size, "node %ld pulled", edit.number);
+        return;
+    case COMMAND_PLACE:
+        snprintf(line, size, "node %ld placed", edit.number);
+        return;
+    default:
+        break;
+    }
+    edit.joins = false;
+    for (int k = 0; k < 2; k++) {
+        snprintf(line, size, "%g", *at[k]);
+        *at[k] = strtod(line, NULL);
+    }
+    command_format(&edit, line, size);
+}
+
 /* What was done last, or undone: "set stretch 1.2". */
 Status obey_undo(Player *player, const Command *command)
 {
@@ -631,19 +663,13 @@ Status obey_undo(Player *player, const Command *command)
     if (!made)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");
-    Command edit = *made;
-    double *at[] = {&edit.x, &edit.y};
-    edit.joins = false;
-    for (int k = 0; k < 2; k++) { /* digits as the row of numbers has them */
-        snprintf(line, sizeof line, "%g", *at[k]);
-        *at[k] = strtod(line, NULL);
-    }
-    command_format(&edit, line, sizeof line);
+    const Command edit = *made;
     player->mode = MODE_PAUSE;
     player->holds = false;
     player->mouse.gesture = ++player->gestures; /* if a drag goes on */
     follow(player);
     player_leave_step(player);
+    tell_deed(player, edit, line, sizeof line);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
     return STATUS_OK;
 }
