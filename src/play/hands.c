@@ -261,14 +261,15 @@ static Status take(Player *player, const Under *under)
 }
 
 /* A ball where nothing is, as large as there is room for, but no larger than an
- * eighth of the square. */
+ * eighth of the square or what no gap between two nodes lets through. */
 static Status put_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_simulation(player);
     Command command = {.kind = COMMAND_SET,
                        .number = option_find("ball") - option_rows,
                        .joins = true};
-    double radius = simulation->options.side / 8;
+    double radius =
+        fmax(simulation->options.side / 8, 0.7 * simulation->mesh.spacing);
     for (int i = 0; i < simulation->system.nodes; i++) {
         const double *x = simulation->run[0].x + 2 * (size_t)i;
         double away = math_hypot(x[0] - at[0], x[1] - at[1]);
