@@ -320,8 +320,8 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 }
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
- * The slide's loop has no limit: it never ends if tol is below the rounding
- * errors of p.  `table` gets a line for each update, or is NULL. */
+ * It never ends if tol is below the rounding errors of p.  It drops the last p;
+ * elasto uses it: ten to 1e11 times more accurate.  table: updates, or NULL. */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
 {

@@ -21,8 +21,6 @@
       "the search direction points uphill and no small step along it helps")   \
     F(ROUNDING_LIMIT, rounding_limit,                                          \
       "rounding hides every further decrease above the tolerance")             \
-    F(NOT_A_MINIMUM, not_a_minimum,                                            \
-      "the gradient vanished, but not at a minimum")                           \
     F(NOT_POSITIVE_DEFINITE, not_positive_definite,                            \
       "the Hessian is not positive definite")                                  \
     F(SINGULAR, singular, "the Hessian is singular")                           \

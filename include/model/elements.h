@@ -111,7 +111,6 @@ int elements_hessian(const EvalPoint *at, Filter filter, const int *slot,
 double elements_remainder(const EvalPoint *at, const double *p, double alpha);
 double elements_reach(const EvalPoint *at, const double *p);
 bool elements_allowed(const EvalPoint *at);
-void elements_concave(const EvalPoint *at, double *sum);
 
 /* All of them, for its row. */
 #define ELEMENTS(kind)                                                         \
@@ -119,7 +118,7 @@ void elements_concave(const EvalPoint *at, double *sum);
     .gradient = elements_gradient, .entries = elements_entries,                \
     .pattern = elements_pattern, .hessian = elements_hessian,                  \
     .remainder = elements_remainder, .reach = elements_reach,                  \
-    .allowed = elements_allowed, .concave = elements_concave
+    .allowed = elements_allowed
 
 /* What every ElementKind has, for its table: its source calls them so. */
 #define ELEMENT_FUNCTIONS                                                      \

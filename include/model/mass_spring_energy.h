@@ -55,11 +55,11 @@ static inline bool spring_hessian(const double d[2], double l2, double k,
  * jj: xx xy yy, ij: xx xy yx yy. */
 enum { SPRING_ENTRIES = 10 };
 
-/* The functions entries and pattern of a term with a block for each spring, and
- * its bounds: max k, and max k sqrt(l2) of a spring compressed to nothing. */
+/* The functions entries, pattern and curvature_bound (max k) of a term with a
+ * block for each spring. */
 long long mass_spring_entries(const EvalPoint *at);
 void mass_spring_pattern(const EvalPoint *at, Triplets *triplets);
-void mass_spring_bounds(const EvalPoint *at, double *stiffest, double *force);
+double mass_spring_curvature_bound(const EvalPoint *at);
 
 /* g += factor d at node e[0] and minus that at node e[1]. */
 static inline void spring_add_force(const int e[2], double factor,

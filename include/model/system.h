@@ -111,16 +111,14 @@ bool system_is_free(const System *system);
 /* sum m |v|^2 / 2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
 
-/* *most becomes bound if that is larger, or not a number; TermKind's bounds. */
-static inline void bound_raise(double *most, double bound)
+/* The larger bound; NaN if one of them is. */
+static inline double larger_bound(double a, double b)
 {
-    if (!(bound <= *most) && !isnan(*most))
-        *most = bound;
+    return b <= a || isnan(a) ? a : b;
 }
 
-/* The largest bounds of the terms, out: their curvature, J/m^2, their force,
- * J/m. */
-void system_bounds(const System *system, double *stiffest, double *force);
+/* Bound of the curvature of all terms at rest, J/m^2: the largest of theirs. */
+double system_curvature_bound(const System *system);
 
 /* |g|_(M^-1) = sqrt(sum |g_i|^2 / m_i).  g [2n] in. */
 double system_inverse_mass_norm(const System *system, const double *g);

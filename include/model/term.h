@@ -77,7 +77,7 @@ struct TermKind {
     } place;
 
     /* Where the term is a sum over elements: what one of them is (elements.h),
-     * which gives the functions down to concave, but along. */
+     * which gives the functions from here down to allowed, but along. */
     const ElementKind *element;
 
     /* P(x), J, without w.  NULL: the term has no energy, only begin, end or
@@ -141,16 +141,9 @@ struct TermKind {
     Status (*begin)(const TermStep *step);
     void (*end)(const TermStep *step);
 
-    /* Raises (bound_raise) *stiffest to a bound of the curvature's size at
-     * rest, J/m^2, and *force, J/m, to the size of a force that a vanishing
-     * gradient is compared with.  What is not finite is refused. */
-    void (*bounds)(const EvalPoint *at, double *stiffest, double *force);
-
-    /* sum[i] += a bound such that w Hessian (as it is) + diag(sum) is positive
-     * semi-definite; sum [n], one for both coordinates.  NULL: the term bends
-     * up everywhere. */
-    void (*concave)(const EvalPoint *at, double *sum);
-
+    /* Bound of the curvature's size at rest, J/m^2.  A bound that is not finite
+     * is refused. */
+    double (*curvature_bound)(const EvalPoint *at);
     /* Frees what data points to; NULL: nothing. */
     void (*free)(void *data);
 

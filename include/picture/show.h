@@ -44,9 +44,6 @@ typedef struct Trace {
     const double *x;       /* [2n] m, x^i, where p was made */
     const double *p;       /* [2n] m, from line 4 on; NULL before */
     double residual;       /* of p, m/s */
-    ResidualKind kind;     /* of it */
-    bool passed;           /* it passes the test, and that was known without p,
-                              which is not there */
     bool given_up;         /* no alpha was found, or no time was left */
     double slope;          /* grad E . p, J s^2 */
     int projected;         /* springs; < 0: not known */

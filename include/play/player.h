@@ -7,8 +7,8 @@
  *   player_work: past_iterate, until that step is shown  (steps.c)
  *
  * From a key to Newton's method: player_input, player_obey (after the deed),
- * player_work, past_iterate, simulation_iterate, time_integrator_iterate,
- * newton_iterate.
+ * player_work, past_iterate, simulation_advance, time_integrator_advance,
+ * newton_minimise.
  */
 #ifndef ELASTO_PLAYER_H
 #define ELASTO_PLAYER_H
@@ -23,7 +23,6 @@
 #include "play/view.h"
 
 enum {
-    DRIFT_STEPS = 8,  /* in which nothing deforms, and it drifts */
     SPEED_LEAST = -6, /* a frame every second */
     SPEED_MOST = 10   /* 1024 steps a frame */
 };
@@ -33,9 +32,8 @@ enum {
 typedef enum Mode {
     MODE_RUN,
     MODE_PAUSE,
-    MODE_END,  /* the scene is over, or a step did not converge */
-    MODE_HELD, /* nothing moves: the tolerance lets forces pass, */
-    MODE_REST  /* or they are in balance */
+    MODE_END, /* the scene is over, or a step did not converge */
+    MODE_REST /* nothing moves, and the forces are in balance */
 } Mode;
 
 /* What is to be done as soon as the step that was asked for is shown. */
@@ -97,8 +95,6 @@ typedef struct Player {
     Then then;
     Station
         retaken;   /* the place in a step that is taken again; round -1: none */
-    int still;     /* steps in a row that needed no update, up to this one, */
-    int rigid;     /* and those in which nothing has deformed */
     bool holds;    /* the hand has not let go since it took a node */
     long pulled;   /* the step at which it went where it is */
     Command later; /* what a drag does as soon as the step is there that is

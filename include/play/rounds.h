@@ -1,11 +1,7 @@
 /* rounds.h - the minimisation of one step, round by round of the loop of
  * Algorithm 3: for the cards, and to be walked through line by line.
  *
- * Whoever iterates the solver looks at it: before each iteration x^i and p^i
- * stand there to be copied.  Rounds 0 ... count-1 are those that have a record:
- * each made an update, but for a last one whose line search found no step
- * (alpha = 0).  Round `count` is where the solver is then: its direction passed
- * the test.
+ * Newton's observer adds a round after each iteration.
  */
 #ifndef ELASTO_ROUNDS_H
 #define ELASTO_ROUNDS_H
@@ -32,7 +28,7 @@ typedef struct Records {
 bool records_fit(Records *records, int count);
 
 typedef struct Round {
-    double *x, *p, *u; /* [size] m; NULL: not kept */
+    double *x, *p, *u; /* [size] m, x^i, p^i, x^i - x_n; NULL: not kept */
     double first;      /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
     bool rough;    /* it is not: */
@@ -53,16 +49,14 @@ typedef struct Station {
 typedef struct Rounds {
     double h, tolerance; /* s, m/s, that it was made with */
     int size;            /* 2n; 0: nobody asks for them */
-    Records made;        /* one a round that has a record; behind them, what is
-                            known of round made.count */
-    Round *round;
-    int room;        /* of it */
-    bool ended;      /* round [count] is there: the last one made an update */
-    bool passed;     /* its test was passed without a direction */
-    bool all;        /* E along p is kept of every round, */
-    bool last;       /* or of the last one, since a picture has asked for it */
-    bool asked;      /* for what is not kept: by the last picture */
+    Records made;        /* record of each round */
+    Round *round;        /* [made.count] */
+    int room;            /* rounds that have memory */
+    bool all;            /* E along p is kept of every round */
+    bool last;  /* E along p is kept of the last round: a picture has asked */
+    bool asked; /* the last picture has asked for what is not kept */
     double *x_tilde; /* [size] m; NULL: not known */
+    double *end;     /* [size] m, iterate after the last round; or NULL */
     size_t bytes;
     Station *place; /* [places] in the order of the listing; none where memory
                        is missing */
@@ -72,10 +66,7 @@ typedef struct Rounds {
 /* Before a step.  all: it is to be walked through. */
 void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all);
 
-/* Before a Newton iteration: where a minimisation begins. */
-void rounds_look(Rounds *rounds, const Newton *newton);
-
-/* After it.  Nothing is kept where memory is missing. */
+/* After a Newton iteration.  Nothing is kept where memory is missing. */
 void rounds_add(Rounds *rounds, const Newton *newton,
                 const NewtonRecord *record);
 

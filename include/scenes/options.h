@@ -47,7 +47,7 @@ typedef struct Options {
             double yield, hardening, tear;      /* 0: never */
             double damping;
             double terms[8]; /* of terms that nobody else asks for */
-            double timestep, tolerance, minimum;
+            double timestep, tolerance;
             double integrator;     /* its row; -1: the scene's choice */
             double solver, filter; /* enum Solver, Filter */
             double line_search;    /* enum LineSearch */

@@ -82,15 +82,15 @@ Status simulation_start(Simulation *simulation, int run,
 /* One step: of time in every run, or one Newton iteration; none where
  * simulation->done.  A pure function of the state (control.h) and the settings:
  * solvers keep nothing from step to step that changes a bit.
- * OK; an unconverged status: the step was made; a failure or INTERRUPTED:
- * nothing moved in the run that failed. */
+ * OK; an unconverged status: the step was made; a failure: nothing moved in the
+ * run that failed. */
 Status simulation_step(Simulation *simulation);
 
-/* The same, a Newton iteration at a time: both return RUNNING while there is
- * more to do, and at the end as simulation_step.  After a step that is left
- * before its end state_restore has to follow. */
+/* The same with pauses, where Newton's observer asks for them: begin, then
+ * advance while it returns RUNNING; at the end as simulation_step.  After a
+ * step that is left before its end state_restore has to follow. */
 Status simulation_begin(Simulation *simulation);
-Status simulation_iterate(Simulation *simulation);
+Status simulation_advance(Simulation *simulation);
 
 /* Simulated time, s; 0 in scenes where no time passes. */
 double simulation_time(const Simulation *simulation);
@@ -98,17 +98,10 @@ double simulation_time(const Simulation *simulation);
 /* Energies of one run, computed now. */
 Energies simulation_energies(const Simulation *simulation, int run);
 
-/* Whether the tolerance may leave a body at rest hanging in the air, or let a
- * contact that creeps freeze: above a tenth of h |g| or of the slip speed.
- * needed: the largest that does not, m/s, infinite where neither matters. */
-bool simulation_is_loose(const Simulation *simulation, double *needed);
-
-/* Whether the body of run 0, which stands still, is at rest: the forces on it
- * balance within a hundredth of the shortest spring's length.  That a step
- * needs no update does not tell: the tolerance is a velocity and lets pass
- * every p below h tolerance, which may be metres, and every acceleration below
- * tolerance / h.  False, too, where only a smaller tolerance shows that
- * friction holds, or memory is missing. */
+/* Whether run 0 is at rest: within a frame, and a step, no node moves by more
+ * than a millionth of the shortest spring, and the forces balance within a
+ * thousandth of its length.  The first alone would be true at a turning point,
+ * too. */
 bool simulation_rests(const Simulation *simulation);
 
 /* Sum over the runs of what Newton did; zero where all are explicit. */
@@ -158,10 +151,6 @@ int simulation_point(const Simulation *simulation, double at[2]);
 /* The guess that the next step leads to (x, y), m; nothing where a scene has no
  * single point or has ended. */
 void simulation_predict(Simulation *simulation, double x, double y);
-
-/* How fast the body of run 0 deforms: the fastest change of a spring's length,
- * m/s. */
-double simulation_deforming(const Simulation *simulation);
 
 /* omega of the fastest small oscillation around x [2n], 1/s: M mode'' = -H mode
  * with the Hessian of P as it is; NaN where there is none, or more nodes.

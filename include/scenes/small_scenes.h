@@ -225,8 +225,6 @@ typedef struct EnvelopeCell {
     bool known;
     Status worst; /* OK: all steps passed the test */
     int updates;  /* Newton updates of all its steps */
-    bool undone;  /* there were none, and it is not at rest: the test let the
-                     forces pass */
 } EnvelopeCell;
 
 /* Where the square converges: a row for each stiffness, a column for each time

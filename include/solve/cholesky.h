@@ -34,4 +34,8 @@ Status cholesky_factor(Cholesky *cholesky);
  * 1e-8 of b; only INDEFINITE looks). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
+/* Negative pivots of the last factor, of kind INDEFINITE: as many as A has
+ * negative eigenvalues. */
+int cholesky_negative_pivots(const Cholesky *cholesky);
+
 #endif

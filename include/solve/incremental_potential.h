@@ -63,9 +63,10 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
                                   const int *slot, Sparse *A);
 
 /* y = (filtered) Hessian of E at u, x times q, without a matrix.
- *   q  [2n] in, 0 for pinned nodes; y [2n] out */
-void incremental_potential_product(const Iterate *at, Filter filter,
-                                   const double *q, double *y);
+ *   q  [2n] in, 0 for pinned nodes; y [2n] out
+ * Returns how many blocks of terms the filter changed. */
+int incremental_potential_product(const Iterate *at, Filter filter,
+                                  const double *q, double *y);
 
 /* What draws nodes to points, and nothing else, makes them heavier:
  *   m/2 |u - u_tilde|^2 + w c/2 |x - o|^2 = (m + w c)/2 |u - v|^2 + constant.
@@ -75,10 +76,9 @@ void incremental_potential_product(const Iterate *at, Filter filter,
 void incremental_potential_inertia(const Iterate *iterate, double *m,
                                    double *u_tilde);
 
-/* Where each coordinate stands alone in all terms, or there is none: u and x of
- * the minimum, without any matrix.  Writes over g and p.
- * Returns OK, NOT_FINITE; RUNNING where it is not so: nothing was done. */
-Status incremental_potential_solve(Iterate *at);
+/* Whether each coordinate stands alone in all terms: the Hessian is diagonal.
+ */
+bool incremental_potential_is_diagonal(const IncrementalPotential *E);
 
 /* What E is along a line, without its constant term:
  * q(alpha) = q[0] alpha + q[1] alpha^2 + q[2] alpha^3 + q[3] alpha^4 */
@@ -113,10 +113,5 @@ double incremental_potential_reach(const Iterate *at);
 /* Whether every term allows u, x [2n]. */
 bool incremental_potential_allowed(const IncrementalPotential *E,
                                    const double *u, const double *x);
-
-/* A number c for which the Hessian of w P as it is, plus c M, is positive
- * semi-definite: where c < 1, E is convex.
- *   sum  [n] out */
-double incremental_potential_concave(const Iterate *iterate, double *sum);
 
 #endif

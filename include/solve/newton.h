@@ -1,8 +1,10 @@
-/* newton.h - projected Newton (slides: Algorithm 3, and Algorithm 1 inside).
+/* newton.h - projected Newton with line search, the minimiser of a time step
+ * (slides: Algorithm 3).
  *
- * A resumable object: newton_start, then newton_iterate until it returns
- * something else than RUNNING, then newton_finish; newton_minimise does all
- * three.  Each iteration leaves a record, which log, window and tests read.
+ * newton_start says what is to be minimised and where to begin; newton_minimise
+ * is the loop.  Each pass through the loop leaves a record for the log, the
+ * window and the tests.  The observer of the records may pause the loop, which
+ * the next call of newton_minimise continues.
  */
 #ifndef ELASTO_NEWTON_H
 #define ELASTO_NEWTON_H
@@ -18,51 +20,47 @@ typedef enum Solver {
     SOLVER_AUTO = SOLVER_COUNT /* multigrid on large grids, else newton */
 } Solver;
 
-/* Up to so many segments AUTO takes newton: factors are as good there, and the
- * iterates are those of the slides. */
-enum { AUTO_NEWTON_SEGMENTS = 32 };
+/* Up to so many segments AUTO takes newton, whose iterates are those of the
+ * slides.  Multigrid is twice as fast there, and four times from 12 on. */
+enum { AUTO_NEWTON_SEGMENTS = 8 };
 
-/* What is known of a residual: p solved for it; p up to a remainder, as from
- * conjugate gradients; or only that it is not above. */
+/* How well the residual of a direction p is known. */
 typedef enum ResidualKind {
-    RESIDUAL_VALUE,
-    RESIDUAL_ESTIMATE,
-    RESIDUAL_BOUND
+    RESIDUAL_VALUE,   /* p solves H p = -g up to rounding */
+    RESIDUAL_ESTIMATE /* p solves it up to a known remainder */
 } ResidualKind;
 
-/* What one Newton iteration did; or, with iteration -1, how a minimisation
- * ended whose end no iteration tells: at its start, or as it was finished. */
+/* One iteration of the loop. */
 typedef struct NewtonRecord {
     long step;         /* time step, from 1 */
-    int iteration;     /* in this minimisation, from 0; -1: see above */
-    double residual;   /* m/s, max over nodes |p_x| + |p_y|, over h: of the p
-                          that this iteration follows; with -1, at the end */
-    ResidualKind kind; /* of it */
-    double alpha;      /* step length along p; 0: none was found */
-    int trials;        /* energies the line search looked at */
-    double slope;      /* grad E . p, J s^2: < 0 is downhill */
-    double change;     /* of E, J s^2: by alpha p; multigrid: by all it did */
+    int iteration;     /* of this minimisation, from 0 */
+    double residual;   /* m/s, max over nodes of |p_x| + |p_y|, over h */
+    ResidualKind kind; /* how well the residual is known */
+    double alpha;      /* step length along p; 0: x has not moved */
+    int trials;        /* energies that the line search looked at */
+    double slope;      /* grad E . p, J s^2; below 0: p leads downhill */
+    double change;     /* change of E by the update, J s^2 */
     int projected;     /* blocks of the Hessian that were projected */
-    bool factorised;   /* false: multigrid, or a bound passed the test */
-    double shift;      /* kg, what the diagonal needed to be factored */
-    double seconds;    /* this iteration took */
+    int negative;      /* negative pivots of the Hessian, without projection */
+    bool factorised;   /* false: multigrid, or a diagonal Hessian */
+    double shift;      /* kg, added to the diagonal to factor it */
+    double seconds;    /* computing time of the iteration */
     Status status;     /* RUNNING, or how the minimisation ended here */
-    Solver solver;     /* who made it: NEWTON or MULTIGRID */
-    double from[2];    /* where it started and where it led, in scenes with a */
-    double to[2];      /* single unknown point; 0 elsewhere */
+    Solver solver;     /* NEWTON or MULTIGRID */
+    double from[2];    /* start of the update, in scenes with one moving point;
+                          0 elsewhere */
+    double to[2];      /* end of the update, alike */
 } NewtonRecord;
 
-/* Called after each iteration, and after each minimisation whose end no
- * iteration tells; false asks to stop (INTERRUPTED). */
+/* Called after each iteration.  Returns false to pause the loop. */
 typedef bool (*NewtonObserver)(void *user, const NewtonRecord *record);
 
 typedef struct NewtonSettings {
     double h;                /* s, divides the residual */
-    double tolerance;        /* m/s */
+    double tolerance;        /* m/s, epsilon of the slides */
     Solver solver;           /* how the minimiser is found */
     Filter filter;           /* what is done with negative eigenvalues */
     LineSearch search;       /* how the step length is found */
-    bool minimum;            /* a saddle is no end: it is left */
     int max_iterations;      /* at most; then ITERATION_LIMIT */
     NewtonObserver observer; /* or NULL */
     void *user;              /* passed to the observer */
@@ -76,8 +74,8 @@ typedef struct NewtonCounters {
     long projected;  /* blocks projected, summed over factorisations */
     long cycles;     /* of multigrid */
     long local;      /* its sweeps of tiles where folds run */
-    long saddles;    /* left along negative curvature */
-    long taken_back; /* minimisations that multigrid began, but did not end */
+    long negative;   /* minimisations that ended where H has negative pivots */
+    long taken_back; /* minimisations that multigrid began and Newton ended */
 } NewtonCounters;
 
 /* sum += counters */
@@ -99,6 +97,7 @@ typedef struct SearchDirection {
     int *slot;             /* place of each triplet in A */
     Cholesky *cholesky;    /* NULL: no matrix was needed yet */
     double shift;          /* kg, on the diagonal of what was factored */
+    double moved;          /* m, bound of a node's way since it was factored */
     double *b;             /* right-hand side in elimination order */
     double *r, *z, *q, *d; /* of conjugate gradients */
 } SearchDirection;
@@ -108,7 +107,8 @@ typedef struct Rounding {
     unsigned known;  /* 1 + the system's version that the next three are of */
     double lightest; /* kg, the smallest mass */
     double stiffest; /* J/m^2, the largest curvature of a term */
-    double force;    /* J/m, the largest of a spring without a length */
+    double shortest; /* m, the shortest spring at rest; 1 without springs */
+    bool stiff;      /* w stiffest > 1e5 lightest: slopes are looked at twice */
     bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
     double first;    /* J s^2, E at the start; NAN: it can only fall */
     double most;     /* J s^2, E may be, as at the start; INFINITY: any */
@@ -124,27 +124,25 @@ typedef struct Newton {
     NewtonSettings settings; /* may be changed between iterations */
     NewtonCounters counters;
     NewtonRecord record; /* of the last iteration */
-    Status status;       /* RUNNING, or how it ended */
+    Status status;       /* RUNNING, or how the minimisation ended */
     long step;           /* copied into the records */
-    bool rough; /* set by the caller: the next minimisation is but a guess */
-    double tolerance;  /* m/s, of this one: that of the settings, or looser */
-    double residual;   /* of p at the present iterate, m/s */
-    ResidualKind kind; /* of it */
+    double tolerance;    /* m/s, of this minimisation */
     const System *system;
-    Iterate at;      /* E, u, x, g, p; u holds all arrays, in one piece */
-    double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
-    double *u_trial, *x_trial; /* [2n] m, where a step may lead; workspaces */
+    double *memory;  /* block of all arrays */
+    Iterate at;      /* E, u, x, g, p */
+    double *u_tilde; /* [2n] m, x_tilde - x_n, written by the integrator */
+    double *u_trial, *x_trial; /* [2n] m, end of a trial step; after an update
+                                  the iterate before it */
     SearchDirection search;    /* the Hessian and its factor */
-    int clamps;      /* iterations that on-demand projection still clamps */
-    int saddles;     /* that this minimisation has left */
-    bool bends_down; /* the test is passed, but at no minimum */
+    bool has_gradient;         /* g is the gradient at x */
+    bool passes;               /* p of the last iteration passes the test */
+    int clamps; /* iterations for which on-demand projection still clamps */
     Rounding rounding;
-    Multigrid *multigrid; /* NULL: was not needed yet */
-    Solver working;       /* NEWTON or MULTIGRID: who makes this step */
-    bool lent;            /* NEWTON works, until multigrid's saddle is left */
-    const char *refusal;  /* why multigrid does not, though wanted; or NULL */
-    double sum, size;     /* J s^2, of the changes in this minimisation; and of
-                             their sizes */
+    Multigrid *multigrid;  /* NULL: was not needed yet */
+    Solver working;        /* NEWTON or MULTIGRID, in this minimisation */
+    const char *refusal;   /* why multigrid does not work, though wanted */
+    double change_sum;     /* J s^2, changes of E in this minimisation */
+    double change_abs_sum; /* J s^2, their absolute values */
     double change; /* J s^2, E at the end - E at the start, of all minimisations
                       since somebody has set it to 0 */
 } Newton;
@@ -155,31 +153,23 @@ Status newton_create(const System *system, const NewtonSettings *settings,
                      Newton *newton);
 void newton_free(Newton *newton);
 
-/* Begins to minimise |u - u_tilde|_M^2/2 + weight P(x_n + u), with
- * newton->u_tilde filled by the caller; computes the first direction.
- *   x_n  [2n] m, in; must stay valid until the end
- *   u    [2n] m, where to begin, NULL: 0; pinned nodes keep theirs
- * Returns RUNNING, OK (it is the minimiser), or how it failed. */
-Status newton_start(Newton *newton, const double *x_n, const double *u,
-                    double weight);
+/* Says what is minimised: |u - u_tilde|_M^2/2 + weight P(x_n + u), with
+ * newton->u_tilde filled by the caller.
+ *   x_n        [2n] m, in; must stay valid until the end
+ *   u          [2n] m, in, where to begin; NULL: 0.  Pinned nodes keep theirs
+ *   tolerance  m/s, of this minimisation */
+void newton_start(Newton *newton, const double *x_n, const double *u,
+                  double weight, double tolerance);
 
-/* One iteration: step length, update, next direction, test.
- * Returns RUNNING, OK (converged), or how it failed; u and x are then the last
- * iterate, where E is not higher than at the start. */
-Status newton_iterate(Newton *newton);
+/* The loop of Algorithm 3, from newton_start or a pause to the end or the next
+ * pause.  At least one update is made, unless none lowers E.
+ * Returns RUNNING after a pause; OK (the last p passed the test and was used);
+ * or how it failed.  u and x are the last iterate, where E is not higher than
+ * at the start. */
+Status newton_minimise(Newton *newton);
 
-/* After the end: moves the centre of mass to where it belongs exactly; u and x
- * are then ready for the integrator.  Where that shows that E has risen, all
- * nodes move alike, and the status becomes ROUNDING_LIMIT.  Nothing to do after
- * a failure. */
-void newton_finish(Newton *newton);
-
-/* newton_start, newton_iterate until the end, newton_finish. */
-Status newton_minimise(Newton *newton, const double *x_n, const double *u,
-                       double weight);
-
-/* Iterations after which a minimisation ends: max_iterations, or on squares of
- * more than a few cells fewer. */
+/* Iterations after which a minimisation ends: max_iterations, or fewer on large
+ * squares. */
 int newton_most_iterations(const Newton *newton);
 
 #endif

@@ -5,8 +5,7 @@
  * Explicit ones do so at once.  Implicit ones minimise E once or, stage by
  * stage, several times: aim says what, land reads the minimiser.
  *
- * A step can be made an iteration of Newton's method at a time:
- * time_integrator_begin, then time_integrator_iterate while it is RUNNING.
+ * Newton's observer may pause a step, which time_integrator_advance continues.
  */
 #ifndef ELASTO_TIME_INTEGRATOR_H
 #define ELASTO_TIME_INTEGRATOR_H
@@ -54,6 +53,7 @@ struct TimeIntegrator {
     Newton *newton;  /* NULL for explicit methods */
     /* Of the step that is being made: */
     int stage;     /* 0 ... stages - 1 */
+    Status worst;  /* last status of its minimisations that is not OK */
     double weight; /* s^2, factor of P in E */
     double left;   /* part of the way of moved things, still to go; */
     int part;      /* their parts so far, */
@@ -81,15 +81,15 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const double *v, TimeIntegrator *run);
 void time_integrator_free(TimeIntegrator *run);
 
-/* Begins a step; one Newton iteration of it.  Both return RUNNING while there
- * is more to do.  At the end of the step: OK; or a status for which
+/* Begins a step; and makes it, up to its end or to the next pause.  Both return
+ * RUNNING while the step is not over.  At its end: OK; or a status for which
  * status_is_unconverged holds: the step was made with the best iterate; or a
  * failure: x, v are those of t_n, as they are until then.  Who leaves a step
- * before restores what the terms remember and where walls are. */
+ * before its end restores what the terms remember and where walls are. */
 Status time_integrator_begin(TimeIntegrator *run);
-Status time_integrator_iterate(TimeIntegrator *run);
+Status time_integrator_advance(TimeIntegrator *run);
 
-/* A whole step.  Returns as time_integrator_iterate at its end. */
+/* A whole step.  Returns as time_integrator_advance at its end. */
 Status time_integrator_step(TimeIntegrator *run);
 
 #endif

@@ -73,7 +73,7 @@ static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
     double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->area);
     double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
-    return area_hessian(element->v, q, 0, slope, bend, filter, H);
+    return area_hessian(element->v, q, slope, -slope, bend, filter, H);
 }
 
 static double reach(const EvalPoint *at, const Element *element,
@@ -96,14 +96,12 @@ static double remainder_along(const EvalPoint *at, const Element *element,
                        barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
 }
 
-/* The curvature where the barrier begins, and the force there if it went on
- * without bending: both by g = K e with sides of the rest length. */
-static void bounds(const EvalPoint *at, double *stiffest, double *force)
+/* The curvature where the barrier begins, by g = K e with sides of the rest
+ * length. */
+static double curvature_bound(const EvalPoint *at)
 {
     const Cells *cells = at->term->data;
-    double c = 2 * cells->c / CELL_J_HAT;
-    bound_raise(stiffest, c / CELL_J_HAT / cells->area);
-    bound_raise(force, c / sqrt(cells->area));
+    return 2 * cells->c / CELL_J_HAT / CELL_J_HAT / cells->area;
 }
 
 static const ElementKind triangle = {ELEMENT_FUNCTIONS, .blocks = count,
@@ -114,7 +112,7 @@ const TermKind cell_energy = {
     ELEMENTS(triangle),
     .energy = "contact",
     .place = PLACE_CELLS,
-    .bounds = bounds,
+    .curvature_bound = curvature_bound,
     .internal = true,
     .end_of_step = true,
 };

@@ -184,13 +184,11 @@ static double remainder_along(const EvalPoint *at, const Element *element,
                          barrier_remainder(s, (pn + k) / barrier->d_hat));
 }
 
-/* Where the barrier begins: 2 c/d_hat^2, and the force 2 c/d_hat half way. */
-static void bounds(const EvalPoint *at, double *stiffest, double *force)
+/* The curvature where the barrier begins, 2 c/d_hat^2. */
+static double curvature_bound(const EvalPoint *at)
 {
     const Barrier *barrier = barrier_of(at);
-    double half_way = 2 * barrier->c / barrier->d_hat;
-    bound_raise(stiffest, half_way / barrier->d_hat);
-    bound_raise(force, half_way);
+    return 2 * barrier->c / barrier->d_hat / barrier->d_hat;
 }
 
 static double rub(const EvalPoint *at, const Element *element, double t[4],
@@ -212,7 +210,7 @@ const TermKind contact_energy = {
     ELEMENTS(pairs),
     .energy = "contact",
     .place = PLACE_CONTACT,
-    .bounds = bounds,
+    .curvature_bound = curvature_bound,
     .end_of_step = true,
 };
 

@@ -35,14 +35,14 @@ static void end(const TermStep *step)
     system_lose(system, &damping, sum);
 }
 
-/* Those of springs, with the numbers of the last step. */
-static void bounds(const EvalPoint *at, double *stiffest, double *force)
+/* The bound of springs, with the numbers of the last step. */
+static double curvature_bound(const EvalPoint *at)
 {
     const Damping *data = at->term->data;
     EvalPoint damped = *at;
     damped.k = data->k;
     damped.l2 = data->l2;
-    mass_spring_bounds(&damped, stiffest, force);
+    return mass_spring_curvature_bound(&damped);
 }
 
 static Status set(System *system, const struct SquareMesh *mesh,
@@ -72,7 +72,7 @@ const TermKind damping = {
     .place = PLACE_DAMPING,
     .begin = begin,
     .end = end,
-    .bounds = bounds,
+    .curvature_bound = curvature_bound,
     .internal = true,
     .end_of_step = true,
 };

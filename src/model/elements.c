@@ -164,26 +164,3 @@ bool elements_allowed(const EvalPoint *at)
             return false;
     return true;
 }
-
-/* What clamping adds to an element's Hessian is at most its trace times I; and
- * |sum w_k x_k|^2 <= (sum |w_k|) sum |w_k| |x_k|^2 */
-void elements_concave(const EvalPoint *at, double *sum)
-{
-    double H[4][4], clamped[4][4];
-    for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
-        const Element *element = &walk.element;
-        double c = 0;
-        if (!walk.kind->hessian(at, element, FILTER_CLAMP, clamped))
-            continue;
-        walk.kind->hessian(at, element, FILTER_NONE, H);
-        for (int i = 0; i < 2 * element->vectors; i++)
-            c += element->factor * (clamped[i][i] - H[i][i]);
-        for (int m = 0; m < element->vectors; m++) {
-            double all = 0;
-            for (int k = 0; k < element->nodes; k++)
-                all += fabs(element->weight[m][k]);
-            for (int k = 0; k < element->nodes; k++)
-                sum[element->node[k]] += all * fabs(element->weight[m][k]) * c;
-        }
-    }
-}

@@ -61,20 +61,6 @@ static void along(const EvalPoint *at, const double *p, double q[3])
     }
 }
 
-/* Every spring's block is at least -2 c (|x_i|^2 + |x_j|^2), where -c is the
- * lower eigenvalue of its H. */
-static void concave(const EvalPoint *at, double *sum)
-{
-    const System *system = at->system;
-    for (int s = 0; s < system->springs; s++) {
-        const int *e = system->e + 2 * s;
-        double d[2], strain = spring_strain(e, at->l2[s], at->x, d);
-        double c = at->w * 4 * at->k[s] * (strain < 0 ? -strain : 0);
-        sum[e[0]] += c;
-        sum[e[1]] += c;
-    }
-}
-
 long long mass_spring_entries(const EvalPoint *at)
 {
     return (long long)SPRING_ENTRIES * at->system->springs;
@@ -90,12 +76,12 @@ void mass_spring_pattern(const EvalPoint *at, Triplets *triplets)
     }
 }
 
-void mass_spring_bounds(const EvalPoint *at, double *stiffest, double *force)
+double mass_spring_curvature_bound(const EvalPoint *at)
 {
-    for (int s = 0; s < at->system->springs; s++) {
-        bound_raise(stiffest, at->k[s]);
-        bound_raise(force, at->k[s] * sqrt(at->l2[s]));
-    }
+    double most = 0;
+    for (int s = 0; s < at->system->springs; s++)
+        most = larger_bound(most, at->k[s]);
+    return most;
 }
 
 const TermKind mass_spring_energy = {
@@ -106,7 +92,6 @@ const TermKind mass_spring_energy = {
     .pattern = mass_spring_pattern,
     .hessian = hessian,
     .along = along,
-    .bounds = mass_spring_bounds,
-    .concave = concave,
+    .curvature_bound = mass_spring_curvature_bound,
     .internal = true,
 };

@@ -202,18 +202,6 @@ static void end(const TermStep *step)
         system_changed(system, false);
 }
 
-/* Where tau < 0 the lower eigenvalue of H is 2 k tau at least. */
-static void concave(const EvalPoint *at, double *sum)
-{
-    for (int s = 0; s < at->system->springs; s++) {
-        FlowSpring spring = flow_spring(at, s);
-        double tau = spring_law_slope(spring.law, spring.strain);
-        double c = 4 * at->w * spring.k * fmax(-tau, 0);
-        sum[spring.e[0]] += c;
-        sum[spring.e[1]] += c;
-    }
-}
-
 /* In the place of the elastic springs: yield and hardening, which stay. */
 static Status set(System *system, const struct SquareMesh *mesh,
                   const double *number)
@@ -245,8 +233,7 @@ const TermKind plastic_energy = {
     .along = along,
     .remainder = remainder_along,
     .end = end,
-    .bounds = mass_spring_bounds,
-    .concave = concave,
+    .curvature_bound = mass_spring_curvature_bound,
     .internal = true,
     .end_of_step = true,
 };

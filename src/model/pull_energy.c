@@ -57,18 +57,17 @@ static void along(const EvalPoint *at, const double *p, double q[3])
         q[0] += 0.5 * at->w * pull->k * p[i] * p[i];
 }
 
-static void bounds(const EvalPoint *at, double *stiffest, double *force)
+static double curvature_bound(const EvalPoint *at)
 {
     const Pull *pull = at->term->data;
-    (void)force;
-    bound_raise(stiffest, fabs(pull->k));
+    return fabs(pull->k);
 }
 
 /* What both kinds share. */
 #define PULL                                                                   \
     .value = value, .gradient = gradient, .entries = entries,                  \
-    .pattern = pattern, .hessian = hessian, .along = along, .bounds = bounds,  \
-    .diagonal = true
+    .pattern = pattern, .hessian = hessian, .along = along,                    \
+    .curvature_bound = curvature_bound, .diagonal = true
 
 const TermKind central_field = {PULL, .energy = "elastic"};
 const TermKind hand_energy = {PULL, .place = PLACE_HAND};

@@ -337,12 +337,11 @@ static const ElementKind near_pairs = {ELEMENT_FUNCTIONS, .blocks = blocks,
 
 /* ---- the term ----------------------------------------------------------- */
 
-/* Where the barrier begins: 16 c/d_hat^2, and the force half way. */
-static void bounds(const EvalPoint *at, double *stiffest, double *force_out)
+/* The curvature where the barrier begins, 16 c/d_hat^2. */
+static double curvature_bound(const EvalPoint *at)
 {
     const SelfContact *self = data_of(at);
-    bound_raise(stiffest, 16 * self->c / (self->d_hat * self->d_hat));
-    bound_raise(force_out, 4 * self->c / self->d_hat);
+    return 16 * self->c / (self->d_hat * self->d_hat);
 }
 
 static void free_pairs(void *data)
@@ -357,7 +356,7 @@ const TermKind self_contact_energy = {
     .place = PLACE_CONTACT,
     .begin = begin,
     .grow = grow,
-    .bounds = bounds,
+    .curvature_bound = curvature_bound,
     .free = free_pairs,
     .internal = true,
     .end_of_step = true,

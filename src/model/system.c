@@ -134,7 +134,6 @@ const TermKind *eval_point_term(EvalPoint *at, int t)
 Status system_check(const System *system, const double *x)
 {
     EvalPoint at = eval_point_at(system, x, NULL, x);
-    double stiffest, force;
     bool valid = all_finite(system->gravity, 2) &&
                  all_finite(x, 2 * (size_t)system->nodes);
     for (int i = 0; valid && i < system->nodes; i++)
@@ -150,8 +149,7 @@ Status system_check(const System *system, const double *x)
         const TermKind *kind = eval_point_term(&at, t);
         valid = !kind->allowed || kind->allowed(&at);
     }
-    system_bounds(system, &stiffest, &force);
-    return valid && isfinite(stiffest) && isfinite(force)
+    return valid && isfinite(system_curvature_bound(system))
                ? STATUS_OK
                : STATUS_INVALID_INPUT;
 }
@@ -235,15 +233,16 @@ void system_acceleration(const System *system, const double *x, double *a)
     system_clear_pinned(system, a);
 }
 
-void system_bounds(const System *system, double *stiffest, double *force)
+double system_curvature_bound(const System *system)
 {
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
-    *stiffest = *force = 0;
+    double most = 0;
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
-        if (kind->bounds)
-            kind->bounds(&at, stiffest, force);
+        if (kind->curvature_bound)
+            most = larger_bound(most, kind->curvature_bound(&at));
     }
+    return most;
 }
 
 void term_add_block(const System *system, int i, int j, Triplets *triplets)

@@ -122,10 +122,11 @@ void prints_draw(const Plot *card)
                 "\u00f7 %s",
                 number_of(trace->record[i - 1].residual / residual).text);
     }
-    if (count - first < room && trace->residual <= trace->tolerance &&
-        (count > 0 || trace->line == LINE_NONE))
+    const NewtonRecord *last = count > 0 ? trace->record + count - 1 : NULL;
+    if (last && count - first < room && last->status == STATUS_OK)
         paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x,
                     inside.y + (count - first) * pitch, ALIGN_LEFT,
-                    "then %d: \u2264 %s, the loop ends", count,
+                    "%s\u2264 %s: the loop ends",
+                    last->residual > trace->tolerance ? "the next is " : "",
                     number_of(trace->tolerance).text);
 }

@@ -3,7 +3,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* The residuals of the updates as points, bounds hollow, joined by lines.  The
+/* The residuals of the updates as points, joined by lines.  The
  * update whose p is known is the last record of the trace, or it is still to
  * come there: then it is one more. */
 void residual_draw(const Plot *card)
@@ -13,7 +13,7 @@ void residual_draw(const Plot *card)
         cards_hint(card, text_undrawn);
         return;
     }
-    const NewtonRecord now = {.residual = trace->residual, .kind = trace->kind};
+    const NewtonRecord now = {.residual = trace->residual};
     int updates = trace->updates;
     bool known = trace->line >= LINE_SOLVE || trace->line == LINE_NONE;
     bool pending =
@@ -40,13 +40,12 @@ void residual_draw(const Plot *card)
     double at[2] = {0, 0}, before[2];
     for (int i = 0; i < updates + pending; i++) {
         const NewtonRecord *record = i < updates ? &trace->record[i] : &now;
-        bool bound = record->kind == RESIDUAL_BOUND;
         before[0] = at[0], before[1] = at[1];
         at[0] = i + x.low + 0.5;
         at[1] = record->residual;
         if (i > 0)
             plot_line(&plot, before, at, 1.3, COLOUR_P);
-        plot_hollow(&plot, at, 3.5 + bound, bound ? 2.5 : 0, COLOUR_P);
+        plot_disc(&plot, at, 3.5, COLOUR_P);
     }
     plot_dashes(&plot, left, right, 1.4, NULL, COLOUR_TEXT);
     plot_words(&plot, 1, left, COLOUR_TEXT, "\u03b5");

@@ -13,7 +13,6 @@ static Colour envelope_shade(int shade)
 }
 
 #define COLOUR_REFUSED 0xffe08a1eu
-#define COLOUR_UNDONE  0xff9c92c4u
 
 static Colour envelope_colour(const EnvelopeCell *cell)
 {
@@ -22,8 +21,6 @@ static Colour envelope_colour(const EnvelopeCell *cell)
         return COLOUR_CHIP;
     if (cell->worst)
         return COLOUR_REFUSED;
-    if (cell->undone)
-        return COLOUR_UNDONE;
     while (shade < ENVELOPE_SHADES && cell->updates > 4 << shade)
         shade++;
     return envelope_shade(shade);
@@ -73,11 +70,6 @@ void envelope_draw(Plot *stage)
                 COLOUR_TEXT);
     for (int power = -8; power <= 16; power += 8)
         draw_ratio(&plot, pow(10, power));
-    double at[2];
-    plot_place(&plot, (double[2]){2e-9, 1e-3}, at);
-    if (map->cell[3][0].undone)
-        paper_panel(stage->paper, FACE_BOLD, 1, COLOUR_TEXT, at[0], at[1],
-                    ALIGN_LEFT, "h \u03b5 is farther than it wants to move");
 }
 
 void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
@@ -99,7 +91,7 @@ void envelope_facts(const Simulation *simulation, Facts *facts)
     const EnvelopeMap *map = &simulation->exhibit.map;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
     double h = envelope_timestep(map->column), m = simulation->system.m[0];
-    int known = 0, converged = 0, undone = 0;
+    int known = 0, converged = 0;
     bool rounded = true; /* those that do not converge are far too stiff */
     for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
         int row = i / ENVELOPE_COLUMNS, column = i % ENVELOPE_COLUMNS;
@@ -107,28 +99,22 @@ void envelope_facts(const Simulation *simulation, Facts *facts)
         double step = envelope_timestep(column);
         double ratio = step * step * envelope_stiffness(row) / m;
         known += one->known;
-        undone += one->undone;
-        converged += one->known && !one->worst && !one->undone;
+        converged += one->known && !one->worst;
         rounded = rounded && (!one->worst || ratio > 1e16);
     }
     facts->colour[0] = envelope_shade(4);
     facts->colour[1] = envelope_shade(3);
-    facts->colour[2] = COLOUR_UNDONE;
-    facts->colour[3] = COLOUR_REFUSED;
+    facts->colour[2] = COLOUR_REFUSED;
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     fact_when(facts, all ? "all runs" : "some runs", true);
-    fact_when(facts, "some undone", all && undone);
-    fact_when(facts, rounded ? "rounded" : "refused",
-              all && converged + undone < known);
+    fact_when(facts, "all converged", all && converged == known);
+    fact_when(facts, rounded ? "rounded" : "refused", all && converged < known);
     fact(facts, "known", known > 1 ? known : NAN);
     fact(facts, "converged", converged);
-    fact(facts, "undone", known > 1 ? undone : NAN);
     fact(facts, "h", h);
     fact(facts, "k", envelope_stiffness(map->row));
-    fact(facts, "passing", h * simulation->options.tolerance);
     fact(facts, "steps", ENVELOPE_STEPS);
     fact(facts, "updates", cell->updates);
     fact_when(facts, "refused cell", cell->worst);
-    fact_when(facts, "undone cell", !cell->worst && cell->undone);
-    fact_when(facts, "converged cell", !cell->worst && !cell->undone);
+    fact_when(facts, "converged cell", !cell->worst);
 }

@@ -107,12 +107,24 @@ static void add_settings(const Show *show, const Simulation *simulation,
     }
 }
 
+/* How a step has converged by another way than its residual: the next direction
+ * is known to be negligible, or rounding hides what the last one would gain. */
+static void add_end(const Trace *trace, Facts *facts)
+{
+    const NewtonRecord *last = trace->record + trace->updates - 1;
+    if (trace->updates == 0 || last->status != STATUS_OK)
+        return;
+    fact_when(facts, "negligible", last->residual > trace->tolerance);
+    fact_when(facts, "hidden",
+              last->alpha == 0 && trace->trials == last->trials);
+}
+
 /* The step as far as it has come, or the last update of a search. */
 static void add_trace(const Simulation *simulation, const Trace *trace,
                       Facts *facts)
 {
     bool made = trace->line == LINE_NONE || trace->line >= LINE_SOLVE;
-    bool known = made && isfinite(trace->residual) && !trace->passed;
+    bool known = made && isfinite(trace->residual);
     bool above = trace->residual > trace->tolerance;
     if (trace->projected >= 0) {
         fact(facts, "projected", trace->projected);
@@ -136,6 +148,8 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     fact_when(facts, "taken", trace->trials > 0 && trace->accepted);
     fact_when(facts, "refused", trace->trials > 0 && !trace->accepted);
     fact_when(facts, "given up", trace->given_up);
+    if (simulation->scene->needs & NEEDS_TIME)
+        add_end(trace, facts);
     if (trace->trials > 0 && trace->difference) {
         double alpha = trace_alpha(trace, trace->trials);
         double change = trace->difference(trace->function, alpha);
@@ -143,9 +157,6 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
         fact_words(facts, "change", "no number");
         fact_words(facts, "+", change > 0 ? "+" : "");
     }
-    fact_when(facts, "passed", trace->passed);
-    fact_words(facts, "kind",
-               trace->kind == RESIDUAL_BOUND ? "bound" : "estimate");
     if (known) {
         fact(facts, "residual", trace->residual);
         fact(facts, "p size",

@@ -306,7 +306,7 @@ static void draw_warnings(const SpringPen *pen, int folded)
     Plot *stage = pen->stage;
     int nodes = pen->system->nodes, lost = 0;
     bool seen = !stage->show->lecture || pen->simulation->runs > 1;
-    double needed, at[2];
+    double at[2];
     for (int i = 0; i < nodes; i++) {
         const double *x = pen->x + 2 * (size_t)i;
         plot_place(stage, x, at);
@@ -324,10 +324,6 @@ static void draw_warnings(const SpringPen *pen, int folded)
     if (folded > 0)
         plot_legend(stage, COLOUR_WARNING, "%d cell%s folded over", folded,
                     folded == 1 ? "" : "s");
-    if (simulation_is_loose(pen->simulation, &needed))
-        plot_legend(stage, COLOUR_WARNING,
-                    "\u03b5 is loose: above %s m/s bodies may hang or freeze",
-                    number_of(needed).text);
 }
 
 /* Where the rest shape is but a dot: its name below all nodes that are seen,

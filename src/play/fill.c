@@ -307,12 +307,8 @@ static void fill_time(Player *player)
     if (!turn && player->speed != 0)
         append(text, SHOW_TEXT, "   %.4g steps a frame",
                ldexp(1, player->speed));
-    bool drifts = !show->paused && player->rigid >= DRIFT_STEPS;
     snprintf(show->state, SHOW_VALUE, "%s",
-             player->mode == MODE_HELD   ? "within \u03b5"
-             : player->mode == MODE_REST ? "at rest"
-             : drifts                    ? "drifting"
-                                         : "");
+             player->mode == MODE_REST ? "at rest" : "");
     if (!past->making ||
         (clock_now() - player->began <= LONG_WORK && !player_is_slow(player)))
         return;

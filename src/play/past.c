@@ -314,13 +314,14 @@ static const Newton *listened_to(const Simulation *simulation)
     return NULL;
 }
 
-/* What Newton tells of an iteration. */
+/* Newton's observer.  The loop pauses after each iteration, so that hands and
+ * signals are looked at in between. */
 static bool watch(void *user, const NewtonRecord *record)
 {
     Machine *machine = user;
     if (!machine->iterating)
-        return true;
-    machine->outcome.updates += record->iteration >= 0;
+        return false;
+    machine->outcome.updates += record->alpha != 0;
     if (machine->simulation.scene->step) /* an update is a step */
         machine->outcome.change = record->change;
     const Newton *newton = listened_to(&machine->simulation);
@@ -331,7 +332,7 @@ static bool watch(void *user, const NewtonRecord *record)
         records->row[records->count++] = *record;
     else
         records->lost = true;
-    return true;
+    return false;
 }
 
 /* Nothing is told of any step. */
@@ -575,11 +576,8 @@ static Status work_on(Past *past, int pane)
     Machine *machine = &past->machine[pane];
     const Entry *from = past_entry(past, pane, machine->step);
     const Entry *to = past_entry(past, pane, machine->step + 1);
-    const Newton *newton = listened_to(&machine->simulation);
     if (machine->iterating) {
-        if (newton && past->keeps)
-            rounds_look(&machine->rounds, newton);
-        return go_on(past, pane, simulation_iterate(&machine->simulation));
+        return go_on(past, pane, simulation_advance(&machine->simulation));
     }
     if (machine->substeps == 0) {
         machine->outcome = (Outcome){0};

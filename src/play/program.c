@@ -157,7 +157,6 @@ static void print_newton(FILE *file, const Simulation *simulation)
     const Newton *newton = simulation->run[0].newton;
     NewtonCounters sum = simulation_counters(simulation);
     unsigned needs = simulation->scene->needs;
-    double needed;
     const struct {
         const char *name;
         long long count; /* 0: nothing is to be told */
@@ -168,16 +167,12 @@ static void print_newton(FILE *file, const Simulation *simulation)
         {"solves", sum.solves},
         {"blocks projected", sum.projected},
         {"V-cycles", sum.cycles},
-        {"saddles left", sum.saddles},
+        {"not at a minimum", sum.negative},
     };
     if (newton && needs & NEEDS_SPRINGS)
         print(file, "solver", "%s%s%s", solver_name(newton->working),
               newton->refusal ? "; no multigrid: " : "",
               newton->refusal ? newton->refusal : "");
-    if (simulation_is_loose(simulation, &needed))
-        print(file, "tolerance",
-              "%g m/s is loose: bodies may hang or freeze; %.3g is not",
-              simulation->options.tolerance, needed);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].count > 0)
             print(file, rows[i].name, "%lld", rows[i].count);

@@ -68,7 +68,7 @@ static void add_energies(Table *table, const Moment *at)
 /* The log's texts; what is known of a residual. */
 static const char *log_text(const char *column, int place)
 {
-    static const char *const kinds[] = {"value", "estimate", "bound"};
+    static const char *const kinds[] = {"value", "estimate"};
     return strcmp(column, "status") == 0   ? status_name((Status)place)
            : strcmp(column, "solver") == 0 ? solver_name(place)
                                            : kinds[place];

@@ -31,10 +31,10 @@ void rounds_clear(Rounds *rounds)
     for (int i = 0; i < rounds->room; i++)
         free_round(&rounds->round[i]);
     free(rounds->x_tilde);
-    rounds->x_tilde = NULL;
+    free(rounds->end);
+    rounds->x_tilde = rounds->end = NULL;
     rounds->made.count = rounds->places = 0;
     rounds->bytes = 0;
-    rounds->ended = rounds->passed = false;
 }
 
 void rounds_free(Rounds *rounds)
@@ -55,10 +55,10 @@ void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all)
     rounds->size = 2 * simulation->system.nodes;
 }
 
-/* Room for a round more and for the last one. */
+/* Room for one more round. */
 static bool make_room(Rounds *rounds)
 {
-    int count = rounds->made.count + 2;
+    int count = rounds->made.count + 1;
     if (count > rounds->room) {
         Round *round =
             realloc(rounds->round, 2 * (size_t)count * sizeof *round);
@@ -84,17 +84,18 @@ static void sample(Round *round, const Iterate *at)
             along_difference(&along, i * round->first / ROUND_PARTS);
 }
 
-/* E along p of the round that is due, from the place where `at` is. */
+/* E along p of the newest round, from its x. */
 static void keep_line(Rounds *rounds, const Iterate *at)
 {
     Round *round = &rounds->round[rounds->made.count];
+    const NewtonRecord *record = &rounds->made.row[rounds->made.count];
     Along along = incremental_potential_along(at);
+    bool ended = record->status != STATUS_RUNNING;
     round->first = incremental_potential_reach(at);
     round->along = along.smooth;
-    rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
-    round->rough = along.rough != 0;
+    round->rough = along.rough;
     round->rounds = rounds;
-    if (rounds->all)
+    if (rounds->all || (rounds->last && ended))
         sample(round, at);
 }
 
@@ -116,100 +117,69 @@ static double kept_difference(const void *function, double alpha)
     return part == 0 ? value[0] : value[0] + part * (value[1] - value[0]);
 }
 
-/* The direction of multigrid is the way that it went from x, and E along it. */
-static void keep_way(Rounds *rounds, const Newton *newton)
+/* A copy of an array [size], or NULL. */
+static double *copy_of(const Rounds *rounds, const double *from)
 {
-    const IncrementalPotential *E = &newton->at.E;
-    Round *round = &rounds->round[rounds->made.count];
-    double *u = calloc(2 * (size_t)rounds->size, sizeof *u);
-    if (u && round->x) {
-        double *g = u + rounds->size;
-        Iterate at = {.E = *E, .u = u, .x = round->x, .g = g, .p = round->p};
-        for (int i = 0; i < rounds->size; i++) {
-            u[i] = round->x[i] - E->x_n[i];
-            round->p[i] = newton->at.u[i] - u[i];
-        }
-        incremental_potential_gradient(E, u, round->x, g);
-        keep_line(rounds, &at);
-    }
-    free(u);
+    size_t bytes = (size_t)rounds->size * sizeof *from;
+    double *copy = malloc(bytes);
+    return copy ? memcpy(copy, from, bytes) : NULL;
 }
 
-/* The round that is due: where the solver is now, if there is memory.  Where a
- * bound decided the test, no direction was computed, and p is still that of the
- * round before. */
+/* Copies x, u and p of the newest round, if there is memory.  The update has
+ * left the iterate before it in x_trial and u_trial.  Multigrid's update is not
+ * a step along p alone: p becomes its whole way, and alpha is 1. */
 static void keep_round(Rounds *rounds, const Newton *newton)
 {
     Round *round = &rounds->round[rounds->made.count];
     NewtonRecord *record = &rounds->made.row[rounds->made.count];
+    Iterate at = newton->at;
     size_t size = (size_t)rounds->size;
-    size_t bytes = (3 * size + ROUND_VALUES) * sizeof *round->x;
+    size_t bytes = (4 * size + ROUND_VALUES) * sizeof *round->x;
     free_round(round);
-    *record = newton->record;
-    record->residual = newton->residual;
-    record->kind = newton->kind;
     if (rounds->bytes + bytes <= ROUNDS_BYTES)
         round->x = malloc(bytes);
-    if (round->x) {
-        round->p = round->x + size;
-        round->u = round->p + size;
-        round->value = round->u + size;
-        rounds->bytes += bytes;
-        memcpy(round->x, newton->at.x, size * sizeof *round->x);
-        memcpy(round->p, newton->at.p, size * sizeof *round->p);
-        memcpy(round->u, newton->at.u, size * sizeof *round->u);
+    if (!round->x)
+        return;
+    rounds->bytes += bytes;
+    round->p = round->x + size;
+    round->u = round->p + size;
+    double *g = round->u + size;
+    round->value = g + size;
+    bool moved = record->alpha != 0;
+    memcpy(round->x, moved ? newton->x_trial : at.x, size * sizeof *round->x);
+    memcpy(round->u, moved ? newton->u_trial : at.u, size * sizeof *round->u);
+    memcpy(round->p, at.p, size * sizeof *round->p);
+    at.x = round->x;
+    at.u = round->u;
+    at.p = round->p;
+    if (record->solver == SOLVER_MULTIGRID) {
+        for (size_t i = 0; i < size; i++)
+            round->p[i] = newton->at.u[i] - round->u[i];
+        record->alpha = record->trials = moved;
     }
-    keep_line(rounds, &newton->at);
-}
-
-void rounds_look(Rounds *rounds, const Newton *newton)
-{
-    if (newton->record.iteration >= 0 || !make_room(rounds))
-        return;
-    keep_round(rounds, newton);
-    if (rounds->x_tilde) /* of the first stage of a method with several */
-        return;
-    rounds->x_tilde = malloc((size_t)rounds->size * sizeof(double));
-    for (int i = 0; i < rounds->size && rounds->x_tilde; i++)
-        rounds->x_tilde[i] = newton->at.E.x_n[i] + newton->u_tilde[i];
+    at.g = g;
+    incremental_potential_gradient(&at.E, at.u, at.x, g);
+    keep_line(rounds, &at);
+    record->slope = round->along.q[0];
+    round->alpha = record->alpha;
+    round->change = record->change;
 }
 
 void rounds_add(Rounds *rounds, const Newton *newton,
                 const NewtonRecord *record)
 {
-    int i = rounds->made.count;
-    bool first = record->iteration < 0, passes = record->status == STATUS_OK;
-    if (passes || (first && i == 0))
-        rounds->passed =
-            newton->working == SOLVER_MULTIGRID || !newton->record.factorised;
-    if (!make_room(rounds) || (first && (i > 0 || !passes)))
+    if (!make_room(rounds))
         return;
-    if (!first) {
-        NewtonRecord *made = &rounds->made.row[i];
-        bool multigrid = record->solver == SOLVER_MULTIGRID;
-        if (multigrid)
-            keep_way(rounds, newton);
-        double slope = multigrid ? made->slope : record->slope;
-        *made = *record;
-        made->slope = slope;
-        if (multigrid && made->alpha != 0)  /* it goes no line that p alone */
-            made->alpha = made->trials = 1; /* gives; it is shown as one */
-        Round *round = &rounds->round[i];
-        round->alpha = record->alpha;
-        round->change = record->change;
-        if (record->status != STATUS_RUNNING && rounds->last && !rounds->all)
-            sample(round, &(Iterate){.E = newton->at.E,
-                                     .u = round->u,
-                                     .x = round->x,
-                                     .p = round->p});
-        rounds->made.count++;
-    }
-    rounds->ended = first || (record->alpha != 0 &&
-                              (passes || record->status == STATUS_RUNNING));
-    if (rounds->ended)
-        keep_round(rounds, newton);
-    else
-        free_round(&rounds->round[i + 1]);
+    rounds->made.row[rounds->made.count] = *record;
+    keep_round(rounds, newton);
+    rounds->made.count++;
+    free(rounds->end);
+    rounds->end = copy_of(rounds, newton->at.x);
+    if (rounds->x_tilde) /* of the first stage of a method with several */
+        return;
+    rounds->x_tilde = copy_of(rounds, newton->u_tilde);
+    for (int i = 0; i < rounds->size && rounds->x_tilde; i++)
+        rounds->x_tilde[i] += newton->at.E.x_n[i];
 }
 
 /* ---- the listing --------------------------------------------------------- */
@@ -220,7 +190,6 @@ static void add_place(Rounds *rounds, int round, Line line, int trials)
     rounds->place[rounds->places++] = (Station){round, line, trials};
 }
 
-/* The lines of each round; the last one may have the test alone. */
 void rounds_end(Rounds *rounds, const Options *options)
 {
     int count = rounds->made.count;
@@ -232,24 +201,22 @@ void rounds_end(Rounds *rounds, const Options *options)
         return;
     rounds->place = place;
     add_place(rounds, 0, LINE_START, 0);
-    for (int i = 0; i < count + rounds->ended; i++) {
+    for (int i = 0; i < count; i++) {
         const NewtonRecord *record = &rounds->made.row[i];
-        bool made = i < count, solves = made || !rounds->passed;
-        bool searches = made && options->line_search != LINE_SEARCH_NONE;
-        bool fails = made && record->alpha == 0;
-        int trials = made ? record->trials : 0;
+        bool searches = options->line_search != LINE_SEARCH_NONE;
+        bool fails = record->alpha == 0, passes = record->status == STATUS_OK;
+        int trials = record->trials;
         add_place(rounds, i, LINE_DO, 0);
-        if (solves && options->filter != FILTER_NONE)
+        if (options->filter != FILTER_NONE)
             add_place(rounds, i, LINE_PROJECT, 0);
-        if (solves)
-            add_place(rounds, i, LINE_SOLVE, 0);
+        add_place(rounds, i, LINE_SOLVE, 0);
         for (int t = 1; searches && t < trials && trials < TRIALS_WALKED; t++)
             add_place(rounds, i, LINE_SEARCH, t);
         if (searches || fails)
             add_place(rounds, i, LINE_SEARCH, trials);
-        if (made && !fails)
-            add_place(rounds, i, LINE_UPDATE, trials);
         if (!fails)
+            add_place(rounds, i, LINE_UPDATE, trials);
+        if (!fails || passes)
             add_place(rounds, i, LINE_TEST, trials);
     }
     add_place(rounds, count, LINE_END, 0);
@@ -297,21 +264,16 @@ static void trace_round(const Rounds *rounds, const Station *at, Trace *trace)
 {
     const Round *round = &rounds->round[at->round];
     const NewtonRecord *record = &rounds->made.row[at->round];
-    bool made = at->round < rounds->made.count;
-    bool solved = at->line >= LINE_SOLVE, passed = !made && rounds->passed;
+    bool solved = at->line >= LINE_SOLVE;
     trace->x = round->x;
-    trace->passed = passed && solved;
-    trace->updates = at->round + (made && solved);
+    trace->updates = at->round + solved;
     trace->trials = at->trials;
-    trace->accepted = made && at->trials == record->trials && record->alpha > 0;
-    if (solved) {
-        trace->residual = record->residual;
-        trace->kind = record->kind;
-    }
-    if (!passed && at->line >= LINE_PROJECT)
+    trace->accepted = at->trials == record->trials && record->alpha > 0;
+    if (at->line >= LINE_PROJECT)
         trace->projected = record->projected;
-    if (passed || !solved)
+    if (!solved)
         return;
+    trace->residual = record->residual;
     trace->p = round->p;
     trace->slope = record->slope;
     trace->first = round->first;
@@ -326,39 +288,30 @@ const double *rounds_trace(const Rounds *rounds, int place, Trace *trace)
     int count = rounds->made.count;
     const NewtonRecord *row = rounds->made.row, *last = row + count - 1;
     bool over = place < 0 || place >= rounds->places;
-    bool given_up = !rounds->ended && count > 0;
+    bool given_up = count > 0 && last->status != STATUS_OK &&
+                    last->status != STATUS_RUNNING;
     const Station at =
         over ? (Station){count, LINE_END, 0} : rounds->place[place];
-    bool end = at.line == LINE_END, made = at.round < count;
+    bool end = at.line == LINE_END;
     Station told = at;
-    if (end && count > 0 && (over || given_up)) /* what has led there */
+    if (end && count > 0) /* the round that has led there */
         told = (Station){count - 1, LINE_END, last->trials};
     *trace = (Trace){.line = over ? LINE_NONE : at.line,
                      .h = rounds->h,
                      .tolerance = rounds->tolerance,
-                     .iteration = over ? count - 1 : at.round,
+                     .iteration = told.round,
                      .updates = at.round,
                      .record = row,
                      .projected = -1,
                      .x_tilde = rounds->x_tilde};
-    if (rounds->room == 0)
-        return NULL;
-    if (at.line != LINE_START &&
-        (told.round < count || (rounds->ended && !over)))
+    if (at.line != LINE_START && told.round < count)
         trace_round(rounds, &told, trace);
-    if (over)
-        trace->passed = rounds->passed;
-    if (over && rounds->ended) { /* the test that ended it */
-        trace->residual = row[count].residual;
-        trace->kind = row[count].kind;
-    }
     trace->given_up =
         given_up && (end || (at.line == LINE_SEARCH && at.round == count - 1 &&
                              at.trials == last->trials && last->alpha == 0));
-    const Round *round = &rounds->round[at.round];
-    if (end)
+    if (end || count == 0)
         return NULL;
-    if (!made || (at.line != LINE_UPDATE && at.line != LINE_TEST))
-        return round->x;
-    return at.round + 1 < count || rounds->ended ? round[1].x : NULL;
+    if (at.line != LINE_UPDATE && at.line != LINE_TEST)
+        return rounds->round[at.round].x;
+    return at.round + 1 < count ? rounds->round[at.round + 1].x : rounds->end;
 }

@@ -139,7 +139,6 @@ static void follow(Player *player)
     player->changed = true;
     if (player_stands(player))
         player->sampled = -1;
-    player->still = player->rigid = 0;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
     const Options *now = player_settings(player);
@@ -170,7 +169,7 @@ Status player_change(Player *player, const Command *change, int from, int to,
                      bool again)
 {
     Past *past = &player->past;
-    if (player->mode >= MODE_HELD)
+    if (player->mode == MODE_REST)
         player->mode = MODE_RUN; /* something may move again */
     Status status = past_edit(past, change, from, to, again, player->gesture);
     if (!status)
@@ -180,72 +179,32 @@ Status player_change(Player *player, const Command *change, int from, int to,
 
 /* ---- where it stops by itself -------------------------------------------- */
 
-/* Whether nothing moved in this step, for which no update was made. */
-static bool is_idle(const Machine *machine)
-{
-    const Simulation *simulation = &machine->simulation;
-    const TimeIntegrator *run = &simulation->run[0];
-    if (!run->newton || machine->outcome.updates > 0 || simulation->steps == 0)
-        return false;
-    for (int i = 0; i < 2 * simulation->system.nodes; i++)
-        if (fabs(run->v[i]) > simulation->options.tolerance)
-            return false;
-    return true;
-}
-
-/* Whether nothing has deformed, and nothing acts on it: a free body. */
-static bool is_rigid(const Simulation *simulation)
-{
-    return (simulation->scene->needs & NEEDS_MESH) &&
-           simulation_is_handled(simulation) &&
-           system_is_free(&simulation->system) &&
-           !system_has_gravity(&simulation->system) &&
-           simulation->mesh.bodies == 1 &&
-           simulation_deforming(simulation) * simulation->mesh.segments <=
-               simulation->options.tolerance;
-}
-
-/* It is in balance, and why cells may stay folded; or what stands still
- * although forces are left, or may be. */
-static void tell_rest(Player *player)
+/* Why cells may stay folded at rest. */
+static void report_rest(Player *player)
 {
     const Past *past = &player->past;
-    const Simulation *simulation = player_simulation(player);
-    double tolerance = simulation->options.tolerance, needed;
-    double h = simulation->options.timestep;
     int folded = 0;
     for (int p = 0; p < past_panes(past); p++) {
         Pane pane = {.simulation = &past->machine[p].simulation};
         if (past_ended(past, p, past->step) < 0)
             folded += pane_folded(&pane);
     }
-    if (player->mode == MODE_REST)
-        player_note(player,
-                    folded ? "at rest, with folded cells: springs alone do "
-                             "not mind, cells on (A) forbids it; %s"
-                             "or R begins again"
-                           : "at rest, as far as \u03b5 tells; %schange "
-                             "a number, or R begins again",
-                    simulation_is_handled(simulation) ? "pull a node, " : "");
-    else if (simulation_is_loose(simulation, &needed))
-        player_note(player,
-                    "within the tolerance, perhaps not at rest: bodies may "
-                    "hang or freeze unless \u03b5 is at most %.3g m/s",
-                    needed);
-    else
-        player_note(player,
-                    "within the tolerance, not at rest: \u03b5 = %.3g m/s lets "
-                    "%.3g m pass in each step of %.4g s; a smaller one goes on",
-                    tolerance, tolerance * h, h);
+    player_note(player,
+                folded ? "at rest, with folded cells: springs alone do "
+                         "not mind, cells on (A) forbids it; %s"
+                         "or R begins again"
+                       : "at rest; %schange a number, or R begins again",
+                simulation_is_handled(player_simulation(player))
+                    ? "pull a node, "
+                    : "");
 }
 
-/* Nothing has moved for a step: it is in balance; or, so says a second step
- * from the same place, the tolerance lets the forces pass.  Steps that deform
- * nothing may be a turning point; many in a row are not. */
-static void judge(Player *player)
+/* A run stops by itself where all panes have ended, a step did not converge, or
+ * all bodies are at rest. */
+static void detect_rest(Player *player)
 {
     const Past *past = &player->past;
-    bool ended = true, idle = true, balance = true, rigid = true, bad = false;
+    bool ended = true, rests = true, bad = false;
     int going = 0;
     const LecturePage *page = player_settings(player)->page;
     if (player->given[0].steps >= 0 || !player->attended ||
@@ -257,31 +216,23 @@ static void judge(Player *player)
         const Simulation *simulation = &machine->simulation;
         if (past_ended(past, p, past->step) >= 0)
             continue;
-        bool free = (simulation->scene->needs & NEEDS_TIME) &&
-                    simulation->runs == 1 && !control_holds(machine->control);
         going++;
         ended = ended && (simulation->done || machine->failed);
-        idle = idle && free && is_idle(machine);
-        balance = balance && idle && simulation_rests(simulation);
-        rigid = rigid && free && is_rigid(simulation);
+        rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
+                simulation->runs == 1 && !control_holds(machine->control) &&
+                simulation_rests(simulation);
         bad = bad || machine->outcome.status;
     }
     bad = bad && past_panes(past) == 1;
-    player->still = idle && going > 0 ? player->still + 1 : 0;
-    player->rigid = rigid && going > 0 ? player->rigid + 1 : 0;
-    if (player->still > 0 && (balance || player->still > 1))
-        player->mode = balance ? MODE_REST : MODE_HELD;
+    if (rests && going > 0)
+        player->mode = MODE_REST;
     else if (ended || (bad && !player->warned))
         player->mode = MODE_END;
     if (ended) /* how it ended is said where an answer stood */
         player->note[0] = '\0';
     player->warned = player->warned || bad;
-    if (player->mode >= MODE_HELD)
-        tell_rest(player);
-    else if (player->rigid == DRIFT_STEPS)
-        player_note(player, "nothing deforms any more: free as it is, it "
-                            "drifts on; pull a node, right click pins one, R "
-                            "begins again");
+    if (player->mode == MODE_REST)
+        report_rest(player);
     if (page && (page->law || page->stops) && page == player->told &&
         past->step == page->picture) /* what the page is about */
         player->mode = MODE_PAUSE;
@@ -441,7 +392,7 @@ static Status step_shown(Player *player, Status status, long before, bool made)
     }
     status = record_step(player);
     if (!status && runs)
-        judge(player);
+        detect_rest(player);
     else if (!status && then == THEN_TELL)
         tell_retake(player);
     else if (!status && then != THEN_NOTHING)

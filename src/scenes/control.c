@@ -188,7 +188,7 @@ static Status use_hand(Simulation *simulation, const Control *control)
     System *system = &simulation->system;
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
     Pull wanted = {.node = control->hand, .cell = INFINITY};
-    double k = 0, force = 0;
+    double k;
     if (wanted.node < 0) {
         system_remove_term(system, &hand_energy);
         return STATUS_OK;
@@ -196,9 +196,8 @@ static Status use_hand(Simulation *simulation, const Control *control)
     memcpy(wanted.mouse, control->at, sizeof wanted.mouse);
     memcpy(wanted.target, simulation->run[0].x + 2 * wanted.node,
            sizeof wanted.target);
-    mass_spring_bounds(&at, &k, &force);
-    if (solid_of(system))
-        k = simulation->options.young;
+    k = solid_of(system) ? simulation->options.young
+                         : mass_spring_curvature_bound(&at);
     wanted.strength = k > 0 ? TIMES * k : 1e5 * system->m[wanted.node];
     if (simulation->mesh.nodes > 0)
         wanted.cell = simulation->mesh.spacing;

@@ -266,9 +266,8 @@ Status step_descent(Simulation *simulation)
     memcpy(record.to, x, sizeof record.to);
     if (descent->count < DESCENT_MAX)
         descent->record[descent->count++] = record;
-    if (simulation->observer &&
-        !simulation->observer(simulation->user, &record))
-        return STATUS_INTERRUPTED;
+    if (simulation->observer)
+        simulation->observer(simulation->user, &record);
     return simulation->done ? record.status : STATUS_OK;
 }
 

@@ -157,6 +157,7 @@ static const Gone gone[] = {
     {"integrator", "avf4",
      "verlet, or midpoint with a small --tolerance, keeps the energy in the "
      "mean"},
+    {"minimum", "", "a step may end on a saddle of E; nothing replaces it"},
     {NULL, NULL, NULL},
 };
 

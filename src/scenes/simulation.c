@@ -20,7 +20,6 @@ void newton_settings_take(const Options *options, NewtonSettings *settings)
     settings->h = options->timestep;
     settings->tolerance = options->tolerance;
     settings->solver = options->solver;
-    settings->minimum = options->minimum;
     settings->filter = options->filter;
     settings->search = options->line_search;
     settings->max_iterations = MAX_NEWTON_ITERATIONS;
@@ -109,18 +108,24 @@ static Status end_step(Simulation *simulation, Status status)
     return status;
 }
 
-/* From a run whose step is over to the next; of all statuses the last one that
- * is not OK counts. */
-static Status go_on(Simulation *simulation, Status status)
+/* Run by run; the last status that is not OK counts. */
+Status simulation_advance(Simulation *simulation)
 {
-    while (status != STATUS_RUNNING) {
+    while (simulation->stepping < simulation->runs) {
+        TimeIntegrator *run = &simulation->run[simulation->stepping];
+        Status status = run->status;
+        if (status != STATUS_RUNNING)
+            status = time_integrator_begin(run);
+        if (status == STATUS_RUNNING)
+            status = time_integrator_advance(run);
+        if (status == STATUS_RUNNING)
+            return status;
         simulation->worst = status ? status : simulation->worst;
-        if ((status && !status_is_unconverged(status)) ||
-            ++simulation->stepping == simulation->runs)
-            return end_step(simulation, simulation->worst);
-        status = time_integrator_begin(&simulation->run[simulation->stepping]);
+        if (status && !status_is_unconverged(status))
+            break;
+        simulation->stepping++;
     }
-    return STATUS_RUNNING;
+    return end_step(simulation, simulation->worst);
 }
 
 Status simulation_begin(Simulation *simulation)
@@ -132,20 +137,16 @@ Status simulation_begin(Simulation *simulation)
         return end_step(simulation, scene->step(simulation));
     simulation->stepping = 0;
     simulation->worst = STATUS_OK;
-    return go_on(simulation, time_integrator_begin(&simulation->run[0]));
-}
-
-Status simulation_iterate(Simulation *simulation)
-{
-    TimeIntegrator *run = &simulation->run[simulation->stepping];
-    return go_on(simulation, time_integrator_iterate(run));
+    for (int r = 0; r < simulation->runs; r++)
+        simulation->run[r].status = STATUS_OK;
+    return STATUS_RUNNING;
 }
 
 Status simulation_step(Simulation *simulation)
 {
     Status status = simulation_begin(simulation);
     while (status == STATUS_RUNNING)
-        status = simulation_iterate(simulation);
+        status = simulation_advance(simulation);
     return status;
 }
 
@@ -220,60 +221,55 @@ Energies simulation_energies(const Simulation *simulation, int run)
     return energies;
 }
 
-static bool rubs(const System *system)
-{
-    return system_find_term(system, &friction_energy) ||
-           system_find_term(system, &self_friction_energy);
-}
+/* A body is at rest where, in a frame or in a step, whichever takes longer, no
+ * node moves by more than the first part of the shortest spring, and the forces
+ * vanish no further away than the second. */
+static const double STILL = 1e-6, BALANCED = 1e-3, FRAME = 1.0 / 60;
 
-bool simulation_is_loose(const Simulation *simulation, double *needed)
-{
-    const System *system = &simulation->system;
-    const Options *options = &simulation->options;
-    *needed = INFINITY;
-    bool minimises = simulation->run[0].newton != NULL;
-    bool meets = contact_of(system) || self_contact_of(system);
-    if (minimises && meets && system_has_gravity(system))
-        *needed = 0.1 * options->timestep *
-                  math_hypot(system->gravity[0], system->gravity[1]);
-    if (minimises && rubs(system))
-        *needed = fmin(*needed, 0.1 * options->slip_speed);
-    return options->tolerance > *needed * (1 + 1e-9); /* rounding */
-}
-
-/* The test of Algorithm 3 for a step from rest that is so long that the masses
- * hardly count.  Its direction, p = (M/T^2 + H_P)^-1 f with the forces f, is
- * how far the nodes are from where f vanishes; T^2 = 1e10 m / curvature of P is
- * the longest for which p has its digits.  h is not in it, nor the tolerance;
- * the balance may be unstable.  A Newton object of its own makes it: nothing
+/* The direction of Algorithm 3 for a step from rest that is so long that the
+ * masses hardly count: p = (M/T^2 + H_P)^-1 f with the forces f is how far the
+ * nodes are from where f vanishes; T^2 = 1e10 m / curvature of P is the longest
+ * for which p has its digits.  A Newton object of its own computes it: nothing
  * that the run remembers is touched. */
-bool simulation_rests(const Simulation *simulation)
+static bool forces_balance(const Simulation *simulation, double l)
 {
     const System *system = &simulation->system;
-    double lightest = INFINITY, stiffest, force, needed;
-    if (rubs(system) && simulation_is_loose(simulation, &needed))
-        return false;
+    double lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         lightest = fmin(lightest, system->m[i]);
-    system_bounds(system, &stiffest, &force);
+    const double stiffest = system_curvature_bound(system);
     double T2 = stiffest > 0 ? 0.99e10 * lightest / stiffest : 1;
-    /* a square's first spring is as short as any */
-    double l = system->springs ? sqrt(system->l2[0]) : 0;
     NewtonSettings settings = {.h = sqrt(T2),
-                               .tolerance = 0.01 * l / sqrt(T2),
-                               .solver = SOLVER_AUTO,
+                               .solver = SOLVER_NEWTON,
                                .filter = FILTER_CLAMP,
-                               .search = LINE_SEARCH_BACKTRACK};
+                               .search = LINE_SEARCH_BACKTRACK,
+                               .max_iterations = 1};
     Newton newton;
     Status status = newton_create(system, &settings, &newton);
     for (int i = 0; i < 2 * system->nodes && !status; i++)
         newton.u_tilde[i] = T2 * system->gravity[i % 2];
-    if (!status)
-        status = newton_start(&newton, simulation->run[0].x, NULL, T2);
-    bool balances = status == STATUS_OK || status == STATUS_NOT_A_MINIMUM ||
-                    newton.bends_down;
+    if (!status) {
+        newton_start(&newton, simulation->run[0].x, NULL, T2,
+                     BALANCED * l / sqrt(T2));
+        newton_minimise(&newton);
+    }
+    bool balances = newton.passes;
     newton_free(&newton);
     return balances;
+}
+
+bool simulation_rests(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    const TimeIntegrator *run = &simulation->run[0];
+    /* a square's first spring is as short as any */
+    double l = system->springs ? sqrt(system->l2[0]) : 1;
+    if (simulation->steps == 0)
+        return false;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        if (!(fabs(run->v[i]) * fmax(run->h, FRAME) <= STILL * l))
+            return false;
+    return forces_balance(simulation, l);
 }
 
 NewtonCounters simulation_counters(const Simulation *simulation)
@@ -305,20 +301,6 @@ bool simulation_projects_springs(const Simulation *simulation)
     return !system_find_term(system, &contact_energy) &&
            !system_find_term(system, &cell_energy) && !solid_of(system) &&
            !self_contact_of(system);
-}
-
-double simulation_deforming(const Simulation *simulation)
-{
-    const System *system = &simulation->system;
-    const TimeIntegrator *run = &simulation->run[0];
-    double fastest = 0, d[2], w[2];
-    for (int s = 0; s < system->springs; s++) {
-        spring_strain(system->e + 2 * s, 1, run->x, d);
-        spring_strain(system->e + 2 * s, 1, run->v, w);
-        double rate = fabs(d[0] * w[0] + d[1] * w[1]) / math_hypot(d[0], d[1]);
-        fastest = rate <= fastest ? fastest : rate; /* NaN stays NaN */
-    }
-    return fastest;
 }
 
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */

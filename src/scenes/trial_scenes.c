@@ -285,8 +285,7 @@ Status envelope_visit(Simulation *simulation, int column, int row)
     map->cell[row][column] = (EnvelopeCell){
         .known = true,
         .worst = worst,
-        .updates = updates,
-        .undone = !worst && updates == 0 && !simulation_rests(simulation)};
+        .updates = updates};
     map->column = column;
     map->row = row;
     return STATUS_OK;

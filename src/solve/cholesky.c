@@ -189,3 +189,14 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
     }
     return residual <= 1e-8 * size ? STATUS_OK : STATUS_SINGULAR;
 }
+
+int cholesky_negative_pivots(const Cholesky *cholesky)
+{
+    const cholmod_factor *L = cholesky->L;
+    const int *start = L->p;
+    const double *value = L->x;
+    int count = 0;
+    for (size_t j = 0; j < L->n; j++)
+        count += value[start[j]] < 0;
+    return count;
+}

@@ -1,7 +1,9 @@
+/* direction.c - the search direction p = -H^-1 grad E of Algorithm 3, and its
+ * residual.
+ */
 #include "solve/newton_parts.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 
 /* Iterations for which projection on demand clamps after it had to. */
@@ -12,28 +14,6 @@ enum { CLAMPS_AFTER_FAILURE = 4 };
  * squared remainder to ALL_DIGITS of the first. */
 enum { SHIFT_TRIES = 6, CONJUGATE_MAX_SOLVES = 59 };
 static const double ALL_DIGITS = 1e-28;
-
-/* The search for negative curvature ends after so many iterations, or where the
- * squared remainder has this share of the random numbers' it began with. */
-enum { CURVATURE_MAX_ITERATIONS = 200 };
-static const double NO_CURVATURE = 1e-16;
-
-/* The test of the slides projects, and so it also passes where E bends down.
- * By some masses that is an instability that grows as fast as the step can
- * follow; by more than this many times M the place is far from any minimum of
- * E, and it is not called one. */
-static const double MASSES_DOWN = 100;
-
-/* A step's start is judged without a factor where the gradient's bound is at
- * most so many tolerances: that is a square at rest.  So many products with the
- * Hessian are let to decide. */
-static const double NEAR_REST = 100;
-enum { PRODUCTS_AT_REST = 60 };
-
-/* Saddles that one minimisation leaves, and how far: the first trial moves the
- * node that moves most by this share of a spring. */
-enum { MAX_SADDLES = 30 };
-static const double FIRST_TRIAL = 0.1;
 
 /* ---- the Hessian and its factor ---- */
 
@@ -124,6 +104,9 @@ static Status newton_factor(Newton *newton)
         status = factor(newton);
     record->factorised = true;
     record->shift = newton->search.shift;
+    newton->search.moved = 0;
+    if (!status && newton->search.kind == CHOLESKY_INDEFINITE)
+        record->negative = cholesky_negative_pivots(newton->search.cholesky);
     newton->counters.projected += record->projected;
     if (filter != FILTER_ON_DEMAND || status != STATUS_NOT_POSITIVE_DEFINITE)
         return status;
@@ -170,7 +153,6 @@ typedef struct ConjugateGradients {
     Filter filter;
     double enough;    /* part of the first r.z at which they end */
     double rz, first; /* r.z, squared size of the residual, and the first */
-    double curvature; /* d.H d of the last direction */
 } ConjugateGradients;
 
 /* One step along the next direction, z being known.  Returns false where there
@@ -183,7 +165,6 @@ static bool conjugate_step(Newton *newton, ConjugateGradients *state)
     double *p = newton->at.p;
     double last = state->rz;
     state->rz = dot(n, r, z);
-    state->curvature = 0;
     if (last == 0)
         state->first = state->rz;
     if (!(state->rz > state->enough * state->first))
@@ -191,9 +172,9 @@ static bool conjugate_step(Newton *newton, ConjugateGradients *state)
     for (int i = 0; i < n; i++)
         d[i] = z[i] + (last == 0 ? 0 : state->rz / last * d[i]);
     incremental_potential_product(&newton->at, state->filter, d, q);
-    state->curvature = dot(n, d, q);
-    double alpha = state->rz / state->curvature;
-    if (!(state->curvature > 0) || !(alpha > 0) || !isfinite(alpha))
+    double curvature = dot(n, d, q);
+    double alpha = state->rz / curvature;
+    if (!(curvature > 0) || !(alpha > 0) || !isfinite(alpha))
         return false; /* E bends down, or rounding hides how it bends */
     for (int i = 0; i < n; i++) {
         p[i] += alpha * d[i];
@@ -229,11 +210,11 @@ static Status newton_solve(Newton *newton)
 }
 
 /* How well p solves H p = -g, H applied term by term.
- *   error  out, kg^(1/2) m, a bound of |p - exact|_M: |g + H p|_(M^-1) where
- *          H - M is positive semi-definite; else twice what the factor says is
- *          lacking
+ *   error  out, kg^(1/2) m, a bound of |p - exact p|_M: |g + H p|_(M^-1) where
+ *          H - M is positive semi-definite; else twice the correction that the
+ *          factor proposes
  * Returns as newton_solve. */
-static Status judge(Newton *newton, double *error)
+static Status direction_error_bound(Newton *newton, double *error)
 {
     const SearchDirection *search = &newton->search;
     const System *system = newton->system;
@@ -252,222 +233,187 @@ static Status judge(Newton *newton, double *error)
     return status;
 }
 
-/* ---- the test of Algorithm 3 ---- */
-
-/* max over nodes of |p_x| + |p_y|, over h; NaN where p has one. */
-static double newton_residual(const Newton *newton)
+/* Internal forces cannot move the centre of mass, so at the minimum sum m u is
+ * sum m u_tilde, and p leads there: summed over all nodes, H p = -g says the
+ * same.  Rounding of a stiff H hides this sum; here all nodes of p are moved
+ * alike so that it is exact, and linear momentum is kept. */
+static void keep_momentum(Newton *newton)
 {
-    const double *p = newton->at.p;
+    const System *system = newton->system;
+    const double *u = newton->at.u, *u_tilde = newton->u_tilde;
+    double *p = newton->at.p, mass = 0, missing[2] = {0, 0};
+    if (!system_is_free(system))
+        return;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        mass += 0.5 * system->m[i / 2];
+        missing[i % 2] += system->m[i / 2] * (u_tilde[i] - u[i] - p[i]);
+    }
+    for (int i = 0; i < 2 * system->nodes; i++)
+        p[i] += missing[i % 2] / mass;
+}
+
+/* p = -H^-1 g where each coordinate stands alone in all terms, such as masses
+ * without springs: H is diagonal, and H times ones is its diagonal. */
+static void solve_diagonal(Newton *newton)
+{
+    const Iterate *at = &newton->at;
+    double *ones = newton->search.b, *H = newton->search.q;
+    int n = 2 * newton->system->nodes;
+    for (int i = 0; i < n; i++)
+        ones[i] = 1;
+    incremental_potential_product(at, FILTER_NONE, ones, H);
+    for (int i = 0; i < n; i++)
+        at->p[i] = at->g[i] == 0 ? 0 : -at->g[i] / H[i];
+}
+
+/* max over nodes of |p_x| + |p_y|, m; NaN where p has one.  (numpy's norm(p,
+ * inf) of an array of shape (n, 2) is the largest row sum.) */
+static double largest_row_sum(int nodes, const double *p)
+{
     double largest = 0;
-    for (int i = 0; i < 2 * newton->system->nodes; i += 2) {
+    for (int i = 0; i < 2 * nodes; i += 2) {
         double sum = fabs(p[i]) + fabs(p[i + 1]);
         if (!(sum <= largest))
             largest = sum;
     }
-    return largest / newton->settings.h;
+    return largest;
 }
 
-/* m/s, the largest residual of a direction with |p|_M = 1: each node has
- * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
-static double residual_per_norm(const Newton *newton)
-{
-    return sqrt(2 / newton->rounding.lightest) / newton->settings.h;
-}
+/* A direction is negligible where its bound passes the test and is this part of
+ * the shortest spring. */
+static const double NEGLIGIBLE = 1e-6;
 
-/* The test of Algorithm 3 for a direction that is at most error away, in the
- * norm of the masses, from what it should be. */
-static Status newton_test(const Newton *newton, double error)
-{
-    double residual = newton->residual + residual_per_norm(newton) * error;
-    return residual <= newton->tolerance ? STATUS_OK : STATUS_RUNNING;
-}
+/* A factor serves again while no node has moved by more than this part of the
+ * shortest spring since it was computed.  Each correction of p is then about
+ * that part of the one before; it has to be at most CONVERGES of it, and the
+ * last one at most REFINED of p. */
+static const double NEARBY = 0.03, CONVERGES = 0.1, REFINED = 0.01;
 
-/* The test by conjugate gradients, with the masses as their preconditioner:
- * r.z is then the square of what p can lack (judge), and they end where that
- * decides the test.  Returns OK (it is passed), RUNNING (or not known). */
-static Status test_at_rest(Newton *newton)
+/* Near the end the Hessian hardly changes.  Then the factor of an iteration
+ * before, and iterative refinement with the Hessian itself,
+ *     p += factor^-1 (-g - H p),
+ * give p without another factor.
+ * Returns false where the corrections do not converge, or p is not downhill. */
+static bool refine_with_last_factor(Newton *newton)
 {
     const SearchDirection *search = &newton->search;
-    int n = 2 * newton->system->nodes;
-    double error = 0, away = 0;
-    ConjugateGradients state = {newton->settings.filter, .enough = 0};
-    newton->search.filter = state.filter; /* the judge's, too */
+    const int n = 2 * newton->system->nodes;
+    double *g = newton->at.g, *p = newton->at.p;
+    double *r = search->r, *z = search->z, last = INFINITY, size;
     for (int i = 0; i < n; i++) {
-        search->r[i] = -newton->at.g[i];
-        newton->at.p[i] = search->d[i] = 0;
+        p[i] = 0;
+        r[i] = -g[i];
     }
-    for (int k = 0; k < PRODUCTS_AT_REST && away <= error; k++) {
+    for (;;) {
+        newton->counters.solves++;
+        if (apply_factor(newton, r, z) != STATUS_OK)
+            return false;
+        size = largest_row_sum(n / 2, z);
+        if (!(size <= CONVERGES * last))
+            return false;
         for (int i = 0; i < n; i++)
-            search->z[i] = search->r[i] / newton->system->m[i / 2];
-        if (!conjugate_step(newton, &state))
+            p[i] += z[i];
+        if (size <= REFINED * largest_row_sum(n / 2, p))
             break;
-        newton->residual = newton_residual(newton);
-        away = fabs(newton->residual - newton->tolerance);
-        error = residual_per_norm(newton) *
-                system_inverse_mass_norm(newton->system, search->r);
+        last = size;
+        newton->record.projected = incremental_potential_product(
+            &newton->at, search->filter, p, search->q);
+        for (int i = 0; i < n; i++)
+            r[i] = -g[i] - search->q[i];
     }
-    newton->kind = RESIDUAL_ESTIMATE;
-    Status status = judge(newton, &error);
-    return status ? status : newton_test(newton, error);
+    return dot(n, g, p) <= 0;
 }
 
-/* The gradient at x; no factor there is known yet. */
-static void take_gradient(Newton *newton)
+/* m, bound of |p_x| + |p_y| of a direction with this |p|_M: each node has
+ * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
+static double largest_of_norm(const Newton *newton, double norm)
 {
-    const Iterate *at = &newton->at;
-    incremental_potential_gradient(&at->E, at->u, at->x, at->g);
-    newton->record.factorised = false;
-    newton->record.projected = 0;
-    newton->record.shift = 0;
+    return sqrt(2 / newton->rounding.lightest) * norm;
 }
 
-/* Gradient and direction at x, and the test of Algorithm 3.
- * Returns OK (converged), RUNNING, or a failure. */
-static Status direction_at(Newton *newton)
+/* Residual of p, and the test of it.
+ *   exact  whether p solves H p = -g up to rounding; else its error is bounded
+ *          where the test is at stake.  (Rounding of g itself is not in the
+ *          bound: no direction knows it.) */
+static Status find_residual(Newton *newton, bool exact)
 {
-    take_gradient(newton);
-    /* The projected Hessian is M plus something positive semi-definite, so
-     * |p|_M <= |g|_(M^-1).  Where this bound passes the test, p itself would:
-     * no factorisation is needed.  (On demand, where the Hessian as it is may
-     * be less than M, the test is that of the projected one here.) */
-    if (newton->settings.filter != FILTER_NONE) {
-        newton->kind = RESIDUAL_BOUND;
-        newton->residual =
-            residual_per_norm(newton) *
-            system_inverse_mass_norm(newton->system, newton->at.g);
-        if (newton_test(newton, 0) == STATUS_OK)
-            return STATUS_OK;
-    }
-    if (newton->record.iteration < 0 && !newton->rounding.blurred &&
-        filter_projects(newton->settings.filter) &&
-        newton->residual <= NEAR_REST * newton->tolerance &&
-        test_at_rest(newton) == STATUS_OK)
-        return STATUS_OK;
-    Status status = newton_factor(newton);
-    if (!status)
-        status = newton_solve(newton);
-    if (status)
-        return status;
-    newton->residual = newton_residual(newton);
-    if (!isfinite(newton->residual))
-        return STATUS_NOT_FINITE;
-    /* Where springs outweigh the masses so much that a factor is not exact, the
-     * test is passed only by a direction that is known well enough: with the
-     * bound of what H p = -g lacks.  (What rounding has done to g itself is not
-     * in this: no direction knows it.) */
-    bool exact = !newton->rounding.blurred && newton->search.shift == 0;
+    NewtonRecord *record = &newton->record;
+    const double h = newton->settings.h;
+    Status status = STATUS_OK;
     double error = 0;
-    newton->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
-    if (!exact && newton_test(newton, 0) == STATUS_OK)
-        status = judge(newton, &error);
-    return status ? status : newton_test(newton, error);
+    record->residual =
+        largest_row_sum(newton->system->nodes, newton->at.p) / h;
+    record->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
+    if (!isfinite(record->residual))
+        return STATUS_NOT_FINITE;
+    newton->passes = record->residual <= newton->tolerance;
+    if (!exact && newton->passes)
+        status = direction_error_bound(newton, &error);
+    if (record->residual + largest_of_norm(newton, error) / h >
+        newton->tolerance)
+        newton->passes = false;
+    return status;
 }
 
-/* ---- ends that are no minima ---- */
+void evaluate_gradient(Newton *newton)
+{
+    Iterate *at = &newton->at;
+    incremental_potential_gradient(&at->E, at->u, at->x, at->g);
+    newton->has_gradient = true;
+}
 
-Status direction_bends_up(Newton *newton, double times)
+/* The projected Hessian is M plus something positive semi-definite, so
+ * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  Projection on demand is
+ * judged as if it projected here. */
+bool next_direction_is_negligible(Newton *newton)
+{
+    if (newton->settings.filter == FILTER_NONE)
+        return false;
+    evaluate_gradient(newton);
+    double norm = system_inverse_mass_norm(newton->system, newton->at.g);
+    double most = fmin(newton->tolerance * newton->settings.h,
+                       NEGLIGIBLE * newton->rounding.shortest);
+    return largest_of_norm(newton, norm) <= most;
+}
+
+/* Whether the last factor is of a Hessian nearby, in the same minimisation. */
+static bool factor_is_near(const Newton *newton)
 {
     const SearchDirection *search = &newton->search;
-    int projected;
-    bool seen =
-        newton->record.factorised && /* it has a factor as it is */
-        (search->filter == FILTER_NONE || newton->record.projected == 0);
-    if (newton->settings.filter == FILTER_NONE || seen ||
-        incremental_potential_concave(&newton->at, newton->x_trial) < times)
-        return STATUS_OK;
-    Status status = assemble(newton, FILTER_ON_DEMAND, &projected);
-    if (status)
-        return status;
-    double rounding = 1e-13 * largest_diagonal(newton);
-    for (int t = 0; t < 2 * newton->system->nodes; t++)
-        search->A.value[search->slot[t]] +=
-            (times - 1) * newton->system->m[t / 2] + rounding;
-    status = factor(newton);
-    return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM
-                                                  : status;
+    return search->shift == 0 && newton->settings.filter != FILTER_NONE &&
+           search->moved <= NEARBY * newton->rounding.shortest;
 }
 
-Status direction_judges_end(Newton *newton)
+/* p with a new factor, and its residual. */
+static Status solve_with_new_factor(Newton *newton)
 {
-    /* Of a large square the factor that tells takes longer than multigrid's
-     * whole step: it has to be asked for. */
-    if (newton->working == SOLVER_MULTIGRID && !newton->settings.minimum &&
-        newton->system->segments > AUTO_NEWTON_SEGMENTS)
-        return STATUS_OK;
-    return direction_bends_up(newton,
-                              newton->settings.minimum ? 1 : 1 + MASSES_DOWN);
-}
-
-/* The gradient is known: p along negative curvature of the Hessian as it is, if
- * that is found; else as anywhere.  It is looked for by conjugate gradients
- * from random numbers of -1 ... 1, the same ones always, preconditioned with
- * the factor.  Returns RUNNING or a failure. */
-static Status leave_saddle(Newton *newton)
-{
-    const System *system = newton->system;
-    const SearchDirection *search = &newton->search;
-    const int n = 2 * system->nodes;
-    double *p = newton->at.p, *d = search->d, largest = 0, l2 = INFINITY;
-    ConjugateGradients state = {FILTER_NONE, .enough = NO_CURVATURE};
     Status status = newton_factor(newton);
-    uint64_t random = 1;
-    for (int i = 0; i < n; i++) {
-        random = random * 6364136223846793005u + 1442695040888963407u;
-        search->r[i] = (double)(int64_t)random / 9223372036854775808.0;
-    }
-    system_clear_pinned(system, search->r);
-    int most = newton->saddles < MAX_SADDLES ? CURVATURE_MAX_ITERATIONS : 0;
-    for (int k = 0; k < most && !status; k++) {
-        status = apply_factor(newton, search->r, search->z);
-        if (!status && !conjugate_step(newton, &state))
-            break;
-    }
-    bool found = state.curvature < 0;
-    if (!status && !found)
-        status = newton_solve(newton);
-    if (status || !found)
-        return status ? status : STATUS_RUNNING;
-    for (int i = 0; i < n; i++)
-        largest = fmax(largest, fabs(d[i]));
-    for (int s = 0; s < system->springs; s++)
-        l2 = fmin(l2, system->l2[s]);
-    double scale = FIRST_TRIAL * (system->springs ? sqrt(l2) : 1) / largest;
-    if (dot(n, d, newton->at.g) > 0) /* p goes downhill */
-        scale = -scale;
-    for (int i = 0; i < n; i++)
-        p[i] = scale * d[i];
-    newton->saddles++;
-    newton->counters.saddles++;
-    return STATUS_RUNNING;
-}
-
-/* ---- what the loop calls ---- */
-
-Status direction_next(Newton *newton)
-{
-    Status status = direction_at(newton);
     if (status == STATUS_OK)
-        status = direction_judges_end(newton);
-    newton->bends_down = status == STATUS_NOT_A_MINIMUM;
-    return newton->bends_down ? leave_saddle(newton) : status;
+        status = newton_solve(newton);
+    if (status != STATUS_OK)
+        return status;
+    keep_momentum(newton);
+    /* Where springs outweigh the masses too much, a factor is not exact. */
+    return find_residual(newton, !newton->rounding.blurred &&
+                                     newton->search.shift == 0);
 }
 
-Status direction_from_saddle(Newton *newton)
+Status find_direction(Newton *newton)
 {
-    take_gradient(newton);
-    newton->bends_down = true;
-    return leave_saddle(newton);
-}
-
-Status direction_first(Newton *newton)
-{
-    /* g is 0 but for rounding, compared with the force of a spring that is
-     * compressed to nothing. */
-    double most = 1e-12 * newton->at.E.weight * newton->rounding.force;
-    Status status = direction_next(newton);
-    for (int i = 0; i < 2 * newton->system->nodes && !status; i++)
-        if (!(fabs(newton->at.g[i]) <= most))
-            return STATUS_OK;
-    /* Where the gradient vanishes, any curvature downwards tells. */
-    return status ? status : direction_bends_up(newton, 1);
+    newton->passes = false;
+    if (!newton->has_gradient)
+        evaluate_gradient(newton);
+    if (incremental_potential_is_diagonal(&newton->at.E)) {
+        solve_diagonal(newton);
+        return find_residual(newton, true);
+    }
+    if (factor_is_near(newton) && refine_with_last_factor(newton)) {
+        keep_momentum(newton);
+        Status status = find_residual(newton, false);
+        bool decided = newton->passes ||
+                       newton->record.residual > newton->tolerance;
+        if (status || decided)
+            return status;
+    }
+    return solve_with_new_factor(newton);
 }

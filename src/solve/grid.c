@@ -162,3 +162,21 @@ void grid_write_state(const Grid *grid, Iterate *at)
             }
         }
 }
+
+void grid_keep_momentum(const Grid *grid, double *p)
+{
+    const Rows *rows = &grid->rows;
+    double mass = 0, missing[2] = {0, 0};
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < rows->nodes; i++)
+            for (int j = 0; j < rows->nodes; j++) {
+                int q = place_of(rows, i, j);
+                double m = grid->m[q + grid->node_shift[i]];
+                mass += pass == 0 ? m : 0;
+                for (int c = 0; c < 2; c++, q += rows->plane)
+                    if (pass == 0)
+                        missing[c] -= m * (grid->away[q] + p[q]);
+                    else
+                        p[q] += missing[c] / mass;
+            }
+}

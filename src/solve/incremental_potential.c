@@ -137,14 +137,15 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
     return add_hessians(at, filter, slot + 2 * system->nodes, NULL, A->value);
 }
 
-void incremental_potential_product(const Iterate *at, Filter filter,
-                                   const double *q, double *y)
+int incremental_potential_product(const Iterate *at, Filter filter,
+                                  const double *q, double *y)
 {
     const System *system = at->E.system;
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
-    add_hessians(at, filter, NULL, q, y);
+    int projected = add_hessians(at, filter, NULL, q, y);
     system_clear_pinned(system, y);
+    return projected;
 }
 
 /* The inertia energy is quadratic; g.p is the slope of all terms. */
@@ -202,25 +203,6 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
     return true;
 }
 
-double incremental_potential_concave(const Iterate *iterate, double *sum)
-{
-    const System *system = iterate->E.system;
-    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
-    double largest = 0;
-    for (int i = 0; i < system->nodes; i++)
-        sum[i] = 0;
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
-        if (kind->concave)
-            kind->concave(&at, sum);
-    }
-    for (int i = 0; i < system->nodes; i++) {
-        double c = sum[i] / system->m[i];
-        largest = isnan(c) ? INFINITY : fmax(largest, c);
-    }
-    return largest;
-}
-
 void incremental_potential_inertia(const Iterate *iterate, double *m,
                                    double *u_tilde)
 {
@@ -247,25 +229,11 @@ void incremental_potential_inertia(const Iterate *iterate, double *m,
         }
 }
 
-/* From u_tilde each coordinate alone has its Newton step g/H, and H g tells H:
- * it is exact where E is quadratic. */
-Status incremental_potential_solve(Iterate *at)
+bool incremental_potential_is_diagonal(const IncrementalPotential *E)
 {
-    const System *system = at->E.system;
+    const System *system = E->system;
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->value && !system->term[t].kind->diagonal)
-            return STATUS_RUNNING;
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        if (!system->pinned[i / 2])
-            at->u[i] = at->E.u_tilde[i];
-        at->x[i] = at->E.x_n[i] + at->u[i];
-    }
-    incremental_potential_gradient(&at->E, at->u, at->x, at->g);
-    incremental_potential_product(at, FILTER_NONE, at->g, at->p);
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        at->u[i] -= at->g[i] == 0 ? 0 : at->g[i] * (at->g[i] / at->p[i]);
-        at->x[i] = at->E.x_n[i] + at->u[i];
-    }
-    return all_finite(at->x, 2 * (size_t)system->nodes) ? STATUS_OK
-                                                        : STATUS_NOT_FINITE;
+            return false;
+    return true;
 }

@@ -1,3 +1,4 @@
+/* line_search.c - step length along p by backtracking (slide: Algorithm 2). */
 #include "solve/newton_parts.h"
 
 #include <math.h>
@@ -45,7 +46,7 @@ static double step_difference(const void *function, double alpha)
     return !allowed ? NAN : searches ? change : 0;
 }
 
-Status step_length(Newton *newton)
+Status find_step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     Step step = {newton, incremental_potential_along(&newton->at)};
@@ -60,7 +61,7 @@ Status step_length(Newton *newton)
     record->change = 0;
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
-    if (rounding_hides(newton, record->slope))
+    if (below_roundoff(newton, record->slope))
         return STATUS_ROUNDING_LIMIT;
     return record->slope > 0 ? STATUS_NOT_DESCENT : status;
 }

@@ -1,3 +1,4 @@
+/* multigrid.c - the phases of Newton's loop on a square grid of springs. */
 #include "solve/multigrid.h"
 
 #include <math.h>
@@ -8,7 +9,8 @@
 #include "solve/tiles.h"
 #include "solve/v_cycle.h"
 
-/* Newton's directions: the remainder falls to this share of its norm. */
+/* A direction far from the end: its remainder falls to this share of the
+ * gradient, in the norm of M^-1. */
 static const double ENOUGH = 0.3;
 
 /* Tiles relax once so many directions are done and the gradient's bound falls
@@ -17,9 +19,9 @@ static const double ENOUGH = 0.3;
 enum { DIRECTIONS = 2 };
 static const double STALLS = 0.3, PACE = 0.5;
 
-/* The test is worth conjugate gradients when the gradient's bound is at most
- * so many tolerances for each segment, and has halved since they last said no.
- * They make the remainder smaller by TESTED; then it is computed in double
+/* The test is worth more cycles when the gradient's bound is at most so many
+ * tolerances for each segment, and has halved since they last said no.  They
+ * make the remainder smaller by TESTED; then it is computed in double
  * precision, and made smaller by REFINED, until it falls no more. */
 static const double WORTH_A_TEST = 8, TESTED = 1e-4, REFINED = 1e-2;
 
@@ -34,18 +36,20 @@ struct Multigrid {
     Grid grid;
     VCycle cycle;
     Tiles tiles;
-    Memory memory;        /* all of their arrays, and these */
-    double *g, *p, *rest; /* [2 planes] grad E and direction at x, remainder */
-    double square;        /* |g|_(M^-1)^2 */
-    double bound;         /* m/s, of the residual */
-    double last_bound;    /* m/s, an iteration before */
-    double test_below;    /* m/s, half the bound when it said no */
-    double largest;       /* J s^2, change of E in this step, < 0 */
-    unsigned version;     /* of the system, and */
-    double weight;        /* s^2, of P, for which the grid has the numbers */
-    int directions;       /* of this step */
-    bool directed;        /* p is a direction at x */
-    bool stalls;          /* tiles relax in each iteration */
+    Memory memory;     /* block of all arrays */
+    double *g, *p;     /* [2 planes] grad E and direction at x */
+    double *remainder; /* [2 planes] -g - H p */
+    double square;     /* |g|_(M^-1)^2 */
+    double bound;      /* m/s, upper bound of the residual, by g alone */
+    double last_bound; /* m/s, bound of the iteration before */
+    double test_below; /* m/s, half the bound of the last test that failed */
+    double largest;    /* J s^2, largest change of E in this step, < 0 */
+    Quartic along;     /* E(x + alpha p) - E(x), J s^2 */
+    unsigned version;  /* of the system that the grid holds */
+    double weight;     /* s^2, of P, for which the grid has the numbers */
+    int directions;    /* of this step */
+    bool stalls;       /* tiles relax in each iteration */
+    bool hidden;       /* rounding hides what the last iteration changed */
 };
 
 Status multigrid_create(int segments, Multigrid **multigrid)
@@ -53,7 +57,7 @@ Status multigrid_create(int segments, Multigrid **multigrid)
     Multigrid *mg = *multigrid = calloc(1, sizeof *mg);
     Status status = mg ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     for (int pass = 0; pass < 2 && !status; pass++) { /* the first one counts */
-        double **vectors[] = {&mg->g, &mg->p, &mg->rest};
+        double **vectors[] = {&mg->g, &mg->p, &mg->remainder};
         if (pass > 0)
             status = memory_create(&mg->memory);
         grid_lay_out(segments, &mg->memory, &mg->grid);
@@ -111,72 +115,11 @@ bool multigrid_takes(Newton *newton)
                       ? newton->system->segments > AUTO_NEWTON_SEGMENTS
                       : solver == SOLVER_MULTIGRID;
     newton->refusal = wanted ? refusal(newton) : NULL;
-    wanted = wanted && !newton->refusal;
-    newton->working = wanted ? SOLVER_MULTIGRID : SOLVER_NEWTON;
-    return wanted;
+    return wanted && !newton->refusal;
 }
 
-/* ---- the test ---- */
-
-/* g at x, and the bound of the residual. */
-static void evaluate(Newton *newton)
-{
-    Multigrid *mg = newton->multigrid;
-    mg->square = grid_gradient(&mg->grid, mg->g);
-    mg->bound = sqrt(2 / mg->grid.lightest * mg->square) /
-                (newton->settings.h * mg->grid.length);
-    mg->directed = mg->cycle.set_up = false;
-    newton->residual = mg->bound;
-    newton->kind = RESIDUAL_BOUND;
-}
-
-/* The test of Algorithm 3 at x: p = -H^-1 g, and its residual, are made so
- * exact that a remainder in double precision decides it.  Returns OK, RUNNING,
- * NOT_FINITE. */
-static Status pass_test(Newton *newton)
-{
-    Multigrid *mg = newton->multigrid;
-    const double tolerance = newton->tolerance;
-    const double h = newton->settings.h * mg->grid.length;
-    double length = h * tolerance, last, now = INFINITY, largest;
-    double worth = WORTH_A_TEST * tolerance * mg->grid.segments;
-    if (!isfinite(mg->square))
-        return STATUS_NOT_FINITE;
-    if (mg->bound <= tolerance)
-        return STATUS_OK;
-    if (!(mg->bound <= fmin(worth, mg->test_below)))
-        return STATUS_RUNNING;
-    v_solve(&mg->cycle, mg->g, mg->square, TESTED, length, false, mg->p);
-    do {
-        last = now;
-        now = grid_remainder(&mg->grid, mg->g, mg->p, mg->rest, &largest);
-        mg->directed = v_decides(&mg->grid, largest, now, length);
-        if (!mg->directed)
-            v_solve(&mg->cycle, mg->rest, now, REFINED, 0, true, mg->p);
-    } while (!mg->directed && now < 0.25 * last);
-    mg->test_below = mg->bound / 2;
-    newton->kind = RESIDUAL_ESTIMATE;
-    newton->residual = largest / h;
-    return mg->directed && newton->residual <= tolerance ? STATUS_OK
-                                                         : STATUS_RUNNING;
-}
-
-/* Newton goes on from the iterate that multigrid has reached; where that is a
- * saddle for one iteration, which leaves it.
- *   why  NOT_A_MINIMUM: it is one */
-static Status take_back(Newton *newton, Status why)
-{
-    int saddles = newton->saddles;
-    newton->working = newton->record.solver = SOLVER_NEWTON;
-    newton->rounding.E = NAN;
-    Status status = why == STATUS_NOT_A_MINIMUM ? direction_from_saddle(newton)
-                                                : direction_first(newton);
-    newton->lent = newton->saddles > saddles;
-    newton->counters.taken_back += status == STATUS_RUNNING && !newton->lent;
-    return status;
-}
-
-Status multigrid_start(Newton *newton)
+/* Puts the step's problem on the grid. */
+static Status read_problem(Newton *newton)
 {
     Iterate *at = &newton->at;
     const System *system = newton->system;
@@ -187,12 +130,8 @@ Status multigrid_start(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    newton->lent = newton->bends_down = mg->stalls = false;
-    newton->working = newton->record.solver = SOLVER_MULTIGRID;
-    newton->record.factorised = false;
-    newton->record.projected = 0;
-    newton->record.shift = 0;
-    mg->last_bound = mg->test_below = INFINITY;
+    mg->stalls = mg->hidden = false;
+    mg->test_below = INFINITY;
     mg->largest = mg->directions = 0;
     incremental_potential_inertia(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
@@ -202,18 +141,63 @@ Status multigrid_start(Newton *newton)
     mg->weight = at->E.weight;
     mg->version = system->version;
     grid_read_state(&mg->grid, at, u_tilde);
-    evaluate(newton);
-    status = pass_test(newton);
-    grid_write_state(&mg->grid, at);
-    newton->counters.cycles = mg->cycle.cycles;
-    /* A gradient that vanishes may be that of a maximum: Newton looks. */
-    if (status == STATUS_OK && newton->kind == RESIDUAL_BOUND)
-        return take_back(newton, status);
-    status = status == STATUS_OK ? direction_judges_end(newton) : status;
-    return status == STATUS_NOT_A_MINIMUM ? take_back(newton, status) : status;
+    return STATUS_OK;
 }
 
-/* ---- the iteration ---- */
+/* ---- search direction ---- */
+
+/* p up to a remainder that leaves no doubt on which side of the tolerance the
+ * residual is.  Returns the residual, m/s.
+ *   decided  out, false: rounding leaves a doubt */
+static double solve_for_test(Newton *newton, bool *decided)
+{
+    Multigrid *mg = newton->multigrid;
+    const double h = newton->settings.h * mg->grid.length;
+    double length = h * newton->tolerance, last, now = INFINITY, largest;
+    v_solve(&mg->cycle, mg->g, mg->square, TESTED, length, false, mg->p);
+    do {
+        last = now;
+        now = grid_remainder(&mg->grid, mg->g, mg->p, mg->remainder, &largest);
+        *decided = v_decides(&mg->grid, largest, now, length);
+        if (!*decided)
+            v_solve(&mg->cycle, mg->remainder, now, REFINED, 0, true, mg->p);
+    } while (!*decided && now < 0.25 * last);
+    return largest / h;
+}
+
+/* p = -H^-1 g up to a remainder, loosely far from the end. */
+static Status grid_direction(Newton *newton)
+{
+    NewtonRecord *record = &newton->record;
+    Status status = record->iteration == 0 ? read_problem(newton) : STATUS_OK;
+    Multigrid *mg = newton->multigrid;
+    const double tolerance = newton->tolerance;
+    newton->passes = false;
+    if (status)
+        return status;
+    const double h = newton->settings.h * mg->grid.length;
+    mg->square = grid_gradient(&mg->grid, mg->g);
+    mg->cycle.set_up = false;
+    if (!isfinite(mg->square))
+        return STATUS_NOT_FINITE;
+    mg->last_bound = record->iteration == 0 ? INFINITY : mg->bound;
+    mg->bound = sqrt(2 / mg->grid.lightest * mg->square) / h;
+    double worth = WORTH_A_TEST * tolerance * mg->grid.segments;
+    bool near = mg->bound <= fmin(worth, mg->test_below);
+    record->kind = RESIDUAL_ESTIMATE;
+    if (near) {
+        record->residual = solve_for_test(newton, &newton->passes);
+        newton->passes = newton->passes && record->residual <= tolerance;
+        mg->test_below = mg->bound / 2;
+    } else {
+        record->residual =
+            v_solve(&mg->cycle, mg->g, mg->square, ENOUGH, 0, false, mg->p) / h;
+    }
+    if (newton->passes && system_is_free(newton->system))
+        grid_keep_momentum(&mg->grid, mg->p);
+    newton->counters.cycles = mg->cycle.cycles;
+    return STATUS_OK;
+}
 
 /* A place where the quartic is below 0, at a minimum if rounding allows, looked
  * for from 1 on; 0 if there is none.
@@ -235,66 +219,78 @@ static double lowest(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
-/* Direction, step to where E is lowest along it, tiles where it stalls, and the
- * test of where that led. */
-static Status iterate(Newton *newton)
+/* Step length at which E is lowest along p, exactly: E is a quartic there.  The
+ * last p is used whole, which keeps momentum. */
+static Status grid_step_length(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
-    const double bound = mg->bound, unit = mg->grid.energy;
-    Quartic along;
-    record->kind = RESIDUAL_ESTIMATE;
-    if (!mg->directed)
-        record->residual =
-            v_solve(&mg->cycle, mg->g, mg->square, ENOUGH, 0, false, mg->p) /
-            (newton->settings.h * mg->grid.length);
-    grid_along(&mg->grid, mg->g, mg->p, along.q);
+    grid_along(&mg->grid, mg->g, mg->p, mg->along.q);
     for (int i = 0; i < 4; i++)
-        along.q[i] /= unit;
-    record->slope = along.q[0];
-    record->alpha = record->change = record->trials = 0;
+        mg->along.q[i] /= mg->grid.energy;
+    record->slope = mg->along.q[0];
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
     if (!(record->slope <= 0))
         return STATUS_NOT_DESCENT;
-    record->alpha = lowest(&along, &record->trials);
+    if (newton->passes && quartic_value(&mg->along, 1) <= 0)
+        record->alpha = record->trials = 1;
+    else
+        record->alpha = lowest(&mg->along, &record->trials);
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
-    record->change = quartic_value(&along, record->alpha);
+    record->change = quartic_value(&mg->along, record->alpha);
+    return STATUS_OK;
+}
+
+/* x += alpha p; then tiles of nodes relax where the directions stall. */
+static Status grid_update(Newton *newton)
+{
+    Multigrid *mg = newton->multigrid;
+    NewtonRecord *record = &newton->record;
+    const double unit = mg->grid.energy;
+    const int tiles = mg->tiles.high * mg->tiles.wide;
     grid_move(&mg->grid, record->alpha, mg->p);
-    mg->stalls = mg->stalls || (mg->directions >= DIRECTIONS &&
-                                bound > STALLS * mg->last_bound);
-    mg->last_bound = bound;
     mg->directions++;
     newton->counters.iterations++;
-    int tiles = mg->tiles.high * mg->tiles.wide;
-    if (mg->stalls)
+    mg->stalls = mg->stalls || (mg->directions > DIRECTIONS &&
+                                mg->bound > STALLS * mg->last_bound);
+    if (mg->stalls && !newton->passes)
         record->change +=
             tiles_relax(&mg->tiles, PACE * record->change * unit / tiles) /
             unit;
-    evaluate(newton);
-    return pass_test(newton);
+    newton->counters.local = mg->tiles.sweeps;
+    return STATUS_OK;
 }
 
-Status multigrid_iterate(Newton *newton, NewtonRecord *done)
+/* The test; where multigrid has come to an end without passing it, such as among
+ * rounding errors, Newton goes on from the iterate. */
+static Status grid_test(Newton *newton, Status status)
 {
     Multigrid *mg = newton->multigrid;
-    Status status = iterate(newton);
-    newton->counters.cycles = mg->cycle.cycles;
-    newton->counters.local = mg->tiles.sweeps;
-    *done = newton->record;
-    mg->largest = fmin(mg->largest, done->change);
-    bool last = done->iteration + 1 >= newton_most_iterations(newton);
-    bool small = fabs(done->change) <= SMALL_CHANGE * -mg->largest;
-    bool many = done->iteration >= HANDED_ITERATIONS;
-    bool runs = status == STATUS_RUNNING;
-    if (last || small || many || !runs || newton->settings.observer)
-        grid_write_state(&mg->grid, &newton->at); /* else nobody looks at it */
-    /* It has come to its end without passing the test. */
-    bool stuck = runs ? many || (small && rounding_hides(newton, done->change))
-                      : status != STATUS_OK;
-    status = status == STATUS_OK ? direction_judges_end(newton) : status;
-    if (stuck || status == STATUS_NOT_A_MINIMUM)
-        status = take_back(newton, status);
-    return status == STATUS_RUNNING && last ? STATUS_ITERATION_LIMIT : status;
+    NewtonRecord *record = &newton->record;
+    if (!mg)
+        return status;
+    mg->largest = fmin(mg->largest, record->change);
+    bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest;
+    bool last = record->iteration + 1 >= newton_most_iterations(newton);
+    bool stuck = status != STATUS_OK || record->iteration >= HANDED_ITERATIONS;
+    if (newton->passes || stuck || small || last ||
+        newton->settings.observer) { /* else nobody looks at it */
+        swap_iterates(newton);
+        grid_write_state(&mg->grid, &newton->at);
+    }
+    if (newton->passes && status != STATUS_NOT_FINITE)
+        return STATUS_OK;
+    bool hidden = small && below_roundoff(newton, record->change);
+    if (stuck || (hidden && mg->hidden)) {
+        newton->working = SOLVER_NEWTON;
+        newton->rounding.E = NAN;
+        newton->counters.taken_back++;
+    }
+    mg->hidden = hidden;
+    return last ? STATUS_ITERATION_LIMIT : STATUS_RUNNING;
 }
+
+const NewtonPhases multigrid_phases = {grid_direction, grid_step_length,
+                                       grid_update, grid_test};

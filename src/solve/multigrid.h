@@ -29,17 +29,7 @@ void multigrid_free(Multigrid *multigrid);
 
 /* Whether multigrid makes the minimisation that newton->at describes: it is
  * asked for, and the terms and settings are those that it knows.  Writes
- * newton->working, and newton->refusal where it is asked for and cannot. */
+ * newton->refusal where it is asked for and cannot. */
 bool multigrid_takes(Newton *newton);
-
-/* Instead of direction_first: the start, and its test.  Returns as that. */
-Status multigrid_start(Newton *newton);
-
-/* Instead of an iteration; u and x are written where somebody looks at them.
- * Where multigrid cannot go on, such as among rounding errors, or is at a
- * saddle, Newton's own iterations go on from its last iterate.
- *   done  out, what the record tells of it
- * Returns as newton_iterate. */
-Status multigrid_iterate(Newton *newton, NewtonRecord *done);
 
 #endif

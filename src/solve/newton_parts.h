@@ -1,43 +1,52 @@
-/* newton_parts.h - what Newton's loop (newton.c) calls by name, each in a file
- * of its own.
+/* newton_parts.h - the parts of Newton's loop (newton.c), each in a file of its
+ * own.
  */
 #ifndef ELASTO_NEWTON_PARTS_H
 #define ELASTO_NEWTON_PARTS_H
 
 #include "solve/newton.h"
 
-/* ---- direction.c: gradient, search direction and the test of Algorithm 3 at
- * each iterate. */
+/* The phases of an iteration, each of which may end it.  They read and write
+ * the iterate newton->at and the record newton->record. */
+typedef struct NewtonPhases {
+    /* g and p at x, the residual of p, and newton->passes: whether it is at
+     * most the tolerance.  Returns OK or a failure. */
+    Status (*find_direction)(Newton *newton);
+    /* alpha, trials, slope and change; u_trial and x_trial.  Returns OK, or why
+     * no step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT,
+     * NOT_FINITE; alpha and change are then 0. */
+    Status (*find_step_length)(Newton *newton);
+    /* u and x.  Returns OK, NOT_FINITE, ROUNDING_LIMIT. */
+    Status (*update)(Newton *newton);
+    /* Whether the loop ends.
+     *   status  in, of the phases before
+     * Returns RUNNING, OK, or how the minimisation failed. */
+    Status (*test)(Newton *newton, Status status);
+} NewtonPhases;
+
+/* ---- direction.c: gradient, Hessian, search direction (slide: search_dir) */
 
 /* Frees the matrix and its factor, which are made where they are needed. */
 void direction_free_matrix(SearchDirection *search);
 
-/* At the start of a minimisation: fills g, p, residual and, of the record, what
- * concerns them.  A gradient that vanishes passes the test, but may be that of
- * a maximum or a saddle, such as all nodes in one point: this is checked.
- * Returns OK (the test is passed), RUNNING, NOT_A_MINIMUM, or a failure. */
-Status direction_first(Newton *newton);
+Status find_direction(Newton *newton);
 
-/* The same after an update; at a saddle that multigrid came to, p leads away.
- * Return OK, RUNNING, or a failure. */
-Status direction_next(Newton *newton);
-Status direction_from_saddle(Newton *newton);
+/* Whether the next p is negligible: its bound passes the test, and is below a
+ * millionth of the shortest spring.  Computes g. */
+bool next_direction_is_negligible(Newton *newton);
 
-/* Whether the Hessian as it is, with `times` M in place of M, is positive
- * definite: by bounds, and where they do not tell by its Cholesky factor.
- * Writes over x_trial.  Returns OK, NOT_A_MINIMUM, or a failure. */
-Status direction_bends_up(Newton *newton, double times);
+/* ---- line_search.c: how far to go along p (slide: Algorithm 2) */
 
-/* Whether E bends down at the iterate by more than a hundred masses, or at all
- * where a minimum is asked for: no end.  Returns as direction_bends_up. */
-Status direction_judges_end(Newton *newton);
+Status find_step_length(Newton *newton);
 
-/* ---- line_search.c: how far to go along p (slide: Algorithm 2). */
+/* ---- newton.c */
 
-/* Fills alpha, trials, slope and change of the record, u_trial and x_trial.
- * Returns OK, or why no step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT,
- * ROUNDING_LIMIT, NOT_FINITE; alpha and change are then 0. */
-Status step_length(Newton *newton);
+/* Exchanges the iterate and the trial. */
+void swap_iterates(Newton *newton);
+
+/* ---- multigrid.c: the same phases for large squares, without a factor */
+
+extern const NewtonPhases multigrid_phases;
 
 /* ---- rounding.c: what guards the digits.  Two places lose them.  Near a
  * minimum every further decrease may be smaller than the rounding of E.  And
@@ -50,7 +59,7 @@ Status step_length(Newton *newton);
 void rounding_start(Newton *newton);
 
 /* Whether a change of E, J s^2, is at most a few units in its last place. */
-bool rounding_hides(const Newton *newton, double change);
+bool below_roundoff(const Newton *newton, double change);
 
 /* Whether E at u_trial, as large as it is, agrees that it has changed by
  * record.change or fallen more; true where rounding_is_low decides, or nothing
@@ -61,9 +70,9 @@ bool rounding_confirms(Newton *newton);
  * minimisation is not held to it. */
 bool rounding_is_low(const Newton *newton, const double *u, const double *x);
 
-/* After an iteration that did not converge: RUNNING, or, where the residual has
- * not become smaller for long, ROUNDING_LIMIT if E does not fall any more, and
- * ITERATION_LIMIT if no line search makes it fall. */
+/* Judges an iteration whose p did not pass the test.  Returns RUNNING; or,
+ * where the residual has not become smaller for long, ROUNDING_LIMIT if E does
+ * not fall any more, and ITERATION_LIMIT if no line search makes it fall. */
 Status rounding_stagnation(Newton *newton);
 
 #endif

@@ -1,3 +1,4 @@
+/* rounding.c - guards the digits of a minimisation. */
 #include "solve/newton_parts.h"
 
 #include <float.h>
@@ -12,10 +13,12 @@ enum { STAGNANT_ITERATIONS = 20 };
  * with contact one converged after more.) */
 enum { CIRCLING_ITERATIONS = 500 };
 
-/* Ratios of w k to m: beyond the first, a direction from a factor may be wrong
- * by more than 1e-5 of itself; beyond the second, a sum of both is w k alone in
- * the digits of a double. */
-static const double BLURRED_MASSES = 1e10, HIDDEN_MASSES = 1e16;
+/* Ratios of w k to m: beyond the first, rounding of the gradient may hide that E
+ * rises along p; beyond the second, a direction from a factor may be wrong by
+ * more than 1e-5 of itself; beyond the third, a sum of both is w k alone in the
+ * digits of a double. */
+static const double STIFF_MASSES = 1e5, BLURRED_MASSES = 1e10,
+                    HIDDEN_MASSES = 1e16;
 
 /* E may seem to rise by this part of its size. */
 static const double MARGIN = 1e-12;
@@ -35,12 +38,17 @@ void rounding_start(Newton *newton)
         rounding->lightest = INFINITY;
         for (int i = 0; i < system->nodes; i++)
             rounding->lightest = fmin(rounding->lightest, system->m[i]);
-        system_bounds(system, &rounding->stiffest, &rounding->force);
+        double l2 = system->springs ? INFINITY : 1;
+        for (int s = 0; s < system->springs; s++)
+            l2 = fmin(l2, system->l2[s]);
+        rounding->shortest = sqrt(l2);
+        rounding->stiffest = system_curvature_bound(system);
     }
     rounding->best = INFINITY;
     rounding->stagnant = 0;
     rounding->E = NAN;
     double stiffness = at->E.weight * rounding->stiffest;
+    rounding->stiff = stiffness > STIFF_MASSES * rounding->lightest;
     rounding->blurred = stiffness > BLURRED_MASSES * rounding->lightest;
     rounding->most = INFINITY;
     rounding->first = NAN;
@@ -52,7 +60,7 @@ void rounding_start(Newton *newton)
                      MARGIN * incremental_potential_scale(&at->E, at->u, at->x);
 }
 
-bool rounding_hides(const Newton *newton, double change)
+bool below_roundoff(const Newton *newton, double change)
 {
     const Iterate *at = &newton->at;
     double E = incremental_potential_scale(&at->E, at->u, at->x);
@@ -79,7 +87,7 @@ bool rounding_confirms(Newton *newton)
     Rounding *rounding = &newton->rounding;
     const Iterate *at = &newton->at;
     const double *u = newton->u_trial, *x = newton->x_trial;
-    if (newton->settings.search == LINE_SEARCH_NONE ||
+    if (newton->settings.search == LINE_SEARCH_NONE || !rounding->stiff ||
         rounding->most < INFINITY)
         return true;
     if (isnan(rounding->E))
@@ -105,14 +113,14 @@ bool rounding_is_low(const Newton *newton, const double *u, const double *x)
 Status rounding_stagnation(Newton *newton)
 {
     Rounding *rounding = &newton->rounding;
-    if (newton->residual < rounding->best) {
-        rounding->best = newton->residual;
+    if (newton->record.residual < rounding->best) {
+        rounding->best = newton->record.residual;
         rounding->stagnant = 0;
         return STATUS_RUNNING;
     }
     rounding->stagnant++;
     if (rounding->stagnant >= STAGNANT_ITERATIONS &&
-        rounding_hides(newton, newton->record.change))
+        below_roundoff(newton, newton->record.change))
         return STATUS_ROUNDING_LIMIT;
     return rounding->stagnant >= CIRCLING_ITERATIONS &&
                    newton->settings.search == LINE_SEARCH_NONE

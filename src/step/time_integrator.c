@@ -208,10 +208,10 @@ static double make_most(TimeIntegrator *run, double part, int halvings,
 }
 
 /* Puts things on their way, as far as there is room, and starts to minimise E
- * with u_tilde as target from there; roughly, where another part follows.  What
- * a hand moves stops where there is no room, and all else goes on.
- * Returns as newton_start. */
-static Status prescribed_start(TimeIntegrator *run)
+ * with u_tilde as target from there.  Where another part follows, the minimiser
+ * is only a guess, and the tolerance is loose.  What a hand moves stops where
+ * there is no room, and all else goes on. */
+static void prescribed_start(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     double part = 0;
@@ -233,8 +233,10 @@ static Status prescribed_start(TimeIntegrator *run)
         run->moved += part;
     run->left = part == 0 ? 0 : run->left - part;
     run->part++;
-    run->newton->rough = run->left > 0;
-    return newton_start(run->newton, run->x, run->new_x, run->weight);
+    bool guess = run->left > 0;
+    double tolerance = run->newton->settings.tolerance;
+    newton_start(run->newton, run->x, run->new_x, run->weight,
+                 guess ? 10 * tolerance + 0.01 : tolerance);
 }
 
 /* After one of its minimisations: whether another one follows.
@@ -298,16 +300,18 @@ static double prescribed_work(const TimeIntegrator *run, double weight)
 
 /* ---- a step ------------------------------------------------------------- */
 
-/* All stages are over, or one failed. */
-static Status end_step(TimeIntegrator *run, Status failure)
+/* The step ends: made, if its status is OK or an unconverged one; else x and v
+ * stay. */
+static Status end_step(TimeIntegrator *run, Status status)
 {
     size_t both = 2 * run->size; /* v is behind x, new_v behind new_x */
-    if (!failure && !all_finite(run->new_x, both)) {
+    run->status = status;
+    if (status && !status_is_unconverged(status))
+        return status;
+    if (!all_finite(run->new_x, both)) {
         run->memory_h = 0;
-        failure = STATUS_NOT_FINITE;
+        return run->status = STATUS_NOT_FINITE;
     }
-    if (failure)
-        return run->status = failure;
     const Pull *hand = system_data(run->system, &hand_energy);
     if (hand)
         run->work += hand_work(hand, run->x + 2 * hand->node,
@@ -326,7 +330,7 @@ static Status end_step(TimeIntegrator *run, Status failure)
 }
 
 /* The minimisation of the present stage begins. */
-static Status begin_stage(TimeIntegrator *run)
+static void begin_stage(TimeIntegrator *run)
 {
     const System *system = run->system;
     Newton *newton = run->newton;
@@ -335,38 +339,36 @@ static Status begin_stage(TimeIntegrator *run)
         for (size_t i = 0; i < run->size; i++)
             newton->u_tilde[i] += run->weight * system->gravity[i % 2];
     newton->step = run->steps + 1;
-    return run->moves ? prescribed_start(run)
-                      : newton_start(newton, run->x, NULL, run->weight);
+    if (run->moves)
+        prescribed_start(run);
+    else
+        newton_start(newton, run->x, NULL, run->weight,
+                     newton->settings.tolerance);
 }
 
-/* From a minimisation that is over to the next one, to the end where none is
- * left. */
-static Status go_on(TimeIntegrator *run, Status status)
+/* Where the hand pulls in this step. */
+static void begin_hand(TimeIntegrator *run)
 {
-    while (status != STATUS_RUNNING) {
-        newton_finish(run->newton);
-        status = run->newton->status;
-        if (run->moves && prescribed_goes_on(run, &status)) {
-            status = prescribed_start(run);
-            continue;
-        }
-        if (status && !status_is_unconverged(status))
-            return end_step(run, status);
-        if (status)
-            run->status = status;
-        run->method->land(run);
-        if (++run->stage == run->method->stages)
-            return end_step(run, STATUS_OK);
-        status = begin_stage(run);
+    System *system = run->system;
+    Pull *hand = system_data(system, &hand_energy);
+    if (!hand)
+        return;
+    size_t i = 2 * (size_t)hand->node;
+    if (!run->newton) {
+        hand->k = 0;
+        system_acceleration(system, run->x, run->new_x);
+        run->memory_h = 0; /* it was another force */
     }
-    return STATUS_RUNNING;
+    hand_follow(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
+                run->newton ? NULL : run->new_x + i);
+    system_changed(system, false);
 }
 
 Status time_integrator_begin(TimeIntegrator *run)
 {
     System *system = run->system;
     Status status = STATUS_OK;
-    run->status = STATUS_OK;
+    run->worst = STATUS_OK;
     run->stage = 0;
     if (run->newton)
         run->newton->change = 0;
@@ -377,33 +379,39 @@ Status time_integrator_begin(TimeIntegrator *run)
                 &(TermStep){system, &system->term[t], run->x, run->v, run->h});
     if (status)
         return end_step(run, status);
-    Pull *hand = system_data(system, &hand_energy);
-    if (hand) { /* where it pulls in this step */
-        size_t i = 2 * (size_t)hand->node;
-        if (!run->newton) {
-            hand->k = 0;
-            system_acceleration(system, run->x, run->new_x);
-            run->memory_h = 0; /* it was another force */
-        }
-        hand_follow(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
-                    run->newton ? NULL : run->new_x + i);
-        system_changed(system, false);
-    }
+    begin_hand(run);
     if (run->newton)
-        return go_on(run, begin_stage(run));
-    run->method->land(run);
-    return end_step(run, STATUS_OK);
+        begin_stage(run);
+    return run->status = STATUS_RUNNING;
 }
 
-Status time_integrator_iterate(TimeIntegrator *run)
+Status time_integrator_advance(TimeIntegrator *run)
 {
-    return go_on(run, newton_iterate(run->newton));
+    const IntegratorMethod *method = run->method;
+    while (run->stage < method->stages) {
+        Status status = newton_minimise(run->newton);
+        if (status == STATUS_RUNNING)
+            return status;
+        if (run->moves && prescribed_goes_on(run, &status)) {
+            prescribed_start(run);
+            continue;
+        }
+        if (status && !status_is_unconverged(status))
+            return end_step(run, status);
+        run->worst = status ? status : run->worst;
+        method->land(run);
+        if (++run->stage < method->stages)
+            begin_stage(run);
+    }
+    if (method->stages == 0)
+        method->land(run);
+    return end_step(run, run->worst);
 }
 
 Status time_integrator_step(TimeIntegrator *run)
 {
     Status status = time_integrator_begin(run);
     while (status == STATUS_RUNNING)
-        status = time_integrator_iterate(run);
+        status = time_integrator_advance(run);
     return status;
 }

@@ -22,6 +22,13 @@ static const long double HUGE_ENERGY = 1e280L;
 /* Larger systems are not solved by a matrix: that costs n^3 in wide numbers. */
 enum { LARGEST_JUDGED = 80 };
 
+/* The same with terms of all kinds, in extended numbers. */
+enum { LARGEST_SOLVED = 400 };
+
+/* Part of a direction that a factor may be wrong by where the program takes it
+ * as exact (rounding.c, BLURRED_MASSES). */
+#define DIGITS_OF_DIRECTION 1e-5
+
 /* The first broken promise is remembered. */
 static void blame(Watch *watch, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -57,7 +64,7 @@ static IncrementalPotential watch_potential(const Watch *watch)
 static Moment watch_moment(const Watch *watch)
 {
     double moved = watch->run->moves ? watch->run->moved * watch->run->h : 0;
-    return (Moment){watch_potential(watch), moved, false};
+    return (Moment){watch_potential(watch), moved};
 }
 
 static double residual_of_direction(const Watch *watch, const Wide *p)
@@ -133,85 +140,79 @@ static void judge_large(Watch *watch, const double *u, double tolerance)
         blame(watch, "converged, but the residual is above %g m/s", tolerance);
 }
 
-/* What the solver says of H p + grad E, kg m: of the direction, or of 0. */
-static double lacking(const Newton *newton, int i)
-{
-    return newton->kind == RESIDUAL_BOUND      ? newton->at.g[i]
-           : newton->kind == RESIDUAL_ESTIMATE ? -newton->search.r[i]
-                                               : 0;
-}
+/* Of what is judged: exact_residual, or the same with more digits. */
+typedef double (*JudgedResidual)(const IncrementalPotential *E, const double *u,
+                                 const double *x, double h, double moved,
+                                 int lifts, double *noise);
 
-/* m/s, of the direction and what it may be wrong by, or where there was no need
- * for one, what it cannot exceed: the Hessian is more than M. */
-static Real claimed_residual(const Newton *newton)
+/* Whether the residual at u is at most the limit, with one of the Hessians that
+ * the program may have judged with: on demand, as it is or cut.
+ *   noise  in: part of what rounding does that is forgiven; out: what it does
+ *   least  out, m/s */
+static bool residual_holds(const Watch *watch, const double *u, double limit,
+                           JudgedResidual judge, double *noise, double *least)
 {
-    const System *system = newton->system;
-    const double *p = newton->at.p;
-    Real most = 0, sum = 0, lightest = INFINITY;
-    for (int i = 0; i < system->nodes; i++) {
-        if (system->pinned[i])
-            continue;
-        Real x = lacking(newton, 2 * i), y = lacking(newton, 2 * i + 1);
-        if (newton->kind != RESIDUAL_BOUND)
-            most = fmaxl(most, fabsl(p[2 * i]) + fabsl(p[2 * i + 1]));
-        sum += (x * x + y * y) / system->m[i];
-        lightest = fminl(lightest, system->m[i]);
-    }
-    return (most + sqrtl(2 / lightest * sum)) / newton->settings.h;
-}
-
-/* Of all terms: the direction passes the test, with what it may be wrong by,
- * and H p + grad E is what the solver says, as the oracle has it along a random
- * way.
- */
-static void judge_direction(Watch *watch, const double *u, double limit)
-{
+    static const int lifts[FILTER_COUNT][2] = {[FILTER_CLAMP] = {1, 1},
+                                               [FILTER_NONE] = {0, 0},
+                                               [FILTER_ABS] = {2, 2},
+                                               [FILTER_ON_DEMAND] = {1, 0}};
+    const NewtonSettings *settings = &watch->run->newton->settings;
     Moment moment = watch_moment(watch);
-    const Newton *newton = watch->run->newton;
-    const unsigned char *pinned = newton->system->pinned;
-    bool bound = newton->kind == RESIDUAL_BOUND;
-    Random random = {(uint64_t)watch->run->steps + 1};
-    if (newton->working != SOLVER_NEWTON)
-        return;
-    moment.clamped = !bound && (newton->settings.filter == FILTER_CLAMP ||
-                                newton->record.projected > 0);
-    Real noise, given = 0, residual = claimed_residual(newton), far = 0;
-    if (!(residual <= limit * (1 + 1e-9L)))
-        blame(watch, "converged, but the residual is %Lg m/s", residual);
-    for (int i = 0; i < watch_size(watch); i++) {
-        bool held = pinned && pinned[i / 2];
-        watch->way[i] = held ? 0 : 2 * random_below(&random, 2) - 1;
-        given += watch->way[i] * lacking(newton, i);
-        far += bound ? 0 : fabs(newton->at.p[i]);
+    double forgiven = *noise;
+    *least = INFINITY;
+    for (int i = 0; i < watch_size(watch); i++)
+        watch->way[i] = watch->x_n[i] + u[i];
+    for (int k = 0; k < 2; k++) {
+        double residual =
+            judge(&moment.E, u, watch->way, settings->h, moment.moved,
+                  lifts[settings->filter][k], noise);
+        *least = fmin(*least, residual);
+        if (residual <= limit + forgiven * *noise)
+            return true;
     }
-    Real off = wide_imbalance(&moment, u, bound ? NULL : newton->at.p,
-                              watch->way, given, &noise);
-    /* of the sums; of a factor, whose entries are sums over a node's springs */
-    Real factor = DBL_EPSILON * newton->at.E.weight *
-                  (Real)newton->rounding.stiffest * far;
-    if (!(fabsl(off) <= ROUNDINGS * (ROUNDINGS * noise + factor)))
-        blame(watch, "converged, but H p + grad E is %Lg, rounding %Lg", off,
-              noise);
-    watch->tally->judged++;
+    return false;
 }
 
-/* Where a minimisation says it converged at u: once more, in wide numbers.
- * Projection on demand may have judged with either Hessian.
- *   factor  of the tolerance that is allowed */
-static void judge_convergence(Watch *watch, const double *u, double factor)
+/* Of all terms: nothing that the program has computed but the place itself is
+ * looked at.  What 19 digits refuse is judged with 34: rounding can only raise
+ * a residual so small.  Where the last digits of the forces themselves are more
+ * than the tolerance, that is forgiven, and counted. */
+static void judge_terms(Watch *watch, const double *u, double limit)
+{
+    double noise = 0, residual;
+    if (watch_size(watch) > LARGEST_SOLVED)
+        return;
+    watch->tally->judged++;
+    limit *= 1 + DIGITS_OF_DIRECTION;
+    if (residual_holds(watch, u, limit, exact_residual, &noise, &residual))
+        return;
+    noise = 0;
+    if (residual_holds(watch, u, limit, wide_exact_residual, &noise, &residual))
+        return;
+    watch->tally->blurred++;
+    noise = 1;
+    if (!residual_holds(watch, u, limit, wide_exact_residual, &noise,
+                        &residual))
+        blame(watch,
+              "converged, but the residual is %g m/s, tolerance %g, rounding "
+              "%g",
+              residual, limit, noise);
+}
+
+/* Where a minimisation says that the direction at u is below the limit, m/s:
+ * once more, in wide numbers.  Projection on demand may have judged with either
+ * Hessian. */
+static void judge_convergence(Watch *watch, const double *u, double limit)
 {
     const NewtonSettings *settings = &watch->run->newton->settings;
     bool either = settings->filter == FILTER_ON_DEMAND;
-    bool guess = watch->run->moves && watch->run->left > 0;
-    double limit = guess ? watch->run->newton->tolerance : settings->tolerance;
     double noise;
-    if (!watch->residuals || (!watch->springs && factor > 1))
+    if (!watch->residuals)
         return;
     if (!watch->springs) {
-        judge_direction(watch, u, limit);
+        judge_terms(watch, u, limit);
         return;
     }
-    limit *= factor;
     if (watch_size(watch) > LARGEST_JUDGED) {
         judge_large(watch, u, limit);
         return;
@@ -228,6 +229,24 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
             residual, limit, noise);
     if (noise > 1e-6 * limit)
         watch->tally->blurred++;
+}
+
+/* The last direction passed the test, and was used; or the one after it passes
+ * the test and is shorter than a millionth of the shortest spring. */
+static void judge_end(Watch *watch, const NewtonRecord *record)
+{
+    const Newton *newton = watch->run->newton;
+    const System *system = newton->system;
+    double l2 = system->springs ? INFINITY : 1;
+    for (int s = 0; s < system->springs; s++)
+        l2 = fmin(l2, system->l2[s]);
+    bool guess = watch->run->moves && watch->run->left > 0;
+    double limit = guess ? newton->tolerance : watch->tolerance;
+    if (record->residual <= newton->tolerance)
+        judge_convergence(watch, watch->u, limit);
+    else
+        judge_convergence(watch, newton->at.u,
+                          fmin(limit, 1e-6 * sqrt(l2) / newton->settings.h));
 }
 
 /* How much higher than at `from` the energy at `to` may seem. */
@@ -324,15 +343,9 @@ static bool watch_record(void *user, const NewtonRecord *record)
 {
     Watch *watch = user;
     const Newton *newton = watch->run->newton;
-    if (record->iteration <= 0 && newton->record.iteration <= 0)
+    if (record->iteration == 0)
         watch_begin(watch);
     check_edges(watch, newton->at.x);
-    if (record->iteration < 0) { /* of springs it is seen as the step ends */
-        if (newton->record.iteration < 0 && record->status == STATUS_OK &&
-            !watch->springs)
-            judge_convergence(watch, watch->u, 1);
-        return true;
-    }
     if (record->iteration != watch->updates)
         blame(watch, "record %d after %d updates", record->iteration,
               watch->updates);
@@ -346,10 +359,10 @@ static bool watch_record(void *user, const NewtonRecord *record)
         watch_descent(watch, newton->at.u, "in an iteration");
     check_excuse(watch, record);
     check_walls(watch, newton->at.x);
+    if (record->status == STATUS_OK)
+        judge_end(watch, record);
     memcpy(watch->u, newton->at.u,
            (size_t)watch_size(watch) * sizeof *watch->u);
-    if (record->status == STATUS_OK)
-        judge_convergence(watch, newton->at.u, 1);
     return true;
 }
 
@@ -438,29 +451,8 @@ static void check_failure(Watch *watch, Status status)
         blame(watch, "not_finite, but nothing is near overflow");
 }
 
-/* What the last minimisation left, after the centre of mass was moved: E is
- * not above its start, and the residual is at most twice as large, because
- * the mean of the direction was taken away from it. */
-static void check_last_minimisation(Watch *watch, Status status)
-{
-    const Newton *newton = watch->run->newton;
-    int n = watch_size(watch);
-    if (newton->record.iteration < 0) {
-        memcpy(watch->x_n, watch->x, (size_t)n * sizeof *watch->x);
-        memset(watch->u, 0, (size_t)n * sizeof *watch->u);
-        Moment moment = watch_moment(watch);
-        watch->start = watch->energy = wide_energy(&moment, watch->u);
-        if (!status && watch->run->system->springs > 0)
-            judge_convergence(watch, watch->u, 1);
-    }
-    if (newton->settings.search != LINE_SEARCH_NONE)
-        watch_descent(watch, newton->at.u, "as the step ends");
-    if (newton->status == STATUS_OK)
-        judge_convergence(watch, newton->at.u, 2);
-}
-
 /* The state after a step that was made. */
-static void check_state(Watch *watch, Status status)
+static void check_state(Watch *watch)
 {
     const TimeIntegrator *run = watch->run;
     for (int i = 0; i < watch_size(watch); i++) {
@@ -471,10 +463,9 @@ static void check_state(Watch *watch, Status status)
             blame(watch, "a pinned node moved");
     }
     check_walls(watch, run->x);
-    if (!watch->springs) /* what flows and breaks as a step ends changes E */
-        return;
-    if (run->newton)
-        check_last_minimisation(watch, status);
+    if (watch->springs && run->newton && /* else flow and breaks change E */
+        run->newton->settings.search != LINE_SEARCH_NONE)
+        watch_descent(watch, run->newton->at.u, "as the step ends");
 }
 
 Verdict watch_step(Watch *watch)
@@ -485,11 +476,12 @@ Verdict watch_step(Watch *watch)
     memcpy(watch->v, run->v, bytes);
     watch->wrong = false;
     watch->updates = 0;
+    watch->tolerance = run->newton ? run->newton->settings.tolerance : 0;
     Status status = watch->status = time_integrator_step(run);
     if ((int)status < 0 || status >= STATUS_COUNT || status == STATUS_RUNNING)
         blame(watch, "status %d has no name", (int)status);
     else if (status == STATUS_OK || status_is_unconverged(status))
-        check_state(watch, status);
+        check_state(watch);
     else
         check_failure(watch, status);
     Verdict verdict = watch->wrong ? VERDICT_WRONG

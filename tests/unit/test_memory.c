@@ -76,7 +76,7 @@ TEST(every_allocation_may_fail)
         const Options options = line_options(lines[l]);
         CHECK_OK(run_once(&options));
         long total = allocations;
-        CHECK(total > 20);
+        CHECK(total > 5);
         for (long i = 0; i < 2 * total; i++) {
             for_good = i >= total;
             first_failure = i % total;

@@ -93,8 +93,6 @@ static bool see_fall(void *user, const NewtonRecord *record)
 {
     static const double zero[LARGEST];
     Fall *E = user;
-    if (record->iteration < 0)
-        return true;
     if (record->iteration == 0)
         E->start = E->now = wide_energy(&(Moment){.E = at->E}, zero);
     Real now = wide_energy(&(Moment){.E = at->E}, at->u);
@@ -102,7 +100,7 @@ static bool see_fall(void *user, const NewtonRecord *record)
     CHECK_NEAR(now - E->now, record->change, 2e-14L * E->start);
     E->now = now;
     if (record->status == STATUS_OK) {
-        CHECK(large_judge(&newton->at.E, newton->at.u, newton->settings.h,
+        CHECK(large_judge(&newton->at.E, newton->u_trial, newton->settings.h,
                           newton->tolerance) == LARGE_PASSED);
         E->judged++;
     }
@@ -142,24 +140,30 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
     }
 }
 
+static Status minimise(double tolerance)
+{
+    newton_start(newton, x_n, NULL, H * H, tolerance);
+    return newton_minimise(newton);
+}
+
 /* Where the tolerance is the very residual that it finds, no remainder that
  * rounding leaves decides the test: then it is not passed.  And that is the
  * residual by a factor. */
 TEST(what_is_not_decided_is_not_converged)
 {
     for (int i = 0; i < 5; i++) {
-        Status status = STATUS_OK;
+        double tolerance = 1e-30;
         begin_problem(16, 1.1 + 0.05 * i);
-        double *tolerance = &newton->tolerance;
+        newton->settings.max_iterations = 1;
         newton->settings.solver = SOLVER_NEWTON;
-        CHECK_STATUS(newton_start(newton, x_n, NULL, H * H), STATUS_RUNNING);
-        for (int k = 0; k < 10 && newton->residual != *tolerance; k++) {
-            *tolerance = newton->residual;
-            status = multigrid_start(newton);
-            CHECK_NEAR(newton->residual, *tolerance, 1e-9 * *tolerance);
+        CHECK_STATUS(minimise(tolerance), STATUS_ITERATION_LIMIT);
+        newton->settings.solver = SOLVER_MULTIGRID;
+        for (int k = 0; k < 10 && newton->record.residual != tolerance; k++) {
+            tolerance = newton->record.residual;
+            CHECK_STATUS(minimise(tolerance), STATUS_ITERATION_LIMIT);
+            CHECK_NEAR(newton->record.residual, tolerance, 1e-9 * tolerance);
         }
-        CHECK(newton->residual == *tolerance);
-        CHECK_STATUS(status, STATUS_RUNNING);
+        CHECK(newton->record.residual == tolerance);
     }
 }
 
@@ -184,7 +188,7 @@ TEST(bits_depend_on_the_step_alone)
             CHECK_OK(multigrid_create(64, &multigrid[1]));
             for (int i = 0; i < 2; i++) {
                 newton->multigrid = multigrid[i];
-                CHECK_OK(newton_minimise(newton, x_n, NULL, H * H));
+                CHECK_OK(minimise(newton->settings.tolerance));
                 if (i > 0)
                     CHECK_SAME_BITS(at->u, first, size);
                 memcpy(first, at->u, (size_t)size * sizeof *first);
@@ -208,7 +212,7 @@ TEST(steps_take_no_more_work)
 {
     static const struct {
         int segments, smooth, rough;
-    } rows[] = {{16, 24, 71}, {32, 26, 168}, {64, 38, 278}, {128, 38, 421}};
+    } rows[] = {{16, 25, 71}, {32, 26, 167}, {64, 38, 297}, {128, 38, 419}};
     for (int i = 0; i < 8; i++) {
         Random random = {7};
         bool rough = i % 2;
@@ -218,7 +222,7 @@ TEST(steps_take_no_more_work)
         make_steps(square, 5);
         CHECK_AT_MOST(newton->counters.cycles,
                       rough ? rows[i / 2].rough : rows[i / 2].smooth);
-        CHECK(rough || newton->counters.iterations <= 5 * 4);
+        CHECK(rough || newton->counters.iterations <= 5 * 5);
         CHECK(rough || newton->counters.local == 0);
     }
 }
@@ -295,8 +299,8 @@ TEST(multigrid_serves_all_that_springs_do)
     }
 }
 
-/* At rest no matrix is ever made. */
-TEST(rest_needs_no_factor)
+/* A square at rest takes one iteration a step, and stays where it is. */
+TEST(rest_takes_one_iteration)
 {
     for (int i = 0; i < 2 * IMPLICIT; i++) {
         Simulation *rest =
@@ -304,23 +308,10 @@ TEST(rest_needs_no_factor)
                                 implicit_names[i / 2], i % 2 ? multigrid : ""),
                        5);
         NewtonCounters did = simulation_counters(rest);
-        CHECK(did.factorisations == 0 && did.solves == 0 &&
-              did.iterations == 0 && did.projected == 0);
-        CHECK(rest->run[0].newton->search.cholesky == NULL);
+        CHECK(did.iterations <= 5 * rest->run[0].method->stages);
         for (size_t c = 0; c < rest->run[0].size; c++)
-            CHECK(rest->run[0].v[c] == 0);
+            CHECK(fabs(rest->run[0].v[c]) < 1e-15);
     }
-}
-
-/* Nor where the test lets forces be left, though their bound does not tell. */
-TEST(what_is_left_to_rest_needs_no_factor)
-{
-    Simulation *square = make_steps(simulate("--segments 8"), 300);
-    const Newton *newton = square->run[0].newton;
-    long before = newton->counters.factorisations;
-    make_steps(square, 5);
-    CHECK(newton->kind == RESIDUAL_ESTIMATE);
-    CHECK(newton->counters.factorisations == before);
 }
 
 static bool count_factored(void *user, const NewtonRecord *record)
@@ -331,20 +322,17 @@ static bool count_factored(void *user, const NewtonRecord *record)
 
 /* What counters say of ten steps: Algorithm 3 has a factor for each direction,
  * multigrid none at all; tiles are for steps that are not over after some
- * directions of the whole square, where it buckles; the default square of 16
- * segments comes to a saddle when it buckles, which Newton leaves if it is
- * asked to. */
+ * directions of the whole square, where it buckles. */
 TEST(counters_tell_what_was_done)
 {
     static const struct {
         const char *line;
-        bool factors, cycles, tiles, saddles;
-    } rows[] = {{"--segments 8", true, false, false, false},
-                {"--segments 8 --solver multigrid", false, true, false, false},
-                {"--segments 40 --stretch 1.4", false, true, true, false},
-                {"--segments 40 --stretch 1.01", false, true, false, false},
-                {"--segments 16", true, false, false, false},
-                {"--segments 16 --minimum", true, false, false, true}};
+        bool factors, cycles, tiles;
+    } rows[] = {{"--segments 8", true, false, false},
+                {"--segments 8 --solver multigrid", false, true, false},
+                {"--segments 40 --stretch 1.4", false, true, true},
+                {"--segments 40 --stretch 1.01", false, true, false},
+                {"--segments 8 --stretch 2", true, false, false}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         long factored = 0;
         Simulation *square = make_steps(
@@ -356,26 +344,6 @@ TEST(counters_tell_what_was_done)
         CHECK((did.solves > 0) == rows[i].factors);
         CHECK((did.cycles > 0) == rows[i].cycles);
         CHECK((did.local > 0) == rows[i].tiles);
-        CHECK((did.saddles > 0) == rows[i].saddles);
-    }
-}
-
-/* Asked for a minimum, multigrid's steps do not end on a saddle either: Newton
- * makes one iteration, which leaves it, and multigrid goes on.  At the end of
- * each the Hessian as it is has a Cholesky factor. */
-TEST(multigrid_leaves_saddles)
-{
-    static const char *const lines[] = {"--segments 8 --stretch 1.5",
-                                        "--segments 48"};
-    for (int i = 0; i < 2; i++) {
-        Simulation *square = simulate("%s --minimum %s", lines[i], multigrid);
-        Newton *newton = square->run[0].newton;
-        for (int step = 0; step < 20; step++) {
-            make_steps(square, 1);
-            CHECK_OK(direction_bends_up(newton, 1));
-        }
-        const NewtonCounters *did = &newton->counters;
-        CHECK(did->saddles > 0 && did->taken_back == 0);
     }
 }
 
@@ -387,7 +355,8 @@ TEST(what_does_not_fit_is_left_to_newton)
         Solver working;
         const char *refusal; /* a word of it */
     } rows[] = {
-        {"--segments 32 --solver auto", SOLVER_NEWTON, NULL},
+        {"--segments 8 --solver auto", SOLVER_NEWTON, NULL},
+        {"--segments 9 --solver auto", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --solver auto", SOLVER_MULTIGRID, NULL},
         {"--segments 33", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --integrator bdf2", SOLVER_MULTIGRID, NULL},

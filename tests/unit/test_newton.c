@@ -13,9 +13,26 @@
 /* Squares of up to 4 segments; most have 3. */
 enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
 
-/* A residual that is called a value is that of the exact direction, an estimate
- * is as near to it as to the tolerance, which it decides, and a bound is above
- * it.  The lines end their steps in all three ways. */
+/* The last record of a minimisation, and the iterate that its p starts from. */
+typedef struct Last {
+    const Simulation *simulation;
+    NewtonRecord record;
+    double u[LARGEST];
+} Last;
+
+static bool keep_last(void *user, const NewtonRecord *record)
+{
+    Last *last = user;
+    const Newton *newton = last->simulation->run[0].newton;
+    last->record = *record;
+    memcpy(last->u, record->alpha != 0 ? newton->u_trial : newton->at.u,
+           2 * (size_t)newton->system->nodes * sizeof *last->u);
+    return true;
+}
+
+/* A residual that is called a value is that of the exact direction at the
+ * iterate before the update; an estimate is as near to it as to the tolerance,
+ * which it decides, or within what refinement leaves, 1e-3 of itself. */
 TEST(residuals_are_what_they_are_called)
 {
     static const char *const lines[] = {
@@ -26,12 +43,15 @@ TEST(residuals_are_what_they_are_called)
         "--segments 2 --tolerance 3 --stretch 2",
         "--segments 4 --solver multigrid --tolerance 1e-3",
         "--segments 4 --solver multigrid --stretch 1.001"};
-    int seen[2][3] = {{0}};
+    int seen[2][2] = {{0}};
     for (int line = 0; line < 7; line++) {
-        Simulation *simulation = simulate("%s", lines[line]);
+        Last last;
+        Simulation *simulation =
+            simulate_watched(keep_last, &last, "%s", lines[line]);
         TimeIntegrator *run = &simulation->run[0];
         const Newton *newton = run->newton;
         double tolerance = simulation->options.tolerance;
+        last.simulation = simulation;
         for (int step = 0; step < 60; step++) {
             double x_n[LARGEST];
             Real p[LARGEST];
@@ -39,22 +59,21 @@ TEST(residuals_are_what_they_are_called)
             make_steps(simulation, 1);
             IncrementalPotential E = newton->at.E;
             E.x_n = x_n;
-            double residual = newton->residual;
+            double residual = last.record.residual;
             double exact =
-                wide_direction(&E, newton->at.u, FILTER_CLAMP, run->h, p);
-            seen[newton->working == SOLVER_MULTIGRID][newton->kind]++;
-            if (newton->kind == RESIDUAL_VALUE)
-                CHECK_NEAR(residual, exact, 1e-9 * exact);
-            else if (newton->kind == RESIDUAL_ESTIMATE)
+                wide_direction(&E, last.u, FILTER_CLAMP, run->h, p);
+            bool multigrid = newton->working == SOLVER_MULTIGRID;
+            seen[multigrid][last.record.kind]++;
+            if (last.record.kind == RESIDUAL_VALUE)
+                CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
+            else if (multigrid)
                 CHECK_NEAR(residual, exact, tolerance - residual);
             else
-                CHECK_AT_MOST(exact, residual);
+                CHECK_NEAR(residual, exact, 1e-3 * exact);
         }
     }
-    CHECK(seen[0][RESIDUAL_VALUE] > 20 && seen[0][RESIDUAL_ESTIMATE] > 20 &&
-          seen[0][RESIDUAL_BOUND] > 20);
-    CHECK(seen[1][RESIDUAL_VALUE] == 0 && seen[1][RESIDUAL_ESTIMATE] > 20 &&
-          seen[1][RESIDUAL_BOUND] > 0);
+    CHECK(seen[0][RESIDUAL_VALUE] > 20 && seen[0][RESIDUAL_ESTIMATE] > 20);
+    CHECK(seen[1][RESIDUAL_VALUE] == 0 && seen[1][RESIDUAL_ESTIMATE] > 20);
 }
 
 /* ---- two nodes ----------------------------------------------------------- */
@@ -86,40 +105,28 @@ static void watch_pair(double h, double tolerance, Filter filter)
     CHECK_OK(newton_create(&pair, &settings, &newton));
 }
 
+static Status minimise_pair(const double *x, double weight)
+{
+    newton_start(&newton, x, NULL, weight, newton.settings.tolerance);
+    return newton_minimise(&newton);
+}
+
 /* Both nodes in one point, h = 1: the Hessian is [[m0 - 2, 2], [2, m1 - 2]],
- * indefinite where 1/m0 + 1/m1 > 1/2, whichever node is the light one, and
- * however little is missing. */
-TEST(light_nodes_show_a_maximum)
+ * indefinite where 1/m0 + 1/m1 > 1/2.  The loop ends there, as its gradient is
+ * 0; without projection it says that this is no minimum. */
+TEST(a_maximum_is_counted_without_projection)
 {
     static const struct {
         double m0, m1;
-        Status end;
-    } rows[] = {{0.1, 1e6, STATUS_NOT_A_MINIMUM},
-                {1e6, 0.1, STATUS_NOT_A_MINIMUM},
-                {2.2, 4.2, STATUS_NOT_A_MINIMUM},
-                {4.2, 2.2, STATUS_NOT_A_MINIMUM},
-                {3.9, 3.9, STATUS_NOT_A_MINIMUM},
-                {4.1, 4.1, STATUS_OK},
-                {2.1, 1e6, STATUS_OK}};
+        bool maximum;
+    } rows[] = {{0.1, 1e6, true}, {1e6, 0.1, true},  {2.2, 4.2, true},
+                {3.9, 3.9, true}, {4.1, 4.1, false}, {2.1, 1e6, false}};
     const double x[4] = {0};
-    for (int i = 0; i < 7; i++) {
+    for (int i = 0; i < 6; i++) {
         make_pair(rows[i].m0, rows[i].m1, 1);
-        watch_pair(1, 1e-3, FILTER_CLAMP);
-        CHECK_STATUS(newton_minimise(&newton, x, NULL, 1), rows[i].end);
-    }
-}
-
-/* One light node that moves along the diagonal: |p_x| + |p_y| = 2 m/s is all
- * that the bound, which needs no direction, allows. */
-TEST(light_nodes_are_not_overlooked)
-{
-    const double x[4] = {0, 0, 1, 0};
-    for (int passes = 0; passes < 2; passes++) {
-        make_pair(1, 1e6, 1e-6);
-        watch_pair(0.01, passes ? 2.1 : 1.9, FILTER_CLAMP);
-        newton.u_tilde[0] = newton.u_tilde[1] = 0.01;
-        CHECK_STATUS(newton_start(&newton, x, NULL, 1e-4),
-                     passes ? STATUS_OK : STATUS_RUNNING);
+        watch_pair(1, 1e-3, FILTER_NONE);
+        CHECK_OK(minimise_pair(x, 1));
+        CHECK(newton.counters.negative == rows[i].maximum);
     }
 }
 
@@ -144,7 +151,7 @@ TEST(levers_swing_or_say_why_not)
         pair.pinned[0] = 1;
         watch_pair(1, 1e-6, rows[i].filter);
         newton.u_tilde[3] = rows[i].pull;
-        CHECK_STATUS(newton_minimise(&newton, x, NULL, 1), rows[i].end);
+        CHECK_STATUS(minimise_pair(x, 1), rows[i].end);
         CHECK(at->u[0] == 0 && at->u[1] == 0);
         if (rows[i].end == STATUS_LINE_SEARCH_LIMIT)
             CHECK(newton.record.slope < 0 && newton.record.alpha == 0 &&
@@ -218,27 +225,35 @@ static const char *const massless[] = {
 
 enum { MASSLESS = sizeof massless / sizeof *massless };
 
+static bool pause_always(void *unused, const NewtonRecord *record)
+{
+    (void)unused, (void)record;
+    return false;
+}
+
 /* From rest, iterate by iterate and step by step; 1e-9 for rounding. */
 TEST(energy_never_rises_without_masses)
 {
     for (int i = 0; i < MASSLESS; i++) {
-        Simulation *simulation = simulate("%s", massless[i]);
+        Simulation *simulation =
+            simulate_watched(pause_always, NULL, "%s", massless[i]);
         TimeIntegrator *run = &simulation->run[0];
         Newton *newton = run->newton;
         for (int step = 0; step < 6; step++) {
             memset(run->v, 0, run->size * sizeof *run->v);
             memset(newton->u_tilde, 0, run->size * sizeof *run->v);
-            Status status = newton_start(newton, run->x, NULL, run->h * run->h);
+            newton_start(newton, run->x, NULL, run->h * run->h,
+                         newton->settings.tolerance);
             double start = incremental_potential_value(
                 &newton->at.E, newton->at.u, newton->at.x);
-            while (status == STATUS_RUNNING) {
-                status = newton_iterate(newton);
+            while (newton->status == STATUS_RUNNING) {
+                newton_minimise(newton);
                 CHECK_AT_MOST(incremental_potential_value(
                                   &newton->at.E, newton->at.u, newton->at.x),
                               start * (1 + 1e-9));
             }
             double before = simulation_energies(simulation, 0).total;
-            status = simulation_step(simulation);
+            Status status = simulation_step(simulation);
             CHECK(!status || status_is_unconverged(status));
             CHECK_AT_MOST(simulation_energies(simulation, 0).total,
                           before * (1 + 1e-9));
@@ -289,33 +304,6 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
 
 /* ---- ends -----------------------------------------------------------------
  */
-
-/* The test of Algorithm 3 is passed on saddles, in a square that is squeezed
- * evenly without any update: they are left, by both solvers.  Some of these
- * steps ended by 1e4 to 1e10 times M above a minimum. */
-TEST(an_end_that_bends_down_is_left)
-{
-    static const char *const lines[] = {
-        "--stretch 0 --timestep 1",
-        "--stretch 0 --timestep 1 --segments 8 --tolerance 1e-6",
-        "--stretch 0.5 --timestep 1000",
-        "--segments 2 --stretch 0.5 --timestep 0.1 --stiffness 1e8 "
-        "--pin 0,1,2,6,7,8",
-        "--segments 4 --stretch 0.627 --timestep 0.00814 --stiffness 6.47e12 "
-        "--tolerance 0.0185 --pin 0,1,2,3,4,20,21,22,23,24 --gravity 9.81",
-        "--stretch 1e6 --timestep 1 --stiffness 1e8",
-        "--segments 7 --stretch 0.581 --timestep 0.343 --stiffness 6.72e7 "
-        "--tolerance 0.00792 --gravity 5.51e-6 --damping 0.0528",
-    };
-    for (size_t i = 0; i < 2 * (sizeof lines / sizeof *lines); i++) {
-        Simulation *simulation = simulate("%s --solver %s", lines[i / 2],
-                                          i % 2 ? "multigrid" : "newton");
-        for (int step = 0; step < 3; step++) {
-            make_steps(simulation, 1);
-            CHECK_OK(direction_bends_up(simulation->run[0].newton, 101.1));
-        }
-    }
-}
 
 /* What a step may cost is told by the square, not by the scene: 250 000 nodes
  * updated, but 1000 updates at least, each with a factor or two and no more

@@ -536,7 +536,7 @@ TEST(claim_explodes)
         Status status = simulation_step(open_page("explodes", watched[i]));
         for (int k = 0; k < updates.count; k++)
             CHECK(updates.record[k].change <= 0);
-        CHECK(i == 1 || (status == STATUS_OK && updates.count == 5));
+        CHECK(i == 1 || (status == STATUS_OK && updates.count == 6));
     }
 }
 
@@ -545,7 +545,7 @@ TEST(claim_explodes)
  * most 100 M, as it is here: h^2 k is 10 and M is 40. */
 TEST(claim_minimise)
 {
-    static const double values[] = {4.917, 2.023, 1.984, 1.983, 1.983};
+    static const double values[] = {4.918, 2.024, 1.984, 1.984, 1.984, 1.984};
     Simulation *simulation = open_page("minimise", "");
     const TimeIntegrator *run = &simulation->run[0];
     const System *square = &simulation->system;
@@ -563,10 +563,10 @@ TEST(claim_minimise)
     updates.count = 0;
     make_steps(simulation, 1);
     CHECK_NEAR(run->x[44], 0.432, 5e-4);
-    CHECK(updates.count == 4);
-    for (int i = 0; i <= 4; i++) {
+    CHECK(updates.count == 5);
+    for (int i = 0; i <= 5; i++) {
         CHECK_NEAR(value, values[i], 5e-4);
-        value += i < 4 ? updates.record[i].change : 0;
+        value += i < 5 ? updates.record[i].change : 0;
     }
     simulation = open_page("minimise", "--tolerance 1e-9 --timestep 0.01");
     run = &simulation->run[0];
@@ -694,7 +694,7 @@ TEST(claim_algorithm2)
     }
     simulation = open_page("algorithm2", "");
     make_steps(simulation, 1);
-    CHECK(updates.count == 5);
+    CHECK(updates.count == 6);
     for (int i = 0; i < updates.count; i++)
         CHECK_NEAR(updates.record[i].alpha, i ? 1 : 0.25, 0);
     check_falls();
@@ -806,7 +806,7 @@ TEST(claim_algorithm3)
     CHECK(known("algorithm3", "short") == 52);
     Simulation *simulation = open_page("algorithm3", "");
     make_steps(simulation, 1);
-    CHECK(updates.count == 5);
+    CHECK(updates.count == 6);
     CHECK(updates.record[0].projected == 52);
     for (int i = 0; i < updates.count; i++)
         CHECK_NEAR(updates.record[i].alpha, 1, 0);
@@ -816,7 +816,7 @@ TEST(claim_algorithm3)
 TEST(claim_step)
 {
     make_steps(open_page("step", "--tolerance 0.01"), 1);
-    CHECK(updates.count == 2);
+    CHECK(updates.count == 3);
     check_falls();
     make_steps(open_page("step", ""), 1);
     CHECK(updates.count == 4);
@@ -827,7 +827,7 @@ TEST(claim_step)
         CHECK_NEAR(at[-1].residual / at->residual, factors[k], 0.5);
         CHECK(at->projected == 20);
     }
-    make_steps(open_page("step", "--filter none --tolerance 1e-9"), 1);
+    make_steps(open_page("step", "--filter none"), 1);
     CHECK(updates.count == 4);
     for (int k = 2; k < 4; k++) {
         double before = updates.record[k - 1].residual;
@@ -861,7 +861,8 @@ TEST(claim_simulator)
         now = simulation_energies(simulation, 0).total;
         CHECK((i > 50 || now <= before) && (i < 100 || now < 0.5 * start));
     }
-    CHECK_NEAR(now, 0.3, 0.05);
+    /* at the minima themselves it is 0.24335 J */
+    CHECK_NEAR(now, 0.2433, 5e-4);
     simulation = open_page("simulator", "--integrator verlet");
     int turned = 0;
     for (int i = 0; i < 1000; i++) {
@@ -1227,7 +1228,7 @@ TEST(claim_race)
 
 TEST(claim_trust)
 {
-    int undone = 0, good = 0, all = ENVELOPE_ROWS * ENVELOPE_COLUMNS;
+    int good = 0;
     Simulation *simulation = open_page("trust", "");
     CHECK(!speaks_of_all(simulation));
     CHECK(isnan(known_now(simulation, "known"))); /* one run is no map */
@@ -1236,27 +1237,16 @@ TEST(claim_trust)
             CHECK_STATUS(envelope_visit(simulation, column, row), STATUS_OK);
             const EnvelopeCell *cell =
                 &simulation->exhibit.map.cell[row][column];
-            double width = simulation->run[0].x[2 * 24] -
-                           simulation->run[0].x[0]; /* m, corner to corner */
-            undone += cell->undone;
-            good += cell->worst == STATUS_OK && !cell->undone;
-            CHECK(cell->undone == (!cell->worst && cell->updates == 0));
-            CHECK(!cell->undone || fabs(width - 1.4) <= 1e-15);
-            CHECK(!cell->worst || status_is_unconverged(cell->worst));
-            double h = envelope_timestep(column), m = 1000 / 25.0;
-            CHECK(!cell->worst || h * h * envelope_stiffness(row) > 1e16 * m);
+            good += cell->worst == STATUS_OK && cell->updates > 0;
             for (int i = 0; i < 2 * simulation->system.nodes; i++)
                 CHECK(isfinite(simulation->run[0].x[i]) &&
                       isfinite(simulation->run[0].v[i]));
         }
-    CHECK(undone == 280 && all == 550);
-    CHECK(speaks_of(simulation, "{some undone}{rounded}"));
-    CHECK(!speaks_of(simulation, "{refused}"));
+    CHECK(good == 550);
+    CHECK(speaks_of(simulation, "{all converged}"));
+    CHECK(!speaks_of(simulation, "{rounded}") &&
+          !speaks_of(simulation, "{refused}"));
     CHECK(speaks_of_all(simulation));
-    CHECK(good >= 0.97 * (all - undone));
-    simulation = run_out("trust", "--stretch 1"); /* nothing to do */
-    CHECK(!speaks_of(simulation, "{some undone}"));
-    CHECK(!speaks_of(simulation, "{rounded}"));
     simulation = run_out("trust", "--stretch 0.5 --filter none");
     CHECK(speaks_of(simulation, "{refused}"));
     CHECK(!speaks_of(simulation, "{rounded}"));

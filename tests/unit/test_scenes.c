@@ -182,9 +182,9 @@ static const EnvelopeCell *visit(Simulation *map, int column, int row)
 /* A cell is the run that its command line makes. */
 TEST(envelope_cells_are_runs)
 {
-    static const int cells[6][2] = {{13, 11}, {20, 8},  {24, 21},
-                                    {0, 0},   {22, 21}, {24, 20}};
-    Simulation *map = simulate("envelope");
+    static const int cells[6][2] = {{13, 11}, {20, 8}, {24, 21},
+                                    {0, 0},   {3, 20}, {4, 21}};
+    Simulation *map = simulate("envelope --tolerance 1e-10");
     int refused = 0;
     for (int i = 0; i < 6; i++) {
         int column = cells[i][0], row = cells[i][1];
@@ -192,7 +192,7 @@ TEST(envelope_cells_are_runs)
         Status worst = STATUS_OK;
         Simulation *run =
             simulate("square --segments %d --stretch %.17g --timestep %.17g "
-                     "--stiffness %.17g",
+                     "--stiffness %.17g --tolerance 1e-10",
                      (int)map->options.segments, map->options.stretch,
                      envelope_timestep(column), envelope_stiffness(row));
         for (int step = 0; step < ENVELOPE_STEPS; step++) {
@@ -318,7 +318,7 @@ TEST(pins_and_walls_stop_each_other)
         int blocked, updates; /* more than this, less than that */
     } rows[] = {
         {"squeeze --segments 4 --pin top", 15, 100},
-        {"tear --segments 4 --ground 1,0,-0.52,0 --timestep 0.01", 15, 100},
+        {"tear --segments 4 --ground 1,0,-0.52,0 --timestep 0.01", 15, 200},
         {"return --segments 4 --body 0,0 --body 0,1.1 --ground 0,1,0,-0.6 "
          "--ceiling 1.7,-50,-5",
          5, 1300}};
@@ -356,11 +356,15 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     CHECK(!grown);
     for (int i = 9; i < 18; i++)
         u[2 * i + 1] = -0.2 + 0.5 * self->d_hat;
-    CHECK_STATUS(newton_start(newton, scene->run[0].x, u, 1e-4),
-                 STATUS_RUNNING);
+    newton->settings.max_iterations = 1;
+    newton_start(newton, scene->run[0].x, u, 1e-4, 1e-30);
+    CHECK_STATUS(newton_minimise(newton), STATUS_ITERATION_LIMIT);
+    Iterate before = newton->at; /* of the last direction */
+    before.u = newton->u_trial;
+    before.x = newton->x_trial;
+    incremental_potential_gradient(&before.E, before.u, before.x, before.g);
     CHECK(self->pairs > 0);
-    incremental_potential_product(&newton->at, newton->search.filter,
-                                  newton->at.p, Hp);
+    incremental_potential_product(&before, newton->search.filter, before.p, Hp);
     for (int i = 0; i < 36; i++)
         CHECK_NEAR(Hp[i], -newton->at.g[i], 1e-10);
     CHECK_OK(incremental_potential_grow(&newton->at, &grown));

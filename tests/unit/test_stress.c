@@ -24,8 +24,8 @@ TEST(named_cases_keep_the_promise)
 /* Of each kind some; and they are scenes that can be solved, not excuses. */
 TEST(random_scenes_keep_the_promise)
 {
-    static const char *const kinds[] = {"s", "cccctbww", "f", "mn"};
-    for (int i = 0; i < 4; i++) {
+    static const char *const kinds[] = {"s", "cccctbww", "f", "mn", "k"};
+    for (int i = 0; i < 5; i++) {
         Tally tally = {0};
         char reason[512] = "";
         const long count = tests_many(1000, 32) / (i == 3 ? 3 : 1);
@@ -38,13 +38,16 @@ TEST(random_scenes_keep_the_promise)
         CHECK(tally.steps[VERDICT_CONVERGED] >
               2 * tally.steps[VERDICT_REPORTED]);
         CHECK(i > 0 ||
-              (tally.judged > 2 * count && tally.blurred * 10 < tally.judged));
+              (tally.judged > count && tally.blurred * 10 < tally.judged));
     }
 }
 
 /* Scenes in which something was wrong once. */
 TEST(what_was_wrong_once_is_right)
 {
+#define STIFF                                                                  \
+    "square --segments 2 --density 1e-3 --timestep 0.1 --tolerance 1e-6 "      \
+    "--material neo-hookean --poisson 0.3 --stretch 0.5 --turn 30 --young "
 #define EDGE                                                                   \
     "square --segments 3 --stiffness 2.41e6 --density 8.93e-5 --timestep "     \
     "13.1 --yield 7e-4 --hardening 1.5e-4 --stretch "
@@ -53,6 +56,14 @@ TEST(what_was_wrong_once_is_right)
         const char *line;
         Verdict worst; /* it may have */
     } rows[] = {
+        /* a light body of stiff triangles: rounding of forces that cancel must
+         * not turn it */
+        {3, STIFF "1e10", VERDICT_CONVERGED},
+        {3, STIFF "1e12", VERDICT_CONVERGED},
+        {3, STIFF "1e13", VERDICT_CONVERGED},
+        {3, STIFF "1e12 --gravity 9.81 --pin left", VERDICT_CONVERGED},
+        {3, STIFF "3e11 --stretch 1.7 --turn 200 --velocity 5,-3",
+         VERDICT_CONVERGED},
         /* step 9 begins at rest, after an end that was looked at for a saddle:
          * the test there is of the projected Hessian again */
         {10,
@@ -167,7 +178,7 @@ static bool stop_at_record(void *user, const NewtonRecord *record)
     return --*(int *)user != 0;
 }
 
-/* A step that was interrupted, at whatever record, moved nothing, and is made
+/* A step that is left in a pause, at whatever record, moved nothing, and is made
  * again to the same bits. */
 TEST(interruptions_leave_no_trace)
 {
@@ -183,7 +194,8 @@ TEST(interruptions_leave_no_trace)
             make_steps(one, 2);
             make_steps(other, 2);
             left = record;
-            stops = simulation_step(one) == STATUS_INTERRUPTED;
+            simulation_begin(one);
+            stops = simulation_advance(one) == STATUS_RUNNING;
             CHECK(stops || record >= 4);
             if (!stops)
                 continue;
@@ -202,7 +214,7 @@ TEST(interruptions_leave_no_trace)
 TEST(large_squares_pass_what_they_say)
 {
     const char *const lines[] = {
-        "--segments 33 --stretch 1.4", "--segments 40 --minimum",
+        "--segments 33 --stretch 1.4", "--segments 40",
         "--segments 20 --stretch 0.5 --timestep 0.02 --solver multigrid",
         ("--segments 24 --pin top-corners --gravity 9.81 --integrator sdirk2 "
          "--solver multigrid")};
@@ -215,12 +227,10 @@ TEST(large_squares_pass_what_they_say)
     }
     Simulation *simulation = simulate("--segments 12 --solver multigrid");
     Newton *newton = simulation->run[0].newton;
-    CHECK_STATUS(newton_start(newton, simulation->run[0].x, NULL, 1.6e-5),
-                 STATUS_RUNNING);
+    newton_start(newton, simulation->run[0].x, NULL, 1.6e-5, 0.01);
     CHECK(large_judge(&newton->at.E, newton->at.u, newton->settings.h,
                       newton->tolerance) == LARGE_FAILED);
-    while (newton_iterate(newton) == STATUS_RUNNING)
-        continue;
+    CHECK_OK(newton_minimise(newton));
     CHECK(large_judge(&newton->at.E, newton->at.u, newton->settings.h,
                       newton->tolerance) == LARGE_PASSED);
 }
