@@ -2,10 +2,18 @@
  * "Inversion-Free Elasticity" of the lecture's author).
  *
  *     d-----c     d-----c     Each cell is cut into two triangles, by one or
- *     |   / |     | \   |     the other diagonal in turn.  F = [f1 f2] maps a
- *     | /   |     |   \ |     triangle's rest shape to its shape, J = det F:
+ *     |   / |     | \   |     the other diagonal in turn.  F maps a triangle's
+ *     | /   |     |   \ |     rest shape to its shape, J = det F:
  *     a-----b     a-----b       W = A0 (mu/2 (|F|^2 - 2) - mu ln J
  *                                       + lambda/2 (ln J)^2)
+ *
+ * F = [e1 e2]/l with the two legs e1, e2 from the right angle, which have the
+ * length l at rest.  F = F+ + F- is a rotation times a number, and what shears
+ * (area.h): J = (|F+|^2 - |F-|^2)/2, and the stress is
+ *   dW/dF = A0 (s F+ + (2 mu - s) F-),  s = (mu (J - 1) + lambda ln J)/J.
+ * A triangle has no torque but for rounding of this stress: that of
+ * mu F - mu F^-T + ... would be as large as mu, which turns light bodies of
+ * stiff material.
  *
  * A flat triangle, J = 0, has infinite energy: none ever turns over, whereas
  * springs do not know inside from outside.  Lame's numbers in plane strain:
@@ -21,10 +29,9 @@
 /* The term's data. */
 typedef struct NeoHookean {
     int triangles;
-    double area;            /* m^2, A0 of each */
-    double mu, lambda;      /* J/m^2, Pa times a thickness of 1 m */
-    double (*weight)[2][3]; /* [triangles] 1/m, of its nodes in f1 and in f2 */
-    int (*node)[3];         /* [triangles] anticlockwise at rest */
+    double area;       /* m^2, A0 of each */
+    double mu, lambda; /* J/m^2, Pa times a thickness of 1 m */
+    int (*node)[3];    /* [triangles] the right angle's, then anticlockwise */
 } NeoHookean;
 
 /* sum of W over the triangles; data: NeoHookean.  Its option's numbers are: 1

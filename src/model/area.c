@@ -31,40 +31,37 @@ static double make_unit(double v[4], const double instead[4])
     return length;
 }
 
-/* The Hessian of all I + slope K + second g g^T with g = unit K f: f+ and f-
- * are f's parts in the eigenspaces of K, so it maps the plane of a = f+/|f+|
- * and b = f-/|f-| to itself, and what lies across, S of their halves, are
- * eigenvectors with all + slope and all - slope.  In that plane a 2x2 matrix Q
- * is projected. */
-bool area_hessian(const double f[4], double unit, double all, double slope,
-                  double second, Filter filter, double H[4][4])
+/* With g = unit K f: f+ and f- are f's parts in the eigenspaces of K, so the
+ * Hessian maps the plane of a = f+/|f+| and b = f-/|f-| to itself, and what
+ * lies across, S of their halves, are eigenvectors with on_plus and on_minus.
+ * In that plane a 2x2 matrix Q is projected. */
+bool area_hessian(const double f[4], double unit, double on_plus,
+                  double on_minus, double second, Filter filter, double H[4][4])
 {
     static const double any_plus[4] = {0, 0.7071067811865476,
                                        -0.7071067811865476, 0};
     static const double any_minus[4] = {0, 0.7071067811865476,
                                         0.7071067811865476, 0};
-    double a[4] = {0.5 * (f[0] + f[3]), 0.5 * (f[1] - f[2]),
-                   0.5 * (f[2] - f[1]), 0.5 * (f[3] + f[0])};
-    double b[4] = {0.5 * (f[0] - f[3]), 0.5 * (f[1] + f[2]),
-                   0.5 * (f[2] + f[1]), 0.5 * (f[3] - f[0])};
+    double p[2], m[2];
+    area_parts(f, p, m);
+    double a[4] = {p[0], p[1], -p[1], p[0]}, b[4] = {m[0], m[1], m[1], -m[0]};
     double plus = unit * make_unit(a, any_plus);
     double minus = unit * make_unit(b, any_minus);
-    double Q[3] = {second * plus * plus + slope + all, -second * plus * minus,
-                   second * minus * minus - slope + all};
+    double Q[3] = {second * plus * plus + on_plus, -second * plus * minus,
+                   second * minus * minus + on_minus};
     const double across_a[4] = {a[1], -a[0], a[3], -a[2]};
     const double across_b[4] = {b[1], -b[0], b[3], -b[2]};
-    double low = all + slope, high = all - slope;
     bool changed = filter_2x2(filter, Q);
     if (filter_projects(filter)) {
-        changed = changed || low < 0 || high < 0;
-        low = projected_eigenvalue(filter, low);
-        high = projected_eigenvalue(filter, high);
+        changed = changed || on_plus < 0 || on_minus < 0;
+        on_plus = projected_eigenvalue(filter, on_plus);
+        on_minus = projected_eigenvalue(filter, on_minus);
     }
     for (int r = 0; r < 4; r++)
         for (int c = 0; c < 4; c++)
             H[r][c] = Q[0] * a[r] * a[c] + Q[2] * b[r] * b[c] +
                       Q[1] * (a[r] * b[c] + b[r] * a[c]) +
-                      high * across_b[r] * across_b[c] +
-                      low * across_a[r] * across_a[c];
+                      on_minus * across_b[r] * across_b[c] +
+                      on_plus * across_a[r] * across_a[c];
     return changed;
 }

@@ -15,6 +15,19 @@ static inline double cross(const double a[2], const double b[2])
     return a[0] * b[1] - a[1] * b[0];
 }
 
+/* f = f+ + f-, the parts in the eigenspaces of K for 1 and -1:
+ *   f+ = (a0, a1, -a1, a0), a rotation times a number; a = plus [2], out
+ *   f- = (b0, b1, b1, -b0), a reflection times a number; b = minus [2], out
+ * J is |a|^2 - |b|^2. */
+static inline void area_parts(const double f[4], double plus[2],
+                              double minus[2])
+{
+    plus[0] = 0.5 * (f[0] + f[3]);
+    plus[1] = 0.5 * (f[1] - f[2]);
+    minus[0] = 0.5 * (f[0] - f[3]);
+    minus[1] = 0.5 * (f[1] + f[2]);
+}
+
 /* Along P unit J becomes unit J + alpha J1 + alpha^2 J2, both out. */
 void area_along(const double f[4], double unit, const double P[4], double *J1,
                 double *J2);
@@ -23,9 +36,12 @@ void area_along(const double f[4], double unit, const double P[4], double *J1,
 double area_reach(const double f[4], double unit, double most,
                   const double P[4]);
 
-/* H = all I + slope K + second (unit K f)(unit K f)^T, [4][4] out, filtered.
+/* H = on_plus on the space of f+, on_minus on that of f-, plus
+ * second (unit K f)(unit K f)^T, [4][4] out, filtered.  With on_plus = all +
+ * slope, on_minus = all - slope, the first two are all I + slope K.
  * Returns whether an eigenvalue was changed. */
-bool area_hessian(const double f[4], double unit, double all, double slope,
-                  double second, Filter filter, double H[4][4]);
+bool area_hessian(const double f[4], double unit, double on_plus,
+                  double on_minus, double second, Filter filter,
+                  double H[4][4]);
 
 #endif

@@ -73,7 +73,7 @@ static bool hessian(const Place *at, const Element *element, Filter filter,
     double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->area);
     double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
-    return area_hessian(element->v, q, 0, slope, bend, filter, H);
+    return area_hessian(element->v, q, slope, -slope, bend, filter, H);
 }
 
 static double reach(const Place *at, const Element *element, const double P[4])

@@ -21,62 +21,82 @@ static int nodes(const Place *at, int t, int node[3])
     return 3;
 }
 
-/* a = f1, b = f2, s = J. */
+/* 1/l^2 with the legs' length l at rest: a triangle is half a cell. */
+static double unit_of(const NeoHookean *data)
+{
+    return 1 / (2 * data->area);
+}
+
+/* a = e1, b = e2, s = J. */
 static bool get(const Place *at, int t, double way, Element *element)
 {
+    static const double legs[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const NeoHookean *data = at->term->data;
     (void)way; /* each triangle has a force */
     element->vectors = 2;
     element->nodes = nodes(at, t, element->node);
-    element->weight = (const double(*)[3])data->weight[t];
+    element->weight = legs;
     element->block = t;
     element->factor = at->w;
     element_vectors(element, at->x, element->v);
-    element->s = cross(element->v, element->v + 2);
+    element->s = unit_of(data) * cross(element->v, element->v + 2);
     return true;
 }
 
-static double square_of(const double f[4])
+static double square_of(const double a[2])
 {
-    return f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3];
+    return a[0] * a[0] + a[1] * a[1];
 }
 
-/* dW/dJ over A0, of the terms with J. */
-static double slope_in_J(const NeoHookean *data, double J)
+/* J - 1 - ln J >= 0, without cancellation near 1. */
+static double volume_value(double J)
 {
-    return (data->lambda * math_log(J) - data->mu) / J;
+    return J > 0.5 ? -log1p_minus(J - 1) : J - 1 - math_log(J);
 }
 
+/* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2): with |F|^2 = 2 J +
+ * 2 |F-|^2 it is the same W, but no two parts of it cancel. */
 static double value(const Place *at, const Element *element)
 {
     const NeoHookean *data = at->term->data;
-    double L = math_log(element->s);
-    return data->area * (0.5 * data->mu * (square_of(element->v) - 2) -
-                         data->mu * L + 0.5 * data->lambda * L * L);
+    double plus[2], minus[2], L = math_log(element->s);
+    area_parts(element->v, plus, minus);
+    double shear = 2 * unit_of(data) * square_of(minus);
+    return data->area * (data->mu * (shear + volume_value(element->s)) +
+                         0.5 * data->lambda * L * L);
 }
 
-/* mu F + dW/dJ grad J, grad J = (S f2, -S f1) with S v = (v_y, -v_x). */
+/* The stress on F+, which is all of dW/dJ over A0, and on F-. */
+static void stresses(const NeoHookean *data, double J, double *on_plus,
+                     double *on_minus)
+{
+    *on_plus = (data->mu * (J - 1) + data->lambda * math_log(J)) / J;
+    *on_minus = 2 * data->mu - *on_plus;
+}
+
+/* P = on_plus F+ + on_minus F-.  Both parts of F vanish with the stress, or
+ * their factor does: rounding is in proportion to the stress, where the parts
+ * of mu F - mu F^-T are as large as mu, however small their difference. */
 static void gradient(const Place *at, const Element *element, double g[4])
 {
-    const NeoHookean *data = at->term->data;
-    const double *f = element->v;
-    double c1 = data->area * slope_in_J(data, element->s);
-    double mu = data->area * data->mu;
-    g[0] = mu * f[0] + c1 * f[3];
-    g[1] = mu * f[1] - c1 * f[2];
-    g[2] = mu * f[2] - c1 * f[1];
-    g[3] = mu * f[3] + c1 * f[0];
+    double plus[2], minus[2], p, q;
+    area_parts(element->v, plus, minus);
+    stresses(at->term->data, element->s, &p, &q);
+    g[0] = 0.5 * (p * plus[0] + q * minus[0]);
+    g[1] = 0.5 * (p * plus[1] + q * minus[1]);
+    g[2] = 0.5 * (q * minus[1] - p * plus[1]);
+    g[3] = 0.5 * (p * plus[0] - q * minus[0]);
 }
 
 static bool hessian(const Place *at, const Element *element, Filter filter,
                     double H[4][4])
 {
     const NeoHookean *data = at->term->data;
-    double J = element->s, mu = data->mu;
-    double bend = (data->lambda * (1 - math_log(J)) + mu) / (J * J);
-    return area_hessian(element->v, 1, data->area * mu,
-                        data->area * slope_in_J(data, J), data->area * bend,
-                        filter, H);
+    double J = element->s, p, q;
+    double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
+    stresses(data, J, &p, &q);
+    return area_hessian(element->v, unit_of(data), 0.5 * p, 0.5 * q,
+                        data->area * bend, filter, H);
 }
 
 /* With J + alpha J1 + alpha^2 J2 = J (1 + z), and ln(1 + z) less its part of
@@ -85,21 +105,23 @@ static double remainder_along(const Place *at, const Element *element,
                               const double P[4], double alpha)
 {
     const NeoHookean *data = at->term->data;
-    double J1, J2, J = element->s;
-    area_along(element->v, 1, P, &J1, &J2);
+    double J1, J2, plus[2], minus[2], J = element->s, unit = unit_of(data);
+    area_along(element->v, unit, P, &J1, &J2);
+    area_parts(P, plus, minus);
     double bent = alpha * alpha * J2 / J, z = alpha * J1 / J + bent;
     if (!(z > -1))
         return INFINITY;
-    double L = math_log1p(z), t = log1p_minus(z) + bent;
-    return data->area *
-           (0.5 * data->mu * alpha * alpha * square_of(P) - data->mu * t +
-            0.5 * data->lambda * (2 * math_log(J) * t + L * L));
+    double L = math_log1p(z), curved = log1p_minus(z), t = curved + bent;
+    double straight = alpha * alpha * unit / J *
+                      ((J - 1) * square_of(plus) + (J + 1) * square_of(minus));
+    return data->area * (data->mu * (straight - curved) +
+                         0.5 * data->lambda * (2 * math_log(J) * t + L * L));
 }
 
 static double reach(const Place *at, const Element *element, const double P[4])
 {
-    (void)at;
-    return area_reach(element->v, 1, ELEMENT_LIMIT * element->s, P);
+    const NeoHookean *data = at->term->data;
+    return area_reach(element->v, unit_of(data), ELEMENT_LIMIT * element->s, P);
 }
 
 /* At F = I the Hessian is mu (I - K) + (lambda + mu) (K f)(K f)^T; a node has
@@ -115,36 +137,17 @@ static void bounds(const Place *at, double *stiffest, double *force)
 static const ElementKind triangle = {ELEMENT_FUNCTIONS, .blocks = count,
                                      .reach = reach};
 
-/* The triangle's own f1 and f2: [f1 f2] = [x_b - x_a, x_c - x_a] B with the
- * inverse B of the same at rest. */
-static void weigh(const SquareMesh *mesh, const int node[3],
-                  double weight[2][3])
-{
-    double a[2], b[2], c[2];
-    square_mesh_place(mesh, node[0], a);
-    square_mesh_place(mesh, node[1], b);
-    square_mesh_place(mesh, node[2], c);
-    const double e1[2] = {b[0] - a[0], b[1] - a[1]};
-    const double e2[2] = {c[0] - a[0], c[1] - a[1]};
-    double twice = cross(e1, e2);
-    for (int m = 0; m < 2; m++) {
-        weight[m][1] = (m == 0 ? e2[1] : -e2[0]) / twice;
-        weight[m][2] = (m == 0 ? -e1[1] : e1[0]) / twice;
-        weight[m][0] = -(weight[m][1] + weight[m][2]);
-    }
-}
-
 /* Cuts each cell into two triangles.  Their sides stay as springs, which are
  * only drawn; the other diagonal gets k = 0. */
 static Status set(System *system, const SquareMesh *mesh, const double *number)
 {
-    static const int corner[2][2][3] = {{{0, 1, 2}, {0, 2, 3}},
-                                        {{0, 1, 3}, {1, 2, 3}}};
+    static const int corner[2][2][3] = {{{1, 2, 0}, {3, 0, 2}},
+                                        {{0, 1, 3}, {2, 3, 1}}};
     size_t triangles = 2 * (size_t)mesh->cells;
     double young = number[1], nu = number[2];
-    NeoHookean *data = system_term(
-        system, &neo_hookean_energy,
-        sizeof *data + triangles * (sizeof *data->weight + sizeof *data->node));
+    NeoHookean *data =
+        system_term(system, &neo_hookean_energy,
+                    sizeof *data + triangles * sizeof *data->node);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->mu = young / (2 * (1 + nu));
@@ -153,17 +156,14 @@ static Status set(System *system, const SquareMesh *mesh, const double *number)
         return STATUS_OK;
     data->triangles = (int)triangles;
     data->area = 0.5 * mesh->spacing * mesh->spacing;
-    data->weight = (double(*)[2][3])(data + 1);
-    data->node = (int(*)[3])(data->weight + triangles);
+    data->node = (int(*)[3])(data + 1);
     for (int c = 0; c < mesh->cells; c++) {
         int node[4], spring[6], odd = square_mesh_is_half(mesh, 4 * c);
         square_mesh_cell(mesh, c, node, spring);
         system->k[spring[odd ? 4 : 5]] = 0;
-        for (int t = 2 * c; t < 2 * c + 2; t++) {
+        for (int t = 2 * c; t < 2 * c + 2; t++)
             for (int k = 0; k < 3; k++)
                 data->node[t][k] = node[corner[odd][t % 2][k]];
-            weigh(mesh, data->node[t], data->weight[t]);
-        }
     }
     system_remove_term(system, &mass_spring_energy);
     return STATUS_OK;

@@ -405,11 +405,11 @@ static void cell(Spot *spot, Jet *sum, const void *data, int t)
 static void solid(Spot *spot, Jet *sum, const void *data, int t)
 {
     const NeoHookean *solid = data;
-    Jet F[4] = {{0}}, size = {.f = -2}, J, L;
+    const int *node = solid->node[t];
+    Jet F[4], size = {.f = -2}, J, L;
     for (int c = 0; c < 4; c++)
-        for (int k = 0; k < 3; k++)
-            F[c] = plus(F[c], solid->weight[t][c / 2][k],
-                        coordinate(spot, 2 * solid->node[t][k] + c % 2, false));
+        F[c] = plus((Jet){0}, 1 / sqrtl(2 * (Real)solid->area),
+                    between(spot, node[1 + c / 2], node[0], c % 2, false));
     for (int c = 0; c < 4; c++)
         size = plus(size, 1, times(F[c], F[c]));
     J = plus(times(F[0], F[3]), -1, times(F[1], F[2]));
@@ -532,7 +532,7 @@ static Frame frame_of(Spot *spot, Parts parts, const void *data, int i)
     else if (parts == CELLS)
         frame_of_three(&frame, ((const Cells *)data)->node + 3 * i, edges);
     else if (parts == SOLIDS)
-        frame_of_three(&frame, solid->node[i], solid->weight[i]);
+        frame_of_three(&frame, solid->node[i], edges);
     else if (parts == PAIRS)
         frame_of_pair(spot, &frame, i);
     return frame;

@@ -320,10 +320,12 @@ static Real flattest(const Simulation *simulation, Real *energy)
     Real lambda = 2 * mu * nu / (1 - 2 * nu);
     for (int t = 0; t < solid->triangles; t++) {
         Real F[4] = {0}, F2 = 0;
-        for (int k = 0; k < 12; k++) {
-            const double *x = simulation->run[0].x + 2 * solid->node[t][k % 3];
-            F[k / 3] += (Real)solid->weight[t][k / 6][k % 3] * x[k / 3 % 2];
-        }
+        const double *x = simulation->run[0].x;
+        const int *node = solid->node[t];
+        for (int k = 0; k < 4; k++)
+            F[k] = ((Real)x[2 * node[1 + k / 2] + k % 2] -
+                    x[2 * node[0] + k % 2]) /
+                   sqrtl(2 * (Real)solid->area);
         for (int k = 0; k < 4; k++)
             F2 += F[k] * F[k];
         Real J = F[0] * F[3] - F[1] * F[2];
