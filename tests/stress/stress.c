@@ -86,6 +86,7 @@ static const struct {
                 {"contact", "cccctbww", 20000, 10, 0.999},
                 {"large squares", "l", 80, 4, 0.5},
                 {"springs that flow", "f", 20000, 2, 0.5},
+                {"stiff solids", "k", 10000, 3, 0.9},
                 {"bodies", "mn", 20000, 10, 0.998}};
 
 static void run_random(uint64_t seed, bool quick, Tally *sum)

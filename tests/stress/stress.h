@@ -11,12 +11,10 @@
 
 /* ---- exact formulas (stress_exact.c) ----------------------------------- */
 
-/* A minimisation; for how long walls have moved in this step, s; and whether
- * the negative eigenvalues of blocks are cut. */
+/* A minimisation, and for how long walls have moved in this step, s. */
 typedef struct Moment {
     IncrementalPotential E;
     double moved;
-    bool clamped;
 } Moment;
 
 /* E at x_n + u, which is not rounded; J s^2.  All terms, by oracle.c. */
@@ -26,12 +24,6 @@ long double wide_energy(const Moment *moment, const double *u);
  * of E there. */
 long double wide_noise(const Moment *moment, const double *u,
                        const double *way);
-
-/* q.(H p + grad E) there, of all terms, less what is given: 0 if p is Newton's
- * direction; noise: what rounding can make of it.  p [2n] or NULL: 0, q [2n] */
-long double wide_imbalance(const Moment *moment, const double *u,
-                           const double *p, const double *q, long double given,
-                           long double *noise);
 
 /* Gradient [2n] and Hessian [2n 2n] of E of springs and the central field, 0
  * and 1 for pinned nodes; negative eigenvalues of each spring as the filter
@@ -81,9 +73,8 @@ typedef struct Tally {
 } Tally;
 
 /* Watches one run: nothing is behind a wall or turned, E is raised by no update
- * and by no step, residuals are what a step says: of springs alone they are
- * solved for again; else the solver's direction has to solve Newton's
- * equation. */
+ * and by no step, a residual is solved for again where a step says that it
+ * converged. */
 typedef struct Watch {
     TimeIntegrator *run;
     Tally *tally;       /* what is counted */
@@ -130,6 +121,7 @@ enum { STRESS_LINE = 512 };
  *      walls
  *   m, n  two to six bodies of springs, or of triangles, that are thrown at
  *      each other, squeezed and pinned
+ *   k  solids of triangles: moduli to 1e13 Pa, density from 1e-6 kg/m^2
  *   l  large squares */
 void stress_line(const char *kinds, uint64_t seed, long number,
                  char line[STRESS_LINE]);

@@ -26,64 +26,41 @@ static Wide wide_difference(const IncrementalPotential *E, const double *u,
     return (Wide)E->x_n[i] - E->x_n[j] + t * ((Wide)u[i] - u[j]);
 }
 
-/* E at x_n + u, not rounded, with its derivatives along `way` and q; size out,
- * or NULL: sum of the sizes of its parts. */
+/* E at x_n + u, not rounded, with its derivative along `way`. */
 static Jet energy(const Moment *moment, const double *u, const double *way,
-                  const double *q, Random *jitter, Jet *size)
+                  Random *jitter)
 {
     const IncrementalPotential *E = &moment->E;
     Place place = place_at(E->system, E->x_n, u, NULL);
     Spot spot = {.at = &place,
                  .h = sqrtl(E->weight),
                  .p = way,
-                 .q = q,
                  .moved = moment->moved,
                  .jitter = jitter,
                  .averaged = E->between};
     place.w = E->weight;
-    Jet sum = oracle_step(&spot, E->u_tilde);
-    if (moment->clamped)
-        sum.pq += oracle_clamping(&spot);
-    if (size)
-        *size = spot.size;
-    return sum;
+    return oracle_step(&spot, E->u_tilde);
 }
 
 long double wide_energy(const Moment *moment, const double *u)
 {
-    return energy(moment, u, NULL, NULL, NULL, NULL).f;
+    return energy(moment, u, NULL, NULL).f;
 }
 
 long double wide_noise(const Moment *moment, const double *u, const double *way)
 {
     const IncrementalPotential *E = &moment->E;
     Random jitter = {1};
-    Jet exact = energy(moment, u, way, NULL, NULL, NULL);
+    Jet exact = energy(moment, u, way, NULL);
     Real sum = LDBL_EPSILON * fabsl(exact.f);
     for (int round = 0; round < 3; round++) {
-        Jet rounded = energy(moment, u, way, NULL, &jitter, NULL);
+        Jet rounded = energy(moment, u, way, &jitter);
         sum += fabsl(rounded.f - exact.f) + fabsl(rounded.p - exact.p);
     }
     for (int i = 0; i < 2 * E->system->nodes; i++)
         sum += DBL_EPSILON * E->system->m[i / 2] *
                (fabsl(u[i]) + fabsl(E->u_tilde[i])) * fabs(way[i]);
     return sum;
-}
-
-long double wide_imbalance(const Moment *moment, const double *u,
-                           const double *p, const double *q, Real given,
-                           long double *noise)
-{
-    Random jitter = {1};
-    Jet size, exact = energy(moment, u, p, q, NULL, &size);
-    Real off = exact.q + exact.pq - given;
-    *noise = DBL_EPSILON * (size.q + size.pq);
-    /* some rounds pass a barrier's edge */
-    for (int round = 0; round < 10 && !(fabsl(off) <= *noise); round++) {
-        Jet rounded = energy(moment, u, p, q, &jitter, NULL);
-        *noise += fabsl(rounded.q - exact.q) + fabsl(rounded.pq - exact.pq);
-    }
-    return off;
 }
 
 static Wide wide_abs(Wide a)

@@ -20,11 +20,12 @@ static const struct Draw {
     int one_in;        /* so often */
     const char *part;
 } draws[] = {
-    {"sfwmn", 1, "square"},
+    {"sfwmnk", 1, "square"},
     {"c", 1, "(drop slope squeeze dent)"},
     {"t", 1, "tear"},
     {"s", 1, " --segments (1 2 3)"},
     {"f", 1, " --segments (1 2 3 4)"},
+    {"k", 1, " --segments (1 2 2 3)"},
     {"ctw", 1, " --segments (1 2 3 4 5 6)"},
     {"mn", 1, " --segments (1 1 2 2 3 4 6 8) --side 0.9"},
     {"b", 1, "bend --segments 16"},
@@ -43,6 +44,12 @@ static const struct Draw {
     {"f", 6, " --stretch 0"},
     {"w", 1, " --stretch [0.6 1.5]"},
     {"n", 1, " --material neo-hookean --young <1e3 1e7> --poisson [0 0.48]"},
+    {"k", 1, " --material neo-hookean --young <1e3 1e13> --poisson [0 0.48]"},
+    {"k", 1, " --density <1e-6 1e3> --timestep <1e-4 1>"},
+    {"k", 1, " --stretch [0.05 3] --turn [0 360] --tolerance <1e-9 1e-2>"},
+    {"k", 4, " --velocity [-9 9],[-9 9]"},
+    {"k", 4, " --gravity 9.81"},
+    {"k", 4, " --pin (0 left top-corners)"},
     {"mn", 1, " --self-contact on"},
     {"m", 2, " --cells on"},
     {"mn", 1, " --body 0,0,[0 360],[-9 9],[-9 9],[0.8 1.2],[0.8 1.2]"},

@@ -36,6 +36,7 @@ static Jet chain(Jet a, Real F, Real F1, Real F2)
 
 static void book(Spot *spot, Jet *sum, Real factor, Jet part)
 {
+    spot->booked++;
     *sum = plus(*sum, factor, part);
     spot->size = plus(
         spot->size, fabsl(factor),
@@ -85,9 +86,8 @@ Real exact_strain(const System *system, const double *x, int s)
  * its strain, some units of 1 + E, says on which side. */
 static Real edge_of_flow(Spot *spot, Real E)
 {
-    return spot->jitter ? 8 * DBL_EPSILON * (1 + fabsl(E)) *
-                              random_uniform(spot->jitter, -1, 1)
-                        : 0;
+    Real side = spot->jitter ? random_uniform(spot->jitter, -1, 1) : spot->side;
+    return 8 * DBL_EPSILON * (1 + fabsl(E)) * side;
 }
 
 /* k l2 V(E): slides, plasticity.h, damping.h */
@@ -570,35 +570,61 @@ static void move(const Frame *frame, int k, double sign, double *p)
         p[2 * frame->node[i / 2] + i % 2] += sign * frame->move[k][i];
 }
 
-/* What clamping one part adds to q H p.  p, q [2n] all 0 */
-static Real clamping(const Spot *spot, int row, const void *data, int part,
-                     double *p, double *q)
+/* The eigenvalues of one part's block that are below 0, as numbers above: lift
+ * [4] out, what cutting adds; row [4][6] out, the eigenvector over the
+ * coordinates of the frame's three nodes.  p, q [2n] all 0.  Returns how many
+ * there are of both. */
+static int negative_part(const Spot *spot, int row, const void *data, int part,
+                         double *p, double *q, Frame *frame, Real lift[4],
+                         Real rows[4][6])
 {
     Spot own = *spot;
-    Frame frame = frame_of(&own, formulas[row].parts, data, part);
-    Real A[16], v[16], sum = 0;
-    int n = frame.n;
+    *frame = frame_of(&own, formulas[row].parts, data, part);
+    Real A[16], v[16];
+    int n = frame->n;
     own.p = p;
     own.q = q;
     for (int i = 0; i < n * n; i++) {
         Jet W = {0};
-        move(&frame, i / n, 1, p);
-        move(&frame, i % n, 1, q);
+        move(frame, i / n, 1, p);
+        move(frame, i % n, 1, q);
         formulas[row].part(&own, &W, data, part);
-        move(&frame, i / n, -1, p);
-        move(&frame, i % n, -1, q);
+        move(frame, i / n, -1, p);
+        move(frame, i % n, -1, q);
         A[i] = W.pq;
     }
     exact_eigen(n, A, v);
     for (int k = 0; k < n; k++) {
-        Real along_p = 0, along_q = 0;
-        for (int i = 0; i < 6 * n; i++) {
-            int c = 2 * frame.node[i % 6 / 2] + i % 2;
-            Real weight = v[n * (i / 6) + k] * frame.read[i / 6][i % 6];
-            along_p += weight * spot->p[c];
-            along_q += weight * spot->q[c];
+        lift[k] = -fminl(A[(n + 1) * k], 0);
+        for (int i = 0; i < 6; i++) {
+            rows[k][i] = 0;
+            for (int m = 0; m < n; m++)
+                rows[k][i] += v[n * m + k] * frame->read[m][i];
         }
-        sum -= fminl(A[(n + 1) * k], 0) * along_p * along_q;
+    }
+    return n;
+}
+
+/* Coordinate i of the frame's six. */
+static int frame_coordinate(const Frame *frame, int i)
+{
+    return 2 * frame->node[i / 2] + i % 2;
+}
+
+/* What clamping one part adds to q H p.  p, q [2n] all 0 */
+static Real clamping(const Spot *spot, int row, const void *data, int part,
+                     double *p, double *q)
+{
+    Frame frame;
+    Real lift[4], rows[4][6], sum = 0;
+    int n = negative_part(spot, row, data, part, p, q, &frame, lift, rows);
+    for (int k = 0; k < n; k++) {
+        Real along_p = 0, along_q = 0;
+        for (int i = 0; i < 6; i++) {
+            along_p += rows[k][i] * spot->p[frame_coordinate(&frame, i)];
+            along_q += rows[k][i] * spot->q[frame_coordinate(&frame, i)];
+        }
+        sum += lift[k] * along_p * along_q;
     }
     return sum;
 }
@@ -724,6 +750,200 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
         if (H)
             H[i] = E_there.pq;
     }
+}
+
+/* The nodes that a part is about; returns how many. */
+static int nodes_of(const Spot *spot, Parts parts, const void *data, int i,
+                    int node[3])
+{
+    const System *system = spot->at->system;
+    const Outline *outline = spot->outline;
+    const int *from = parts == SPRINGS  ? system->e + 2 * i
+                      : parts == CELLS  ? ((const Cells *)data)->node + 3 * i
+                      : parts == SOLIDS ? ((const NeoHookean *)data)->node[i]
+                                        : node;
+    if (parts == COORDINATES)
+        node[0] = i / 2;
+    else if (parts == WALLS) {
+        node[0] = i % system->nodes;
+        node[1] = contact_of(system)->obstacle[i / system->nodes].node;
+    } else if (parts == PAIRS) {
+        node[0] = outline->point[i % outline->points];
+        memcpy(node + 1, outline->edge[i / outline->points], 2 * sizeof *node);
+    }
+    int count = parts == SPRINGS       ? 2
+                : parts == COORDINATES ? 1
+                : parts != WALLS       ? 3
+                : node[1] < 0          ? 1
+                                       : 2;
+    memmove(node, from, (size_t)count * sizeof *node);
+    return count;
+}
+
+/* A step's gradient and Hessian while they are put together: g, and the sum of
+ * the sizes of its parts [2n]; H [2n 2n]; p, q [2n] all 0. */
+typedef struct Assembly {
+    Real *g, *size, *H;
+    double *p, *q;
+    int n, lifts;
+} Assembly;
+
+/* One part's gradient and Hessian, and `lifts` times what cutting its negative
+ * eigenvalues adds. */
+static void add_part(Spot *spot, int row, const void *data, int part,
+                     const Assembly *to)
+{
+    int node[3];
+    long booked = spot->booked;
+    Real w = spot->at->w;
+    Jet W = {0};
+    formulas[row].part(spot, &W, data, part);
+    if (spot->booked == booked) /* there is nothing */
+        return;
+    int n = 2 * nodes_of(spot, formulas[row].parts, data, part, node);
+    for (int i = 0; i < n * n; i++) {
+        int r = 2 * node[i / n / 2] + i / n % 2;
+        int c = 2 * node[i % n / 2] + i % n % 2;
+        W = (Jet){0};
+        to->p[r] = to->q[c] = 1;
+        formulas[row].part(spot, &W, data, part);
+        to->p[r] = to->q[c] = 0;
+        to->H[to->n * r + c] += w * W.pq;
+        to->g[r] += i % n == 0 ? w * W.p : 0;
+        to->size[r] += i % n == 0 ? fabsl(w * W.p) : 0;
+    }
+    if (to->lifts == 0 || formulas[row].kind->place == PLACE_FRICTION)
+        return;
+    Frame frame;
+    Real lift[4], rows[4][6];
+    n = negative_part(spot, row, data, part, to->p, to->q, &frame, lift, rows);
+    for (int i = 0; i < 36 * n; i++) {
+        int k = i / 36, r = i / 6 % 6, c = i % 6;
+        if (lift[k] > 0)
+            to->H[to->n * frame_coordinate(&frame, r) +
+                  frame_coordinate(&frame, c)] +=
+                to->lifts * w * lift[k] * rows[k][r] * rows[k][c];
+    }
+}
+
+/* What a step adds; and pinned nodes stand alone. */
+static void add_step(const IncrementalPotential *E, const double *u,
+                     const Assembly *to)
+{
+    const System *system = E->system;
+    int n = to->n;
+    for (int i = 0; i < n; i++) {
+        Real g = system->m[i / 2] * ((Real)u[i] - E->u_tilde[i]);
+        to->g[i] += g;
+        to->size[i] += fabsl(g);
+        to->H[(n + 1) * i] += system->m[i / 2];
+    }
+    for (int r = 0; r < n; r++) {
+        for (int c = 0; c < n && system->pinned[r / 2]; c++)
+            to->H[n * r + c] = to->H[n * c + r] = r == c;
+        if (system->pinned[r / 2])
+            to->g[r] = to->size[r] = 0;
+    }
+}
+
+/* H becomes L D below and on its diagonal, of L D L^T without pivots; false: a
+ * pivot is 0. */
+static bool factor_densely(int n, Real *H)
+{
+    for (int c = 0; c < n; c++) {
+        if (!(fabsl(H[n * c + c]) > 0))
+            return false;
+        for (int r = c + 1; r < n; r++) {
+            Real factor = H[n * r + c] / H[n * c + c];
+            for (int i = c + 1; factor != 0 && i <= r; i++)
+                H[n * r + i] -= factor * H[n * i + c];
+        }
+    }
+    return true;
+}
+
+/* The largest |p_x| + |p_y| of p = (L D L^T)^-1 b; b becomes p. */
+static Real solve_densely(int n, const Real *H, Real *b)
+{
+    Real most = 0;
+    for (int c = 0; c < n; c++)
+        for (int r = c + 1; r < n; r++)
+            b[r] -= H[n * r + c] / H[n * c + c] * b[c];
+    for (int r = n - 1; r >= 0; r--) {
+        b[r] /= H[n * r + r];
+        for (int c = 0; c < r; c++)
+            b[c] -= H[n * r + c] * b[r];
+    }
+    for (int i = 0; i < n; i += 2) {
+        Real sum = fabsl(b[i]) + fabsl(b[i + 1]);
+        most = sum <= most ? most : sum;
+    }
+    return most;
+}
+
+/* Units of the last place that each part of a double gradient may be off: a
+ * part takes some roundings, and so does the sum. */
+enum { UNITS_OF_A_PART = 4 };
+
+static double residual_by_side(const IncrementalPotential *E, const double *u,
+                               const double *x, double h, double moved,
+                               int lifts, int side, double *noise)
+{
+    const System *system = E->system;
+    size_t n = 2 * (size_t)system->nodes;
+    double *p = calloc(2 * n, sizeof *p);
+    Real *g = calloc(n * (n + 3), sizeof *g);
+    CHECK(p != NULL && g != NULL);
+    Place at = place_at(system, E->x_n, u, x);
+    at.w = E->weight;
+    Spot spot = {
+        .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
+    Outline outline = outline_there(&spot);
+    const Assembly to = {g, g + n, g + 3 * n, p, p + n, (int)n, lifts};
+    spot.p = to.p;
+    spot.q = to.q;
+    spot.outline = &outline;
+    for (int t = 0; t < system->terms; t++) {
+        int row = formula_of(system->term[t].kind);
+        const void *data = system->term[t].data;
+        int count = row < 0 ? 0 : count_parts(&spot, formulas[row].parts, data);
+        for (int i = 0; i < count; i++)
+            add_part(&spot, row, data, i, &to);
+    }
+    add_step(E, u, &to);
+    Real residual = INFINITY, blur = 0;
+    Random random = {1};
+    if (factor_densely(to.n, to.H)) {
+        residual = solve_densely(to.n, to.H, g);
+        for (int round = 0; round < 3; round++) {
+            Real *off = g + 2 * n;
+            for (size_t i = 0; i < n; i++)
+                off[i] = (2 * random_below(&random, 2) - 1) * UNITS_OF_A_PART *
+                         DBL_EPSILON * to.size[i];
+            blur = fmaxl(blur, solve_densely(to.n, to.H, off));
+        }
+    }
+    *noise = (double)(blur / h);
+    free(p);
+    free(g);
+    return (double)(residual / h);
+}
+
+/* Of springs that have just flowed either side is right. */
+double exact_residual(const IncrementalPotential *E, const double *u,
+                      const double *x, double h, double moved, int lifts,
+                      double *noise)
+{
+    bool flows = system_find_term(E->system, &plastic_energy) != NULL;
+    double least = INFINITY, blur;
+    for (int side = flows ? -1 : 0; side <= flows; side++) {
+        double residual =
+            residual_by_side(E, u, x, h, moved, lifts, side, &blur);
+        if (residual <= least || side <= 0)
+            *noise = blur;
+        least = fmin(least, residual);
+    }
+    return least;
 }
 
 void exact_eigen(int n, Real *a, Real *v)
