@@ -153,7 +153,7 @@ double simulation_time(const Simulation *simulation)
 {
     if (!(simulation->scene->needs & NEEDS_TIME))
         return 0;
-    return simulation->run[0].clock;
+    return simulation->run[0].clock.now;
 }
 
 bool simulation_is_handled(const Simulation *simulation)

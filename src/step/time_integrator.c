@@ -97,7 +97,7 @@ static bool prescribed_begin(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     bool any = run->system->pin_v != NULL;
-    double half_way = run->clock + 0.5 * run->h;
+    double half_way = run->clock.now + 0.5 * run->h;
     run->moved = 0;
     run->left = 1;
     run->part = 0;
@@ -261,6 +261,15 @@ static double prescribed_work(const TimeIntegrator *run, double weight)
 
 /* ---- a step ------------------------------------------------------------- */
 
+/* One more step of h. */
+static void tick(StepClock *clock, double h)
+{
+    if (h != clock->h)
+        *clock = (StepClock){.since = clock->now, .h = h};
+    clock->steps++;
+    clock->now = clock->since + (double)clock->steps * h;
+}
+
 /* All stages are over, or one failed. */
 static Status end_step(TimeIntegrator *run, Status failure)
 {
@@ -277,7 +286,7 @@ static Status end_step(TimeIntegrator *run, Status failure)
                                run->new_x + 2 * hand->node);
     memcpy(run->x, run->new_x, both * sizeof(double));
     run->steps++;
-    run->clock += run->h;
+    tick(&run->clock, run->h);
     if (run->moves)
         run->work += prescribed_work(run, run->newton->at.E.weight);
     System *system = run->system;

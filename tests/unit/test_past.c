@@ -15,14 +15,22 @@
 
 static Past past;
 
-/* Of a state, and of what was lost until then. */
+static uint64_t hash_number(uint64_t hash, double number)
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    return 31 * hash + bits;
+}
+
+/* Of a state, how late it is there, and its ledger. */
 static uint64_t hash_of(const Simulation *simulation, uint64_t hash)
 {
-    hash = state_hash(simulation, hash);
-    for (int i = 0; i < SYSTEM_MAX_TERMS; i++) {
-        uint64_t bits;
-        memcpy(&bits, &simulation->system.lost[i].energy, sizeof bits);
-        hash = 31 * hash + bits;
+    hash = hash_number(state_hash(simulation, hash),
+                       simulation_time(simulation));
+    for (int r = 0; r < simulation->runs; r++) {
+        const Energies ledger = simulation_energies(simulation, r);
+        for (int i = 0; i < ledger.rows; i++)
+            hash = hash_number(hash, ledger.row[i].value);
     }
     return hash;
 }

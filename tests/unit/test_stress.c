@@ -64,6 +64,12 @@ TEST(what_was_wrong_once_is_right)
         {3, STIFF "1e12 --gravity 9.81 --pin left", VERDICT_CONVERGED},
         {3, STIFF "3e11 --stretch 1.7 --turn 200 --velocity 5,-3",
          VERDICT_CONVERGED},
+        /* what turns it must not be lost in H p, either */
+        {2,
+         "square --segments 3 --material neo-hookean --young 1.74e12 "
+         "--poisson 0.187 --density 5.85e-6 --timestep 0.442 --stretch 2.6 "
+         "--turn 210 --tolerance 1.01e-5",
+         VERDICT_CONVERGED},
         /* step 9 begins at rest, after an end that was looked at for a saddle:
          * the test there is of the projected Hessian again */
         {10,
