@@ -786,13 +786,6 @@ static bool drags(const Command *edit)
            edit->kind == COMMAND_PLACE;
 }
 
-/* Whether the state at which it is given becomes another one: a node that is
- * pinned stops, too. */
-static bool moves(const Command *edit)
-{
-    return drags(edit) || edit->kind == COMMAND_PIN;
-}
-
 /* The control after a change, for one user more.  NULL: no memory. */
 static const Control *changed(const Control *from, const Command *edit)
 {
@@ -880,7 +873,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
         return STATUS_OUT_OF_MEMORY;
     if (edit->kind == branch->edit.kind) /* what undo tells: the last of it */
         branch->edit = *edit;
-    forget_behind(past, past->step - moves(edit));
+    forget_behind(past, past->step - 1); /* its ledger is another one, too */
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)
             status = change_entry(past, p, edit,
@@ -900,8 +893,7 @@ const Command *past_undo(Past *past, int way)
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     for (int b = low + 1; b <= high; b++) {
         const Branch *branch = &past->branch[b];
-        forget_behind(
-            past, branch->fresh ? -1 : branch->first - moves(&branch->edit));
+        forget_behind(past, branch->fresh ? -1 : branch->first - 1);
     }
     stop_work(past);
     leave_all(past);

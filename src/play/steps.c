@@ -175,7 +175,9 @@ Status player_change(Player *player, const Command *change, int from, int to,
     if (player->mode >= MODE_HELD)
         player->mode = MODE_RUN; /* something may move again */
     Status status = past_edit(past, change, from, to, again, player->gesture);
-    return status ? status : follow(player);
+    if (!status)
+        status = follow(player);
+    return status || again ? status : record_step(player);
 }
 
 /* ---- where it stops by itself -------------------------------------------- */

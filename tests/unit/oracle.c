@@ -781,15 +781,32 @@ static int nodes_of(const Spot *spot, Parts parts, const void *data, int i,
 }
 
 /* A step's gradient and Hessian while they are put together: g, and the sum of
- * the sizes of its parts [2n]; H [2n 2n]; p, q [2n] all 0. */
+ * the sizes of its parts [2n]; H [2n 2n], NULL: it is not wanted; p, q [2n] all
+ * 0. */
 typedef struct Assembly {
     Real *g, *size, *H;
     double *p, *q;
     int n, lifts;
 } Assembly;
 
-/* One part's gradient and Hessian, and `lifts` times what cutting its negative
- * eigenvalues adds. */
+/* `lifts` times what cutting its negative eigenvalues adds to a part. */
+static void add_lift(const Spot *spot, int row, const void *data, int part,
+                     const Assembly *to)
+{
+    Frame frame;
+    Real lift[4], rows[4][6];
+    int n =
+        negative_part(spot, row, data, part, to->p, to->q, &frame, lift, rows);
+    for (int i = 0; i < 36 * n; i++) {
+        int k = i / 36, r = i / 6 % 6, c = i % 6;
+        if (lift[k] > 0)
+            to->H[to->n * frame_coordinate(&frame, r) +
+                  frame_coordinate(&frame, c)] +=
+                to->lifts * spot->at->w * lift[k] * rows[k][r] * rows[k][c];
+    }
+}
+
+/* One part's gradient and Hessian. */
 static void add_part(Spot *spot, int row, const void *data, int part,
                      const Assembly *to)
 {
@@ -801,48 +818,52 @@ static void add_part(Spot *spot, int row, const void *data, int part,
     if (spot->booked == booked) /* there is nothing */
         return;
     int n = 2 * nodes_of(spot, formulas[row].parts, data, part, node);
-    for (int i = 0; i < n * n; i++) {
+    for (int i = 0; i < n * n; i += to->H ? 1 : n) {
         int r = 2 * node[i / n / 2] + i / n % 2;
         int c = 2 * node[i % n / 2] + i % n % 2;
         W = (Jet){0};
         to->p[r] = to->q[c] = 1;
         formulas[row].part(spot, &W, data, part);
         to->p[r] = to->q[c] = 0;
-        to->H[to->n * r + c] += w * W.pq;
+        if (to->H)
+            to->H[to->n * r + c] += w * W.pq;
         to->g[r] += i % n == 0 ? w * W.p : 0;
         to->size[r] += i % n == 0 ? fabsl(w * W.p) : 0;
     }
-    if (to->lifts == 0 || formulas[row].kind->place == PLACE_FRICTION)
-        return;
-    Frame frame;
-    Real lift[4], rows[4][6];
-    n = negative_part(spot, row, data, part, to->p, to->q, &frame, lift, rows);
-    for (int i = 0; i < 36 * n; i++) {
-        int k = i / 36, r = i / 6 % 6, c = i % 6;
-        if (lift[k] > 0)
-            to->H[to->n * frame_coordinate(&frame, r) +
-                  frame_coordinate(&frame, c)] +=
-                to->lifts * w * lift[k] * rows[k][r] * rows[k][c];
-    }
+    if (to->H && to->lifts && formulas[row].kind->place != PLACE_FRICTION)
+        add_lift(spot, row, data, part, to);
 }
 
-/* What a step adds; and pinned nodes stand alone. */
-static void add_step(const IncrementalPotential *E, const double *u,
+/* All of it; pinned nodes stand alone. */
+static void assemble(const Spot *there, const double *u, const double *u_tilde,
                      const Assembly *to)
 {
-    const System *system = E->system;
+    const System *system = there->at->system;
+    Outline outline = outline_there(there);
+    Spot spot = *there;
     int n = to->n;
+    spot.p = to->p;
+    spot.q = to->q;
+    spot.outline = &outline;
     for (int i = 0; i < n; i++) {
-        Real g = system->m[i / 2] * ((Real)u[i] - E->u_tilde[i]);
-        to->g[i] += g;
-        to->size[i] += fabsl(g);
-        to->H[(n + 1) * i] += system->m[i / 2];
+        to->g[i] = system->m[i / 2] * ((Real)u[i] - u_tilde[i]);
+        to->size[i] = fabsl(to->g[i]);
+        if (to->H)
+            to->H[(n + 1) * i] = system->m[i / 2];
+    }
+    for (int t = 0; t < system->terms; t++) {
+        int row = formula_of(system->term[t].kind);
+        const void *data = system->term[t].data;
+        int count = row < 0 ? 0 : count_parts(&spot, formulas[row].parts, data);
+        for (int i = 0; i < count; i++)
+            add_part(&spot, row, data, i, to);
     }
     for (int r = 0; r < n; r++) {
-        for (int c = 0; c < n && system->pinned[r / 2]; c++)
+        if (!system->pinned[r / 2])
+            continue;
+        for (int c = 0; c < n && to->H; c++)
             to->H[n * r + c] = to->H[n * c + r] = r == c;
-        if (system->pinned[r / 2])
-            to->g[r] = to->size[r] = 0;
+        to->g[r] = to->size[r] = 0;
     }
 }
 
@@ -881,47 +902,63 @@ static Real solve_densely(int n, const Real *H, Real *b)
     return most;
 }
 
-/* Units of the last place that each part of a double gradient may be off: a
- * part takes some roundings, and so does the sum. */
-enum { UNITS_OF_A_PART = 4 };
+/* Units of the last place that each part of a double gradient, and each
+ * coordinate that it is of, may be off: both take some roundings. */
+enum { UNITS = 4 };
+
+/* m, what can be made of p by the last digits of the parts, and of x and x_n:
+ * the same ones for all parts, so that forces still balance.
+ *   of   the gradient is known, H is a factor; off [2n], there [4n] workspace
+ */
+static Real blur_of(const Spot *spot, const double *u, const double *u_tilde,
+                    const Assembly *of, Real *off, double *there)
+{
+    Real most = 0, *size = off + of->n;
+    double *x = there, *x_n = there + of->n;
+    Random random = {1};
+    Place at = *spot->at;
+    Assembly moved = *of;
+    at.x = x;
+    at.x_n = x_n;
+    moved.g = off;
+    moved.size = size;
+    moved.H = NULL;
+    for (int round = 0; round < 3; round++) {
+        Spot own = {.at = &at, .h = spot->h, .moved = spot->moved};
+        for (int i = 0; i < of->n; i++) {
+            double ulps = UNITS * DBL_EPSILON * random_uniform(&random, -1, 1);
+            x[i] = spot->at->x[i] * (1 + ulps);
+            x_n[i] = spot->at->x_n[i] * (1 + ulps);
+        }
+        assemble(&own, u, u_tilde, &moved);
+        for (int i = 0; i < of->n; i++)
+            off[i] += (2 * random_below(&random, 2) - 1) * UNITS * DBL_EPSILON *
+                          of->size[i] -
+                      of->g[i];
+        most = fmaxl(most, solve_densely(of->n, of->H, off));
+    }
+    return most;
+}
 
 static double residual_by_side(const IncrementalPotential *E, const double *u,
                                const double *x, double h, double moved,
                                int lifts, int side, double *noise)
 {
-    const System *system = E->system;
-    size_t n = 2 * (size_t)system->nodes;
-    double *p = calloc(2 * n, sizeof *p);
-    Real *g = calloc(n * (n + 3), sizeof *g);
+    size_t n = 2 * (size_t)E->system->nodes;
+    double *p = calloc(4 * n, sizeof *p);
+    Real *g = calloc(n * (n + 5), sizeof *g), *b = g + 2 * n;
     CHECK(p != NULL && g != NULL);
-    Place at = place_at(system, E->x_n, u, x);
+    Place at = place_at(E->system, E->x_n, u, x);
     at.w = E->weight;
     Spot spot = {
         .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
-    Outline outline = outline_there(&spot);
-    const Assembly to = {g, g + n, g + 3 * n, p, p + n, (int)n, lifts};
-    spot.p = to.p;
-    spot.q = to.q;
-    spot.outline = &outline;
-    for (int t = 0; t < system->terms; t++) {
-        int row = formula_of(system->term[t].kind);
-        const void *data = system->term[t].data;
-        int count = row < 0 ? 0 : count_parts(&spot, formulas[row].parts, data);
-        for (int i = 0; i < count; i++)
-            add_part(&spot, row, data, i, &to);
-    }
-    add_step(E, u, &to);
+    const Assembly to = {g, g + n, g + 5 * n, p, p + n, (int)n, lifts};
+    assemble(&spot, u, E->u_tilde, &to);
     Real residual = INFINITY, blur = 0;
-    Random random = {1};
     if (factor_densely(to.n, to.H)) {
-        residual = solve_densely(to.n, to.H, g);
-        for (int round = 0; round < 3; round++) {
-            Real *off = g + 2 * n;
-            for (size_t i = 0; i < n; i++)
-                off[i] = (2 * random_below(&random, 2) - 1) * UNITS_OF_A_PART *
-                         DBL_EPSILON * to.size[i];
-            blur = fmaxl(blur, solve_densely(to.n, to.H, off));
-        }
+        memcpy(b, g, n * sizeof *b);
+        residual = solve_densely(to.n, to.H, b);
+        blur = blur_of(&spot, u, E->u_tilde, &to, b, p + 2 * n);
     }
     *noise = (double)(blur / h);
     free(p);
