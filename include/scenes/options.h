@@ -117,10 +117,10 @@ typedef struct OptionRow {
     const char *value; /* what stands for the value in --help */
     const char *help;  /* what it is */
     OptionKind kind;
-    int slot;         /* of its first number */
-    size_t offset;    /* OPTION_TEXT: of its field in Options */
-    int count;        /* numbers of one value; 0: one */
-    unsigned fewer;   /* bit n: it may have only n numbers, */
+    int slot;           /* of its first number */
+    size_t offset;      /* OPTION_TEXT: of its field in Options */
+    int count;          /* numbers of one value; 0: one */
+    unsigned fewer;     /* bit n: it may have only n numbers, */
     const double *rest; /* [count] the others are these */
     char between;       /* what stands between them; 0: a comma */
     int times;          /* more than 0: it may be given so often; the values */
@@ -159,6 +159,9 @@ bool option_read(const OptionRow *row, const char *text, double *value);
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 void option_value(const OptionRow *row, const Options *options, char *text,
                   size_t size);
+
+/* Whether a number of the row is not 0: so its term is wanted. */
+bool option_is_on(const OptionRow *row, const Options *options);
 
 /* Its unit as the window writes it, "J/m\u00b2"; "": none.
  *   text  [size] out */

@@ -227,7 +227,7 @@ static Status set_terms(const Options *options, System *system)
         status = cells_set(system, &shape, k_c);
     for (const OptionRow *row = option_rows; row->name && !status; row++) {
         const double *number = options->number + row->slot;
-        if (row->term && row->term->set && number[0] == 0)
+        if (row->term && row->term->set && !option_is_on(row, options))
             system_remove_term(system, row->term);
         else if (row->term && row->term->set)
             status = row->term->set(system, &shape, number);
@@ -338,13 +338,9 @@ Status create_square(Simulation *simulation)
 
 const char *body_needs_end_of_step(const Options *options)
 {
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        int first = row->times > 0 ? row->counter : row->slot;
-        for (int i = 0; i < row->count || i == 0; i++)
-            if (row->term && row->term->end_of_step &&
-                options->number[first + i] != 0)
-                return row->term->name;
-    }
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->term && row->term->end_of_step && option_is_on(row, options))
+            return row->term->name;
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
@@ -401,20 +397,32 @@ static double side_of(const double *a, const double *b, const double *p)
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-/* Contact sees nodes alone: a small ball may have none near it in a cell. */
-static bool is_in_a_cell(const SquareMesh *mesh, const double *x,
-                         const double *at)
+/* The first cell from this one up to `end` that the point `at` is in or on the
+ * border of; -1: none. */
+static int cell_around(const SquareMesh *mesh, const double *x,
+                       const double *at, int cell, int end)
 {
     int node[3], side[3];
-    for (int t = 0; t < 4 * mesh->cells; t++) {
+    for (int t = 4 * cell; t < 4 * end; t++) {
         square_mesh_triangle(mesh, t, node, side);
         const double *a = x + 2 * node[0], *b = x + 2 * node[1];
         const double *c = x + 2 * node[2];
-        double first = side_of(a, b, at), second = side_of(b, c, at);
-        if (first * second > 0 && first * side_of(c, a, at) > 0)
-            return true;
+        double turn = side_of(a, b, c) < 0 ? -1 : 1;
+        if (side_of(a, b, c) != 0 && turn * side_of(a, b, at) >= 0 &&
+            turn * side_of(b, c, at) >= 0 && turn * side_of(c, a, at) >= 0)
+            return t / 4;
     }
-    return false;
+    return -1;
+}
+
+/* Contact sees nodes alone: a small ball may have none near it in a cell. */
+static Status check_balls(const Options *options, const SquareMesh *mesh,
+                          const double *x, Refusal told)
+{
+    for (int k = 0; k < options->balls; k++)
+        if (cell_around(mesh, x, options->ball[k], 0, mesh->cells) >= 0)
+            return refuse(told, "ball %d would be inside of a cell", k);
+    return STATUS_OK;
 }
 
 Status simulation_has_room(const Simulation *simulation, const Options *options,
@@ -434,11 +442,9 @@ Status simulation_has_room(const Simulation *simulation, const Options *options,
         system.term[0] = (Term){&contact_energy, &contact};
         status = check_places(&system, simulation->run[run].x, told);
     }
-    for (int k = 0; k < options->balls && !status; k++)
-        if (is_in_a_cell(&simulation->mesh, simulation->run[0].x,
-                         options->ball[k]))
-            status = refuse(told, "ball %d would be inside of a cell", k);
-    return status;
+    return status ? status
+                  : check_balls(options, &simulation->mesh,
+                                simulation->run[0].x, told);
 }
 
 /* Whether two edges have a point in common. */
@@ -452,6 +458,25 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
             return false;
     return side_of(a, b, c) * side_of(a, b, d) <= 0 &&
            side_of(c, d, a) * side_of(c, d, b) <= 0;
+}
+
+/* No body begins inside of another one: outlines do not cross, so one node
+ * tells. */
+static Status check_inside(const Options *options, const SquareMesh *shape,
+                           const double *x, Refusal told)
+{
+    int cells = shape->cells / shape->bodies;
+    int nodes = shape->nodes / shape->bodies;
+    for (int inner = 0; inner < shape->bodies && options->self_contact; inner++)
+        for (int outer = 0; outer < shape->bodies; outer++)
+            if (inner != outer &&
+                cell_around(shape, x, x + 2 * inner * nodes, outer * cells,
+                            (outer + 1) * cells) >= 0)
+                return refuse(told,
+                              "--body: body %d would begin inside of body %d; "
+                              "move one, or --self-contact off",
+                              inner + 1, outer + 1);
+    return STATUS_OK;
 }
 
 /* No outline begins across another or itself. */
@@ -474,7 +499,7 @@ static Status check_overlap(const Options *options, const double *x,
                               other[0], other[1], edge[0], edge[1]);
         }
     }
-    return STATUS_OK;
+    return check_inside(options, &shape, x, told);
 }
 
 Status body_check(const Options *options, Refusal told)
@@ -492,6 +517,10 @@ Status body_check(const Options *options, Refusal told)
         status = check_overlap(options, x, told);
     if (!status)
         status = check_places(&system, x, told);
+    if (!status) {
+        const SquareMesh shape = body_shape(options);
+        status = check_balls(options, &shape, x, told);
+    }
     free(x);
     system_free(&system);
     return status;

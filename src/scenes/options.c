@@ -322,6 +322,16 @@ void option_value(const OptionRow *row, const Options *options, char *text,
 
 /* ---- the row of numbers ------------------------------------------------- */
 
+bool option_is_on(const OptionRow *row, const Options *options)
+{
+    bool on = false;
+    if (row->times > 0)
+        return options->number[row->counter] > 0;
+    for (int i = 0; i < row->count || i == 0; i++)
+        on = on || options->number[row->slot + i] != 0;
+    return on;
+}
+
 void option_unit(const OptionRow *row, char *text, size_t size)
 {
     int length = (int)strcspn(row->unit, " ^");

@@ -147,7 +147,8 @@ typedef double (*JudgedResidual)(const IncrementalPotential *E, const double *u,
 
 /* Whether the residual at u is at most the limit, with one of the Hessians that
  * the program may have judged with: on demand, as it is or cut.
- *   noise  in: part of what rounding does that is forgiven; out: what it does
+ *   noise  out, m/s, what rounding can make of it, which is forgiven; NULL:
+ *          nothing is
  *   least  out, m/s */
 static bool residual_holds(const Watch *watch, const double *u, double limit,
                            JudgedResidual judge, double *noise, double *least)
@@ -158,7 +159,6 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
                                                [FILTER_ON_DEMAND] = {1, 0}};
     const NewtonSettings *settings = &watch->run->newton->settings;
     Moment moment = watch_moment(watch);
-    double forgiven = *noise;
     *least = INFINITY;
     for (int i = 0; i < watch_size(watch); i++)
         watch->way[i] = watch->x_n[i] + u[i];
@@ -167,7 +167,7 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
             judge(&moment.E, u, watch->way, settings->h, moment.moved,
                   lifts[settings->filter][k], noise);
         *least = fmin(*least, residual);
-        if (residual <= limit + forgiven * *noise)
+        if (residual <= limit + (noise ? *noise : 0))
             return true;
     }
     return false;
@@ -175,22 +175,19 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
 
 /* Of all terms: nothing that the program has computed but the place itself is
  * looked at.  What 19 digits refuse is judged with 34: rounding can only raise
- * a residual so small.  Where the last digits of the forces themselves are more
- * than the tolerance, that is forgiven, and counted. */
+ * a residual so small.  Where the last digits of places and forces themselves
+ * are more than the tolerance, that is forgiven, and counted. */
 static void judge_terms(Watch *watch, const double *u, double limit)
 {
-    double noise = 0, residual;
+    double noise, residual;
     if (watch_size(watch) > LARGEST_SOLVED)
         return;
     watch->tally->judged++;
     limit *= 1 + DIGITS_OF_DIRECTION;
-    if (residual_holds(watch, u, limit, exact_residual, &noise, &residual))
-        return;
-    noise = 0;
-    if (residual_holds(watch, u, limit, wide_exact_residual, &noise, &residual))
+    if (residual_holds(watch, u, limit, exact_residual, NULL, &residual) ||
+        residual_holds(watch, u, limit, wide_exact_residual, NULL, &residual))
         return;
     watch->tally->blurred++;
-    noise = 1;
     if (!residual_holds(watch, u, limit, wide_exact_residual, &noise,
                         &residual))
         blame(watch,

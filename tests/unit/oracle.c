@@ -781,8 +781,7 @@ static int nodes_of(const Spot *spot, Parts parts, const void *data, int i,
 }
 
 /* A step's gradient and Hessian while they are put together: g, and the sum of
- * the sizes of its parts [2n]; H [2n 2n], NULL: it is not wanted; p, q [2n] all
- * 0. */
+ * the sizes of its parts [2n]; H [2n 2n]; p, q [2n] all 0. */
 typedef struct Assembly {
     Real *g, *size, *H;
     double *p, *q;
@@ -818,19 +817,18 @@ static void add_part(Spot *spot, int row, const void *data, int part,
     if (spot->booked == booked) /* there is nothing */
         return;
     int n = 2 * nodes_of(spot, formulas[row].parts, data, part, node);
-    for (int i = 0; i < n * n; i += to->H ? 1 : n) {
+    for (int i = 0; i < n * n; i++) {
         int r = 2 * node[i / n / 2] + i / n % 2;
         int c = 2 * node[i % n / 2] + i % n % 2;
         W = (Jet){0};
         to->p[r] = to->q[c] = 1;
         formulas[row].part(spot, &W, data, part);
         to->p[r] = to->q[c] = 0;
-        if (to->H)
-            to->H[to->n * r + c] += w * W.pq;
+        to->H[to->n * r + c] += w * W.pq;
         to->g[r] += i % n == 0 ? w * W.p : 0;
         to->size[r] += i % n == 0 ? fabsl(w * W.p) : 0;
     }
-    if (to->H && to->lifts && formulas[row].kind->place != PLACE_FRICTION)
+    if (to->lifts && formulas[row].kind->place != PLACE_FRICTION)
         add_lift(spot, row, data, part, to);
 }
 
@@ -845,11 +843,11 @@ static void assemble(const Spot *there, const double *u, const double *u_tilde,
     spot.p = to->p;
     spot.q = to->q;
     spot.outline = &outline;
+    memset(to->H, 0, (size_t)(n * n) * sizeof *to->H);
     for (int i = 0; i < n; i++) {
         to->g[i] = system->m[i / 2] * ((Real)u[i] - u_tilde[i]);
         to->size[i] = fabsl(to->g[i]);
-        if (to->H)
-            to->H[(n + 1) * i] = system->m[i / 2];
+        to->H[(n + 1) * i] = system->m[i / 2];
     }
     for (int t = 0; t < system->terms; t++) {
         int row = formula_of(system->term[t].kind);
@@ -861,7 +859,7 @@ static void assemble(const Spot *there, const double *u, const double *u_tilde,
     for (int r = 0; r < n; r++) {
         if (!system->pinned[r / 2])
             continue;
-        for (int c = 0; c < n && to->H; c++)
+        for (int c = 0; c < n; c++)
             to->H[n * r + c] = to->H[n * c + r] = r == c;
         to->g[r] = to->size[r] = 0;
     }
@@ -883,10 +881,14 @@ static bool factor_densely(int n, Real *H)
     return true;
 }
 
-/* The largest |p_x| + |p_y| of p = (L D L^T)^-1 b; b becomes p. */
-static Real solve_densely(int n, const Real *H, Real *b)
+/* The largest |p_x| + |p_y| of p = -H^-1 g; infinite where H has no factor.
+ * g becomes -p, H its factor. */
+static Real solve_densely(const Assembly *of)
 {
-    Real most = 0;
+    int n = of->n;
+    Real most = 0, *H = of->H, *b = of->g;
+    if (!factor_densely(n, H))
+        return INFINITY;
     for (int c = 0; c < n; c++)
         for (int r = c + 1; r < n; r++)
             b[r] -= H[n * r + c] / H[n * c + c] * b[c];
@@ -906,38 +908,28 @@ static Real solve_densely(int n, const Real *H, Real *b)
  * coordinate that it is of, may be off: both take some roundings. */
 enum { UNITS = 4 };
 
-/* m, what can be made of p by the last digits of the parts, and of x and x_n:
- * the same ones for all parts, so that forces still balance.
- *   of   the gradient is known, H is a factor; off [2n], there [4n] workspace
- */
-static Real blur_of(const Spot *spot, const double *u, const double *u_tilde,
-                    const Assembly *of, Real *off, double *there)
+/* What becomes of p where x, x_n and the parts of the gradient have other last
+ * digits: the places the same ones for all parts, so that forces still balance.
+ *   place  [4n] workspace */
+static Real nearby(const Spot *spot, const double *u, const double *u_tilde,
+                   const Assembly *of, Random *random, double *place)
 {
-    Real most = 0, *size = off + of->n;
-    double *x = there, *x_n = there + of->n;
-    Random random = {1};
+    double *x = place, *x_n = place + of->n;
     Place at = *spot->at;
-    Assembly moved = *of;
+    Spot own = *spot;
+    own.at = &at;
     at.x = x;
     at.x_n = x_n;
-    moved.g = off;
-    moved.size = size;
-    moved.H = NULL;
-    for (int round = 0; round < 3; round++) {
-        Spot own = {.at = &at, .h = spot->h, .moved = spot->moved};
-        for (int i = 0; i < of->n; i++) {
-            double ulps = UNITS * DBL_EPSILON * random_uniform(&random, -1, 1);
-            x[i] = spot->at->x[i] * (1 + ulps);
-            x_n[i] = spot->at->x_n[i] * (1 + ulps);
-        }
-        assemble(&own, u, u_tilde, &moved);
-        for (int i = 0; i < of->n; i++)
-            off[i] += (2 * random_below(&random, 2) - 1) * UNITS * DBL_EPSILON *
-                          of->size[i] -
-                      of->g[i];
-        most = fmaxl(most, solve_densely(of->n, of->H, off));
+    for (int i = 0; i < of->n; i++) {
+        double ulps = UNITS * DBL_EPSILON * random_uniform(random, -1, 1);
+        x[i] = spot->at->x[i] * (1 + ulps);
+        x_n[i] = spot->at->x_n[i] * (1 + ulps);
     }
-    return most;
+    assemble(&own, u, u_tilde, of);
+    for (int i = 0; i < of->n; i++)
+        of->g[i] += (2 * random_below(random, 2) - 1) * UNITS * DBL_EPSILON *
+                    of->size[i];
+    return solve_densely(of);
 }
 
 static double residual_by_side(const IncrementalPotential *E, const double *u,
@@ -946,24 +938,25 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
 {
     size_t n = 2 * (size_t)E->system->nodes;
     double *p = calloc(4 * n, sizeof *p);
-    Real *g = calloc(n * (n + 5), sizeof *g), *b = g + 2 * n;
+    Real *g = calloc(n * (n + 2), sizeof *g), blur = 0;
+    Random random = {1};
     CHECK(p != NULL && g != NULL);
     Place at = place_at(E->system, E->x_n, u, x);
     at.w = E->weight;
-    Spot spot = {
+    const Spot spot = {
         .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
-    const Assembly to = {g, g + n, g + 5 * n, p, p + n, (int)n, lifts};
+    const Assembly to = {g, g + n, g + 2 * n, p, p + n, (int)n, lifts};
     assemble(&spot, u, E->u_tilde, &to);
-    Real residual = INFINITY, blur = 0;
-    if (factor_densely(to.n, to.H)) {
-        memcpy(b, g, n * sizeof *b);
-        residual = solve_densely(to.n, to.H, b);
-        blur = blur_of(&spot, u, E->u_tilde, &to, b, p + 2 * n);
-    }
-    *noise = (double)(blur / h);
+    Real most = solve_densely(&to);
+    for (int round = 0; noise && round < 3; round++)
+        blur = fmaxl(
+            blur, fabsl(nearby(&spot, u, E->u_tilde, &to, &random, p + 2 * n) -
+                        most));
+    if (noise)
+        *noise = (double)(blur / h);
     free(p);
     free(g);
-    return (double)(residual / h);
+    return (double)(most / h);
 }
 
 /* Of springs that have just flowed either side is right. */
@@ -974,9 +967,9 @@ double exact_residual(const IncrementalPotential *E, const double *u,
     bool flows = system_find_term(E->system, &plastic_energy) != NULL;
     double least = INFINITY, blur;
     for (int side = flows ? -1 : 0; side <= flows; side++) {
-        double residual =
-            residual_by_side(E, u, x, h, moved, lifts, side, &blur);
-        if (residual <= least || side <= 0)
+        double residual = residual_by_side(E, u, x, h, moved, lifts, side,
+                                           noise ? &blur : NULL);
+        if (noise && (residual <= least || side <= 0))
             *noise = blur;
         least = fmin(least, residual);
     }
