@@ -231,16 +231,21 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
         watch->tally->blurred++;
 }
 
-/* How much higher than at `from` the energy at `to` may seem. */
-static long double allowed_rise(Watch *watch, const double *from,
-                                const double *to, long double energy)
+/* Whether the energy at `to` is higher than at `from` by more than rounding can
+ * make it seem.  Digits that 19 lack are looked for with 34. */
+static bool rises(Watch *watch, const double *from, const double *to, Real rise,
+                  Real scale)
 {
     Moment moment = watch_moment(watch);
+    if (rise <= 0)
+        return false;
     for (int i = 0; i < watch_size(watch); i++)
         watch->way[i] = to[i] - from[i];
-    return ROUNDINGS *
-           (DBL_EPSILON * energy + wide_noise(&moment, from, watch->way) +
-            wide_noise(&moment, to, watch->way));
+    Real allowed = ROUNDINGS * (DBL_EPSILON * scale +
+                                wide_noise(&moment, from, watch->way) +
+                                wide_noise(&moment, to, watch->way));
+    return !(rise <= allowed) &&
+           !(wide_exact_rise(&moment.E, from, to, moment.moved) <= allowed);
 }
 
 /* The first record of a minimisation: it starts at u = 0, or where the walls
@@ -275,8 +280,7 @@ static void watch_descent(Watch *watch, const double *u, const char *where)
     flat = flat && (watch->flat || was_flat || !isfinite(watch->energy));
     if (!isfinite(energy) && !flat)
         blame(watch, "E is %Lg %s", energy, where);
-    if (!(energy <= watch->energy) && !flat &&
-        !(energy - watch->energy <= allowed_rise(watch, watch->u, u, scale)))
+    if (!flat && rises(watch, watch->u, u, energy - watch->energy, scale))
         blame(watch, "E rises from %.17Lg to %.17Lg %s", watch->energy, energy,
               where);
     watch->energy = energy;

@@ -904,6 +904,22 @@ static Real solve_densely(const Assembly *of)
     return most;
 }
 
+double exact_rise(const IncrementalPotential *E, const double *from,
+                  const double *to, double moved)
+{
+    Real energy[2];
+    for (int i = 0; i < 2; i++) {
+        Place at = place_at(E->system, E->x_n, i ? to : from, NULL);
+        at.w = E->weight;
+        Spot spot = {.at = &at,
+                     .h = sqrtl(E->weight),
+                     .moved = moved,
+                     .averaged = E->between};
+        energy[i] = oracle_step(&spot, E->u_tilde).f;
+    }
+    return (double)(energy[1] - energy[0]);
+}
+
 /* Units of the last place that each part of a double gradient, and each
  * coordinate that it is of, may be off: both take some roundings. */
 enum { UNITS = 4 };
