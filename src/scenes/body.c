@@ -148,15 +148,17 @@ static int list_obstacles(const Options *options,
     }
     if (options->ceiling[1] != 0) {
         const double *ceiling = options->ceiling;
-        /* It makes whole steps until it is where it stops, or below. */
-        double step = options->timestep * -ceiling[1];
-        double steps = ceil((ceiling[0] - ceiling[2]) / step - 1e-9);
-        list[count++] = (Obstacle){
-            .kind = OBSTACLE_WALL,
-            .n = {0, -1},
-            .o = {0, ceiling[0]},
-            .node = -1,
-            .motion = {1, {steps * options->timestep}, {{0, ceiling[1]}}}};
+        /* Where something blocks it, it gives up after the time of its way. */
+        double way = (ceiling[2] - ceiling[0]) / ceiling[1];
+        list[count++] = (Obstacle){.kind = OBSTACLE_WALL,
+                                   .n = {0, -1},
+                                   .o = {0, ceiling[0]},
+                                   .node = -1,
+                                   .motion = {1,
+                                              {way + options->timestep},
+                                              {{0, ceiling[1]}},
+                                              true,
+                                              {0, ceiling[2]}}};
     }
     if (options->scene->own)
         list[count++] = options->scene->own(options);

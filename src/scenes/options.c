@@ -160,7 +160,7 @@ const OptionRow option_rows[] = {
              1e9),
      NEEDS(BODY), TIMES(OPTIONS_MAX_BALLS, balls), TERM(contact_energy), LIVE},
     {NUMBERS(ceiling, 3, "Y,V,STOP",
-             "comes down with V < 0 (m/s) until Y <= STOP; no friction", "",
+             "comes down with V < 0 (m/s) until Y = STOP; no friction", "",
              -1e9, 1e9),
      NEEDS(BODY), TERM(contact_energy)},
     {NUMBERS(barrier, 2, "DHAT,KAPPA",

@@ -91,6 +91,20 @@ static bool moves(const Obstacle *obstacle)
     return obstacle->v[0] != 0 || obstacle->v[1] != 0;
 }
 
+/* An obstacle that would pass the place at which it stops goes just there. */
+static void stop_obstacle(Obstacle *obstacle, double h)
+{
+    double *v = obstacle->v, square = v[0] * v[0] + v[1] * v[1], left = 0;
+    double way[2];
+    for (int c = 0; c < 2; c++) {
+        way[c] = obstacle->motion.stop[c] - obstacle->o[c];
+        left += way[c] * v[c]; /* times |v|^2, s */
+    }
+    bool here = left <= 1e-9 * h * square; /* but for rounding */
+    for (int c = 0; c < 2; c++)
+        v[c] = here ? 0 : left < h * square ? way[c] / h : v[c];
+}
+
 /* Before a step: each obstacle's v is what its motion has for this step.
  * Returns whether anything moves. */
 static bool prescribed_begin(TimeIntegrator *run)
@@ -110,6 +124,8 @@ static bool prescribed_begin(TimeIntegrator *run)
         for (int i = motion->phases - 1; i >= 0; i--)
             if (half_way < motion->until[i])
                 memcpy(obstacle->v, motion->v[i], sizeof obstacle->v);
+        if (motion->stops)
+            stop_obstacle(obstacle, run->h);
         any = any || moves(obstacle);
     }
     return any;
@@ -223,6 +239,22 @@ static bool prescribed_goes_on(TimeIntegrator *run, Status *status)
     return false;
 }
 
+/* The record of a step that is ended by what moves, not by a minimisation.
+ * Returns its status, or INTERRUPTED. */
+static Status tell_end(const TimeIntegrator *run, Status status)
+{
+    const Newton *newton = run->newton;
+    const NewtonSettings *settings = &newton->settings;
+    const NewtonRecord end = {.step = newton->step,
+                              .iteration = -1,
+                              .residual = newton->residual,
+                              .kind = newton->kind,
+                              .status = status};
+    return !settings->observer || settings->observer(settings->user, &end)
+               ? status
+               : STATUS_INTERRUPTED;
+}
+
 /* J, what those who moved things have done in a step.  Of the pins: their
  * reaction, which is what E's gradient has in their places, times their way. Of
  * the obstacles: the forces on the nodes, normal and of friction, times the
@@ -323,6 +355,8 @@ static Status go_on(TimeIntegrator *run, Status status)
             status = prescribed_start(run);
             continue;
         }
+        if (status != run->newton->status)
+            status = tell_end(run, status);
         if (status && !status_is_unconverged(status))
             return end_step(run, status);
         if (status)

@@ -342,7 +342,7 @@ TEST(work_is_limited_by_the_size)
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *run = &simulation->run[0];
     contact_of(run->system)->obstacle[1].motion =
-        (Motion){1, {0.01}, {{0, -50}}};
+        (Motion){.phases = 1, .until = {0.01}, .v = {{0, -50}}};
     run->newton->settings.max_iterations = 10;
     CHECK_STATUS(simulation_step(simulation), STATUS_ITERATION_LIMIT);
     CHECK_AT_MOST(run->newton->counters.iterations, 19);
