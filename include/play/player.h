@@ -103,6 +103,7 @@ typedef struct Player {
     Command later; /* what a drag does as soon as the step is there that is
                       made */
     bool warned;   /* it has stopped because a step did not converge */
+    bool gained;   /* it was told that energy has risen without work */
 
     int gesture;    /* what is done now is undone at once: its number, */
     int gestures;   /* how many there were, */

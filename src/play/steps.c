@@ -163,7 +163,7 @@ Status player_begin(Player *player, const Options *options, int count,
     player_leave_step(player);
     player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
     player->sampled = -1;
-    player->warned = player->holds = false;
+    player->warned = player->gained = player->holds = false;
     status = follow(player);
     return status ? status : record_step(player);
 }
@@ -239,6 +239,25 @@ static void tell_rest(Player *player)
                     "within the tolerance, not at rest: \u03b5 = %.3g m/s lets "
                     "%.3g m pass in each step of %.4g s; a smaller one goes on",
                     tolerance, tolerance * h, h);
+}
+
+/* The first step of a run after which energy was there that nobody has brought
+ * in. */
+static void tell_gain(Player *player)
+{
+    const Past *past = &player->past;
+    for (int p = 0; p < past_panes(past) && !player->gained; p++) {
+        const Simulation *simulation = &past->machine[p].simulation;
+        for (int r = 0; r < simulation->runs && !player->gained; r++) {
+            player->gained = simulation->gain[r].steps > 0;
+            if (player->gained)
+                player_note(player,
+                            "step %ld: the total energy has risen by %.3g J "
+                            "without work; a long step of backward Euler can "
+                            "do that",
+                            past->step, simulation->gain[r].energy);
+        }
+    }
 }
 
 /* Nothing has moved for a step: it is in balance; or, so says a second step
@@ -442,6 +461,8 @@ static Status step_shown(Player *player, Status status, long before, bool made)
         return player_show(player, seen, THEN_NOTHING);
     }
     status = record_step(player);
+    if (!status && runs)
+        tell_gain(player);
     if (!status && runs)
         judge(player);
     else if (!status && then == THEN_TELL)

@@ -109,16 +109,53 @@ static Status end_step(Simulation *simulation, Status status)
     return status;
 }
 
+/* J, of a run, less the work done until now, for which energy has come in; the
+ * size of its parts. */
+static double energy_less_work(const Simulation *simulation, int run,
+                               double *size)
+{
+    Energies now = simulation_energies(simulation, run);
+    *size = fabs(now.work);
+    for (int i = 1; i < now.rows; i++)
+        *size += fabs(now.row[i].value);
+    return now.total - now.work;
+}
+
+/* The next run's step begins. */
+static Status begin_run(Simulation *simulation)
+{
+    double size;
+    int run = simulation->stepping;
+    simulation->before = energy_less_work(simulation, run, &size);
+    return time_integrator_begin(&simulation->run[run]);
+}
+
+/* A run's step was made.  What is a part of 1e-9 of all energies is taken for
+ * rounding, and what the tolerance leaves undone. */
+static void book_gain(Simulation *simulation)
+{
+    int run = simulation->stepping;
+    double size, now = energy_less_work(simulation, run, &size);
+    double gained = now - simulation->before;
+    bool backward_euler = simulation->run[run].method->at_end;
+    if (!backward_euler || !(gained > 1e-9 * size))
+        return;
+    simulation->gain[run].steps++;
+    simulation->gain[run].energy += gained;
+}
+
 /* From a run whose step is over to the next; of all statuses the last one that
  * is not OK counts. */
 static Status go_on(Simulation *simulation, Status status)
 {
     while (status != STATUS_RUNNING) {
+        bool made = !status || status_is_unconverged(status);
         simulation->worst = status ? status : simulation->worst;
-        if ((status && !status_is_unconverged(status)) ||
-            ++simulation->stepping == simulation->runs)
+        if (made)
+            book_gain(simulation);
+        if (!made || ++simulation->stepping == simulation->runs)
             return end_step(simulation, simulation->worst);
-        status = time_integrator_begin(&simulation->run[simulation->stepping]);
+        status = begin_run(simulation);
     }
     return STATUS_RUNNING;
 }
@@ -132,7 +169,7 @@ Status simulation_begin(Simulation *simulation)
         return end_step(simulation, scene->step(simulation));
     simulation->stepping = 0;
     simulation->worst = STATUS_OK;
-    return go_on(simulation, time_integrator_begin(&simulation->run[0]));
+    return go_on(simulation, begin_run(simulation));
 }
 
 Status simulation_iterate(Simulation *simulation)

@@ -81,6 +81,14 @@ verdict what_is_blocked_is_told "$(
     told blocked return --segments 4 --body 0,0 --body 0,1.1 \
         --ground 0,1,0,-0.6 --ceiling 1.7,-50,-5 --steps 8
 )"
+verdict energy_from_nothing_is_told "$(
+    set -- --headless --segments 6 --self-contact on --material neo-hookean \
+        --body 0,0,0,8,0 --body 1.2,0.1,3,-8,0 --steps 5
+    "$elasto" "$@" --timestep 0.1 |
+        grep -q '^energy gained  *3.335e+04 J without work, in 1 steps' ||
+        echo 'not in the summary'
+    "$elasto" "$@" --timestep 0.002 | grep gained
+)"
 verdict a_start_that_is_the_minimum_is_told "$(
     ends 1 --steps 5 --stretch 1
     [ "$(grep -c ,ok, log)" -eq 5 ] || echo 'steps at rest are not told'

@@ -25,12 +25,13 @@ static uint64_t hash_number(uint64_t hash, double number)
 /* Of a state, how late it is there, and its ledger. */
 static uint64_t hash_of(const Simulation *simulation, uint64_t hash)
 {
-    hash = hash_number(state_hash(simulation, hash),
-                       simulation_time(simulation));
+    hash =
+        hash_number(state_hash(simulation, hash), simulation_time(simulation));
     for (int r = 0; r < simulation->runs; r++) {
         const Energies ledger = simulation_energies(simulation, r);
         for (int i = 0; i < ledger.rows; i++)
             hash = hash_number(hash, ledger.row[i].value);
+        hash = hash_number(hash, simulation->gain[r].energy);
     }
     return hash;
 }
