@@ -881,6 +881,21 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     return status || again ? status : settle(past);
 }
 
+/* What plots show of the steps at which branches low ... high begin is made
+ * once more, with the control that goes on from there now. */
+static void sample_again(Past *past, int low, int high)
+{
+    for (int b = low; b <= high; b++) {
+        const Branch *branch = &past->branch[b];
+        if (!past->keeps || branch->fresh ||
+            branch->first > past_newest(past) ||
+            !kept_of(past, 0, branch->first).entry->state)
+            continue;
+        past_aim(past, branch->first, false);
+        past_finish(past);
+    }
+}
+
 const Command *past_undo(Past *past, int way)
 {
     int from = past->now, to = from + way;
@@ -900,7 +915,10 @@ const Command *past_undo(Past *past, int way)
     present(past)->shown = past->step;
     past->now = to;
     past->step = present(past)->shown;
-    past_aim(past, past->step, false);
+    long shown = past->step;
+    sample_again(past, low + 1, high);
+    past->step = shown;
+    past_aim(past, shown, false);
     return &past->branch[high].edit;
 }
 

@@ -146,4 +146,31 @@ panes() {
 }
 verdict panes_have_one_time "$(panes)"
 
+# Rows of the ledger are those of the numbers that their step goes on with, also
+# where it was gone back to, undone and done again.  Each line is a script; the
+# rows that there are at its end are those of the first one.
+ledgers() {
+    first='2 set stiffness 2e4\n4 set stiffness 5e4\n'
+    while read -r rest; do
+        printf "$first$rest" >script
+        "$elasto" --headless --quiet --segments 2 --steps 8 --script script \
+            --energies ledger || echo "$rest: ends with $?"
+        [ -f straight ] || cp ledger straight
+        rows=$(wc -l <ledger)
+        [ "$rows" -ge 6 ] || echo "$rest: only $rows rows"
+        head -n "$rows" straight | cmp -s - ledger ||
+            echo "$rest changes the ledger: $(diff straight ledger | head -n 2)"
+    done <<'END'
+8 pause
+6 undo\n4 undo\n2 redo\n4 redo\n
+6 undo\n4 redo\n
+4 undo\n4 undo\n2 redo\n4 redo\n
+6 goto 3\n3 goto 1\n1 goto 6\n
+5 pin 0\n5 undo\n5 undo\n4 redo\n
+7 set timestep 0.01\n7 undo\n
+6 undo\n4 undo\n2 goto 1\n1 goto 2\n2 redo\n4 redo\n
+END
+}
+verdict undo_leaves_the_ledger "$(ledgers)"
+
 exit $failed

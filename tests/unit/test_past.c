@@ -261,15 +261,41 @@ TEST(a_gesture_is_undone_as_a_whole)
 enum { LAST = 12, DEPTH = 40, PANES = 3 };
 static uint64_t truth[DEPTH][LAST + 1][PANES];
 
+/* What a plot shows of it: time and the first of its series. */
+static double plotted[DEPTH][LAST + 1][PANES][2];
+
+/* Each point of a plot is one that was seen when its step was shown. */
+static void check_plots(void)
+{
+    static History history;
+    for (int p = 0; p < past_panes(&past); p++) {
+        past_history(&past, p, &history);
+        for (int i = 0; i < history.count && history.series > 0; i++) {
+            long step = 0;
+            while (step < past_newest(&past) &&
+                   plotted[past.now][step][p][0] != history.time[i])
+                step++;
+            CHECK(plotted[past.now][step][p][0] == history.time[i]);
+            CHECK(plotted[past.now][step][p][1] == history.value[0][i]);
+        }
+    }
+}
+
 /* The state that is shown, if it is a new one; else it has been seen. */
 static void look(bool fresh)
 {
     for (int p = 0; p < past_panes(&past); p++) {
         const Simulation *simulation = &past.machine[p].simulation;
         uint64_t hash = hash_of(simulation, STATE_HASH_SEED);
+        Energy row[HISTORY_SERIES] = {{0}};
+        double *point = plotted[past.now][past.step][p];
         CHECK(fresh || truth[past.now][past.step][p] == hash);
         truth[past.now][past.step][p] = hash;
+        show_sample(simulation, row);
+        point[0] = simulation_time(simulation);
+        point[1] = row[0].value;
     }
+    check_plots();
 }
 
 static void visit(long step, bool again)
@@ -342,8 +368,10 @@ static void change_at_random(Random *random, int gesture)
                        again, gesture));
     const double *x = past.machine[0].simulation.run[0].x;
     CHECK(edit.kind != COMMAND_HANDLE || (x[0] == edit.x && x[1] == edit.y));
-    if (past.now != now)
+    if (past.now != now) {
         memcpy(truth[past.now], truth[now], sizeof *truth);
+        memcpy(plotted[past.now], plotted[now], sizeof *plotted);
+    }
     past_aim(&past, past.step, false);
     CHECK_OK(past_finish(&past));
     look(true); /* a node that was pinned has stopped */
@@ -360,8 +388,12 @@ static void change_panes(int panes)
         return;
     CHECK_OK(past_edit(&past, &edit, 0, 0, false, 0));
     memcpy(truth[past.now], truth[now], sizeof *truth);
-    for (int step = 0; step <= LAST && panes > had; step++)
+    memcpy(plotted[past.now], plotted[now], sizeof *plotted);
+    for (int step = 0; step <= LAST && panes > had; step++) {
         truth[past.now][step][had] = truth[now][step][had - 1];
+        memcpy(plotted[past.now][step][had], plotted[now][step][had - 1],
+               sizeof plotted[0][0][0]);
+    }
     look(false);
 }
 
