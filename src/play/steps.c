@@ -246,6 +246,8 @@ static void tell_rest(Player *player)
 static void tell_gain(Player *player)
 {
     const Past *past = &player->past;
+    if (player->given[0].steps >= 0 || !player->attended)
+        return;
     for (int p = 0; p < past_panes(past) && !player->gained; p++) {
         const Simulation *simulation = &past->machine[p].simulation;
         for (int r = 0; r < simulation->runs && !player->gained; r++) {
