@@ -295,7 +295,8 @@ static void look(bool fresh)
         point[0] = simulation_time(simulation);
         point[1] = row[0].value;
     }
-    check_plots();
+    if (!fresh)
+        check_plots();
 }
 
 static void visit(long step, bool again)
