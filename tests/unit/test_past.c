@@ -254,6 +254,41 @@ TEST(a_gesture_is_undone_as_a_whole)
     past_free(&past);
 }
 
+static double plotted_total(long step)
+{
+    static History history;
+    past_history(&past, 0, &history);
+    CHECK(history.series > 0 && history.count > step);
+    return history.value[0][step];
+}
+
+/* What plots show of a step is the ledger with the numbers that it goes on
+ * with: after an undo those of before, after a redo the others. */
+TEST(plots_follow_undo)
+{
+    static const char *const numbers[] = {"stiffness 2e4", "stiffness 7e5",
+                                          "stiffness 1e9"};
+    for (int i = 0; i < 3; i++) {
+        uint64_t hash[7];
+        begin_past("square --segments 2");
+        run(0, 4, hash);
+        show(2);
+        double before = plotted_total(2);
+        set_option(numbers[i], false);
+        double after = plotted_total(2);
+        CHECK(after != before);
+        show(3);
+        show(4);
+        past_undo(&past, -1);
+        CHECK_OK(past_finish(&past));
+        CHECK(plotted_total(2) == before && past.step == 2);
+        past_undo(&past, 1);
+        CHECK_OK(past_finish(&past));
+        CHECK(plotted_total(2) == after && past.step == 4);
+        past_free(&past);
+    }
+}
+
 /* ---- anything in any order ------------------------------------------------
  */
 
@@ -261,42 +296,15 @@ TEST(a_gesture_is_undone_as_a_whole)
 enum { LAST = 12, DEPTH = 40, PANES = 3 };
 static uint64_t truth[DEPTH][LAST + 1][PANES];
 
-/* What a plot shows of it: time and the first of its series. */
-static double plotted[DEPTH][LAST + 1][PANES][2];
-
-/* Each point of a plot is one that was seen when its step was shown. */
-static void check_plots(void)
-{
-    static History history;
-    for (int p = 0; p < past_panes(&past); p++) {
-        past_history(&past, p, &history);
-        for (int i = 0; i < history.count && history.series > 0; i++) {
-            long step = 0;
-            while (step < past_newest(&past) &&
-                   plotted[past.now][step][p][0] != history.time[i])
-                step++;
-            CHECK(plotted[past.now][step][p][0] == history.time[i]);
-            CHECK(plotted[past.now][step][p][1] == history.value[0][i]);
-        }
-    }
-}
-
 /* The state that is shown, if it is a new one; else it has been seen. */
 static void look(bool fresh)
 {
     for (int p = 0; p < past_panes(&past); p++) {
         const Simulation *simulation = &past.machine[p].simulation;
         uint64_t hash = hash_of(simulation, STATE_HASH_SEED);
-        Energy row[HISTORY_SERIES] = {{0}};
-        double *point = plotted[past.now][past.step][p];
         CHECK(fresh || truth[past.now][past.step][p] == hash);
         truth[past.now][past.step][p] = hash;
-        show_sample(simulation, row);
-        point[0] = simulation_time(simulation);
-        point[1] = row[0].value;
     }
-    if (!fresh)
-        check_plots();
 }
 
 static void visit(long step, bool again)
@@ -369,10 +377,8 @@ static void change_at_random(Random *random, int gesture)
                        again, gesture));
     const double *x = past.machine[0].simulation.run[0].x;
     CHECK(edit.kind != COMMAND_HANDLE || (x[0] == edit.x && x[1] == edit.y));
-    if (past.now != now) {
+    if (past.now != now)
         memcpy(truth[past.now], truth[now], sizeof *truth);
-        memcpy(plotted[past.now], plotted[now], sizeof *plotted);
-    }
     past_aim(&past, past.step, false);
     CHECK_OK(past_finish(&past));
     look(true); /* a node that was pinned has stopped */
@@ -389,12 +395,8 @@ static void change_panes(int panes)
         return;
     CHECK_OK(past_edit(&past, &edit, 0, 0, false, 0));
     memcpy(truth[past.now], truth[now], sizeof *truth);
-    memcpy(plotted[past.now], plotted[now], sizeof *plotted);
-    for (int step = 0; step <= LAST && panes > had; step++) {
+    for (int step = 0; step <= LAST && panes > had; step++)
         truth[past.now][step][had] = truth[now][step][had - 1];
-        memcpy(plotted[past.now][step][had], plotted[now][step][had - 1],
-               sizeof plotted[0][0][0]);
-    }
     look(false);
 }
 
