@@ -45,9 +45,9 @@ extern StageFacts square_facts, circle_facts, scalar_facts, landscape_facts,
     mass_facts, dial_facts, length_facts, race_facts, envelope_facts;
 extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
 extern StageSample square_sample, mass_sample;
-extern CardDraw page_draw, prints_draw, line_draw,
-    residual_draw, values_draw, updates_draw, energies_draw, budget_draw,
-    radius_draw, law_draw, spy_draw, profile_draw, table_draw;
+extern CardDraw page_draw, prints_draw, line_draw, residual_draw, values_draw,
+    updates_draw, energies_draw, budget_draw, radius_draw, law_draw, spy_draw,
+    profile_draw, table_draw;
 extern CardNeeds page_needs, listing_needs, energies_needs;
 
 /* The size of its letters in ems: the same for all pages that fit. */

@@ -148,7 +148,7 @@ static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
  * a whole second; NaN: it has not come so far. */
 static double energy_later(const Simulation *simulation, TimeIntegrator *run)
 {
-    while (run->clock + 0.5 * run->h < 1) {
+    while (run->clock.now + 0.5 * run->h < 1) {
         Status status = time_integrator_step(run);
         if (status && !status_is_unconverged(status))
             return NAN;
@@ -282,10 +282,8 @@ Status envelope_visit(Simulation *simulation, int column, int row)
     if (worst == STATUS_OUT_OF_MEMORY)
         return worst;
     int updates = (int)run->newton->counters.iterations;
-    map->cell[row][column] = (EnvelopeCell){
-        .known = true,
-        .worst = worst,
-        .updates = updates};
+    map->cell[row][column] =
+        (EnvelopeCell){.known = true, .worst = worst, .updates = updates};
     map->column = column;
     map->row = row;
     return STATUS_OK;
