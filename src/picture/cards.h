@@ -45,9 +45,9 @@ extern StageFacts square_facts, circle_facts, scalar_facts, landscape_facts,
     mass_facts, dial_facts, length_facts, race_facts, envelope_facts;
 extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
 extern StageSample square_sample, mass_sample;
-extern CardDraw page_draw, prints_draw, line_draw,
-    residual_draw, values_draw, updates_draw, energies_draw, budget_draw,
-    radius_draw, law_draw, spy_draw, profile_draw, table_draw;
+extern CardDraw page_draw, prints_draw, line_draw, residual_draw, values_draw,
+    updates_draw, energies_draw, budget_draw, radius_draw, relief_draw,
+    law_draw, spy_draw, profile_draw, table_draw;
 extern CardNeeds page_needs, listing_needs, energies_needs;
 
 /* The size of its letters in ems: the same for all pages that fit. */
@@ -55,6 +55,9 @@ double page_letters(Paper *paper, Box inside, const Show *show);
 
 /* What a test holds of the page, below its code.  Returns the box above it. */
 Box page_draw_claim(Paper *paper, Box inside, const Show *show);
+
+/* Whether the Hessian, not projected, is positive definite. */
+bool landscape_is_convex(const Local *E);
 
 /* What a page knows of its law, and where the scene is on it. */
 void law_facts(const Simulation *simulation, Facts *facts);

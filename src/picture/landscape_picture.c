@@ -30,7 +30,7 @@ static double level_factor(const Simulation *simulation)
     return elastic && h > 1 ? h * h : 1;
 }
 
-static bool is_convex(const Local *E)
+bool landscape_is_convex(const Local *E)
 {
     return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
@@ -54,7 +54,7 @@ static void draw_ground(const Plot *plot)
                                  plot->y.high - (j - box->y + 1) * metre);
             double right = E.g[0] * metre / e, up = E.g[1] * metre / e;
             double slope = sqrt(right * right + up * up);
-            if (!is_convex(&E))
+            if (!landscape_is_convex(&E))
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             if (contour_distance(E.value / e) > (reach + 1) * slope)
                 continue;
@@ -217,6 +217,7 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     static const char *const projected[] = {"Pxx", "Pxy", "Pyy"};
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
+    double h = simulation->run[0].h;
     const double *x = descent->point;
     Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
     fact_point(facts, "place", x);
@@ -233,13 +234,14 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
                   simulation->options.page && descent->count == 0 &&
                       simulation->options.filter == FILTER_NONE);
     }
-    fact_when(facts, is_convex(&E) ? "convex" : "shaded", true);
+    fact_when(facts, landscape_is_convex(&E) ? "convex" : "shaded", true);
     fact_when(facts, "moves", descent->slope != 0);
     fact(facts, "E", part_at(simulation, parts, x));
     fact(facts, "bowl", part_at(simulation, PART_INERTIA, x));
     fact(facts, "elastic part", part_at(simulation, PART_ELASTICITY, x));
     fact_matrix(facts, raw, E.H, 0);
     name_parts(parts, facts);
+    fact(facts, "h", parts == PART_INERTIA ? NAN : h);
     fact_when(facts, "both", parts == PART_BOTH);
     fact_when(facts, "elastic", parts != PART_INERTIA);
     fact_when(facts, "inertial", parts != PART_ELASTICITY);

@@ -626,6 +626,13 @@ TEST(claim_parts)
         /* H is at most 40 there, and |p| below h epsilon = 2e-7 m */
         CHECK_NEAR(x[i] - target[i] + slope / (2 * d), 0, 1e-5);
     }
+    for (int two = 0; two < 2; two++) { /* from below, where the second is */
+        Simulation *below =
+            open_page("parts", two ? "--start 0,-1.1 --timestep 0.096"
+                                   : "--start 0,-1.1 --timestep 0.094");
+        CHECK_STATUS(run_steps(below, 200), STATUS_OK);
+        CHECK((below->descent.point[1] < 0) == two);
+    }
 }
 
 TEST(claim_dial)
@@ -651,6 +658,14 @@ TEST(claim_dial)
                     simulation, part ? PART_ELASTICITY : PART_INERTIA,
                     walk->point[i - 1 + k][0], walk->point[i - 1 + k][1]);
         CHECK(value[0][1] > value[0][0] && value[1][1] < value[1][0]);
+    }
+    for (int bowl = 0; bowl < 2; bowl++) {
+        int bends = 0;
+        simulation->run[0].h = bowl ? 0.067 : 0.0675;
+        for (int i = 0; i < 81 * 81; i++) /* all that the map shows */
+            bends += descent_bends_down(simulation, 0.05 * (i % 81 - 40),
+                                        0.05 * (i / 81 - 40)) > 0;
+        CHECK((bends == 0) == bowl);
     }
 }
 

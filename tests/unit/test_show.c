@@ -635,6 +635,66 @@ TEST(maps_have_levels_and_pulls)
                        COLOUR_X_TILDE) > 3);
 }
 
+/* Valleys of the relief's lower outline, which goes down and up again by more
+ * than so many pixels.  The lower left corner has arrows. */
+static int outline_valleys(const Plot *card, int rise)
+{
+    int valleys = 0, best = 0;
+    bool down = true;
+    for (int x = card->box.width / 5; x < card->box.width; x++) {
+        int y = card->box.height - 1;
+        while (y > 0 && pixel(x, y) == COLOUR_WHITE)
+            y--;
+        if (y == 0)
+            continue;
+        if (down ? y > best : y < best)
+            best = y;
+        if (abs(y - best) > rise) {
+            valleys += down;
+            down = !down;
+            best = y;
+        }
+    }
+    return valleys;
+}
+
+/* The surface is a bowl with a short h and has two valleys with a long one; it
+ * is yellow where E is not convex.  The iterate is on it, and its direction,
+ * red where that points uphill.  Far numbers do no harm. */
+TEST(the_relief_has_two_valleys)
+{
+    static const struct {
+        const char *h;
+        int valleys;
+    } rows[] = {{"0.03", 1}, {"0.067", 1}, {"0.2", 2}, {"1", 2}, {"10", 2}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char line[96] = "landscape --start 0.1,-0.35 --filter none --timestep ";
+        strcat(line, rows[i].h);
+        stand_up(line, 0);
+        show.lecture = lecture_find("parts");
+        draw_without_words();
+        Plot card = {.paper = &paper,
+                     .show = &show,
+                     .simulation = &simulation,
+                     .box = {0, 0, 1000, 750},
+                     .text = true,
+                     .em = paper.em};
+        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        relief_draw(&card);
+        CHECK(outline_valleys(&card, 6) == rows[i].valleys);
+        int yellow = 0;
+        for (int k = 0; k < 1280 * 750; k++) {
+            Colour colour = paper.canvas.pixels[k];
+            yellow += (int)(colour >> 16 & 255) - (int)(colour & 255) > 40;
+        }
+        CHECK((yellow > 20000) == (i > 1));
+        CHECK(count_colour(card.box, COLOUR_TEXT) > 30);
+        CHECK((count_colour(card.box, COLOUR_WARNING) > 30) == (i > 1));
+        simulation.exhibit.target[0] = 1e300;
+        relief_draw(&card);
+    }
+}
+
 /* The step of twice the radius is marked on forward Euler's curve, if all steps
  * of it, also those after the one that is shown, are as long. */
 TEST(doubling_is_marked)
