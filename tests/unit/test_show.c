@@ -695,6 +695,58 @@ TEST(the_relief_has_two_valleys)
     }
 }
 
+/* Of the pixels of a colour in a box the least and the largest distance from a
+ * place. */
+static void distances(Box box, Colour colour, const double from[2],
+                      double least_most[2])
+{
+    least_most[0] = INFINITY;
+    least_most[1] = 0;
+    for (int y = box.y; y < box.y + box.height; y++)
+        for (int x = box.x; x < box.x + box.width; x++) {
+            double away = hypot(x + 0.5 - from[0], y + 0.5 - from[1]);
+            if (pixel(x, y) != colour)
+                continue;
+            least_most[0] = fmin(least_most[0], away);
+            least_most[1] = fmax(least_most[1], away);
+        }
+}
+
+/* The eigenvalues against the unit circle: those of forward Euler are outside,
+ * of backward Euler inside, of symplectic Euler on it, and one of them outside
+ * beyond h omega = 2.  Their ways begin at 1, where backward Euler's is
+ * farthest from 0.  Lines and discs cover whole pixels. */
+TEST(eigenvalues_are_outside_on_or_inside)
+{
+    static const char *const lines[] = {"circle --timestep 0.05",
+                                        "circle --timestep 0.3",
+                                        "circle --timestep 0.33"};
+    for (int i = 0; i < 3; i++) {
+        stand_up(lines[i], 0);
+        draw_without_words();
+        Plot card = {.paper = &paper,
+                     .show = &show,
+                     .simulation = &simulation,
+                     .box = {0, 0, 1000, 700},
+                     .em = paper.em};
+        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        matrix_draw(&card);
+        const Box plane = {300, 0, 700, 700};
+        const double t = simulation.run[0].h * 2 * acos(-1);
+        const double middle[2] = {650, 350};
+        double far[3][2];
+        for (int r = 0; r < 3; r++)
+            distances(plane, colour_of(simulation.run[r].method->name), middle,
+                      far[r]);
+        double disc = 5 * paper.unit, size = hypot(1, t);
+        double one = (far[0][1] - disc) / size;
+        double two = t > 2 ? 0.5 * t * t - 1 + sqrt(0.25 * t * t - 1) * t : 1;
+        CHECK_NEAR(far[1][1], one * two + disc, 2.5);
+        CHECK(t > 2 || far[1][0] > one - disc - 2.5);
+        CHECK_NEAR(far[2][0], one / size - disc, 2.5);
+    }
+}
+
 /* The step of twice the radius is marked on forward Euler's curve, if all steps
  * of it, also those after the one that is shown, are as long. */
 TEST(doubling_is_marked)
