@@ -635,6 +635,94 @@ TEST(maps_have_levels_and_pulls)
                        COLOUR_X_TILDE) > 3);
 }
 
+/* A component of the gradient of E at x, by a central difference. */
+static double slope_of(int k, const double *x)
+{
+    const double d = 1e-5, a[2] = {x[0] + d * !k, x[1] + d * k};
+    const double b[2] = {x[0] - d * !k, x[1] - d * k};
+    return (landscape_part_value(&simulation, PART_BOTH, a[0], a[1]) -
+            landscape_part_value(&simulation, PART_BOTH, b[0], b[1])) /
+           (2 * d);
+}
+
+/* Its derivatives. */
+static void slopes_of(int k, const double *x, double out[2])
+{
+    const double d = 1e-3;
+    for (int i = 0; i < 2; i++) {
+        const double a[2] = {x[0] + d * !i, x[1] + d * i};
+        const double b[2] = {x[0] - d * !i, x[1] - d * i};
+        out[i] = (slope_of(k, a) - slope_of(k, b)) / (2 * d);
+    }
+}
+
+/* On the page of Newton in n dimensions what is green and purple is where a
+ * component of g is 0, or where its linear model at the iterate is; to 3
+ * pixels, half of the curves' width and what is left of rounding them. */
+TEST(curves_are_where_the_gradient_is_0)
+{
+    static const Colour colours[2] = {0xff009e73u, 0xffb0559au};
+    stand_up("landscape --filter none --line-search none --start 0.6,0.9", 0);
+    show.lecture = lecture_find("newton");
+    draw_without_words();
+    Plot stage = show_stage(&paper, &show, &layout, 0);
+    const double *x = simulation.descent.point;
+    for (int k = 0; k < 2; k++) {
+        int count[2] = {0, 0};
+        double at_x[2], g = slope_of(k, x);
+        slopes_of(k, x, at_x);
+        for (int i = 0; i < 1280 * 800; i++) {
+            double at[2], here[2];
+            if (paper.canvas.pixels[i] != colours[k])
+                continue;
+            camera_world(&stage.camera, i % 1280 + 0.5, i / 1280 + 0.5, at);
+            slopes_of(k, at, here);
+            double curve = fabs(slope_of(k, at)) / hypot(here[0], here[1]);
+            double line =
+                fabs(g + at_x[0] * (at[0] - x[0]) + at_x[1] * (at[1] - x[1])) /
+                hypot(at_x[0], at_x[1]);
+            CHECK_AT_MOST(fmin(curve, line) * stage.camera.scale[0], 3);
+            count[line < curve]++;
+        }
+        CHECK(count[0] > 200 && count[1] > 50);
+    }
+}
+
+/* The half plane that has a colour is that of directions along which E falls.
+ */
+TEST(the_downhill_side_has_a_colour)
+{
+    stand_up("landscape --filter none --start 0.1,-0.35", 0);
+    LecturePage page = *lecture_find("descent");
+    assert_true(page.downhill);
+    show.lecture = &page;
+    draw_without_words();
+    size_t size = sizeof(Colour) * 1280 * 800;
+    Colour *with = malloc(size);
+    assert_non_null(with);
+    memcpy(with, paper.canvas.pixels, size);
+    page.downhill = false;
+    draw_without_words();
+    Plot stage = show_stage(&paper, &show, &layout, 0);
+    const double *x = simulation.descent.point;
+    const double g[2] = {slope_of(0, x), slope_of(1, x)};
+    int falls = 0, coloured = 0;
+    for (int i = 0; i < 1280 * 800; i++) {
+        double at[2];
+        if (!box_contains(box_inset(layout.pane[0], 50), i % 1280, i / 1280.0))
+            continue;
+        camera_world(&stage.camera, i % 1280 + 0.5, i / 1280 + 0.5, at);
+        double far = (g[0] * (at[0] - x[0]) + g[1] * (at[1] - x[1])) /
+                     hypot(g[0], g[1]) * stage.camera.scale[0];
+        bool differs = with[i] != paper.canvas.pixels[i];
+        falls += far < 0;
+        coloured += differs;
+        CHECK(!differs || far < 8); /* the arrow begins there */
+    }
+    free(with);
+    CHECK(falls > 50000 && coloured > 0.95 * falls);
+}
+
 /* Valleys of the relief's lower outline, which goes down and up again by more
  * than so many pixels.  The lower left corner has arrows. */
 static int outline_valleys(const Plot *card, int rise)
