@@ -656,6 +656,42 @@ static void slopes_of(int k, const double *x, double out[2])
     }
 }
 
+/* The list of iterates marks the digits that they have in common with the root.
+ * 2 pixels: a text is measured in whole ones, as a sum of letters. */
+TEST(right_digits_are_marked)
+{
+    static const char *const roots[] = {"1.",   "1.",       "1.",
+                                        "1.17", "1.177993", "1.17799325406"};
+    stand_up("tangent", 0);
+    show.lecture = lecture_find("tangent");
+    for (int i = 0; i <= 6; i++) {
+        if (i > 0)
+            CHECK(!simulation_step(&simulation));
+        show_know(&show);
+        Plot card = {.paper = &paper,
+                     .show = &show,
+                     .simulation = &simulation,
+                     .box = {0, 0, 600, 400},
+                     .text = true,
+                     .em = paper.em};
+        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        update_draw(&card);
+        int lit[7] = {0}, rows = 0, before = 0;
+        for (int y = 0; y < 400; y++) {
+            int now = count_colour((Box){300, y, 300, 1}, COLOUR_LIT);
+            rows += now > 0 && before == 0;
+            if (rows > 0 && rows < 7)
+                lit[rows] = now > lit[rows] ? now : lit[rows];
+            before = now;
+        }
+        CHECK(rows == i); /* x^0 = 2.5 has no digit right */
+        for (int k = 1; k <= i; k++)
+            CHECK_NEAR(lit[k],
+                       paper_width(&paper, FACE_REGULAR, 0.95, roots[k - 1]),
+                       2);
+    }
+}
+
 /* On the page of Newton in n dimensions what is green and purple is where a
  * component of g is 0, or where its linear model at the iterate is; to 3
  * pixels, half of the curves' width and what is left of rounding them. */
@@ -770,11 +806,13 @@ TEST(the_relief_has_two_valleys)
         canvas_clear(&paper.canvas, COLOUR_WHITE);
         relief_draw(&card);
         CHECK(outline_valleys(&card, 6) == rows[i].valleys);
-        int yellow = 0;
+        int yellow = 0, bright = 0;
         for (int k = 0; k < 1280 * 750; k++) {
             Colour colour = paper.canvas.pixels[k];
             yellow += (int)(colour >> 16 & 255) - (int)(colour & 255) > 40;
+            bright += (colour & 255) > 240 && colour != COLOUR_WHITE;
         }
+        CHECK(bright > 15000); /* no wall hides the flat of the valleys */
         CHECK((yellow > 20000) == (i > 1));
         CHECK(count_colour(card.box, COLOUR_TEXT) > 30);
         CHECK((count_colour(card.box, COLOUR_WARNING) > 30) == (i > 1));
