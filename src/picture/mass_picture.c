@@ -196,19 +196,24 @@ static void draw_plane(const Plot *card)
     plot_words(&plot, 1, i, COLOUR_FAINT, "i");
 }
 
-/* The numbers on the left, without the matrices where the card is low; the
- * plane on the right. */
+/* The numbers, without the matrices where the card is low; the plane at their
+ * right, or below them in a card that is higher than wide. */
 void matrix_draw(const Plot *card)
 {
-    Plot left = *card, right = *card;
-    int numbers = paper_pixels(card->paper, MATRIX_WIDE);
-    int rest = card->box.width - numbers, high = card->box.height;
-    bool low = high < MATRIX_HIGH * card->em;
-    right.box = box_cut_off(&left.box, EDGE_RIGHT, rest < high ? rest : high);
-    text_in_card(&left, &show_pane(card->show)->facts,
-                 low ? text_eigenvalues : text_matrix);
-    Box before = canvas_clip(&card->paper->canvas, right.box);
-    draw_plane(&right);
+    Plot numbers = *card, plane = *card;
+    const Box *box = &card->box;
+    int wide = paper_pixels(card->paper, MATRIX_WIDE);
+    int high = paper_pixels(card->paper, MATRIX_HIGH);
+    int rest = box->width - wide;
+    if (box->height > box->width)
+        plane.box = box_cut_off(&numbers.box, EDGE_BOTTOM, box->height - high);
+    else
+        plane.box = box_cut_off(&numbers.box, EDGE_RIGHT,
+                                rest < box->height ? rest : box->height);
+    text_in_card(&numbers, &show_pane(card->show)->facts,
+                 box->height < high ? text_eigenvalues : text_matrix);
+    Box before = canvas_clip(&card->paper->canvas, plane.box);
+    draw_plane(&plane);
     canvas_clip(&card->paper->canvas, before);
 }
 
