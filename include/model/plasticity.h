@@ -19,17 +19,22 @@
 
 /* How a spring answers in this step; with damping (damping.h) V has
  * theta (e - e_n)^2/2 more. */
-typedef struct SpringLaw {
+typedef struct FlowLaw {
     double ep;    /* plastic strain, e = E - ep */
     double yield; /* Y_n > 0 */
     double flow;  /* 1/(1 + H), 0 < flow <= 1 */
     double hard;  /* 1 - flow */
     double theta; /* eta/h; 0: no damping */
     double e_n;   /* e at the step's start */
-} SpringLaw;
+} FlowLaw;
 
-double spring_law_slope(SpringLaw law, double e);
-double spring_law_curvature(SpringLaw law, double e);
+double flow_law_slope(FlowLaw law, double e);
+double flow_law_curvature(FlowLaw law, double e);
+
+/* Eigenvalue of the spring's H along d, and out that across, in units of
+ * spring_c (spring_law.h), m^2. */
+double flow_law_along(FlowLaw law, double e, double d2, double l2,
+                        double *across);
 
 /* ---- the term -------------------------------------------------------- */
 
@@ -47,6 +52,6 @@ typedef struct Plasticity {
 extern const TermKind plastic_energy;
 
 /* The law of spring s without damping, elastic where nothing flows. */
-SpringLaw plasticity_law(const System *system, int s);
+FlowLaw plasticity_law(const System *system, int s);
 
 #endif

@@ -134,23 +134,20 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     draw_note(stage, &facts, text_node);
 }
 
-/* The block [[H, -H], [-H, H]] of a spring has the eigenvalues 0, 0 and twice
- * those of H = 2k/l2 (l2 tau I + 2 tau' d d^T). */
+/* The eigenvalues of a spring's 4x4 block are twice those of H, beside 0, 0. */
 static void note_spring(Plot *stage, const Pane *pane, int s)
 {
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
     Filter filter = pane->simulation->options.filter;
     double k = solid_of(system) ? NAN : system->k[s]; /* NaN: no block */
-    double l2 = system->l2[s], d[2];
-    spring_strain(e, l2, pane_x(pane), d);
-    double d2 = d[0] * d[0] + d[1] * d[1];
-    const SpringLaw law = plasticity_law(system, s);
-    double e_s = (d2 - l2) / l2 - law.ep;
-    double tau = spring_law_slope(law, e_s);
-    double bend = spring_law_curvature(law, e_s);
-    const double across = 4 * k * tau;
-    const double along = 4 * k / l2 * (2 * bend * d2 + l2 * tau);
+    double l2 = system->l2[s], d[2], across;
+    double d2 = spring_vector(e, pane_x(pane), d);
+    const FlowLaw law = plasticity_law(system, s);
+    double along = flow_law_along(law, spring_small_strain(d2, l2) - law.ep,
+                                    d2, l2, &across);
+    along *= 2 * spring_c(l2, k);
+    across *= 2 * spring_c(l2, k);
     Facts facts = {0};
     fact(&facts, "a", e[0]);
     fact(&facts, "b", e[1]);

@@ -1,0 +1,119 @@
+/* grid_spring.h - the law of a spring (spring_law.h) in the grid's loops, for a
+ * Pair of nodes at once, and that of a node with all its springs.
+ *
+ * A spring adds c/4 s^2 to E, s = |d|^2 - l2, c = 2 w k/l2.  Its gradient is
+ * c s d, its Hessian c (iso I + along d d^T) with iso = s and along = 2.
+ */
+#ifndef ELASTO_GRID_SPRING_H
+#define ELASTO_GRID_SPRING_H
+
+#include "solve/grid_loops.h"
+
+/* What a loop reads of a spring: d = x_i - x_j, |d|^2, s, c, and f = c s. */
+typedef struct Spring {
+    Pair dx, dy, d2, s, c, f;
+} Spring;
+
+/* From node q to node q + to, with its numbers at q + at. */
+INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
+{
+    const double *x = grid->x, *y = x + grid->rows.plane;
+    Pair dx = PAIR(x, q) - PAIR(x, q + to), dy = PAIR(y, q) - PAIR(y, q + to);
+    Pair d2 = dx * dx + dy * dy, c = PAIR(grid->c[kind], q + at);
+    Pair s = d2 - PAIR(grid->l2[kind], q + at);
+    return (Spring){dx, dy, d2, s, c, c * s};
+}
+
+/* The numbers iso and along of the Hessian, clamped (psd.h): the eigenvalue
+ * across d is c iso, that along it c (iso + along |d|^2).  Of Pairs or Few.
+ *   d2  |d|^2 and so little more that it is not 0 */
+#define CLAMPED(s, d2, iso, along)                                             \
+    __typeof__(d2) iso = WHERE((s) > 0, s);                                    \
+    __typeof__(d2) along = 2 + ((s)-iso) / (d2);                               \
+    along = WHERE(along > 0, along)
+
+/* E along p changes by a q[0] + ... + a^3 q[3]: what a spring adds to q[1],
+ * q[2], q[3], four times, twice, four times; u = p_i - p_j. */
+INLINE void spring_along_p(Spring s, Pair ux, Pair uy, Pair *f1, Pair *f2,
+                           Pair *f3)
+{
+    Pair B = 2 * (s.dx * ux + s.dy * uy), C = ux * ux + uy * uy;
+    *f1 += s.c * (B * B + 2 * s.s * C);
+    *f2 += s.c * B * C;
+    *f3 += s.c * C * C;
+}
+
+/* ---- a node that moves while the others stay ---- */
+
+/* Sums over its springs: the gradient of E; of f, of c d d^T, c d and c; the
+ * negative ones of f. */
+enum { GX, GY, ISO, XX, XY, YY, CX, CY, CC, NEGATIVE, AROUND };
+
+typedef double NodeSums[AROUND][LANES];
+
+/* Those of LANES nodes of a row.  The steps that follow wait less for each other
+ * in a loop of their own. */
+INLINE void look_around(const Grid *grid, NodeRun at, NodeSums of)
+{
+    const double *const ax = grid->away, *const ay = ax + grid->rows.plane;
+    EACH_PAIR (NEXT(at, LANES)) {
+        const int q = at.first + e;
+        Pair mass = PAIR(grid->m, q + at.node), iso = mass;
+        Pair gx = mass * PAIR(ax, q), gy = mass * PAIR(ay, q);
+        Pair xx = {0}, xy = {0}, yy = {0};
+        Pair cx = {0}, cy = {0}, c = {0}, negative = {0};
+#define ADD(kind, to, numbers)                                                 \
+    {                                                                          \
+        Spring s = spring_of(grid, kind, q, to, numbers);                      \
+        Pair fx = s.c * s.dx, fy = s.c * s.dy;                                 \
+        gx += s.f * s.dx;                                                      \
+        gy += s.f * s.dy;                                                      \
+        IN_ORDER(gx, gy);                                                      \
+        iso += s.f;                                                            \
+        negative += WHERE(s.f < 0, s.f);                                       \
+        IN_ORDER(iso, negative);                                               \
+        xx += fx * s.dx;                                                       \
+        xy += fx * s.dy;                                                       \
+        cx += fx;                                                              \
+        IN_ORDER(xx, xy);                                                      \
+        yy += fy * s.dy;                                                       \
+        cy += fy;                                                              \
+        IN_ORDER(yy, cy);                                                      \
+        c += s.c;                                                              \
+        IN_ORDER(c, cx);                                                       \
+    }
+        ALL_SPRINGS(ADD, at)
+#undef ADD
+        PAIR(of[GX], e) = gx;
+        PAIR(of[GY], e) = gy;
+        PAIR(of[ISO], e) = iso;
+        PAIR(of[XX], e) = xx;
+        PAIR(of[XY], e) = xy;
+        PAIR(of[YY], e) = yy;
+        PAIR(of[CX], e) = cx;
+        PAIR(of[CY], e) = cy;
+        PAIR(of[CC], e) = c;
+        PAIR(of[NEGATIVE], e) = negative;
+    }
+}
+
+/* The node's 2x2 block of the Hessian, xx, xy, yy, not clamped. */
+INLINE void node_hessian(const NodeSums of, int e, double H[3])
+{
+    H[0] = of[ISO][e] + 2 * of[XX][e];
+    H[1] = 2 * of[XY][e];
+    H[2] = of[ISO][e] + 2 * of[YY][e];
+}
+
+/* E changes by q[0] a + ... + q[3] a^4 where the node moves by a p; q out. */
+INLINE void node_along(const NodeSums of, int e, const double H[3], double px,
+                       double py, double q[4])
+{
+    double p2 = px * px + py * py;
+    q[0] = of[GX][e] * px + of[GY][e] * py;
+    q[1] = 0.5 * (H[0] * px * px + 2 * H[1] * px * py + H[2] * py * py);
+    q[2] = p2 * (of[CX][e] * px + of[CY][e] * py);
+    q[3] = 0.25 * of[CC][e] * p2 * p2;
+}
+
+#endif
