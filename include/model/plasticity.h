@@ -31,11 +31,6 @@ typedef struct FlowLaw {
 double flow_law_slope(FlowLaw law, double e);
 double flow_law_curvature(FlowLaw law, double e);
 
-/* Eigenvalue of the spring's H along d, and out that across, in units of
- * spring_c (spring_law.h), m^2. */
-double flow_law_along(FlowLaw law, double e, double d2, double l2,
-                        double *across);
-
 /* ---- the term -------------------------------------------------------- */
 
 /* The term's data. */

@@ -1,5 +1,6 @@
-/* spring_law.h - the law of one spring (slide MassSpringEnergy.py), which no
- * other file repeats: they ask it.
+/* spring_law.h - the law of one spring (slide MassSpringEnergy.py): all other
+ * files ask it, but for the grid's loops (grid_spring.h) and springs that flow
+ * (plasticity.h).
  *
  *   d = x_i - x_j, m          l2, m^2: its squared length at rest
  *   s = |d|^2/l2 - 1          strain
@@ -8,9 +9,9 @@
  *   H = c (2 d d^T + (|d|^2 - l2) I),  c = 2k/l2
  *   [[H, -H], [-H, H]]        Hessian of the nodes i and j
  *
- * The eigenvectors of H are d, with the eigenvalue c (3 |d|^2 - l2), and the one
- * across, with c (|d|^2 - l2).  The Hessian has the eigenvalues 0, 0 and twice
- * those of H: so a projection of H is the slide's make_PSD, without any
+ * The eigenvectors of H are d, with the eigenvalue c (3 |d|^2 - l2), and the
+ * one across, with c (|d|^2 - l2).  The Hessian has the eigenvalues 0, 0 and
+ * twice those of H: so a projection of H is the slide's make_PSD, without any
  * eigenvalue routine.  A stretched spring has no negative eigenvalue; one that
  * is shorter than its rest length over sqrt(3) has two, also where |d| = 0.
  */
@@ -51,20 +52,27 @@ static inline double spring_pull(double k, double s)
     return 2 * k * s;
 }
 
-/* The eigenvalues of H are c times the two below, m^2. */
+/* c = 2k/l2, J/m^4 */
 static inline double spring_c(double l2, double k)
 {
     return 2 * k / l2;
 }
 
-static inline double spring_along(double d2, double l2)
+/* The eigenvalue of H/c along d from that across; or, with c d2, of H. */
+static inline double spring_along(double d2, double across)
 {
-    return 3 * d2 - l2;
+    return 2 * d2 + across;
 }
 
-static inline double spring_across(double d2, double l2)
+/* Both eigenvalues projected: a negative one becomes what the filter says.
+ * Returns whether there was one; that across d is the smaller one. */
+static inline bool spring_project(Filter filter, double *along, double *across)
 {
-    return d2 - l2;
+    if (*across >= 0 || !filter_projects(filter))
+        return false;
+    *along = projected_eigenvalue(filter, *along);
+    *across = projected_eigenvalue(filter, *across);
+    return true;
 }
 
 /* H [3] out (xx, xy, yy), with its negative eigenvalues treated as the filter
@@ -74,29 +82,18 @@ static inline bool spring_hessian(const double d[2], double l2, double k,
                                   Filter filter, double H[3])
 {
     double c = spring_c(l2, k), d2 = d[0] * d[0] + d[1] * d[1];
-    double along = spring_along(d2, l2), across = spring_across(d2, l2);
-    if (across >= 0 || !filter_projects(filter)) {
+    double along = 3 * d2 - l2, across = d2 - l2;
+    if (!spring_project(filter, &along, &across)) {
         H[0] = c * (2 * d[0] * d[0] + across);
         H[1] = c * (2 * d[0] * d[1]);
         H[2] = c * (2 * d[1] * d[1] + across);
         return false;
     }
-    across = projected_eigenvalue(filter, across);
-    along = projected_eigenvalue(filter, along);
     double slope = d2 > 0 ? c * ((along - across) / d2) : 0;
     H[0] = c * across + slope * d[0] * d[0];
     H[1] = slope * d[0] * d[1];
     H[2] = c * across + slope * d[1] * d[1];
     return k > 0;
-}
-
-/* |d + alpha q|^2 = |d|^2 + alpha B + alpha^2 C; q = p_i - p_j, p [2n] m. */
-static inline void spring_line(const int e[2], const double d[2],
-                               const double *p, double *B, double *C)
-{
-    double q[2];
-    *C = spring_vector(e, p, q);
-    *B = 2 * (d[0] * q[0] + d[1] * q[1]);
 }
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/mass_spring_energy.h"
+#include "model/spring_law.h"
 
 /* Part by which the strengths of springs differ. */
 static const double SCATTER = 0.1;

@@ -46,12 +46,14 @@ static void along(const EvalPoint *at, const double *p, double q[3])
     const System *system = at->system;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
-        double d[2], d2 = spring_vector(e, at->x, d), B, C;
-        double c = spring_c(at->l2[s], at->w * at->k[s]);
-        spring_line(e, d, p, &B, &C);
-        q[0] += 0.25 * c * (B * B + 2 * spring_across(d2, at->l2[s]) * C);
-        q[1] += 0.5 * c * B * C;
-        q[2] += 0.25 * c * C * C;
+        double d[2], change[2], l2 = at->l2[s];
+        double c = 0.25 * spring_c(l2, at->w * at->k[s]);
+        double d2 = spring_vector(e, at->x, d);
+        double C = spring_vector(e, p, change);
+        double B = 2 * (d[0] * change[0] + d[1] * change[1]);
+        q[0] += c * (B * B + 2 * (d2 - l2) * C);
+        q[1] += 2 * c * B * C;
+        q[2] += c * C * C;
     }
 }
 

@@ -39,13 +39,6 @@ double flow_law_curvature(FlowLaw law, double e)
     return law.theta + (beyond(law, e) > 0 ? law.hard : 1);
 }
 
-double flow_law_along(FlowLaw law, double e, double d2, double l2,
-                        double *across)
-{
-    *across = l2 * flow_law_slope(law, e);
-    return 2 * flow_law_curvature(law, e) * d2 + *across;
-}
-
 /* ---- the term -------------------------------------------------------- */
 
 /* Of spring s, without damping. */
@@ -53,9 +46,9 @@ static inline FlowLaw law_of(const Plasticity *data, int s)
 {
     double H = data->hardening, flow = 1 / (1 + H);
     return (FlowLaw){.ep = data->ep[s],
-                       .yield = data->yield + H * data->kappa[s],
-                       .flow = flow,
-                       .hard = 1 - flow};
+                     .yield = data->yield + H * data->kappa[s],
+                     .flow = flow,
+                     .hard = 1 - flow};
 }
 
 FlowLaw plasticity_law(const System *system, int s)
@@ -68,8 +61,8 @@ FlowLaw plasticity_law(const System *system, int s)
 typedef struct FlowSpring {
     const int *e;
     double k, l2;
-    double d[2], d2;     /* m, x_i - x_j; m^2 */
-    double strain;       /* elastic strain, E - ep */
+    double d[2], d2; /* m, x_i - x_j; m^2 */
+    double strain;   /* elastic strain, E - ep */
     FlowLaw law;
 } FlowSpring;
 
@@ -108,8 +101,7 @@ static void gradient(const EvalPoint *at, double *g)
         FlowSpring spring = flow_spring(at, s);
         spring_add_force(spring.e,
                          spring_pull(at->w * spring.k,
-                                     flow_law_slope(spring.law,
-                                                      spring.strain)),
+                                     flow_law_slope(spring.law, spring.strain)),
                          spring.d, g);
     }
 }
@@ -121,14 +113,11 @@ static int hessian(const EvalPoint *at, Filter filter, const int *slot,
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
         const double *d = spring.d, d2 = spring.d2;
-        double k = at->w * spring.k, factor = spring_c(spring.l2, k), across;
-        double along = flow_law_along(spring.law, spring.strain, d2,
-                                        spring.l2, &across);
-        if ((along < 0 || across < 0) && filter_projects(filter)) {
-            along = projected_eigenvalue(filter, along);
-            across = projected_eigenvalue(filter, across);
-            projected += k > 0;
-        }
+        double k = at->w * spring.k, factor = spring_c(spring.l2, k);
+        double across = spring.l2 * flow_law_slope(spring.law, spring.strain);
+        double bend = flow_law_curvature(spring.law, spring.strain);
+        double along = spring_along(bend * d2, across);
+        projected += spring_project(filter, &along, &across) && k > 0;
         double difference = d2 > 0 ? (along - across) / d2 : 0;
         const double H[3] = {factor * (across + difference * d[0] * d[0]),
                              factor * difference * d[0] * d[1],
@@ -143,9 +132,9 @@ static int hessian(const EvalPoint *at, Filter filter, const int *slot,
 static inline void strain_along(const FlowSpring *spring, const double *p,
                                 double *B, double *C)
 {
-    spring_line(spring->e, spring->d, p, B, C);
-    *B /= spring->l2;
-    *C /= spring->l2;
+    double change[2];
+    *C = spring_vector(spring->e, p, change) / spring->l2;
+    *B = 2 * (spring->d[0] * change[0] + spring->d[1] * change[1]) / spring->l2;
 }
 
 static void along(const EvalPoint *at, const double *p, double q[3])

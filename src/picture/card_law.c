@@ -11,10 +11,10 @@
 #include "base/mathematics.h"
 #include "model/fracture.h"
 #include "model/friction.h"
-#include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "model/self_contact.h"
+#include "model/spring_law.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 
 #include "model/contact.h"
-#include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
+#include "model/spring_law.h"
 #include "picture/colour_map.h"
 #include "picture/cards.h"
 
@@ -141,13 +141,13 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     const int *e = system->e + 2 * s;
     Filter filter = pane->simulation->options.filter;
     double k = solid_of(system) ? NAN : system->k[s]; /* NaN: no block */
-    double l2 = system->l2[s], d[2], across;
+    double l2 = system->l2[s], d[2];
     double d2 = spring_vector(e, pane_x(pane), d);
     const FlowLaw law = plasticity_law(system, s);
-    double along = flow_law_along(law, spring_small_strain(d2, l2) - law.ep,
-                                    d2, l2, &across);
-    along *= 2 * spring_c(l2, k);
-    across *= 2 * spring_c(l2, k);
+    double s_e = spring_small_strain(d2, l2) - law.ep;
+    double across = spring_pull(2 * k, flow_law_slope(law, s_e));
+    double bend = 2 * spring_c(l2, k) * flow_law_curvature(law, s_e);
+    double along = spring_along(bend * d2, across);
     Facts facts = {0};
     fact(&facts, "a", e[0]);
     fact(&facts, "b", e[1]);

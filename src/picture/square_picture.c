@@ -5,7 +5,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "model/fracture.h"
-#include "model/mass_spring_energy.h"
+#include "model/spring_law.h"
 #include "picture/square_pen.h"
 #include "base/mathematics.h"
 #include "scenes/control.h"

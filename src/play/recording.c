@@ -8,8 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
+#include "model/spring_law.h"
 
 /* ---- kinds of tables ----------------------------------------------------- */
 

@@ -48,7 +48,7 @@ static Local line_energy(const Simulation *simulation, double x)
     double s = spring_strain(x * x, l2);
     double E = m / 2 * d * d + spring_energy(l2, k, s);
     double g = m * d + spring_pull(k, s) * x;
-    double H = m + spring_c(l2, k) * spring_along(x * x, l2);
+    double H = m + spring_c(l2, k) * spring_along(x * x, x * x - l2);
     return (Local){.value = E, .g = {g}, .H = {H}};
 }
 

@@ -94,17 +94,17 @@ void mass_exact(const Simulation *simulation, double t, double x[2])
             began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
 }
 
-void spring_facts(const double d[2], double l2, double k, SpringFacts *facts)
+SpringFacts spring_facts(const double d[2], double l2, double k)
 {
     double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
     double s = spring_small_strain(d2, l2), pull = spring_pull(k, s);
-    *facts = (SpringFacts){
+    return (SpringFacts){
         .length = r,
         .strain = s,
         .energy = spring_energy(l2, k, s),
         .force = {-pull * d[0], -pull * d[1]},
-        .along = spring_c(l2, k) * spring_along(d2, l2),
-        .across = spring_c(l2, k) * spring_across(d2, l2),
+        .along = spring_along(spring_c(l2, k) * d2, pull),
+        .across = pull,
         .root_energy = 2 * k * (r - l) * (r - l),
         .root_along = 4 * k,
         .root_across = 4 * k * (1 - l / r),

@@ -6,9 +6,9 @@
 #include "model/cells.h"
 #include "model/contact.h"
 #include "model/friction.h"
-#include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
+#include "model/spring_law.h"
 #include "base/mathematics.h"
 
 /* More updates than any step needs that ends at all; 1024 segments need some

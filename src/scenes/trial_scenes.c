@@ -51,7 +51,8 @@ static double frequency_bound(const System *system, const double *x)
     for (int s = 0; s < system->springs; s++) {
         double d[2], l2 = system->l2[s];
         double d2 = fmax(spring_vector(system->e + 2 * s, x, d), l2);
-        most = fmax(most, spring_c(l2, system->k[s]) * spring_along(d2, l2));
+        most =
+            fmax(most, spring_c(l2, system->k[s]) * spring_along(d2, d2 - l2));
     }
     return sqrt(2 * 8 * most / system->m[0]);
 }
@@ -282,10 +283,8 @@ Status envelope_visit(Simulation *simulation, int column, int row)
     if (worst == STATUS_OUT_OF_MEMORY)
         return worst;
     int updates = (int)run->newton->counters.iterations;
-    map->cell[row][column] = (EnvelopeCell){
-        .known = true,
-        .worst = worst,
-        .updates = updates};
+    map->cell[row][column] =
+        (EnvelopeCell){.known = true, .worst = worst, .updates = updates};
     map->column = column;
     map->row = row;
     return STATUS_OK;

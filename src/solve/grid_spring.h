@@ -51,8 +51,8 @@ enum { GX, GY, ISO, XX, XY, YY, CX, CY, CC, NEGATIVE, AROUND };
 
 typedef double NodeSums[AROUND][LANES];
 
-/* Those of LANES nodes of a row.  The steps that follow wait less for each other
- * in a loop of their own. */
+/* Those of LANES nodes of a row.  The steps that follow wait less for each
+ * other in a loop of their own. */
 INLINE void look_around(const Grid *grid, NodeRun at, NodeSums of)
 {
     const double *const ax = grid->away, *const ay = ax + grid->rows.plane;

@@ -32,8 +32,8 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
     tiles->chosen = memory_piece(memory, count * sizeof *tiles->chosen);
 }
 
-/* How far to go where E changes by a q[0] + ... + a^4 q[3]: the longest of three
- * steps that lower it, or 0. */
+/* How far to go where E changes by a q[0] + ... + a^4 q[3]: the longest of
+ * three steps that lower it, or 0. */
 INLINE double step_of(const double q[4], double *lower)
 {
     const double far[3] = {SHORTER, 1, OVER_RELAXED};

@@ -90,7 +90,7 @@ INLINE void tensor_row(const VCycle *cycle, int i)
             Spring z = spring_of(&grid, kind, q + PAIRED, to, numbers);        \
             Few dx = narrow(s.dx, z.dx), dy = narrow(s.dy, z.dy);              \
             Few t = narrow(s.s, z.s), c = FEW(own_c, e);                       \
-            CLAMPED(t, dx * dx + dy * dy + 1e-35f, iso, along);                \
+            CLAMPED(t, dx *dx + dy * dy + 1e-35f, iso, along);                 \
             FEW(level.K[kind][0], q) = c * (iso + along * dx * dx);            \
             FEW(level.K[kind][1], q) = c * along * dx * dy;                    \
             FEW(level.K[kind][2], q) = c * (iso + along * dy * dy);            \

@@ -750,8 +750,7 @@ TEST(claim_psd)
     exhibit_drag(simulation, 0, 2, 1);
     CHECK(known_now(simulation, "negative") == 0);
     for (double r = 0.02; r < 1.5; r += 0.02) {
-        SpringFacts facts;
-        spring_facts((double[2]){r, 0}, 1, 100, &facts);
+        SpringFacts facts = spring_facts((double[2]){r, 0}, 1, 100);
         CHECK_NEAR(2 * facts.across, 4 * 100 * (r * r - 1), 1e-9);
         CHECK_NEAR(2 * facts.along, 4 * 100 * (3 * r * r - 1), 1e-9);
         CHECK((facts.along <= 0) == (r < 1 / sqrt(3)));
@@ -760,27 +759,25 @@ TEST(claim_psd)
 
 TEST(claim_energy)
 {
-    SpringFacts rest, near;
     const double k = 100;
-    spring_facts((double[2]){1, 0}, 1, k, &rest);
+    SpringFacts rest = spring_facts((double[2]){1, 0}, 1, k);
+    SpringFacts near = spring_facts((double[2]){0, 0}, 1, k);
     CHECK_NEAR(rest.along, 4 * k, 0);
     CHECK_NEAR(rest.root_along, 4 * k, 0);
-    spring_facts((double[2]){0, 0}, 1, k, &near);
     CHECK_NEAR(near.energy, 50, 0);
     CHECK_NEAR(near.root_energy, 200, 0);
     CHECK_NEAR(known("energy", "tip"), 200, 1e-12);
-    spring_facts((double[2]){1e-3, 0}, 1, k, &near);
+    near = spring_facts((double[2]){1e-3, 0}, 1, k);
     CHECK_NEAR(near.across, -2 * k, 1e-5 * k);
     CHECK_NEAR(near.root_across, -3996 * k, 1e-9 * k);
 }
 
 TEST(claim_force)
 {
-    SpringFacts facts;
     Simulation *simulation = open_page("force", "");
     const double *x = simulation->run[0].x;
     const System *system = &simulation->system;
-    spring_facts(x, system->l2[0], system->k[0], &facts);
+    SpringFacts facts = spring_facts(x, system->l2[0], system->k[0]);
     CHECK_NEAR(facts.energy, 23.805, 1e-12);
     CHECK_NEAR(known_now(simulation, "energy"), 23.805, 1e-12);
     CHECK_NEAR(facts.force[0], -165.6, 1e-12);
