@@ -29,7 +29,10 @@ typedef struct FlowLaw {
 } FlowLaw;
 
 double flow_law_slope(FlowLaw law, double e);
-double flow_law_curvature(FlowLaw law, double e);
+
+/* The eigenvalue along d of the spring's H (spring_law.h) = c (l2 tau I
+ * + 2 tau' d d^T) from that across, both over c, m^2. */
+double flow_law_along(FlowLaw law, double e, double d2, double across);
 
 /* ---- the term -------------------------------------------------------- */
 

@@ -58,10 +58,15 @@ static inline double spring_c(double l2, double k)
     return 2 * k / l2;
 }
 
-/* The eigenvalue of H/c along d from that across; or, with c d2, of H. */
-static inline double spring_along(double d2, double across)
+/* The eigenvalues of H are c times that along d and that across, m^2. */
+static inline double spring_along(double d2, double l2)
 {
-    return 2 * d2 + across;
+    return 3 * d2 - l2;
+}
+
+static inline double spring_across(double d2, double l2)
+{
+    return d2 - l2;
 }
 
 /* Both eigenvalues projected: a negative one becomes what the filter says.
@@ -82,7 +87,7 @@ static inline bool spring_hessian(const double d[2], double l2, double k,
                                   Filter filter, double H[3])
 {
     double c = spring_c(l2, k), d2 = d[0] * d[0] + d[1] * d[1];
-    double along = 3 * d2 - l2, across = d2 - l2;
+    double along = spring_along(d2, l2), across = spring_across(d2, l2);
     if (!spring_project(filter, &along, &across)) {
         H[0] = c * (2 * d[0] * d[0] + across);
         H[1] = c * (2 * d[0] * d[1]);

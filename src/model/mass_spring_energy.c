@@ -51,7 +51,7 @@ static void along(const EvalPoint *at, const double *p, double q[3])
         double d2 = spring_vector(e, at->x, d);
         double C = spring_vector(e, p, change);
         double B = 2 * (d[0] * change[0] + d[1] * change[1]);
-        q[0] += c * (B * B + 2 * (d2 - l2) * C);
+        q[0] += c * (B * B + 2 * spring_across(d2, l2) * C);
         q[1] += 2 * c * B * C;
         q[2] += c * C * C;
     }

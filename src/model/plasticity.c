@@ -34,9 +34,14 @@ double flow_law_slope(FlowLaw law, double e)
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
-double flow_law_curvature(FlowLaw law, double e)
+static double flow_law_curvature(FlowLaw law, double e)
 {
     return law.theta + (beyond(law, e) > 0 ? law.hard : 1);
+}
+
+double flow_law_along(FlowLaw law, double e, double d2, double across)
+{
+    return 2 * flow_law_curvature(law, e) * d2 + across;
 }
 
 /* ---- the term -------------------------------------------------------- */
@@ -115,8 +120,7 @@ static int hessian(const EvalPoint *at, Filter filter, const int *slot,
         const double *d = spring.d, d2 = spring.d2;
         double k = at->w * spring.k, factor = spring_c(spring.l2, k);
         double across = spring.l2 * flow_law_slope(spring.law, spring.strain);
-        double bend = flow_law_curvature(spring.law, spring.strain);
-        double along = spring_along(bend * d2, across);
+        double along = flow_law_along(spring.law, spring.strain, d2, across);
         projected += spring_project(filter, &along, &across) && k > 0;
         double difference = d2 > 0 ? (along - across) / d2 : 0;
         const double H[3] = {factor * (across + difference * d[0] * d[0]),

@@ -145,9 +145,10 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     double d2 = spring_vector(e, pane_x(pane), d);
     const FlowLaw law = plasticity_law(system, s);
     double s_e = spring_small_strain(d2, l2) - law.ep;
-    double across = spring_pull(2 * k, flow_law_slope(law, s_e));
-    double bend = 2 * spring_c(l2, k) * flow_law_curvature(law, s_e);
-    double along = spring_along(bend * d2, across);
+    double across = l2 * flow_law_slope(law, s_e);
+    double along = flow_law_along(law, s_e, d2, across);
+    across *= 2 * spring_c(l2, k);
+    along *= 2 * spring_c(l2, k);
     Facts facts = {0};
     fact(&facts, "a", e[0]);
     fact(&facts, "b", e[1]);

@@ -48,7 +48,7 @@ static Local line_energy(const Simulation *simulation, double x)
     double s = spring_strain(x * x, l2);
     double E = m / 2 * d * d + spring_energy(l2, k, s);
     double g = m * d + spring_pull(k, s) * x;
-    double H = m + spring_c(l2, k) * spring_along(x * x, x * x - l2);
+    double H = m + spring_c(l2, k) * spring_along(x * x, l2);
     return (Local){.value = E, .g = {g}, .H = {H}};
 }
 
@@ -72,10 +72,11 @@ static Local landscape_at(const Simulation *simulation, unsigned parts,
         const double *pin = pins + 2 * system->e[2 * s + 1];
         const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
         double l2 = system->l2[s], k = system->k[s], H[3];
-        double strain = spring_small_strain(d[0] * d[0] + d[1] * d[1], l2);
-        P += spring_energy(l2, k, strain);
+        double d2 = d[0] * d[0] + d[1] * d[1];
+        double pull = spring_pull(w * k, spring_small_strain(d2, l2));
+        P += spring_energy(l2, k, spring_strain(d2, l2));
         for (int i = 0; i < 2; i++)
-            E.g[i] += spring_pull(w * k, strain) * d[i];
+            E.g[i] += pull * d[i];
         E.projected += spring_hessian(d, l2, k, filter, H);
         for (int i = 0; i < 3; i++)
             E.H[i] += w * H[i];

@@ -98,13 +98,14 @@ SpringFacts spring_facts(const double d[2], double l2, double k)
 {
     double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
     double s = spring_small_strain(d2, l2), pull = spring_pull(k, s);
+    double c = spring_c(l2, k);
     return (SpringFacts){
         .length = r,
         .strain = s,
         .energy = spring_energy(l2, k, s),
         .force = {-pull * d[0], -pull * d[1]},
-        .along = spring_along(spring_c(l2, k) * d2, pull),
-        .across = pull,
+        .along = c * spring_along(d2, l2),
+        .across = c * spring_across(d2, l2),
         .root_energy = 2 * k * (r - l) * (r - l),
         .root_along = 4 * k,
         .root_across = 4 * k * (1 - l / r),

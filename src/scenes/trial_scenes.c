@@ -51,8 +51,7 @@ static double frequency_bound(const System *system, const double *x)
     for (int s = 0; s < system->springs; s++) {
         double d[2], l2 = system->l2[s];
         double d2 = fmax(spring_vector(system->e + 2 * s, x, d), l2);
-        most =
-            fmax(most, spring_c(l2, system->k[s]) * spring_along(d2, d2 - l2));
+        most = fmax(most, spring_c(l2, system->k[s]) * spring_along(d2, l2));
     }
     return sqrt(2 * 8 * most / system->m[0]);
 }
