@@ -9,11 +9,11 @@
  *   H = c (2 d d^T + (|d|^2 - l2) I),  c = 2k/l2
  *   [[H, -H], [-H, H]]        Hessian of the nodes i and j
  *
- * The eigenvectors of H are d, with the eigenvalue c (3 |d|^2 - l2), and the
- * one across, with c (|d|^2 - l2).  The Hessian has the eigenvalues 0, 0 and
- * twice those of H: so a projection of H is the slide's make_PSD, without any
- * eigenvalue routine.  A stretched spring has no negative eigenvalue; one that
- * is shorter than its rest length over sqrt(3) has two, also where |d| = 0.
+ * The eigenvectors of H are d, and the vector across.  The Hessian has the
+ * eigenvalues 0, 0 and twice those of H: so a projection of H is the slide's
+ * make_PSD, without any eigenvalue routine.  A stretched spring has no negative
+ * eigenvalue; one that is shorter than its rest length over sqrt(3) has two,
+ * also where |d| = 0.
  */
 #ifndef ELASTO_SPRING_LAW_H
 #define ELASTO_SPRING_LAW_H
@@ -30,15 +30,10 @@ static inline double spring_vector(const int e[2], const double *x, double d[2])
     return d[0] * d[0] + d[1] * d[1];
 }
 
+/* Near rest spring_across(d2, l2)/l2 has more digits of it. */
 static inline double spring_strain(double d2, double l2)
 {
     return d2 / l2 - 1;
-}
-
-/* The same number, with all its digits also where d2 is near l2. */
-static inline double spring_small_strain(double d2, double l2)
-{
-    return (d2 - l2) / l2;
 }
 
 static inline double spring_energy(double l2, double k, double s)

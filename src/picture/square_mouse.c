@@ -144,7 +144,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     double l2 = system->l2[s], d[2];
     double d2 = spring_vector(e, pane_x(pane), d);
     const FlowLaw law = plasticity_law(system, s);
-    double s_e = spring_small_strain(d2, l2) - law.ep;
+    double s_e = spring_across(d2, l2) / l2 - law.ep;
     double across = l2 * flow_law_slope(law, s_e);
     double along = flow_law_along(law, s_e, d2, across);
     across *= 2 * spring_c(l2, k);

@@ -73,7 +73,7 @@ static Local landscape_at(const Simulation *simulation, unsigned parts,
         const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
         double l2 = system->l2[s], k = system->k[s], H[3];
         double d2 = d[0] * d[0] + d[1] * d[1];
-        double pull = spring_pull(w * k, spring_small_strain(d2, l2));
+        double pull = spring_pull(w * k, spring_across(d2, l2) / l2);
         P += spring_energy(l2, k, spring_strain(d2, l2));
         for (int i = 0; i < 2; i++)
             E.g[i] += pull * d[i];

@@ -97,7 +97,7 @@ void mass_exact(const Simulation *simulation, double t, double x[2])
 SpringFacts spring_facts(const double d[2], double l2, double k)
 {
     double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
-    double s = spring_small_strain(d2, l2), pull = spring_pull(k, s);
+    double s = spring_across(d2, l2) / l2, pull = spring_pull(k, s);
     double c = spring_c(l2, k);
     return (SpringFacts){
         .length = r,

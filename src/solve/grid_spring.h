@@ -45,9 +45,9 @@ INLINE void spring_along_p(Spring s, Pair ux, Pair uy, Pair *f1, Pair *f2,
 
 /* ---- a node that moves while the others stay ---- */
 
-/* Sums over its springs: the gradient of E; of f, of c d d^T, c d and c; the
- * negative ones of f. */
-enum { GX, GY, ISO, XX, XY, YY, CX, CY, CC, NEGATIVE, AROUND };
+/* The gradient of E and its 2x2 Hessian, not clamped; sums over the springs, of
+ * c d, of c, and of f where it is negative. */
+enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, AROUND };
 
 typedef double NodeSums[AROUND][LANES];
 
@@ -86,10 +86,9 @@ INLINE void look_around(const Grid *grid, NodeRun at, NodeSums of)
 #undef ADD
         PAIR(of[GX], e) = gx;
         PAIR(of[GY], e) = gy;
-        PAIR(of[ISO], e) = iso;
-        PAIR(of[XX], e) = xx;
-        PAIR(of[XY], e) = xy;
-        PAIR(of[YY], e) = yy;
+        PAIR(of[XX], e) = iso + 2 * xx;
+        PAIR(of[XY], e) = 2 * xy;
+        PAIR(of[YY], e) = iso + 2 * yy;
         PAIR(of[CX], e) = cx;
         PAIR(of[CY], e) = cy;
         PAIR(of[CC], e) = c;
@@ -97,21 +96,13 @@ INLINE void look_around(const Grid *grid, NodeRun at, NodeSums of)
     }
 }
 
-/* The node's 2x2 block of the Hessian, xx, xy, yy, not clamped. */
-INLINE void node_hessian(const NodeSums of, int e, double H[3])
-{
-    H[0] = of[ISO][e] + 2 * of[XX][e];
-    H[1] = 2 * of[XY][e];
-    H[2] = of[ISO][e] + 2 * of[YY][e];
-}
-
 /* E changes by q[0] a + ... + q[3] a^4 where the node moves by a p; q out. */
-INLINE void node_along(const NodeSums of, int e, const double H[3], double px,
-                       double py, double q[4])
+INLINE void node_along(const NodeSums of, int e, double px, double py,
+                       double q[4])
 {
-    double p2 = px * px + py * py;
+    double A = of[XX][e], B = of[XY][e], C = of[YY][e], p2 = px * px + py * py;
     q[0] = of[GX][e] * px + of[GY][e] * py;
-    q[1] = 0.5 * (H[0] * px * px + 2 * H[1] * px * py + H[2] * py * py);
+    q[1] = 0.5 * (A * px * px + 2 * B * px * py + C * py * py);
     q[2] = p2 * (of[CX][e] * px + of[CY][e] * py);
     q[3] = 0.25 * of[CC][e] * p2 * p2;
 }

@@ -59,16 +59,15 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
     EACH_OF (NEXT(at, LANES)) {
         const int q = at.first + e;
         double gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
-        double H[3], along[4], lower;
-        node_hessian(of, e, H);
-        double A = H[0], B = H[1], C = H[2], trace = A + C;
+        double A = of[XX][e], B = of[XY][e], C = of[YY][e], trace = A + C;
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
         double a = good ? A : A - negative, d = good ? C : C - negative;
         double det = a * d - B * B;
         bool moves = (det > 0) & (grid->per_m[q + at.node] > 0);
         double over = moves ? -1 / (det > 0 ? det : 1) : 0;
         double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
-        node_along(of, e, H, px, py, along);
+        double along[4], lower;
+        node_along(of, e, px, py, along);
         double go = step_of(along, &lower);
         double to_x = ax[q] + go * px, to_y = ay[q] + go * py;
         ax[q] = to_x;
