@@ -30,8 +30,9 @@ typedef struct FlowLaw {
 
 double flow_law_slope(FlowLaw law, double e);
 
-/* The eigenvalue along d of the spring's H (spring_law.h) = c (l2 tau I
- * + 2 tau' d d^T) from that across, both over c, m^2. */
+/* The block H of the spring (spring_law.h) is c (l2 tau I + 2 tau' d d^T).
+ * Returns its eigenvalue along d, divided by c, m^2.
+ *   across  l2 tau, the eigenvalue across d, divided by c */
 double flow_law_along(FlowLaw law, double e, double d2, double across);
 
 /* ---- the term -------------------------------------------------------- */

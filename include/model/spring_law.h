@@ -1,11 +1,11 @@
-/* spring_law.h - the law of one spring (slide MassSpringEnergy.py): all other
- * files ask it, but for the grid's loops (grid_spring.h) and springs that flow
- * (plasticity.h).
+/* spring_law.h - the law of one spring (slide MassSpringEnergy.py), which other
+ * files ask.  Two have a law of their own: grid_spring.h the same in the grid's
+ * loops, plasticity.h that of springs that flow.
  *
- *   d = x_i - x_j, m          l2, m^2: its squared length at rest
- *   s = |d|^2/l2 - 1          strain
- *   P = l2 k/2 s^2            energy, J, of the stiffness k, J/m^2
- *   grad_i P = 2 k s d        and -2 k s d at node j
+ *   d = x_i - x_j             m; |d|^2 is d2
+ *   s = |d|^2/l2 - 1          strain; l2, m^2, is |d|^2 at rest
+ *   P = l2 k/2 s^2            energy, J; k, J/m^2, is the stiffness
+ *   grad_i P = 2 k s d        gradient at node i; at node j it is -2 k s d
  *   H = c (2 d d^T + (|d|^2 - l2) I),  c = 2k/l2
  *   [[H, -H], [-H, H]]        Hessian of the nodes i and j
  *
@@ -20,8 +20,7 @@
 
 #include "model/psd.h"
 
-/* d [2] m out, of the nodes e[0] and e[1] in positions x [2n] m; returns
- * |d|^2. */
+/* d [2] m out, between the nodes e[0] and e[1] at x [2n] m; returns |d|^2. */
 static inline double spring_vector(const int e[2], const double *x, double d[2])
 {
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
@@ -30,7 +29,8 @@ static inline double spring_vector(const int e[2], const double *x, double d[2])
     return d[0] * d[0] + d[1] * d[1];
 }
 
-/* Near rest spring_across(d2, l2)/l2 has more digits of it. */
+/* The strain s.  Near rest spring_across(d2, l2)/l2 keeps more of its digits.
+ */
 static inline double spring_strain(double d2, double l2)
 {
     return d2 / l2 - 1;
@@ -41,7 +41,7 @@ static inline double spring_energy(double l2, double k, double s)
     return 0.5 * l2 * k * s * s;
 }
 
-/* The gradient at node i is this times d. */
+/* The gradient at node i, divided by d. */
 static inline double spring_pull(double k, double s)
 {
     return 2 * k * s;
@@ -53,12 +53,13 @@ static inline double spring_c(double l2, double k)
     return 2 * k / l2;
 }
 
-/* The eigenvalues of H are c times that along d and that across, m^2. */
+/* The eigenvalue of H along d, divided by c, m^2. */
 static inline double spring_along(double d2, double l2)
 {
     return 3 * d2 - l2;
 }
 
+/* The eigenvalue of H across d, divided by c, m^2. */
 static inline double spring_across(double d2, double l2)
 {
     return d2 - l2;

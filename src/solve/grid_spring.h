@@ -24,16 +24,16 @@ INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
     return (Spring){dx, dy, d2, s, c, c * s};
 }
 
-/* The numbers iso and along of the Hessian, clamped (psd.h): the eigenvalue
- * across d is c iso, that along it c (iso + along |d|^2).  Of Pairs or Few.
- *   d2  |d|^2 and so little more that it is not 0 */
+/* Declares iso and along of the clamped Hessian (psd.h), for Pairs or Few.  Its
+ * eigenvalue across d is c iso, the one along d is c (iso + along |d|^2).
+ *   d2  |d|^2 plus a tiny number, so that it is above 0 */
 #define CLAMPED(s, d2, iso, along)                                             \
     __typeof__(d2) iso = WHERE((s) > 0, s);                                    \
     __typeof__(d2) along = 2 + ((s)-iso) / (d2);                               \
     along = WHERE(along > 0, along)
 
-/* E along p changes by a q[0] + ... + a^3 q[3]: what a spring adds to q[1],
- * q[2], q[3], four times, twice, four times; u = p_i - p_j. */
+/* E(x + a p) - E(x) is q[0] a + ... + q[3] a^4.  A spring with u = p_i - p_j
+ * adds f1/4 to q[1], f2/2 to q[2] and f3/4 to q[3]. */
 INLINE void spring_along_p(Spring s, Pair ux, Pair uy, Pair *f1, Pair *f2,
                            Pair *f3)
 {
@@ -45,13 +45,13 @@ INLINE void spring_along_p(Spring s, Pair ux, Pair uy, Pair *f1, Pair *f2,
 
 /* ---- a node that moves while the others stay ---- */
 
-/* The gradient of E and its 2x2 Hessian, not clamped; sums over the springs, of
- * c d, of c, and of f where it is negative. */
+/* The node's part of the gradient of E and of the Hessian, not clamped; sums
+ * over its springs of c d, of c, and of the f below 0. */
 enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, AROUND };
 
 typedef double NodeSums[AROUND][LANES];
 
-/* Those of LANES nodes of a row.  The steps that follow wait less for each
+/* The sums of LANES nodes of a row.  The steps that follow wait less for each
  * other in a loop of their own. */
 INLINE void look_around(const Grid *grid, NodeRun at, NodeSums of)
 {
@@ -96,7 +96,7 @@ INLINE void look_around(const Grid *grid, NodeRun at, NodeSums of)
     }
 }
 
-/* E changes by q[0] a + ... + q[3] a^4 where the node moves by a p; q out. */
+/* The change of E, q[0] a + ... + q[3] a^4, as the node moves by a p; q out. */
 INLINE void node_along(const NodeSums of, int e, double px, double py,
                        double q[4])
 {
