@@ -8,7 +8,6 @@
 #include "model/friction.h"
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
-#include "model/spring_law.h"
 #include "base/mathematics.h"
 
 /* More updates than any step needs that ends at all; 1024 segments need some
