@@ -19,17 +19,21 @@
 
 /* How a spring answers in this step; with damping (damping.h) V has
  * theta (e - e_n)^2/2 more. */
-typedef struct SpringLaw {
+typedef struct FlowLaw {
     double ep;    /* plastic strain, e = E - ep */
     double yield; /* Y_n > 0 */
     double flow;  /* 1/(1 + H), 0 < flow <= 1 */
     double hard;  /* 1 - flow */
     double theta; /* eta/h; 0: no damping */
     double e_n;   /* e at the step's start */
-} SpringLaw;
+} FlowLaw;
 
-double spring_law_slope(SpringLaw law, double e);
-double spring_law_curvature(SpringLaw law, double e);
+double flow_law_slope(FlowLaw law, double e);
+
+/* The block H of the spring (spring_law.h) is c (l2 tau I + 2 tau' d d^T).
+ * Returns its eigenvalue along d, divided by c, m^2.
+ *   across  l2 tau, the eigenvalue across d, divided by c */
+double flow_law_along(FlowLaw law, double e, double d2, double across);
 
 /* ---- the term -------------------------------------------------------- */
 
@@ -47,6 +51,6 @@ typedef struct Plasticity {
 extern const TermKind plastic_energy;
 
 /* The law of spring s without damping, elastic where nothing flows. */
-SpringLaw plasticity_law(const System *system, int s);
+FlowLaw plasticity_law(const System *system, int s);
 
 #endif

@@ -1,7 +1,7 @@
 /* psd.h - projection of a Hessian's blocks to positive semi-definite ones
  * (slide utils.py, make_PSD).  Each energy has few negative eigenvalues whose
  * vectors are known, so none needs the slide's eigenvalue routine: springs have
- * spring_hessian in mass_spring_energy.h.
+ * spring_hessian in spring_law.h.
  */
 #ifndef ELASTO_PSD_H
 #define ELASTO_PSD_H

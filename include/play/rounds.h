@@ -47,14 +47,14 @@ typedef struct Station {
 } Station;
 
 typedef struct Rounds {
-    double h, tolerance; /* s, m/s, that it was made with */
-    int size;            /* 2n; 0: nobody asks for them */
-    Records made;        /* record of each round */
-    Round *round;        /* [made.count] */
-    int room;            /* rounds that have memory */
-    bool all;            /* E along p is kept of every round */
-    bool last;  /* E along p is kept of the last round: a picture has asked */
-    bool asked; /* the last picture has asked for what is not kept */
+    Trace start;  /* h and epsilon that the step is made with */
+    int size;     /* 2n; 0: nobody asks for them */
+    Records made; /* record of each round */
+    Round *round; /* [made.count] */
+    int room;     /* rounds that have memory */
+    bool all;     /* E along p is kept of every round */
+    bool last;    /* E along p is kept of the last round: a picture has asked */
+    bool asked;   /* the last picture has asked for what is not kept */
     double *x_tilde; /* [size] m; NULL: not known */
     double *end;     /* [size] m, iterate after the last round; or NULL */
     size_t bytes;

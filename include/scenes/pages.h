@@ -41,12 +41,14 @@ typedef struct LecturePage {
     bool predict;            /* a click says where the next step leads */
     bool waits;              /* its answer comes before a step */
     bool forces;             /* that on each node is an arrow */
-    bool modes;  /* so is the fastest oscillation, or eigenvectors */
-    bool writes; /* the spring is lit whose number is the step's */
-    bool kinds;  /* each kind has its colour, and is a switch */
-    bool nears;  /* N brings the end of the spring nearer */
-    bool stops;  /* it plays up to its picture */
-    bool cuts;   /* before the guess a solid; then it shows kinds */
+    bool modes;    /* so is the fastest oscillation, or eigenvectors */
+    bool writes;   /* the spring is lit whose number is the step's */
+    bool kinds;    /* each kind has its colour, and is a switch */
+    bool nears;    /* N brings the end of the spring nearer */
+    bool stops;    /* it plays up to its picture */
+    bool downhill; /* -grad E is an arrow, and its half plane has a colour */
+    bool curves;   /* where each component of the gradient is 0 */
+    bool cuts;     /* before the guess a solid; then it shows kinds */
 } LecturePage;
 
 /* Text, formulas, look and touch are texts of facts.h: live numbers stand in

@@ -76,8 +76,8 @@ typedef struct SpringFacts {
     double root_along, root_across; /* -infinity across at |d| = 0 */
 } SpringFacts;
 
-/* d [2] m, in; l2 m^2; k J/m^2; facts out */
-void spring_facts(const double d[2], double l2, double k, SpringFacts *facts);
+/* d [2] m; l2 m^2; k J/m^2 */
+SpringFacts spring_facts(const double d[2], double l2, double k);
 
 /* ---- descents: a minimum that Newton looks for, update by update --------- */
 

@@ -12,8 +12,8 @@ static Status begin(const TermStep *step)
     double theta = data->theta = data->eta / step->h;
     for (int s = 0; s < system->springs; s++) {
         double d[2], l2 = system->l2[s];
-        data->E_n[s] = spring_strain(system->e + 2 * s, l2, step->x, d);
-        double d2 = d[0] * d[0] + d[1] * d[1];
+        double d2 = spring_vector(system->e + 2 * s, step->x, d);
+        data->E_n[s] = spring_strain(d2, l2);
         data->l2[s] = theta > 0 ? (l2 + theta * d2) / (1 + theta) : l2;
         data->k[s] = system->k[s] * (1 + theta) * (data->l2[s] / l2);
     }
@@ -28,8 +28,8 @@ static void end(const TermStep *step)
     double sum = 0, d[2];
     for (int s = 0; s < system->springs; s++) {
         double l2 = system->l2[s];
-        double E = spring_strain(system->e + 2 * s, l2, step->x, d);
-        double change = E - data->E_n[s];
+        double d2 = spring_vector(system->e + 2 * s, step->x, d);
+        double change = spring_strain(d2, l2) - data->E_n[s];
         sum += system->k[s] * l2 * data->theta * change * change;
     }
     system_lose(system, &damping, sum);

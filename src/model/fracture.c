@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/mass_spring_energy.h"
+#include "model/spring_law.h"
 
 /* Part by which the strengths of springs differ. */
 static const double SCATTER = 0.1;
@@ -38,7 +38,8 @@ static int find_candidates(Fracture *fracture, const System *system,
     int count = 0;
     for (int s = 0; s < system->springs; s++) {
         double d[2];
-        double strain = spring_strain(system->e + 2 * s, system->l2[s], x, d);
+        double d2 = spring_vector(system->e + 2 * s, x, d);
+        double strain = spring_strain(d2, system->l2[s]);
         double load = strain / fracture_strength(fracture, s);
         if (load > 1 && !spring_is_broken(system, s))
             fracture->candidate[count++] = (Candidate){load, s};

@@ -7,19 +7,19 @@
 
 /* (|e| - Y)_+, and what of |e| is within Y: without fmin and fmax, which are
  * calls of the library, for each spring is asked. */
-static double beyond(SpringLaw law, double e)
+static double beyond(FlowLaw law, double e)
 {
     return fabs(e) > law.yield ? fabs(e) - law.yield : 0;
 }
 
-static double inside(SpringLaw law, double e)
+static double inside(FlowLaw law, double e)
 {
     return fabs(e) < law.yield ? fabs(e) : law.yield;
 }
 
 /* Where |e| is far beyond Y, e^2 and the square of what is beyond are nearly
  * the same: so Y and what is beyond are looked at apart. */
-static double spring_law_value(SpringLaw law, double e)
+static double flow_law_value(FlowLaw law, double e)
 {
     double over = beyond(law, e), change = e - law.e_n;
     double within = inside(law, e);
@@ -28,41 +28,47 @@ static double spring_law_value(SpringLaw law, double e)
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
 }
 
-double spring_law_slope(SpringLaw law, double e)
+double flow_law_slope(FlowLaw law, double e)
 {
     double tau = copysign(inside(law, e) + law.hard * beyond(law, e), e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
-double spring_law_curvature(SpringLaw law, double e)
+static double flow_law_curvature(FlowLaw law, double e)
 {
     return law.theta + (beyond(law, e) > 0 ? law.hard : 1);
+}
+
+double flow_law_along(FlowLaw law, double e, double d2, double across)
+{
+    return 2 * flow_law_curvature(law, e) * d2 + across;
 }
 
 /* ---- the term -------------------------------------------------------- */
 
 /* Of spring s, without damping. */
-static inline SpringLaw law_of(const Plasticity *data, int s)
+static inline FlowLaw law_of(const Plasticity *data, int s)
 {
     double H = data->hardening, flow = 1 / (1 + H);
-    return (SpringLaw){.ep = data->ep[s],
-                       .yield = data->yield + H * data->kappa[s],
-                       .flow = flow,
-                       .hard = 1 - flow};
+    return (FlowLaw){.ep = data->ep[s],
+                     .yield = data->yield + H * data->kappa[s],
+                     .flow = flow,
+                     .hard = 1 - flow};
 }
 
-SpringLaw plasticity_law(const System *system, int s)
+FlowLaw plasticity_law(const System *system, int s)
 {
     const Plasticity *data = system_data(system, &plastic_energy);
-    return data ? law_of(data, s) : (SpringLaw){.yield = INFINITY, .hard = 1};
+    return data ? law_of(data, s) : (FlowLaw){.yield = INFINITY, .hard = 1};
 }
 
 /* One spring, as all functions need it. */
 typedef struct FlowSpring {
     const int *e;
     double k, l2;
-    double d[2], strain; /* m, x_i - x_j; its elastic strain, E - ep */
-    SpringLaw law;
+    double d[2], d2; /* m, x_i - x_j; m^2 */
+    double strain;   /* elastic strain, E - ep */
+    FlowLaw law;
 } FlowSpring;
 
 static inline FlowSpring flow_spring(const EvalPoint *at, int s)
@@ -74,8 +80,8 @@ static inline FlowSpring flow_spring(const EvalPoint *at, int s)
                          .law = law_of(at->term->data, s)};
     spring.law.theta = damping ? damping->theta : 0;
     spring.law.e_n = damping ? damping->E_n[s] - spring.law.ep : 0;
-    spring.strain =
-        spring_strain(spring.e, spring.l2, at->x, spring.d) - spring.law.ep;
+    spring.d2 = spring_vector(spring.e, at->x, spring.d);
+    spring.strain = spring_strain(spring.d2, spring.l2) - spring.law.ep;
     return spring;
 }
 
@@ -87,7 +93,7 @@ static double value(const EvalPoint *at)
         FlowSpring spring = flow_spring(at, s);
         double kappa = data->kappa[s];
         sum += spring.k * spring.l2 *
-               (spring_law_value(spring.law, spring.strain) +
+               (flow_law_value(spring.law, spring.strain) +
                 0.5 * data->hardening * kappa * kappa);
     }
     return sum;
@@ -99,30 +105,23 @@ static void gradient(const EvalPoint *at, double *g)
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
         spring_add_force(spring.e,
-                         at->w * 2 * spring.k *
-                             spring_law_slope(spring.law, spring.strain),
+                         spring_pull(at->w * spring.k,
+                                     flow_law_slope(spring.law, spring.strain)),
                          spring.d, g);
     }
 }
 
-/* d is an eigenvector, with (2k/l2) (2 tau' |d|^2 + l2 tau); across it is
- * (2k/l2) l2 tau. */
 static int hessian(const EvalPoint *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
     int projected = 0;
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
-        const double *d = spring.d, d2 = d[0] * d[0] + d[1] * d[1];
-        double k = at->w * spring.k, factor = 2 * k / spring.l2;
-        double across = spring.l2 * spring_law_slope(spring.law, spring.strain);
-        double along =
-            2 * spring_law_curvature(spring.law, spring.strain) * d2 + across;
-        if ((along < 0 || across < 0) && filter_projects(filter)) {
-            along = projected_eigenvalue(filter, along);
-            across = projected_eigenvalue(filter, across);
-            projected += k > 0;
-        }
+        const double *d = spring.d, d2 = spring.d2;
+        double k = at->w * spring.k, factor = spring_c(spring.l2, k);
+        double across = spring.l2 * flow_law_slope(spring.law, spring.strain);
+        double along = flow_law_along(spring.law, spring.strain, d2, across);
+        projected += spring_project(filter, &along, &across) && k > 0;
         double difference = d2 > 0 ? (along - across) / d2 : 0;
         const double H[3] = {factor * (across + difference * d[0] * d[0]),
                              factor * difference * d[0] * d[1],
@@ -137,10 +136,9 @@ static int hessian(const EvalPoint *at, Filter filter, const int *slot,
 static inline void strain_along(const FlowSpring *spring, const double *p,
                                 double *B, double *C)
 {
-    const double *pi = p + 2 * spring->e[0], *pj = p + 2 * spring->e[1];
-    double P[2] = {pi[0] - pj[0], pi[1] - pj[1]};
-    *B = 2 * (spring->d[0] * P[0] + spring->d[1] * P[1]) / spring->l2;
-    *C = (P[0] * P[0] + P[1] * P[1]) / spring->l2;
+    double change[2];
+    *C = spring_vector(spring->e, p, change) / spring->l2;
+    *B = 2 * (spring->d[0] * change[0] + spring->d[1] * change[1]) / spring->l2;
 }
 
 static void along(const EvalPoint *at, const double *p, double q[3])
@@ -150,7 +148,7 @@ static void along(const EvalPoint *at, const double *p, double q[3])
         FlowSpring spring = flow_spring(at, s);
         strain_along(&spring, p, &B, &C);
         q[0] += at->w * spring.k * spring.l2 *
-                spring_law_slope(spring.law, spring.strain) * C;
+                flow_law_slope(spring.law, spring.strain) * C;
     }
 }
 
@@ -164,7 +162,7 @@ static double remainder_along(const EvalPoint *at, const double *p,
     double sum = 0, B, C;
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
-        SpringLaw law = spring.law;
+        FlowLaw law = spring.law;
         strain_along(&spring, p, &B, &C);
         double t = alpha * (B + alpha * C), way = fabs(t);
         double start = copysign(1, t) * spring.strain;

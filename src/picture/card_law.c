@@ -11,10 +11,10 @@
 #include "base/mathematics.h"
 #include "model/fracture.h"
 #include "model/friction.h"
-#include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "model/self_contact.h"
+#include "model/spring_law.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
@@ -22,7 +22,7 @@
 typedef struct LawNow {
     EvalPoint at;
     Element element;
-    SpringLaw spring;
+    FlowLaw spring;
     double reach;   /* the unit of the axis */
     double d_hat;   /* m, of contacts */
     double x, felt; /* where it is on the axis, NaN: nowhere; how much */
@@ -75,7 +75,7 @@ static double slip_value(const void *now, double v)
 static double spring_value(const void *data, double s)
 {
     const LawNow *now = data;
-    return spring_law_slope(now->spring, s - now->spring.ep);
+    return flow_law_slope(now->spring, s - now->spring.ep);
 }
 
 /* The same for all springs, in parts of what each bears, until they break. */
@@ -110,7 +110,8 @@ static void find_spring(LawNow *now, int s)
     const Fracture *tear = system_data(system, &fracture);
     double d[2];
     now->spring = plasticity_law(system, s);
-    now->x = spring_strain(system->e + 2 * s, system->l2[s], now->at.x, d);
+    double d2 = spring_vector(system->e + 2 * s, now->at.x, d);
+    now->x = spring_strain(d2, system->l2[s]);
     now->x /= tear ? fracture_strength(tear, s) : 1;
     now->felt = spring_is_broken(system, s) ? -INFINITY
                 : tear                      ? now->x

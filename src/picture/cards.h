@@ -26,7 +26,8 @@ extern const Picture pictures[PICTURE_COUNT];
 extern const Card card_law, card_listing;
 extern const ListingRow rows_listing[], rows_search[];
 extern const char text_sentences[], text_methods[], text_states[],
-    text_trials[], text_undrawn[], text_newest[], text_node[], text_spring[];
+    text_matrix[], text_eigenvalues[], text_update[], text_trials[],
+    text_undrawn[], text_newest[], text_node[], text_spring[];
 
 /* The functions that its rows name; picture.h says what they do. */
 typedef void StageBounds(const Plot *stage, double bounds[4]);
@@ -46,8 +47,8 @@ extern StageFacts square_facts, circle_facts, scalar_facts, landscape_facts,
 extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
 extern StageSample square_sample, mass_sample;
 extern CardDraw page_draw, prints_draw, line_draw, residual_draw, values_draw,
-    updates_draw, energies_draw, budget_draw, radius_draw, law_draw, spy_draw,
-    profile_draw, table_draw;
+    updates_draw, energies_draw, budget_draw, radius_draw, relief_draw,
+    matrix_draw, update_draw, law_draw, spy_draw, profile_draw, table_draw;
 extern CardNeeds page_needs, listing_needs, energies_needs;
 
 /* The size of its letters in ems: the same for all pages that fit. */
@@ -55,6 +56,9 @@ double page_letters(Paper *paper, Box inside, const Show *show);
 
 /* What a test holds of the page, below its code.  Returns the box above it. */
 Box page_draw_claim(Paper *paper, Box inside, const Show *show);
+
+/* Whether the Hessian, not projected, is positive definite. */
+bool landscape_is_convex(const Local *E);
 
 /* What a page knows of its law, and where the scene is on it. */
 void law_facts(const Simulation *simulation, Facts *facts);

@@ -47,6 +47,9 @@
 #define COLOUR_SHADE  0xfffdf0d5u
 #define COLOUR_SHADED 0xff8a6100u
 
+/* Where directions point downhill. */
+#define COLOUR_DOWNHILL 0x2656b4e9u
+
 /* Panes and integrators side by side. */
 Colour colour_of_run(int run);
 

@@ -11,6 +11,9 @@ static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
+/* Of g1 = 0 and g2 = 0: green and purple, as cards.txt calls them. */
+static const Colour curve_colour[2] = {0xff009e73u, 0xffb0559au};
+
 /* ---- the map ------------------------------------------------------------ */
 
 /* How far the next contour is; value over the factor. */
@@ -30,20 +33,45 @@ static double level_factor(const Simulation *simulation)
     return elastic && h > 1 ? h * h : 1;
 }
 
-static bool is_convex(const Local *E)
+bool landscape_is_convex(const Local *E)
 {
     return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
 
-/* Where E is not convex, and contours of the parts that are switched on: two by
- * two pixels at a time, in which E is a plane.  A contour is as many pixels
- * away as E is from its level over the slope. */
+/* Two by two pixels of contours of a function that is a plane there: value and
+ * slopes to the right and up, a pixel each.  A contour is as many pixels away
+ * as the function is from its level over the slope: levels of the map, or 0. */
+static void draw_contours(const Plot *plot, int i, int j, double value,
+                          double right, double up, bool zero, Colour colour)
+{
+    double width = fmax(1, (zero ? 1.8 : 0.6) * plot->paper->unit);
+    double reach = 0.5 + 0.5 * width;
+    double slope = sqrt(right * right + up * up);
+    double away = zero ? fabs(value) : contour_distance(value);
+    if (away > (reach + 1) * slope)
+        return;
+    for (int k = 0; k < 4; k++) {
+        double at = value + (k % 2 - 0.5) * right - (k / 2 - 0.5) * up;
+        away = zero ? fabs(at) : contour_distance(at);
+        double part = fmin(fmax(reach - away / slope, 0), 1);
+        canvas_fill(&plot->paper->canvas, (Box){i + k % 2, j + k / 2, 1, 1},
+                    (Colour)(255 * part) << 24 | (colour & 0xffffff));
+    }
+}
+
+/* The page, if it is told and wants its curves. */
+static bool has_curves(const Plot *plot)
+{
+    return plot->told && plot->told->curves;
+}
+
+/* Where E is not convex, contours of the parts that are switched on, and where
+ * a component of the gradient is 0. */
 static void draw_ground(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     Canvas *canvas = &plot->paper->canvas;
     double metre = 1 / plot->camera.scale[0], e = level_factor(simulation);
-    double reach = 0.5 + 0.5 * fmax(1, 0.6 * plot->paper->unit);
     const Box *box = &plot->box;
     Box before = canvas_clip(canvas, *box);
     canvas_fill(canvas, *box, COLOUR_WHITE);
@@ -52,20 +80,13 @@ static void draw_ground(const Plot *plot)
             Local E = descent_at(simulation, FILTER_NONE,
                                  plot->x.low + (i - box->x + 1) * metre,
                                  plot->y.high - (j - box->y + 1) * metre);
-            double right = E.g[0] * metre / e, up = E.g[1] * metre / e;
-            double slope = sqrt(right * right + up * up);
-            if (!is_convex(&E))
+            if (!landscape_is_convex(&E))
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
-            if (contour_distance(E.value / e) > (reach + 1) * slope)
-                continue;
-            for (int k = 0; k < 4; k++) {
-                double value =
-                    E.value / e + (k % 2 - 0.5) * right - (k / 2 - 0.5) * up;
-                double part = reach - contour_distance(value) / slope;
-                Colour alpha = (Colour)(255 * fmin(fmax(part, 0), 1)) << 24;
-                canvas_fill(canvas, (Box){i + k % 2, j + k / 2, 1, 1},
-                            alpha | (COLOUR_GREY & 0xffffff));
-            }
+            draw_contours(plot, i, j, E.value / e, E.g[0] * metre / e,
+                          E.g[1] * metre / e, false, COLOUR_GREY);
+            for (int k = 0; k < 2 && has_curves(plot); k++)
+                draw_contours(plot, i, j, E.g[k], E.H[k] * metre,
+                              E.H[k + 1] * metre, true, curve_colour[k]);
         }
     canvas_clip(canvas, before);
 }
@@ -174,6 +195,22 @@ static void draw_directions(const Plot *plot, bool both)
                    number_with(slope, 2).text);
 }
 
+/* More than the diagonal of what is seen, m. */
+static double view_size(const Plot *plot)
+{
+    return 4 * (plot->box.width + plot->box.height) / plot->camera.scale[0];
+}
+
+/* The direction of -grad E. */
+static void draw_steepest(const Plot *plot)
+{
+    const double *x = plot->simulation->descent.point;
+    Local E = descent_at(plot->simulation, FILTER_NONE, x[0], x[1]);
+    double far = 6 * plot->em / plot->camera.scale[0] / length_of(E.g);
+    plot_arrow(plot, x, E.g, -far, 2.2, COLOUR_TEXT);
+    plot_words(plot, 1, along(x, -far, E.g).at, COLOUR_TEXT, "\u2212\u2207E");
+}
+
 /* What the parts that are on pull with, and both together: an arrow of 1 m is
  * 1 kg m. */
 static void draw_pulls(const Plot *plot)
@@ -217,6 +254,7 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     static const char *const projected[] = {"Pxx", "Pxy", "Pyy"};
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
+    double h = simulation->run[0].h;
     const double *x = descent->point;
     Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
     fact_point(facts, "place", x);
@@ -233,13 +271,14 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
                   simulation->options.page && descent->count == 0 &&
                       simulation->options.filter == FILTER_NONE);
     }
-    fact_when(facts, is_convex(&E) ? "convex" : "shaded", true);
+    fact_when(facts, landscape_is_convex(&E) ? "convex" : "shaded", true);
     fact_when(facts, "moves", descent->slope != 0);
     fact(facts, "E", part_at(simulation, parts, x));
     fact(facts, "bowl", part_at(simulation, PART_INERTIA, x));
     fact(facts, "elastic part", part_at(simulation, PART_ELASTICITY, x));
     fact_matrix(facts, raw, E.H, 0);
     name_parts(parts, facts);
+    fact(facts, "h", parts == PART_INERTIA ? NAN : h);
     fact_when(facts, "both", parts == PART_BOTH);
     fact_when(facts, "elastic", parts != PART_INERTIA);
     fact_when(facts, "inertial", parts != PART_ELASTICITY);
@@ -251,6 +290,8 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
         up = up || descent->record[i].slope > 0;
     }
     fact_when(facts, "pulls", pulls);
+    fact_when(facts, "halves", page && page->downhill);
+    fact_when(facts, "curves", page && page->curves);
     fact_when(facts, "directed", down);
     fact_when(facts, "went uphill", up);
 }
@@ -277,6 +318,38 @@ static void draw_model(const Plot *plot)
     }
 }
 
+/* Dashed, where the linear model at the iterate of each component of the
+ * gradient is 0: both lines meet in x + p. */
+static void draw_linear(const Plot *plot)
+{
+    const double *x = plot->simulation->descent.point;
+    Local E = descent_at(plot->simulation, FILTER_NONE, x[0], x[1]);
+    for (int k = 0; k < 2; k++) {
+        const double *slope = E.H + k, across[2] = {-slope[1], slope[0]};
+        double square = slope[0] * slope[0] + slope[1] * slope[1];
+        double far = view_size(plot) / sqrt(square);
+        const Point foot = along(x, -E.g[k] / square, slope);
+        plot_dashes(plot, along(foot.at, -far, across).at,
+                    along(foot.at, far, across).at, 1.6, NULL, curve_colour[k]);
+    }
+}
+
+/* The half plane g . p < 0 of directions p that point downhill. */
+static void draw_downhill(const Plot *plot)
+{
+    const double *x = plot->simulation->descent.point;
+    Local E = descent_at(plot->simulation, FILTER_NONE, x[0], x[1]);
+    const double across[2] = {-E.g[1], E.g[0]};
+    double far = view_size(plot) / length_of(E.g);
+    const Point a = along(x, far, across), b = along(x, -far, across);
+    const Point c = along(b.at, -far, E.g), d = along(a.at, -far, E.g);
+    const double *const corner[4] = {a.at, b.at, c.at, d.at};
+    Box before = canvas_clip(&plot->paper->canvas, plot->box);
+    plot_face(plot, corner, COLOUR_DOWNHILL);
+    plot_line(plot, a.at, b.at, 1.2, COLOUR_COMPRESS);
+    canvas_clip(&plot->paper->canvas, before);
+}
+
 /* From the ground up.  Of each update thin its whole direction p, thick alpha
  * p; uphill in red. */
 void landscape_draw(Plot *stage)
@@ -286,6 +359,9 @@ void landscape_draw(Plot *stage)
     const LecturePage *told = stage->told;
     const Descent *descent = &simulation->descent;
     Plot plot = draw_map(stage);
+    bool halves = show->lecture && show->lecture->downhill;
+    if (halves)
+        draw_downhill(&plot);
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->from, *to = record->to;
@@ -300,10 +376,14 @@ void landscape_draw(Plot *stage)
     bool both = !show->lecture || (raw && !show->lecture->predict);
     if (told && raw && !simulation->done)
         draw_model(&plot);
+    if (has_curves(&plot) && !simulation->done)
+        draw_linear(&plot);
     if (told && told->forces)
         draw_pulls(&plot);
     else if (!show->veiled)
         draw_directions(&plot, plot.text && both);
+    if (halves)
+        draw_steepest(&plot);
     if (told && plot.text && simulation->exhibit.parts != PART_INERTIA)
         name_still(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);

@@ -4,12 +4,15 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-enum { TRAIL = 256, MASS_GUESSES = 6, MASS_AHEAD = 50 };
+enum { TRAIL = 256, MASS_GUESSES = 6, MASS_AHEAD = 50, EIGEN_PIECES = 200 };
 
 static const double MASS_REACH = 1.9; /* m, seen at least */
 static const double CIRCLE_REACH = 1.75;
 static const double CIRCLE_MOST = 4; /* and at most */
 static const double MASS_TURN = 6.283185307179586;
+static const double EIGEN_REACH = 1.35; /* of the complex plane, at least */
+static const double EIGEN_MOST = 5;     /* and where it follows */
+static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12; /* ems, numbers */
 static const double origin[2] = {0, 0};
 
 /* Runs have the colours of their methods, the only one of arrows that of x. */
@@ -102,9 +105,17 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
             pick->index = r;
 }
 
-/* The matrix of a step of (x, v/omega), t = h omega, and its eigenvalues: real
- * ones, or a pair. */
-static void add_matrix(const IntegratorMethod *method, double t, Facts *facts)
+/* The matrix {xx, xv; -xv, vv} of a step of (x, v/omega), t = h omega, and its
+ * eigenvalues in the complex plane. */
+typedef struct StepMatrix {
+    double xx, xv, vv;
+    double lambda[2][2]; /* real and imaginary part: a pair, or two real ones
+                            of which the second is the larger one */
+} StepMatrix;
+
+/* Returns false where the method is none of the three. */
+static bool step_matrix(const IntegratorMethod *method, double t,
+                        StepMatrix *step)
 {
     bool forward = strcmp(method->name, "forward-euler") == 0;
     bool symplectic = strcmp(method->name, "symplectic-euler") == 0;
@@ -113,18 +124,97 @@ static void add_matrix(const IntegratorMethod *method, double t, Facts *facts)
         xx = vv = k;
         xv = k * t;
     } else if (!forward && !symplectic)
-        return;
+        return false;
     double re = 0.5 * (xx + vv), square = re * re - xx * vv - xv * xv;
-    double root = sqrt(fabs(square));
-    fact(facts, "Sxx", xx);
-    fact(facts, "Sxv", xv);
-    fact(facts, "Svx", -xv);
-    fact(facts, "Svv", vv);
-    fact(facts, "re", square < 0 ? re : NAN);
-    fact(facts, "im", root);
-    fact(facts, "least", square < 0 ? NAN : re - root);
-    fact(facts, "most", re + root);
-    fact(facts, "size", square < 0 ? math_hypot(re, root) : fabs(re) + root);
+    double root = sqrt(fabs(square)), im = square < 0 ? root : 0;
+    double half = square < 0 ? 0 : root;
+    *step = (StepMatrix){xx, xv, vv, {{re - half, -im}, {re + half, im}}};
+    return true;
+}
+
+static void add_matrix(const IntegratorMethod *method, double t, Facts *facts)
+{
+    StepMatrix step;
+    if (!step_matrix(method, t, &step))
+        return;
+    const double *least = step.lambda[0], *most = step.lambda[1];
+    bool pair = most[1] > 0;
+    fact(facts, "Sxx", step.xx);
+    fact(facts, "Sxv", step.xv);
+    fact(facts, "Svx", -step.xv);
+    fact(facts, "Svv", step.vv);
+    fact(facts, "re", pair ? most[0] : NAN);
+    fact(facts, "im", most[1]);
+    fact(facts, "least", pair ? NAN : least[0]);
+    fact(facts, "most", most[0]);
+    fact(facts, "size", fmax(length_of(least), length_of(most)));
+}
+
+/* The eigenvalues of a run's step, and thin their way from h = 0, where all
+ * are 1. */
+static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
+                             double turn)
+{
+    Colour colour = colour_of(method->name);
+    StepMatrix before, step;
+    for (int i = 0; i <= EIGEN_PIECES; i++) {
+        if (!step_matrix(method, turn * i / EIGEN_PIECES, &step))
+            return;
+        for (int k = 0; k < 2 && i > 0; k++)
+            plot_line(plot, before.lambda[k], step.lambda[k], 1.4, colour);
+        before = step;
+    }
+    for (int k = 0; k < 2; k++)
+        plot_disc(plot, step.lambda[k], 5, colour);
+}
+
+/* The complex plane with the unit circle; the view grows with the eigenvalues,
+ * as far as the circle can be seen in it. */
+static void draw_plane(const Plot *card)
+{
+    static const double one[2] = {1, 0}, i[2] = {0, 1};
+    const Simulation *simulation = card->simulation;
+    double turn = simulation->run[0].h * MASS_TURN, most = 0;
+    double bounds[4];
+    StepMatrix step;
+    for (int r = 0; r < simulation->runs; r++)
+        for (int k = 0; k < 2; k++)
+            if (step_matrix(simulation->run[r].method, turn, &step))
+                most = fmax(most, fmin(length_of(step.lambda[k]), EIGEN_MOST));
+    bounds_around(EIGEN_REACH, 1.1 * most, 1.2, bounds);
+    Plot plot = *card;
+    plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
+    for (int k = 0; k < 2; k++) {
+        const double low[2] = {k ? 0 : bounds[0], k ? bounds[1] : 0};
+        const double high[2] = {k ? 0 : bounds[2], k ? bounds[3] : 0};
+        plot_line(&plot, low, high, 1, COLOUR_BORDER);
+    }
+    plot_ellipse(&plot, origin, one, i, 2, false, COLOUR_GREY);
+    for (int r = 0; r < simulation->runs; r++)
+        draw_eigenvalues(&plot, simulation->run[r].method, turn);
+    plot_words(&plot, 1, one, COLOUR_FAINT, "1");
+    plot_words(&plot, 1, i, COLOUR_FAINT, "i");
+}
+
+/* The numbers, without the matrices where the card is low; the plane at their
+ * right, or below them in a card that is higher than wide. */
+void matrix_draw(const Plot *card)
+{
+    Plot numbers = *card, plane = *card;
+    const Box *box = &card->box;
+    int wide = paper_pixels(card->paper, MATRIX_WIDE);
+    int high = paper_pixels(card->paper, MATRIX_HIGH);
+    int rest = box->width - wide;
+    if (box->height > box->width)
+        plane.box = box_cut_off(&numbers.box, EDGE_BOTTOM, box->height - high);
+    else
+        plane.box = box_cut_off(&numbers.box, EDGE_RIGHT,
+                                rest < box->height ? rest : box->height);
+    text_in_card(&numbers, &show_pane(card->show)->facts,
+                 box->height < high ? text_eigenvalues : text_matrix);
+    Box before = canvas_clip(&card->paper->canvas, plane.box);
+    draw_plane(&plane);
+    canvas_clip(&card->paper->canvas, before);
 }
 
 /* What each run knows of itself; colour and name are the method's. */

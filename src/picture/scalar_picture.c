@@ -1,11 +1,15 @@
 /* Newton in one unknown: f with its quadratic models (overshoot), and g with
  * its tangents above E with its parabolas (tangent). */
 #include <math.h>
+#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double TANGENT_REACH = 3; /* m, x from -3 to 3 at least */
+enum { ROOT_UPDATES = 60, ITERATE_TEXT = 48 };
+
+static const double TANGENT_REACH = 3;    /* m, x from -3 to 3 at least */
+static const double ITERATES_WIDE = 11.5; /* ems */
 
 /* The last update, or the first one that is to come, and the model that it
  * comes from: q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2 at x0, least at
@@ -156,13 +160,11 @@ void scalar_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)
         fact(facts, "shorter", update.alpha);
-    double digits = floor(-log10(fabs(p / next))); /* that stay, if any */
-    fact(facts, "digits", tangent && p != 0 && digits > 0 ? digits : NAN);
     fact(facts, "slope", update.first);
     fact(facts, "curvature", update.second);
     fact(facts, "direction", p);
     fact(facts, "E", update.f);
-    fact_when(facts, "highest", update.second <= 0);
+    fact_when(facts, update.second > 0 ? "lowest" : "highest", true);
 }
 
 /* ---- g and its tangents above E and its parabolas ------------------------ */
@@ -220,6 +222,68 @@ void tangent_draw(Plot *stage)
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[1].box.x + paper->em,
                 plot[1].box.y - 1.7 * paper->em, ALIGN_LEFT,
                 "E(x) = m/2 (x \u2212 {xt})\u00b2 + h\u00b2 P(x)");
+}
+
+/* The zero of g to which full updates lead from the present iterate; NaN: they
+ * lead to none. */
+static double find_root(const Simulation *simulation)
+{
+    double x = simulation->descent.point[0], p = INFINITY;
+    for (int i = 0; i < ROOT_UPDATES && fabs(p) > 1e-14 * fmax(1, fabs(x));
+         i++) {
+        Local at = scalar_at(simulation, x);
+        p = -at.g[0] / at.H[0];
+        x += p;
+    }
+    return fabs(p) <= 1e-14 * fmax(1, fabs(x)) ? x : NAN;
+}
+
+/* As many digits as a double has right here. */
+static void write_digits(double x, char text[ITERATE_TEXT])
+{
+    bool plain = fabs(x) < 1e4;
+    snprintf(text, ITERATE_TEXT, plain ? "%s%.12f" : "%s%.9e",
+             x < 0 ? "\u2212" : "", fabs(x));
+}
+
+/* The newest iterates that there is room for.  The digits that they have in
+ * common with the zero of g are black on a light ground. */
+static void draw_iterates(const Plot *card)
+{
+    const double size = 0.95, pitch = 1.38; /* ems */
+    const Descent *descent = &card->simulation->descent;
+    Paper *paper = card->paper;
+    int rows = (int)(card->box.height / (pitch * paper->em));
+    int first = descent->count + 1 > rows ? descent->count + 1 - rows : 0;
+    char root[ITERATE_TEXT], x[ITERATE_TEXT], words[3 * ITERATE_TEXT];
+    write_digits(find_root(card->simulation), root);
+    for (int i = first; i <= descent->count; i++) {
+        int y = card->box.y + paper_pixels(paper, pitch * (i - first));
+        int right = 0;
+        write_digits(iterate(descent, i), x);
+        while (x[right] && x[right] == root[right])
+            right++;
+        snprintf(words, sizeof words, "#x{x^{%d}}  ", i);
+        int left = paper_width(paper, FACE_REGULAR, size, words);
+        snprintf(words, sizeof words, "#x{x^{%d}}  %.*s", i, right, x);
+        int end = paper_width(paper, FACE_REGULAR, size, words);
+        canvas_fill(&paper->canvas,
+                    (Box){card->box.x + left, y + paper_pixels(paper, 0.15),
+                          end - left, paper_pixels(paper, 1.25)},
+                    right > 0 ? COLOUR_LIT : COLOUR_WHITE);
+        paper_write(paper, FACE_REGULAR, size, COLOUR_TEXT, card->box.x, y,
+                    ALIGN_LEFT, "%s#grey{%s}", words, x + right);
+    }
+}
+
+/* The update with its numbers, and at its right all iterates. */
+void update_draw(const Plot *card)
+{
+    Plot left = *card, right = *card;
+    right.box = box_cut_off(&left.box, EDGE_RIGHT,
+                            paper_pixels(card->paper, ITERATES_WIDE));
+    text_in_card(&left, &show_pane(card->show)->facts, text_update);
+    draw_iterates(&right);
 }
 
 /* By x alone. */

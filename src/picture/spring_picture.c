@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/mass_spring_energy.h"
+#include "model/spring_law.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
@@ -20,9 +20,7 @@ void spring_bounds(const Plot *stage, double bounds[4])
 
 static SpringFacts facts_at(const double d[2], const System *system)
 {
-    SpringFacts facts;
-    spring_facts(d, system->l2[0], system->k[0], &facts);
-    return facts;
+    return spring_facts(d, system->l2[0], system->k[0]);
 }
 
 /* The energies at a signed length along d. */

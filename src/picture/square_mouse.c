@@ -4,9 +4,9 @@
 #include <stdlib.h>
 
 #include "model/contact.h"
-#include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
+#include "model/spring_law.h"
 #include "picture/colour_map.h"
 #include "picture/cards.h"
 
@@ -134,8 +134,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     draw_note(stage, &facts, text_node);
 }
 
-/* The block [[H, -H], [-H, H]] of a spring has the eigenvalues 0, 0 and twice
- * those of H = 2k/l2 (l2 tau I + 2 tau' d d^T). */
+/* The eigenvalues of a spring's 4x4 block are twice those of H, beside 0, 0. */
 static void note_spring(Plot *stage, const Pane *pane, int s)
 {
     const System *system = &pane->simulation->system;
@@ -143,14 +142,13 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     Filter filter = pane->simulation->options.filter;
     double k = solid_of(system) ? NAN : system->k[s]; /* NaN: no block */
     double l2 = system->l2[s], d[2];
-    spring_strain(e, l2, pane_x(pane), d);
-    double d2 = d[0] * d[0] + d[1] * d[1];
-    const SpringLaw law = plasticity_law(system, s);
-    double e_s = (d2 - l2) / l2 - law.ep;
-    double tau = spring_law_slope(law, e_s);
-    double bend = spring_law_curvature(law, e_s);
-    const double across = 4 * k * tau;
-    const double along = 4 * k / l2 * (2 * bend * d2 + l2 * tau);
+    double d2 = spring_vector(e, pane_x(pane), d);
+    const FlowLaw law = plasticity_law(system, s);
+    double s_e = spring_across(d2, l2) / l2 - law.ep;
+    double across = l2 * flow_law_slope(law, s_e);
+    double along = flow_law_along(law, s_e, d2, across);
+    across *= 2 * spring_c(l2, k);
+    along *= 2 * spring_c(l2, k);
     Facts facts = {0};
     fact(&facts, "a", e[0]);
     fact(&facts, "b", e[1]);

@@ -6,6 +6,7 @@
 #include "model/fracture.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
+#include "model/spring_law.h"
 #include "picture/colour_map.h"
 
 enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
@@ -101,14 +102,6 @@ static const double *node_at(const SpringPen *pen, int node)
     return pen->x + 2 * (size_t)node;
 }
 
-/* Squared distance of two nodes; d [2] out, from a to b. */
-static double distance2(const SpringPen *pen, int a, int b, double d[2])
-{
-    d[0] = node_at(pen, b)[0] - node_at(pen, a)[0];
-    d[1] = node_at(pen, b)[1] - node_at(pen, a)[1];
-    return d[0] * d[0] + d[1] * d[1];
-}
-
 void square_spring(const SpringPen *pen, int s, double width, Colour colour)
 {
     const int *e = pen->system->e + 2 * (size_t)s;
@@ -127,7 +120,7 @@ void square_springs(const SpringPen *pen)
     const System *system = pen->system;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * (size_t)s;
-        double l2 = system->l2[s], d[2], d2 = distance2(pen, e[0], e[1], d);
+        double l2 = system->l2[s], d[2], d2 = spring_vector(e, pen->x, d);
         double strain = pen->range > 0 ? sqrt(d2 / l2) - 1 : 0;
         Colour told =
             told_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
@@ -222,8 +215,8 @@ static Colour face_colour(const SpringPen *pen, const int node[4], double side,
 {
     int corner[4], spring[6];
     double l2 = 2 * side * side, plastic = 0, d[2]; /* d: of a diagonal */
-    double other2 = distance2(pen, node[1], node[3], d);
-    double d2 = distance2(pen, node[0], node[2], d);
+    double other2 = spring_vector((int[2]){node[3], node[1]}, pen->x, d);
+    double d2 = spring_vector((int[2]){node[2], node[0]}, pen->x, d);
     double strain = (sqrt(d2) + sqrt(other2)) / (2 * sqrt(l2)) - 1;
     if (pen->ep)
         square_mesh_cell(&pen->simulation->mesh, cell, corner, spring);

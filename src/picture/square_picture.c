@@ -5,7 +5,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "model/fracture.h"
-#include "model/mass_spring_energy.h"
+#include "model/spring_law.h"
 #include "picture/square_pen.h"
 #include "base/mathematics.h"
 #include "scenes/control.h"
@@ -621,7 +621,7 @@ static void add_block(const Simulation *simulation, Facts *facts)
     double k = h * h * system->k[s];
     for (int i = 0; i < 4; i++)
         fact(facts, rows[i], 2 * e[i / 2] + i % 2);
-    spring_strain(e, l2, simulation->run[0].x, d);
+    spring_vector(e, simulation->run[0].x, d);
     spring_hessian(d, l2, k, FILTER_CLAMP, H); /* as the page has it */
     fact_matrix(facts, names, H, 1e-7 * k);
 }
@@ -655,10 +655,8 @@ void square_facts(const Simulation *simulation, Facts *facts)
     if (!page)
         return;
     for (int s = 0; s < system->springs; s++) {
-        const double *a = x + 2 * system->e[2 * s];
-        const double *b = x + 2 * system->e[2 * s + 1];
-        double d[2] = {a[0] - b[0], a[1] - b[1]};
-        shorter += d[0] * d[0] + d[1] * d[1] < (1 - 1e-9) * system->l2[s];
+        double d[2], d2 = spring_vector(system->e + 2 * s, x, d);
+        shorter += spring_strain(d2, system->l2[s]) < -1e-9;
     }
     fact(facts, "masses", nodes);
     fact(facts, "mass", nodes * system->m[0]);

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
+#include "model/spring_law.h"
 
 /* ---- kinds of tables ----------------------------------------------------- */
 
@@ -40,7 +40,8 @@ static void add_springs(Table *table, const Moment *at)
     double d[2];
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
-        double l2 = system->l2[s], strain = spring_strain(e, l2, at->run->x, d);
+        double l2 = system->l2[s];
+        double strain = spring_strain(spring_vector(e, at->run->x, d), l2);
         double spring = at->springs + s, i = at->nodes + e[0];
         double j = at->nodes + e[1], whole = !spring_is_broken(system, s);
         double plastic = flow ? flow->ep[s] : 0;

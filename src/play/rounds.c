@@ -50,8 +50,9 @@ void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all)
 {
     rounds_clear(rounds);
     rounds->all = all;
-    rounds->h = simulation->options.timestep;
-    rounds->tolerance = simulation->options.tolerance;
+    rounds->start = (Trace){.h = simulation->options.timestep,
+                            .tolerance = simulation->options.tolerance,
+                            .projected = -1};
     rounds->size = 2 * simulation->system.nodes;
 }
 
@@ -296,14 +297,12 @@ const double *rounds_trace(const Rounds *rounds, int place, Trace *trace)
     Station told = at;
     if (end && count > 0) /* the round that has led there */
         told = (Station){count - 1, LINE_END, last->trials};
-    *trace = (Trace){.line = over ? LINE_NONE : at.line,
-                     .h = rounds->h,
-                     .tolerance = rounds->tolerance,
-                     .iteration = told.round,
-                     .updates = at.round,
-                     .record = row,
-                     .projected = -1,
-                     .x_tilde = rounds->x_tilde};
+    *trace = rounds->start;
+    trace->line = over ? LINE_NONE : at.line;
+    trace->iteration = told.round;
+    trace->updates = at.round;
+    trace->record = row;
+    trace->x_tilde = rounds->x_tilde;
     if (at.line != LINE_START && told.round < count)
         trace_round(rounds, &told, trace);
     trace->given_up =

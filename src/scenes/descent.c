@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/mass_spring_energy.h"
+#include "model/spring_law.h"
 #include "base/mathematics.h"
 
 enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
@@ -42,12 +42,13 @@ static Local log_two_cosh(const Simulation *simulation, double x)
 
 static Local line_energy(const Simulation *simulation, double x)
 {
-    double m = POINT_MASS, l2 = LINE_LENGTH * LINE_LENGTH, k = LINE_STIFFNESS;
+    double m = POINT_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
     double h = simulation->run[0].h, x_tilde = simulation->exhibit.target[0];
-    double d = x - x_tilde, s = x * x / l2 - 1;
-    double E = m / 2 * d * d + h * h * l2 * k / 2 * s * s;
-    double g = m * d + h * h * 2 * k * x * s;
-    double H = m + h * h * 2 * k * (3 * x * x / l2 - 1);
+    double d = x - x_tilde, k = h * h * LINE_STIFFNESS;
+    double s = spring_strain(x * x, l2);
+    double E = m / 2 * d * d + spring_energy(l2, k, s);
+    double g = m * d + spring_pull(k, s) * x;
+    double H = m + spring_c(l2, k) * spring_along(x * x, l2);
     return (Local){.value = E, .g = {g}, .H = {H}};
 }
 
@@ -71,10 +72,11 @@ static Local landscape_at(const Simulation *simulation, unsigned parts,
         const double *pin = pins + 2 * system->e[2 * s + 1];
         const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
         double l2 = system->l2[s], k = system->k[s], H[3];
-        double d2 = d[0] * d[0] + d[1] * d[1], strain = d2 / l2 - 1;
-        P += l2 * 0.5 * k * strain * strain;
+        double d2 = d[0] * d[0] + d[1] * d[1];
+        double pull = spring_pull(w * k, spring_across(d2, l2) / l2);
+        P += spring_energy(l2, k, spring_strain(d2, l2));
         for (int i = 0; i < 2; i++)
-            E.g[i] += w * 2 * k * ((d2 - l2) / l2) * d[i];
+            E.g[i] += pull * d[i];
         E.projected += spring_hessian(d, l2, k, filter, H);
         for (int i = 0; i < 3; i++)
             E.H[i] += w * H[i];

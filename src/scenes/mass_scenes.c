@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/pull_energy.h"
+#include "model/spring_law.h"
 
 static const double CIRCLE_OMEGA = 6.283185307179586; /* 1/s: a turn a second */
 static const double MASS_OMEGA2 = 1;                  /* 1/s^2, of arrows */
@@ -93,17 +94,18 @@ void mass_exact(const Simulation *simulation, double t, double x[2])
             began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
 }
 
-void spring_facts(const double d[2], double l2, double k, SpringFacts *facts)
+SpringFacts spring_facts(const double d[2], double l2, double k)
 {
     double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
-    double s = (d2 - l2) / l2;
-    *facts = (SpringFacts){
+    double s = spring_across(d2, l2) / l2, pull = spring_pull(k, s);
+    double c = spring_c(l2, k);
+    return (SpringFacts){
         .length = r,
         .strain = s,
-        .energy = 0.5 * l2 * k * s * s,
-        .force = {-2 * k * s * d[0], -2 * k * s * d[1]},
-        .along = 2 * k / l2 * (3 * d2 - l2),
-        .across = 2 * k / l2 * (d2 - l2),
+        .energy = spring_energy(l2, k, s),
+        .force = {-pull * d[0], -pull * d[1]},
+        .along = c * spring_along(d2, l2),
+        .across = c * spring_across(d2, l2),
         .root_energy = 2 * k * (r - l) * (r - l),
         .root_along = 4 * k,
         .root_across = 4 * k * (1 - l / r),

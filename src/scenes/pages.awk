@@ -54,6 +54,7 @@ BEGIN {
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
     numbers["minutes"]
     switches["numbers"] switches["predict"] switches["forces"]
+    switches["downhill"] switches["curves"]
     switches["waits"] switches["modes"] switches["writes"] switches["kinds"] switches["cuts"]
     switches["nears"] switches["stops"]
     print "const LecturePage lecture_pages[] = {"

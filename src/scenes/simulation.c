@@ -6,7 +6,6 @@
 #include "model/cells.h"
 #include "model/contact.h"
 #include "model/friction.h"
-#include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
 #include "base/mathematics.h"

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "model/spring_law.h"
 #include "scenes/body.h"
 #include "scenes/simulation.h"
 #include "base/mathematics.h"
@@ -40,18 +41,17 @@ const IntegratorMethod *race_method(int i)
     return integrator_method(names[i]);
 }
 
-/* Upper bound of the angular frequencies, 1/s.  A node has eight springs, each
- * with a second derivative of 2k (3 |d|^2 / l2 - 1) at most: by Gershgorin
- * omega^2 is below twice their sum over m. */
+/* Upper bound of the angular frequencies, 1/s.  The second derivative of a
+ * spring's energy is largest along it; a shorter spring counts as if it were at
+ * rest.  A node has eight springs: by Gershgorin omega^2 is below twice their
+ * sum over m. */
 static double frequency_bound(const System *system, const double *x)
 {
     double most = 0;
     for (int s = 0; s < system->springs; s++) {
-        const double *a = x + 2 * system->e[2 * s];
-        const double *b = x + 2 * system->e[2 * s + 1];
-        double length = math_hypot(a[0] - b[0], a[1] - b[1]);
-        double strain = fmax(length * length / system->l2[s], 1);
-        most = fmax(most, 2 * system->k[s] * (3 * strain - 1));
+        double d[2], l2 = system->l2[s];
+        double d2 = fmax(spring_vector(system->e + 2 * s, x, d), l2);
+        most = fmax(most, spring_c(l2, system->k[s]) * spring_along(d2, l2));
     }
     return sqrt(2 * 8 * most / system->m[0]);
 }

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "model/spring_law.h"
+
 /* Bytes of a cache line, of the pages of memory, and how many lines one array
  * starts further than the one before. */
 enum { LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
@@ -123,7 +125,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
                    : b - a == rows->nodes ? RIGHT
                    : b - a > rows->nodes  ? DIAGONAL
                                           : ANTIDIAGONAL;
-        double c = 2 * at->E.weight * point.k[s] / point.l2[s];
+        double c = spring_c(point.l2[s], at->E.weight * point.k[s]);
         grid->c[kind][q] = grid->mass / unit * c;
         grid->l2[kind][q] = unit * point.l2[s];
     }

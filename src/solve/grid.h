@@ -2,7 +2,7 @@
  *
  * A step's problem is: minimise
  *   E = |x - x_tilde|_M^2 / 2 + sum over springs of c/4 (|d|^2 - l2)^2,
- * d = x_i - x_j, c = 2 w k/l2 (mass_spring_energy.h).
+ * d = x_i - x_j, c = 2 w k/l2 (spring_law.h).
  *
  * A row of nodes stands with its even columns first, then its odd ones.  So
  * the nodes of a row that are `even` or `odd` are contiguous, no two of them

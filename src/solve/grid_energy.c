@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "solve/grid_loops.h"
+#include "solve/grid_spring.h"
 
 /* How each loop begins: a copy of the grid stays in registers. */
 #define BANDS                                                                  \
@@ -23,8 +23,8 @@ FAST double grid_gradient(const Grid *of, double *g)
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
-        fx += s.c * s.s * s.dx;                                                \
-        fy += s.c * s.s * s.dy;                                                \
+        fx += s.f * s.dx;                                                      \
+        fy += s.f * s.dy;                                                      \
         IN_ORDER(fx, fy);                                                      \
     }
             ALL_SPRINGS(ADD, at)
@@ -62,9 +62,8 @@ FAST double grid_remainder(const Grid *of, const double *g, const double *p,
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
-        Pair iso = WHERE(s.s > 0, s.s);                                        \
-        Pair along = 2 + (s.s - iso) / (s.d2 + 1e-300);                        \
-        along = WHERE(along > 0, along) * (s.dx * ux + s.dy * uy);             \
+        CLAMPED(s.s, s.d2 + 1e-300, iso, along);                               \
+        along *= s.dx * ux + s.dy * uy;                                        \
         fx += s.c * (iso * ux + along * s.dx);                                 \
         fy += s.c * (iso * uy + along * s.dy);                                 \
         IN_ORDER(fx, fy);                                                      \
@@ -108,10 +107,7 @@ FAST void grid_along(const Grid *of, const double *g, const double *p,
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
-        Pair B = 2 * (s.dx * ux + s.dy * uy), C = ux * ux + uy * uy;           \
-        f1 += s.c * (B * B + 2 * s.s * C);                                     \
-        f2 += s.c * B * C;                                                     \
-        f3 += s.c * C * C;                                                     \
+        spring_along_p(s, ux, uy, &f1, &f2, &f3);                              \
         IN_ORDER(f1, f2);                                                      \
         IN_ORDER(f3, p2);                                                      \
     }

@@ -136,21 +136,6 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     EACH_RUN_OF (grid, band)                                                   \
         EACH_PAIR (NEXT(at, LANES))
 
-/* What a loop reads of a spring: d = x_i - x_j, |d|^2, s = |d|^2 - l2, c. */
-typedef struct Spring {
-    Pair dx, dy, d2, s, c;
-} Spring;
-
-/* From node q to node q + to, with its numbers at q + at. */
-INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
-{
-    const double *x = grid->x, *y = x + grid->rows.plane;
-    Pair dx = PAIR(x, q) - PAIR(x, q + to), dy = PAIR(y, q) - PAIR(y, q + to);
-    Pair d2 = dx * dx + dy * dy;
-    return (Spring){dx, dy, d2, d2 - PAIR(grid->l2[kind], q + at),
-                    PAIR(grid->c[kind], q + at)};
-}
-
 /* The parts of a sum, in one order always. */
 INLINE double sum_of(const double s[LANES])
 {

@@ -1,6 +1,6 @@
 #include "solve/tiles.h"
 
-#include "solve/grid_loops.h"
+#include "solve/grid_spring.h"
 
 /* Rows of a tile; it is LANES even and LANES odd columns wide. */
 enum { TILE_ROWS = 4 };
@@ -32,68 +32,19 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
     tiles->chosen = memory_piece(memory, count * sizeof *tiles->chosen);
 }
 
-/* How far to go where E changes by a (f1 + a (f2 + a (f3 + a f4))): the longest
- * of three steps that lower it, or 0. */
-INLINE double step_of(double f1, double f2, double f3, double f4, double *lower)
+/* How far to go where E changes by a q[0] + ... + a^4 q[3]: the longest of
+ * three steps that lower it, or 0. */
+INLINE double step_of(const double q[4], double *lower)
 {
     const double far[3] = {SHORTER, 1, OVER_RELAXED};
     double go = 0;
     *lower = 0;
     for (int i = 0; i < 3; i++) {
-        double a = far[i], E = a * (f1 + a * (f2 + a * (f3 + a * f4)));
+        double a = far[i], E = a * (q[0] + a * (q[1] + a * (q[2] + a * q[3])));
         go = E < 0 ? a : go;
         *lower = E < 0 ? E : *lower;
     }
     return go;
-}
-
-/* What relaxing a node needs: its gradient, and sums over its springs. */
-enum { GX, GY, ISO, XX, XY, YY, CX, CY, CC, NEGATIVE, AROUND };
-
-/* That of LANES nodes of a row.  The steps that follow wait less for each other
- * in a loop of their own. */
-INLINE void look_around(const Grid *grid, NodeRun at, double of[AROUND][LANES])
-{
-    const double *const ax = grid->away, *const ay = ax + grid->rows.plane;
-    EACH_PAIR (NEXT(at, LANES)) {
-        const int q = at.first + e;
-        Pair mass = PAIR(grid->m, q + at.node), iso = mass;
-        Pair gx = mass * PAIR(ax, q), gy = mass * PAIR(ay, q);
-        Pair xx = {0}, xy = {0}, yy = {0};
-        Pair cx = {0}, cy = {0}, c = {0}, negative = {0};
-#define ADD(kind, to, numbers)                                                 \
-    {                                                                          \
-        Spring s = spring_of(grid, kind, q, to, numbers);                      \
-        Pair f = s.c * s.s, fx = s.c * s.dx, fy = s.c * s.dy;                  \
-        gx += f * s.dx;                                                        \
-        gy += f * s.dy;                                                        \
-        IN_ORDER(gx, gy);                                                      \
-        iso += f;                                                              \
-        negative += WHERE(f < 0, f);                                           \
-        IN_ORDER(iso, negative);                                               \
-        xx += fx * s.dx;                                                       \
-        xy += fx * s.dy;                                                       \
-        cx += fx;                                                              \
-        IN_ORDER(xx, xy);                                                      \
-        yy += fy * s.dy;                                                       \
-        cy += fy;                                                              \
-        IN_ORDER(yy, cy);                                                      \
-        c += s.c;                                                              \
-        IN_ORDER(c, cx);                                                       \
-    }
-        ALL_SPRINGS(ADD, at)
-#undef ADD
-        PAIR(of[GX], e) = gx;
-        PAIR(of[GY], e) = gy;
-        PAIR(of[ISO], e) = iso;
-        PAIR(of[XX], e) = xx;
-        PAIR(of[XY], e) = xy;
-        PAIR(of[YY], e) = yy;
-        PAIR(of[CX], e) = cx;
-        PAIR(of[CY], e) = cy;
-        PAIR(of[CC], e) = c;
-        PAIR(of[NEGATIVE], e) = negative;
-    }
 }
 
 /* LANES nodes of a row, none of which share a spring. */
@@ -103,24 +54,21 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
     const double *const tx = grid->x_tilde, *const ty = tx + plane;
     double *const x = grid->x, *const y = x + plane;
     double *const ax = grid->away, *const ay = ax + plane;
-    double of[AROUND][LANES];
+    NodeSums of;
     look_around(grid, at, of);
     EACH_OF (NEXT(at, LANES)) {
         const int q = at.first + e;
         double gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
-        double A = of[ISO][e] + 2 * of[XX][e], B = 2 * of[XY][e];
-        double C = of[ISO][e] + 2 * of[YY][e], trace = A + C;
+        double A = of[XX][e], B = of[XY][e], C = of[YY][e], trace = A + C;
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
         double a = good ? A : A - negative, d = good ? C : C - negative;
         double det = a * d - B * B;
         bool moves = (det > 0) & (grid->per_m[q + at.node] > 0);
         double over = moves ? -1 / (det > 0 ? det : 1) : 0;
         double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
-        double p2 = px * px + py * py, f1 = gx * px + gy * py, lower;
-        double f2 = 0.5 * (A * px * px + 2 * B * px * py + C * py * py);
-        double f3 = p2 * (of[CX][e] * px + of[CY][e] * py);
-        double f4 = 0.25 * of[CC][e] * p2 * p2;
-        double go = step_of(f1, f2, f3, f4, &lower);
+        double along[4], lower;
+        node_along(of, e, px, py, along);
+        double go = step_of(along, &lower);
         double to_x = ax[q] + go * px, to_y = ay[q] + go * py;
         ax[q] = to_x;
         ay[q] = to_y;

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/grid_loops.h"
+#include "solve/grid_spring.h"
 
 #ifdef __wasm_simd128__
 #include <wasm_simd128.h>
@@ -89,10 +89,8 @@ INLINE void tensor_row(const VCycle *cycle, int i)
             Spring s = spring_of(&grid, kind, q, to, numbers);                 \
             Spring z = spring_of(&grid, kind, q + PAIRED, to, numbers);        \
             Few dx = narrow(s.dx, z.dx), dy = narrow(s.dy, z.dy);              \
-            Few t = narrow(s.s, z.s), iso = WHERE(t > 0, t);                   \
-            Few along = 2 + (t - iso) / (dx * dx + dy * dy + 1e-35f);          \
-            Few c = FEW(own_c, e);                                             \
-            along = WHERE(along > 0, along);                                   \
+            Few t = narrow(s.s, z.s), c = FEW(own_c, e);                       \
+            CLAMPED(t, dx *dx + dy * dy + 1e-35f, iso, along);                 \
             FEW(level.K[kind][0], q) = c * (iso + along * dx * dx);            \
             FEW(level.K[kind][1], q) = c * along * dx * dy;                    \
             FEW(level.K[kind][2], q) = c * (iso + along * dy * dy);            \

@@ -626,6 +626,13 @@ TEST(claim_parts)
         /* H is at most 40 there, and |p| below h epsilon = 2e-7 m */
         CHECK_NEAR(x[i] - target[i] + slope / (2 * d), 0, 1e-5);
     }
+    for (int two = 0; two < 2; two++) { /* from below, where the second is */
+        Simulation *below =
+            open_page("parts", two ? "--start 0,-1.1 --timestep 0.096"
+                                   : "--start 0,-1.1 --timestep 0.094");
+        CHECK_STATUS(run_steps(below, 200), STATUS_OK);
+        CHECK((below->descent.point[1] < 0) == two);
+    }
 }
 
 TEST(claim_dial)
@@ -651,6 +658,14 @@ TEST(claim_dial)
                     simulation, part ? PART_ELASTICITY : PART_INERTIA,
                     walk->point[i - 1 + k][0], walk->point[i - 1 + k][1]);
         CHECK(value[0][1] > value[0][0] && value[1][1] < value[1][0]);
+    }
+    for (int bowl = 0; bowl < 2; bowl++) {
+        int bends = 0;
+        simulation->run[0].h = bowl ? 0.067 : 0.0675;
+        for (int i = 0; i < 81 * 81; i++) /* all that the map shows */
+            bends += descent_bends_down(simulation, 0.05 * (i % 81 - 40),
+                                        0.05 * (i / 81 - 40)) > 0;
+        CHECK((bends == 0) == bowl);
     }
 }
 
@@ -735,8 +750,7 @@ TEST(claim_psd)
     exhibit_drag(simulation, 0, 2, 1);
     CHECK(known_now(simulation, "negative") == 0);
     for (double r = 0.02; r < 1.5; r += 0.02) {
-        SpringFacts facts;
-        spring_facts((double[2]){r, 0}, 1, 100, &facts);
+        SpringFacts facts = spring_facts((double[2]){r, 0}, 1, 100);
         CHECK_NEAR(2 * facts.across, 4 * 100 * (r * r - 1), 1e-9);
         CHECK_NEAR(2 * facts.along, 4 * 100 * (3 * r * r - 1), 1e-9);
         CHECK((facts.along <= 0) == (r < 1 / sqrt(3)));
@@ -745,27 +759,25 @@ TEST(claim_psd)
 
 TEST(claim_energy)
 {
-    SpringFacts rest, near;
     const double k = 100;
-    spring_facts((double[2]){1, 0}, 1, k, &rest);
+    SpringFacts rest = spring_facts((double[2]){1, 0}, 1, k);
+    SpringFacts near = spring_facts((double[2]){0, 0}, 1, k);
     CHECK_NEAR(rest.along, 4 * k, 0);
     CHECK_NEAR(rest.root_along, 4 * k, 0);
-    spring_facts((double[2]){0, 0}, 1, k, &near);
     CHECK_NEAR(near.energy, 50, 0);
     CHECK_NEAR(near.root_energy, 200, 0);
     CHECK_NEAR(known("energy", "tip"), 200, 1e-12);
-    spring_facts((double[2]){1e-3, 0}, 1, k, &near);
+    near = spring_facts((double[2]){1e-3, 0}, 1, k);
     CHECK_NEAR(near.across, -2 * k, 1e-5 * k);
     CHECK_NEAR(near.root_across, -3996 * k, 1e-9 * k);
 }
 
 TEST(claim_force)
 {
-    SpringFacts facts;
     Simulation *simulation = open_page("force", "");
     const double *x = simulation->run[0].x;
     const System *system = &simulation->system;
-    spring_facts(x, system->l2[0], system->k[0], &facts);
+    SpringFacts facts = spring_facts(x, system->l2[0], system->k[0]);
     CHECK_NEAR(facts.energy, 23.805, 1e-12);
     CHECK_NEAR(known_now(simulation, "energy"), 23.805, 1e-12);
     CHECK_NEAR(facts.force[0], -165.6, 1e-12);

@@ -635,6 +635,244 @@ TEST(maps_have_levels_and_pulls)
                        COLOUR_X_TILDE) > 3);
 }
 
+/* A component of the gradient of E at x, by a central difference. */
+static double slope_of(int k, const double *x)
+{
+    const double d = 1e-5, a[2] = {x[0] + d * !k, x[1] + d * k};
+    const double b[2] = {x[0] - d * !k, x[1] - d * k};
+    return (landscape_part_value(&simulation, PART_BOTH, a[0], a[1]) -
+            landscape_part_value(&simulation, PART_BOTH, b[0], b[1])) /
+           (2 * d);
+}
+
+/* Its derivatives. */
+static void slopes_of(int k, const double *x, double out[2])
+{
+    const double d = 1e-3;
+    for (int i = 0; i < 2; i++) {
+        const double a[2] = {x[0] + d * !i, x[1] + d * i};
+        const double b[2] = {x[0] - d * !i, x[1] - d * i};
+        out[i] = (slope_of(k, a) - slope_of(k, b)) / (2 * d);
+    }
+}
+
+/* The list of iterates marks the digits that they have in common with the root.
+ * 2 pixels: a text is measured in whole ones, as a sum of letters. */
+TEST(right_digits_are_marked)
+{
+    static const char *const roots[] = {"1.",   "1.",       "1.",
+                                        "1.17", "1.177993", "1.17799325406"};
+    stand_up("tangent", 0);
+    show.lecture = lecture_find("tangent");
+    for (int i = 0; i <= 6; i++) {
+        if (i > 0)
+            CHECK(!simulation_step(&simulation));
+        show_know(&show);
+        Plot card = {.paper = &paper,
+                     .show = &show,
+                     .simulation = &simulation,
+                     .box = {0, 0, 600, 400},
+                     .text = true,
+                     .em = paper.em};
+        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        update_draw(&card);
+        int lit[7] = {0}, rows = 0, before = 0;
+        for (int y = 0; y < 400; y++) {
+            int now = count_colour((Box){300, y, 300, 1}, COLOUR_LIT);
+            rows += now > 0 && before == 0;
+            if (rows > 0 && rows < 7)
+                lit[rows] = now > lit[rows] ? now : lit[rows];
+            before = now;
+        }
+        CHECK(rows == i); /* x^0 = 2.5 has no digit right */
+        for (int k = 1; k <= i; k++)
+            CHECK_NEAR(lit[k],
+                       paper_width(&paper, FACE_REGULAR, 0.95, roots[k - 1]),
+                       2);
+    }
+}
+
+/* On the page of Newton in n dimensions what is green and purple is where a
+ * component of g is 0, or where its linear model at the iterate is; to 3
+ * pixels, half of the curves' width and what is left of rounding them. */
+TEST(curves_are_where_the_gradient_is_0)
+{
+    static const Colour colours[2] = {0xff009e73u, 0xffb0559au};
+    stand_up("landscape --filter none --line-search none --start 0.6,0.9", 0);
+    show.lecture = lecture_find("newton");
+    draw_without_words();
+    Plot stage = show_stage(&paper, &show, &layout, 0);
+    const double *x = simulation.descent.point;
+    for (int k = 0; k < 2; k++) {
+        int count[2] = {0, 0};
+        double at_x[2], g = slope_of(k, x);
+        slopes_of(k, x, at_x);
+        for (int i = 0; i < 1280 * 800; i++) {
+            double at[2], here[2];
+            if (paper.canvas.pixels[i] != colours[k])
+                continue;
+            camera_world(&stage.camera, i % 1280 + 0.5, i / 1280 + 0.5, at);
+            slopes_of(k, at, here);
+            double curve = fabs(slope_of(k, at)) / hypot(here[0], here[1]);
+            double line =
+                fabs(g + at_x[0] * (at[0] - x[0]) + at_x[1] * (at[1] - x[1])) /
+                hypot(at_x[0], at_x[1]);
+            CHECK_AT_MOST(fmin(curve, line) * stage.camera.scale[0], 3);
+            count[line < curve]++;
+        }
+        CHECK(count[0] > 200 && count[1] > 50);
+    }
+}
+
+/* The half plane that has a colour is that of directions along which E falls.
+ */
+TEST(the_downhill_side_has_a_colour)
+{
+    stand_up("landscape --filter none --start 0.1,-0.35", 0);
+    LecturePage page = *lecture_find("descent");
+    assert_true(page.downhill);
+    show.lecture = &page;
+    draw_without_words();
+    size_t size = sizeof(Colour) * 1280 * 800;
+    Colour *with = malloc(size);
+    assert_non_null(with);
+    memcpy(with, paper.canvas.pixels, size);
+    page.downhill = false;
+    draw_without_words();
+    Plot stage = show_stage(&paper, &show, &layout, 0);
+    const double *x = simulation.descent.point;
+    const double g[2] = {slope_of(0, x), slope_of(1, x)};
+    int falls = 0, coloured = 0;
+    for (int i = 0; i < 1280 * 800; i++) {
+        double at[2];
+        if (!box_contains(box_inset(layout.pane[0], 50), i % 1280, i / 1280.0))
+            continue;
+        camera_world(&stage.camera, i % 1280 + 0.5, i / 1280 + 0.5, at);
+        double far = (g[0] * (at[0] - x[0]) + g[1] * (at[1] - x[1])) /
+                     hypot(g[0], g[1]) * stage.camera.scale[0];
+        bool differs = with[i] != paper.canvas.pixels[i];
+        falls += far < 0;
+        coloured += differs;
+        CHECK(!differs || far < 8); /* the arrow begins there */
+    }
+    free(with);
+    CHECK(falls > 50000 && coloured > 0.95 * falls);
+}
+
+/* Valleys of the relief's lower outline, which goes down and up again by more
+ * than so many pixels.  The lower left corner has arrows. */
+static int outline_valleys(const Plot *card, int rise)
+{
+    int valleys = 0, best = 0;
+    bool down = true;
+    for (int x = card->box.width / 5; x < card->box.width; x++) {
+        int y = card->box.height - 1;
+        while (y > 0 && pixel(x, y) == COLOUR_WHITE)
+            y--;
+        if (y == 0)
+            continue;
+        if (down ? y > best : y < best)
+            best = y;
+        if (abs(y - best) > rise) {
+            valleys += down;
+            down = !down;
+            best = y;
+        }
+    }
+    return valleys;
+}
+
+/* The surface is a bowl with a short h and has two valleys with a long one; it
+ * is yellow where E is not convex.  The iterate is on it, and its direction,
+ * red where that points uphill.  Far numbers do no harm. */
+TEST(the_relief_has_two_valleys)
+{
+    static const struct {
+        const char *h;
+        int valleys;
+    } rows[] = {{"0.03", 1}, {"0.067", 1}, {"0.2", 2}, {"1", 2}, {"10", 2}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char line[96] = "landscape --start 0.1,-0.35 --filter none --timestep ";
+        strcat(line, rows[i].h);
+        stand_up(line, 0);
+        show.lecture = lecture_find("parts");
+        draw_without_words();
+        Plot card = {.paper = &paper,
+                     .show = &show,
+                     .simulation = &simulation,
+                     .box = {0, 0, 1000, 750},
+                     .text = true,
+                     .em = paper.em};
+        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        relief_draw(&card);
+        CHECK(outline_valleys(&card, 6) == rows[i].valleys);
+        int yellow = 0, bright = 0;
+        for (int k = 0; k < 1280 * 750; k++) {
+            Colour colour = paper.canvas.pixels[k];
+            yellow += (int)(colour >> 16 & 255) - (int)(colour & 255) > 40;
+            bright += (colour & 255) > 240 && colour != COLOUR_WHITE;
+        }
+        CHECK(bright > 15000); /* no wall hides the flat of the valleys */
+        CHECK((yellow > 20000) == (i > 1));
+        CHECK(count_colour(card.box, COLOUR_TEXT) > 30);
+        CHECK((count_colour(card.box, COLOUR_WARNING) > 30) == (i > 1));
+        simulation.exhibit.target[0] = 1e300;
+        relief_draw(&card);
+    }
+}
+
+/* Of the pixels of a colour in a box the least and the largest distance from a
+ * place. */
+static void distances(Box box, Colour colour, const double from[2],
+                      double least_most[2])
+{
+    least_most[0] = INFINITY;
+    least_most[1] = 0;
+    for (int y = box.y; y < box.y + box.height; y++)
+        for (int x = box.x; x < box.x + box.width; x++) {
+            double away = hypot(x + 0.5 - from[0], y + 0.5 - from[1]);
+            if (pixel(x, y) != colour)
+                continue;
+            least_most[0] = fmin(least_most[0], away);
+            least_most[1] = fmax(least_most[1], away);
+        }
+}
+
+/* The eigenvalues against the unit circle: those of forward Euler are outside,
+ * of backward Euler inside, of symplectic Euler on it, and one of them outside
+ * beyond h omega = 2.  Their ways begin at 1, where backward Euler's is
+ * farthest from 0.  Lines and discs cover whole pixels. */
+TEST(eigenvalues_are_outside_on_or_inside)
+{
+    static const char *const lines[] = {"circle --timestep 0.05",
+                                        "circle --timestep 0.3",
+                                        "circle --timestep 0.33"};
+    for (int i = 0; i < 3; i++) {
+        stand_up(lines[i], 0);
+        draw_without_words();
+        Plot card = {.paper = &paper,
+                     .show = &show,
+                     .simulation = &simulation,
+                     .box = {0, 0, 1000, 700},
+                     .em = paper.em};
+        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        matrix_draw(&card);
+        const Box plane = {300, 0, 700, 700};
+        const double t = simulation.run[0].h * 2 * acos(-1);
+        const double middle[2] = {650, 350};
+        double far[3][2];
+        for (int r = 0; r < 3; r++)
+            distances(plane, colour_of(simulation.run[r].method->name), middle,
+                      far[r]);
+        double disc = 5 * paper.unit, size = hypot(1, t);
+        double one = (far[0][1] - disc) / size;
+        double two = t > 2 ? 0.5 * t * t - 1 + sqrt(0.25 * t * t - 1) * t : 1;
+        CHECK_NEAR(far[1][1], one * two + disc, 2.5);
+        CHECK(t > 2 || far[1][0] > one - disc - 2.5);
+        CHECK_NEAR(far[2][0], one / size - disc, 2.5);
+    }
+}
+
 /* The step of twice the radius is marked on forward Euler's curve, if all steps
  * of it, also those after the one that is shown, are as long. */
 TEST(doubling_is_marked)

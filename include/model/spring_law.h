@@ -1,0 +1,100 @@
+/* spring_law.h - the law of one spring (slide MassSpringEnergy.py), which other
+ * files ask.  Two have a law of their own: grid_spring.h the same in the grid's
+ * loops, plasticity.h that of springs that flow.
+ *
+ *   d = x_i - x_j             m; |d|^2 is d2
+ *   s = |d|^2/l2 - 1          strain; l2, m^2, is |d|^2 at rest
+ *   P = l2 k/2 s^2            energy, J; k, J/m^2, is the stiffness
+ *   grad_i P = 2 k s d        gradient at node i; at node j it is -2 k s d
+ *   H = c (2 d d^T + (|d|^2 - l2) I),  c = 2k/l2
+ *   [[H, -H], [-H, H]]        Hessian of the nodes i and j
+ *
+ * The eigenvectors of H are d, and the vector across.  The Hessian has the
+ * eigenvalues 0, 0 and twice those of H: so a projection of H is the slide's
+ * make_PSD, without any eigenvalue routine.  A stretched spring has no negative
+ * eigenvalue; one that is shorter than its rest length over sqrt(3) has two,
+ * also where |d| = 0.
+ */
+#ifndef ELASTO_SPRING_LAW_H
+#define ELASTO_SPRING_LAW_H
+
+#include "model/psd.h"
+
+/* d [2] m out, between the nodes e[0] and e[1] at x [2n] m; returns |d|^2. */
+static inline double spring_vector(const int e[2], const double *x, double d[2])
+{
+    const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
+    d[0] = xi[0] - xj[0];
+    d[1] = xi[1] - xj[1];
+    return d[0] * d[0] + d[1] * d[1];
+}
+
+/* The strain s.  Near rest spring_across(d2, l2)/l2 keeps more of its digits.
+ */
+static inline double spring_strain(double d2, double l2)
+{
+    return d2 / l2 - 1;
+}
+
+static inline double spring_energy(double l2, double k, double s)
+{
+    return 0.5 * l2 * k * s * s;
+}
+
+/* The gradient at node i, divided by d. */
+static inline double spring_pull(double k, double s)
+{
+    return 2 * k * s;
+}
+
+/* c = 2k/l2, J/m^4 */
+static inline double spring_c(double l2, double k)
+{
+    return 2 * k / l2;
+}
+
+/* The eigenvalue of H along d, divided by c, m^2. */
+static inline double spring_along(double d2, double l2)
+{
+    return 3 * d2 - l2;
+}
+
+/* The eigenvalue of H across d, divided by c, m^2. */
+static inline double spring_across(double d2, double l2)
+{
+    return d2 - l2;
+}
+
+/* Both eigenvalues projected: a negative one becomes what the filter says.
+ * Returns whether there was one; that across d is the smaller one. */
+static inline bool spring_project(Filter filter, double *along, double *across)
+{
+    if (*across >= 0 || !filter_projects(filter))
+        return false;
+    *along = projected_eigenvalue(filter, *along);
+    *across = projected_eigenvalue(filter, *across);
+    return true;
+}
+
+/* H [3] out (xx, xy, yy), with its negative eigenvalues treated as the filter
+ * says.  Returns whether there was a negative one that was changed; a broken
+ * spring, k = 0, has none. */
+static inline bool spring_hessian(const double d[2], double l2, double k,
+                                  Filter filter, double H[3])
+{
+    double c = spring_c(l2, k), d2 = d[0] * d[0] + d[1] * d[1];
+    double along = spring_along(d2, l2), across = spring_across(d2, l2);
+    if (!spring_project(filter, &along, &across)) {
+        H[0] = c * (2 * d[0] * d[0] + across);
+        H[1] = c * (2 * d[0] * d[1]);
+        H[2] = c * (2 * d[1] * d[1] + across);
+        return false;
+    }
+    double slope = d2 > 0 ? c * ((along - across) / d2) : 0;
+    H[0] = c * across + slope * d[0] * d[0];
+    H[1] = slope * d[0] * d[1];
+    H[2] = c * across + slope * d[1] * d[1];
+    return k > 0;
+}
+
+#endif
