@@ -178,25 +178,6 @@ TEST(a_pane_that_has_ended_comes_back)
     }
 }
 
-/* A change that counts from the step before leaves what was changed after it,
- * also where work on it is given up. */
-TEST(a_step_is_made_again)
-{
-    begin_past("square --segments 3");
-    show(1);
-    show(2);
-    set_option("stiffness 2e5", false);
-    set_option("timestep 0.003", true);
-    past_aim(&past, 2, false);
-    past_iterate(&past);
-    past_iterate(&past);
-    past_aim(&past, past.step, false);
-    show(2);
-    CHECK(past_control(&past, 0)->options.stiffness == 2e5);
-    CHECK(past_entry(&past, 0, 1)->control->options.stiffness != 2e5);
-    past_free(&past);
-}
-
 /* Changes of one gesture are one branch, which goes on with its steps. */
 TEST(a_gesture_is_undone_as_a_whole)
 {
@@ -427,8 +408,7 @@ TEST(commands_are_written_as_they_are_read)
         CHECK(read.kind == command.kind && strcmp(line, again) == 0);
     }
     static const char *const bad[] = {
-        "",         "jump",   "goto",       "goto -1", "goto x",
-        "goto 1 2", "drag 1", "drag 1 nan", "quit 1",  "set a b c"};
+        "", "jump", "goto -1", "goto 1 2", "drag 1", "drag 1 nan", "set a b c"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         Command command;
         CHECK_STATUS(command_parse(bad[i], &command, message, sizeof message),
