@@ -74,6 +74,18 @@ static void draw_without_words(void)
     draw();
 }
 
+/* A card alone on white paper. */
+static Plot blank_card(int width, int height)
+{
+    canvas_clear(&paper.canvas, COLOUR_WHITE);
+    return (Plot){.paper = &paper,
+                  .show = &show,
+                  .simulation = &simulation,
+                  .box = {0, 0, width, height},
+                  .text = true,
+                  .em = paper.em};
+}
+
 static Colour pixel(int x, int y)
 {
     return paper.canvas.pixels[y * paper.canvas.width + x];
@@ -636,13 +648,7 @@ TEST(right_digits_are_marked)
         if (i > 0)
             CHECK(!simulation_step(&simulation));
         show_know(&show);
-        Plot card = {.paper = &paper,
-                     .show = &show,
-                     .simulation = &simulation,
-                     .box = {0, 0, 600, 400},
-                     .text = true,
-                     .em = paper.em};
-        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        Plot card = blank_card(600, 400);
         update_draw(&card);
         int lit[7] = {0}, rows = 0, before = 0;
         for (int y = 0; y < 400; y++) {
@@ -765,13 +771,7 @@ TEST(the_relief_has_two_valleys)
         stand_up(line, 0);
         show.lecture = lecture_find("parts");
         draw_without_words();
-        Plot card = {.paper = &paper,
-                     .show = &show,
-                     .simulation = &simulation,
-                     .box = {0, 0, 1000, 750},
-                     .text = true,
-                     .em = paper.em};
-        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        Plot card = blank_card(1000, 750);
         relief_draw(&card);
         CHECK(outline_valleys(&card, 6) == rows[i].valleys);
         int yellow = 0, bright = 0;
@@ -818,12 +818,7 @@ TEST(eigenvalues_are_outside_on_or_inside)
     for (int i = 0; i < 3; i++) {
         stand_up(lines[i], 0);
         draw_without_words();
-        Plot card = {.paper = &paper,
-                     .show = &show,
-                     .simulation = &simulation,
-                     .box = {0, 0, 1000, 700},
-                     .em = paper.em};
-        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        Plot card = blank_card(1000, 700);
         matrix_draw(&card);
         const Box plane = {300, 0, 700, 700};
         const double t = simulation.run[0].h * 2 * acos(-1);
