@@ -234,6 +234,7 @@ TEST(texts_become_one_line)
         {"0123456789012", "0123...9012"},
         /* whole letters, and no half of one */
         {"012\303\274456789\303\274\303\274", "012...\303\274\303\274"},
+        {"0123456789\303\274abc", "0123...abc"},
         /* bytes that are no text: in the wrong place, too long, cut off;
          * controls above ASCII; what turns writing around */
         {"\303\050", "?("},
