@@ -57,34 +57,6 @@ int paper_width(Paper *paper, Face face, double size, const char *markup)
     return (int)text_extent(paper->text, &style, markup).width;
 }
 
-/* Text without its last word, an ellipsis behind it; markup stays whole.
- * Returns false where a single word is left. */
-static bool drop_word(char *words, size_t size)
-{
-    static const char end[] = " \u2026";
-    size_t length = strlen(words), tail = sizeof end - 1;
-    if (length >= tail && strcmp(words + length - tail, end) == 0)
-        length -= tail;
-    int open = 0;
-    for (size_t i = length; i-- > 1;) {
-        open += words[i] == '}';
-        open -= words[i] == '{';
-        if (words[i] != ' ' || open != 0 || i + sizeof end > size)
-            continue;
-        memcpy(words + i, end, sizeof end);
-        return true;
-    }
-    return false;
-}
-
-void paper_shorten(Paper *paper, Face face, double size, int width, char *words,
-                   size_t room)
-{
-    while (paper_width(paper, face, size, words) > width &&
-           drop_word(words, room))
-        continue;
-}
-
 int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
               Align align, const char *markup)
 {
@@ -142,6 +114,19 @@ static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
         fits = end;
     }
     return fits;
+}
+
+void paper_shorten(Paper *paper, Face face, double size, int width, char *words,
+                   size_t room)
+{
+    static const char end[] = " \u2026";
+    TextStyle style = paper_style(paper, face, size, 0);
+    int rest = width - paper_width(paper, face, size, end);
+    size_t fits = fitting_bytes(paper, &style, width, words);
+    if (words[fits])
+        fits = fitting_bytes(paper, &style, rest, words);
+    if (words[fits])
+        snprintf(words + fits, room - fits, "%s", end);
 }
 
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,

@@ -103,7 +103,7 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
 void plot_ellipse(const Plot *plot, const double *middle, const double *a,
                   const double *b, double width, bool dashed, Colour colour);
 
-/* All springs of a system at x [2n], the broken ones too. */
+/* All springs of a system that are whole, at x [2n]. */
 void plot_springs(const Plot *plot, const System *system, const double *x,
                   double width, Colour colour);
 

@@ -277,26 +277,21 @@ void history_add(History *history, double time, int rows, const Energy *row)
 
 /* ---- all of it ----------------------------------------------------------- */
 
+enum { LABEL = 4 * SHOW_VALUE };
+
 /* The first parts of a label, with ", " between, that fit into a line.  Returns
  * what is left of it.
- *   line  [SHOW_VALUE * 4] out */
+ *   line  [LABEL] out */
 static const char *take_line(const Plot *stage, const char *label, char *line)
 {
-    const size_t room = 4 * SHOW_VALUE;
-    const char *rest = label;
-    line[0] = '\0';
-    while (*rest) {
-        char longer[4 * SHOW_VALUE];
-        const char *end = strstr(rest, ", ");
-        end = end ? end : rest + strlen(rest);
-        snprintf(longer, room, "%.*s", (int)(end - label), label);
-        if (line[0] && paper_width(stage->paper, FACE_BOLD, 1, longer) >
-                           stage->box.width - stage->em)
-            break;
-        memcpy(line, longer, room);
-        rest = *end ? end + 2 : end;
-    }
-    return rest;
+    int room = (int)(stage->box.width - stage->em);
+    char *comma;
+    snprintf(line, LABEL, "%s", label);
+    while (paper_width(stage->paper, FACE_BOLD, 1, line) > room &&
+           (comma = strrchr(line, ',')))
+        *comma = '\0';
+    label += strlen(line);
+    return label + strspn(label, ", ");
 }
 
 /* What is different in a pane, in as many lines as it takes, above the scale
@@ -306,7 +301,7 @@ static void draw_label(const Plot *stage, const char *label)
     enum { LINES = 3 };
     Paper *paper = stage->paper;
     const Box *box = &stage->box;
-    char line[LINES][4 * SHOW_VALUE];
+    char line[LINES][LABEL];
     int lines = 0, wide = 0;
     while (*label && lines < LINES) {
         label = take_line(stage, label, line[lines]);

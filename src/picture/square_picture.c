@@ -138,31 +138,22 @@ static void follow_body(const Simulation *simulation, const double *x,
     }
 }
 
-/* How many times as large the view must be to have all nodes x [2n]; or that
- * and what the others before needed.  tall in/out: the same upwards alone. */
-static double view_needs(const View *view, int nodes, const double *x,
-                         double need, double *tall)
-{
-    for (int i = 0; i < nodes; i++) {
-        double right = fabs(x[2 * i] - view->middle[0]) / view->size[0];
-        double up = fabs(x[2 * i + 1] - view->middle[1]) / view->size[1];
-        double reach = right > up ? right : up;
-        if (isfinite(right) && isfinite(up) && reach > need)
-            need = reach;
-        *tall = up > *tall ? up : *tall;
-    }
-    return need;
-}
-
-/* The same of all runs of a pane. */
+/* How many times as large the view must be to have all nodes of all runs of a
+ * pane.  tall  in/out: the same upwards alone. */
 static double pane_needs(const Pane *pane, const View *view, double *tall)
 {
     const Simulation *simulation = pane->simulation;
-    double need =
-        view_needs(view, simulation->system.nodes, pane_x(pane), 1, tall);
-    for (int r = 1; r < simulation->runs; r++)
-        need = view_needs(view, simulation->run[r].system->nodes,
-                          simulation->run[r].x, need, tall);
+    double need = 1;
+    for (int r = 0; r < simulation->runs; r++) {
+        const double *x = r > 0 ? simulation->run[r].x : pane_x(pane);
+        for (int i = 0; i < simulation->run[r].system->nodes; i++, x += 2) {
+            double right = fabs(x[0] - view->middle[0]) / view->size[0];
+            double up = fabs(x[1] - view->middle[1]) / view->size[1];
+            if (isfinite(right) && isfinite(up))
+                need = fmax(need, fmax(right, up));
+            *tall = fmax(*tall, up);
+        }
+    }
     return need;
 }
 

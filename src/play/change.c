@@ -588,23 +588,38 @@ Status obey_pin(Player *player, const Command *command)
     return status;
 }
 
-/* The hand takes a node where it is. */
-Status obey_grab(Player *player, const Command *command)
+/* The hand takes a node, or a ground or a ball, where it is. */
+static Status take(Player *player, CommandKind kind, long number,
+                   const double at[2])
 {
-    long node = command->number;
-    const Simulation *simulation = player_simulation(player);
-    if (!simulation_is_handled(simulation))
-        return player_refuse(player, "nothing to take hold of here");
-    const Command change = {.kind = COMMAND_GRAB,
-                            .number = node,
-                            .x = simulation->run[0].x[2 * node],
-                            .y = simulation->run[0].x[2 * node + 1]};
+    const Command change = {
+        .kind = kind, .number = number, .x = at[0], .y = at[1]};
     Status status = change_all(player, &change);
     player->holds = player->holds || !status;
     if (!status && player_stands(player))
-        player_note(player, "paused: the hand pulls as soon as time goes on "
-                            "(Space, N)");
+        player_note(player,
+                    "paused: the hand %s as soon as time goes on (Space, N)",
+                    kind == COMMAND_GRAB ? "pulls" : "pushes");
     return status;
+}
+
+Status obey_grab(Player *player, const Command *command)
+{
+    const Simulation *simulation = player_simulation(player);
+    if (!simulation_is_handled(simulation))
+        return player_refuse(player, "nothing to take hold of here");
+    return take(player, COMMAND_GRAB, command->number,
+                simulation->run[0].x + 2 * command->number);
+}
+
+Status obey_push(Player *player, const Command *command)
+{
+    const Simulation *simulation = player_simulation(player);
+    double at[2];
+    if (!simulation_is_handled(simulation))
+        return player_refuse(player, "nothing to push here");
+    simulation_obstacle(simulation, 0, (int)command->number, at);
+    return take(player, COMMAND_PUSH, command->number, at);
 }
 
 /* A node is put somewhere: an experiment of one's own. */
@@ -638,27 +653,7 @@ Status obey_obstacle(Player *player, const Command *command)
     return status ? status : change_all(player, command);
 }
 
-/* The hand takes a ground or a ball where it is. */
-Status obey_push(Player *player, const Command *command)
-{
-    const Simulation *simulation = player_simulation(player);
-    if (!simulation_is_handled(simulation))
-        return player_refuse(player, "nothing to push here");
-    double at[2];
-    simulation_obstacle(simulation, 0, (int)command->number, at);
-    const Command change = {.kind = COMMAND_PUSH,
-                            .number = command->number,
-                            .x = at[0],
-                            .y = at[1]};
-    Status status = change_all(player, &change);
-    player->holds = player->holds || !status;
-    if (!status && player_stands(player))
-        player_note(player, "paused: the hand pushes as soon as time goes on "
-                            "(Space, N)");
-    return status;
-}
-
-/* It pulls or pushes, or lets go. */
+/* The hand pulls or pushes, or lets go. */
 Status obey_drag(Player *player, const Command *command)
 {
     if (!control_holds(past_control(&player->past, player->active)))

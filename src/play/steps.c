@@ -608,30 +608,24 @@ static void tell_deed(const Player *player, Command edit, char *line,
                       size_t size)
 {
     bool ground = edit.number < player_settings(player)->grounds;
-    const char *thing = ground ? "ground" : "ball";
+    const char *obstacle = edit.kind == COMMAND_PUSH       ? "pushed"
+                           : edit.kind == COMMAND_OBSTACLE ? "moved"
+                                                           : NULL;
+    const char *node = edit.kind == COMMAND_GRAB    ? "pulled"
+                       : edit.kind == COMMAND_PLACE ? "placed"
+                                                    : NULL;
     double *at[] = {&edit.x, &edit.y};
-    switch (edit.kind) {
-    case COMMAND_PUSH:
-        snprintf(line, size, "%s pushed", thing);
-        return;
-    case COMMAND_OBSTACLE:
-        snprintf(line, size, "%s moved", thing);
-        return;
-    case COMMAND_GRAB:
-        snprintf(line, size, "node %ld pulled", edit.number);
-        return;
-    case COMMAND_PLACE:
-        snprintf(line, size, "node %ld placed", edit.number);
-        return;
-    default:
-        break;
-    }
     edit.joins = false;
     for (int k = 0; k < 2; k++) {
         snprintf(line, size, "%g", *at[k]);
         *at[k] = strtod(line, NULL);
     }
-    command_format(&edit, line, size);
+    if (obstacle)
+        snprintf(line, size, "%s %s", ground ? "ground" : "ball", obstacle);
+    else if (node)
+        snprintf(line, size, "node %ld %s", edit.number, node);
+    else
+        command_format(&edit, line, size);
 }
 
 /* What was done last, or undone: "set stretch 1.2". */

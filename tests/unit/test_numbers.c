@@ -1,273 +1,93 @@
 /* What texts know of a step of the square by name (facts.h), and its energies,
- * are calculated again, in extended precision and by formulas of the oracle.
- * (All other numbers of a frame are held by test_session, those of a page by
- * test_pages, digits and axes by test_picture, what plasticity, fracture and
- * friction took by test_laws.) */
+ * are what the trace and the ledger say, on all pages and scenes of it.
+ * (test_newton holds the trace to formulas of the oracle, test_laws and
+ * check_tables the ledger; all other numbers of a frame are held by
+ * test_session, those of a page by test_pages, digits and axes by
+ * test_picture.) */
 #include "attended.h"
-#include "stress.h"
 #include "test.h"
 
 #include <math.h>
 
-#include "model/mass_spring_energy.h"
 #include "picture/cards.h"
-
-enum { MOST = 200, UNKNOWNS = 50, NODES = 700 };
-
-/* ---- what is true -------------------------------------------------------- */
-
-typedef struct Truth {
-    char name[24];
-    Real value, slack;
-} Truth;
-
-static int faults;
-
-static void wrong(const char *name, const char *what, double value)
-{
-    print_error("%s, step %ld: '%s' says %.12g\n", name, player.past.step, what,
-                value);
-    faults++;
-}
-
-static Truth truth[MOST];
-static int truths;
-
-static void near(const char *name, Real value, Real slack)
-{
-    assert_true(truths < MOST);
-    Truth *one = &truth[truths++];
-    *one = (Truth){.value = value, .slack = slack};
-    snprintf(one->name, sizeof one->name, "%s", name);
-}
-
-static void is(const char *name, Real value)
-{
-    near(name, value, 1e-12L * fabsl(value));
-}
-
-/* The two last states, and with what the step between them was made; without h
- * nothing is known of it. */
-static double x_n[2 * NODES], v_n[2 * NODES], x_now[2 * NODES],
-    v_now[2 * NODES];
-static Options made;
-static int terms_made;
-static long step_now;
-
-static void remember(void)
-{
-    const Simulation *simulation = &machine(0)->simulation;
-    size_t size = 2 * (size_t)simulation->system.nodes * sizeof(double);
-    assert_true(simulation->system.nodes <= NODES);
-    if (!simulation->run[0].x)
-        return;
-    if (player.past.step == step_now + 1) {
-        memcpy(x_n, x_now, size);
-        memcpy(v_n, v_now, size);
-        made = simulation->options;
-        terms_made = simulation->system.terms;
-    } else if (player.past.step != step_now) {
-        made.timestep = 0;
-    } else if (memcmp(x_now, simulation->run[0].x, size) != 0) {
-        made = simulation->options; /* it was taken again */
-        terms_made = simulation->system.terms;
-    }
-    step_now = player.past.step;
-    memcpy(x_now, simulation->run[0].x, size);
-    memcpy(v_now, simulation->run[0].v, size);
-}
-
-/* ---- a step in time ------------------------------------------------------ */
-
-static bool only_springs(const Simulation *simulation)
-{
-    const System *system = &simulation->system;
-    const IntegratorMethod *method = simulation->run[0].method;
-    Filter filter = simulation->options.filter;
-    return system->terms == 1 && terms_made == 1 && made.timestep > 0 &&
-           made.stiffness == simulation->options.stiffness &&
-           made.filter == filter && system_is_free(system) &&
-           system->nodes <= 25 &&
-           system_find_term(system, &mass_spring_energy) && method &&
-           strcmp(method->name, "backward-euler") == 0 &&
-           system->gravity[1] == 0 &&
-           (filter == FILTER_CLAMP || filter == FILTER_NONE);
-}
-
-/* The minimisation of the step that led here: where its trace stands. */
-static void tell_springs(const Simulation *simulation, const Trace *trace)
-{
-    const System *system = &simulation->system;
-    /* directions that were refined are right to 1e-3 */
-    const NewtonRecord *record = trace->record + trace->iteration;
-    const Real right = record->kind == RESIDUAL_VALUE ? 1e-6L : 1e-3L;
-    double u[UNKNOWNS] = {0}, u_tilde[UNKNOWNS], q[UNKNOWNS];
-    Real p[UNKNOWNS], g[UNKNOWNS], slope = 0;
-    int size = 2 * system->nodes, least = 0, most = 0;
-    const IncrementalPotential E = {.system = system,
-                                    .weight = made.timestep * made.timestep,
-                                    .x_n = x_n,
-                                    .u_tilde = u_tilde};
-    for (int i = 0; i < size; i++) {
-        u_tilde[i] = made.timestep * v_n[i];
-        u[i] = trace->x[i] - x_n[i];
-    }
-    Filter filter = simulation->options.filter;
-    Real residual = wide_direction(&E, u, filter, made.timestep, p);
-    near("residual", residual, right * residual + 1e-10L);
-    near("p size", residual * made.timestep,
-         (right * residual + 1e-10L) * made.timestep);
-    exact_derivatives(&E, u, trace->x, g, NULL);
-    for (int i = 0; i < size; i++) {
-        q[i] = (double)p[i];
-        slope += g[i] * p[i];
-    }
-    for (int i = 0; i < size && trace->p; i++)
-        CHECK_NEAR(trace->p[i], p[i], right * (residual + fabsl(slope)));
-    CHECK(!trace->p || (slope > 0) == (trace->slope > 0));
-    for (int s = 0; s < system->springs; s++) {
-        Real pair = exact_strain(system, trace->x, s);
-        least += pair < -1e-9L;
-        most += pair < 1e-9L;
-    }
-    if (simulation->options.filter == FILTER_NONE)
-        least = most = 0;
-    near("projected", (least + most) / 2.0L, (most - least) / 2.0L);
-    EvalPoint at = eval_point_at(system, x_n, u, trace->x);
-    at.w = E.weight;
-    Spot spot = {.at = &at, .h = made.timestep};
-    Real before = oracle_step(&spot, u_tilde).f;
-    spot.p = q;
-    spot.alpha = trace_alpha(trace, trace->trials);
-    Real change = oracle_step(&spot, u_tilde).f - before;
-    near("change", change, 1e-6L * fabsl(change) + 1e-14L * before);
-    if (trace->trials > 0 &&
-        simulation->options.line_search != LINE_SEARCH_NONE)
-        CHECK(fabsl(change) < 1e-14L * before || /* rounding */
-              (change > 0) == !trace->accepted);
-}
-
-static void tell_trace(const Simulation *simulation, const Trace *trace)
-{
-    CHECK(made.timestep == 0 || trace->h == made.timestep);
-    is("nth", trace->iteration + 1);
-    is("length", powl(2, 1 - fmaxl(trace->trials, 1)) *
-                     (trace->first > 0 ? trace->first : 1));
-    Real risen = 0;
-    for (int i = 0; i < trace->updates; i++)
-        risen += trace->record[i].change;
-    is("risen", risen);
-    if (only_springs(simulation) && trace->x) {
-        tell_springs(simulation, trace);
-        return;
-    }
-    is("projected", trace->projected);
-    is("residual", trace->residual);
-    is("p size", (Real)trace->residual * trace->h);
-    if (trace->difference && trace->trials > 0)
-        is("change", trace->difference(trace->function,
-                                       trace_alpha(trace, trace->trials)));
-}
-
-/* ---- energies ------------------------------------------------------------ */
-
-/* The ledger's: what the terms hold is test_laws' matter, what masses do that
- * of check_tables. */
-static void tell_energies(const Simulation *simulation)
-{
-    static const char *const stored[] = {"kinetic", "elastic", "gravity",
-                                         "contact", "hand"};
-    Energies ledger = simulation_energies(simulation, 0);
-    Real size = fabsl(ledger.kinetic) + fabsl(ledger.gravity) + ledger.total;
-    for (int i = 0; i < 5; i++) /* what is rounding is shown as 0 */
-        near(stored[i], energies_of(&ledger, stored[i]), 1e-13L * size);
-    for (int i = 0; i < ledger.rows; i++)
-        is(ledger.row[i].name, ledger.row[i].value);
-}
 
 /* ---- a frame ------------------------------------------------------------- */
 
-static void tell_all(const Show *show)
+/* A number that is said by this name, NaN: it is not, to 1e-12 of itself and
+ * some slack. */
+static void check_number(const char *line, const char *name, double said,
+                         double value, double slack)
 {
-    const Pane *pane = &show->pane[show->active];
-    truths = 0;
-    if (pane->trace)
-        tell_trace(pane->simulation, pane->trace);
-    for (int p = 0; p < show->panes; p++)
-        tell_energies(show->pane[p].simulation);
+    double off = fabs(said - value) - 1e-12 * fabs(value);
+    if (!isnan(said) && said != value && !(off <= slack))
+        fail_msg("%s, step %ld: '%s' says %.12g, not %.12g", line,
+                 player.past.step, name, said, value);
 }
 
-/* Whether some truth of this name is the value; others calculate names of which
- * there is none. */
-static bool is_true(const char *name, double value)
+/* A line of the minimisation. */
+static void check_trace(const char *line, const Pane *pane)
 {
-    bool named = false;
-    for (int i = 0; i < truths; i++) {
-        Real true_value = truth[i].value, slack = truth[i].slack;
-        if (strcmp(truth[i].name, name) != 0)
-            continue;
-        named = true;
-        if (isinf(true_value) ? isinf(value)
-                              : fabsl(value - true_value) <=
-                                    slack + 1e-13L * fabsl(true_value))
-            return true;
-    }
-    return !named;
+    const Trace *trace = pane->trace;
+    double risen = 0, change = NAN, first = trace->first > 0 ? trace->first : 1;
+    for (int i = 0; i < trace->updates; i++)
+        risen += trace->record[i].change;
+    if (trace->difference && trace->trials > 0)
+        change = trace->difference(trace->function,
+                                   trace_alpha(trace, trace->trials));
+    const struct {
+        const char *name;
+        double value;
+    } rows[] = {{"nth", trace->iteration + 1},
+                {"length", first * pow(2, 1 - fmax(trace->trials, 1))},
+                {"risen", risen},
+                {"projected", trace->projected},
+                {"residual", trace->residual},
+                {"p size", trace->residual * trace->h},
+                {"change", change}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        check_number(line, rows[i].name,
+                     fact_number(&pane->facts, rows[i].name), rows[i].value, 0);
 }
 
-/* Facts, and what the energies' card says. */
-static void check_facts(const char *name)
+/* Of the square, unless it has exploded beyond all numbers: facts, and what the
+ * energies' card says, where what is rounding is 0. */
+static void check_frame(const char *line)
 {
-    const Pane *pane = show_pane(&player.show);
-    const Facts *facts = &pane->facts;
-    const History *history = pane->history;
-    double now = simulation_time(pane->simulation);
-    for (const Fact *one = facts->fact; one < facts->fact + facts->count; one++)
-        for (int k = 0; k <= one->point && !one->words; k++)
-            if (!is_true(one->name, one->value[k]))
-                wrong(name, one->name, one->value[k]);
-    for (int s = 0; history && s < history->series; s++) {
-        double value = energies_value(pane->simulation, history, s, now);
-        if (!isnan(value) && !is_true(history->name[s], value))
-            wrong(name, history->name[s], value);
-    }
-}
-
-/* Of the square, unless it has exploded beyond all numbers. */
-static void check_frame(const char *name)
-{
-    const Simulation *simulation = &machine(0)->simulation;
-    if (simulation->scene->picture != PICTURE_SQUARE ||
-        isinf(simulation_energies(simulation, 0).kinetic))
+    const Simulation *simulation = player_simulation(&player);
+    Energies ledger = simulation_energies(simulation, 0);
+    double now = simulation_time(simulation);
+    double size = fabs(ledger.kinetic) + fabs(ledger.gravity) + ledger.total;
+    if (simulation->scene->picture != PICTURE_SQUARE || isinf(ledger.kinetic))
         return;
     player_fill(&player);
-    tell_all(&player.show);
-    check_facts(name);
+    const Pane *pane = show_pane(&player.show);
+    const History *history = pane->history;
+    if (pane->trace)
+        check_trace(line, pane);
+    for (int i = 0; i < ledger.rows; i++) {
+        const Energy *row = &ledger.row[i];
+        check_number(line, row->name, fact_number(&pane->facts, row->name),
+                     row->value, 0);
+        for (int s = 0; history && s < history->series; s++)
+            if (strcmp(history->name[s], row->name) == 0)
+                check_number(line, row->name,
+                             energies_value(simulation, history, s, now),
+                             row->value, 1e-13 * size);
+    }
 }
 
 /* ---- what is played ------------------------------------------------------ */
 
-static void open_scene(const char *line)
-{
-    begin(line);
-    made.timestep = 0;
-    step_now = -1;
-    remember();
-}
-
 static void run(int steps)
 {
-    for (Status status = STATUS_OK; steps > 0 && !status; steps--) {
+    for (Status status = STATUS_OK; steps > 0 && !status; steps--)
         status = player_step(&player);
-        remember();
-    }
 }
 
 static void tell(const char *command)
 {
     player.message[0] = '\0';
     obey(command);
-    remember();
 }
 
 /* Every line of Algorithm 3. */
@@ -301,29 +121,25 @@ static void play(const char *name)
 
 TEST(numbers_of_scenes)
 {
-    faults = 0;
     for (const Scene *scene = scenes; scene->name; scene++) {
         if (scene->picture != PICTURE_SQUARE)
             continue;
-        open_scene(scene->name);
+        begin(scene->name);
         play(scene->name);
     }
-    CHECK(faults == 0);
 }
 
 TEST(numbers_of_pages)
 {
-    faults = 0;
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         char command[64];
-        open_scene("square");
+        begin("square");
         snprintf(command, sizeof command, "page %s", page->name);
         tell(command);
         if (page->law) /* until something touches, flows, nearly breaks */
             run(page->picture);
         play(page->name);
     }
-    CHECK(faults == 0);
 }
 
 /* Later, with other methods, and by hand. */
@@ -335,24 +151,17 @@ TEST(numbers_of_long_runs)
         const char *commands[5];
     } rows[] = {
         {"square --yield 0.05 --hardening 0.1", 4, {"", "set yield 0.1"}},
-        {"square --timestep 1000 --stiffness 10", 1, {""}},
         {"square --damping 0.01", 5, {"", "set damping 0.02"}},
         {"square --filter none --stretch 0.6", 3, {"", "projection"}},
-        {"square --integrator bdf2", 4, {"", "set integrator midpoint"}},
         {"square --integrator sdirk2", 3, {"", "set integrator verlet"}},
-        {"square --segments 3", 2, {"", "grab 0", "drag -1 0.5", "release"}},
         {"square --segments 2", 3, {"", "method", "add-pane", "add-pane"}},
         {"dent --segments 6", 80, {""}},
         {"tear --segments 8", 80, {""}},
-        {"drop --segments 6", 70, {"", "enlarge 4"}},
-        {"squeeze --segments 6", 40, {""}},
         {"bend --segments 16", 60, {""}},
         {"slope", 30, {"", "set friction 0.5"}},
-        {"hang", 30, {"", "pin 3"}},
         {"explosion", 1, {"", "projection"}}};
-    faults = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        open_scene(rows[i].line);
+        begin(rows[i].line);
         for (int k = 0; k < 5 && rows[i].commands[k]; k++) {
             if (rows[i].commands[k][0])
                 tell(rows[i].commands[k]);
@@ -363,7 +172,6 @@ TEST(numbers_of_long_runs)
         walk(rows[i].line);
         end();
     }
-    CHECK(faults == 0);
 }
 
 TESTS(NULL, NULL)

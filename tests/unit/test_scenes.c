@@ -141,11 +141,10 @@ TEST(mass_is_dragged)
 TEST(landscape_minimises_what_it_shows)
 {
     static const char *const lines[] = {
-        "landscape --start 0.6,0.9", "landscape --start 0.2,-0.3 --filter abs",
+        "landscape --start 0.2,-0.3 --filter abs",
         "landscape --start 0.6,0.9 --filter on-demand",
-        "landscape --start 0.6,0.9 --filter none",
         "landscape --start 0.6,0.9 --filter none --line-search none"};
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 6; i++) {
         Simulation *scene = simulate("%s", lines[i / 2]);
         const Descent *descent = &scene->descent;
         bool off = i % 2;
@@ -255,23 +254,13 @@ TEST(scenes_are_rows_of_options)
          "--friction 0.3 --ground 0,2,0,-0.5 --ground 1,0,-1.1,0 --ground "
          "-0.5,0,1.1,0",
          70, 0, 0},
-        {"dent",
-         "square --segments 16 --stiffness 2e5 --stretch 1 --timestep 0.004 "
-         "--tolerance 1e-4 --gravity 9.81 --cells on --at 0,0.62 --velocity "
-         "0.02,-2 --friction 0.3 --yield 0.04 --hardening 0.1 --ball "
-         "0,-0.75,0.35 --ground 0,1,0,-1.15",
-         70, 0, 0},
         {"rub --friction 0.4", "rub --friction 0", 20, 0.4, 0},
-        {"hang --segments 40", "hang --segments 40", 10, 0, 0},
-        {"tear", "tear", 30, 0, 0},
         {"slope --friction 0.2", "slope", 20, 0.2, 0},
         {"drop --friction 0.4 --segments 8", "drop --friction 0 --segments 8",
          100, 0.4, 0},
         {"dent --damping 0.003 --segments 8", "dent --segments 8", 90, 0,
          0.003},
         {"--damping 0.003", "--damping 1", 20, 0, 0.003},
-        {"tear --damping 0.001 --segments 8", "tear --segments 8", 90, 0,
-         0.001},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         Simulation *one = simulate("%s", rows[i].one);
