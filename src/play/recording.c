@@ -228,7 +228,7 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
     return png_file_write(name, recording->message, canvas);
 }
 
-Status recording_states(Recording *recording, bool ledger,
+Status recording_states(Recording *recording,
                         const Simulation *const *simulation, int count,
                         long step)
 {
@@ -242,8 +242,7 @@ Status recording_states(Recording *recording, bool ledger,
             at.number = r;
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLES; t++)
-                if (kinds[t].add && recording->table[t].output.file &&
-                    (!ledger || t == RECORDING_ENERGIES))
+                if (kinds[t].add && recording->table[t].output.file)
                     kinds[t].add(&recording->table[t], &at);
             at.runs++;
             at.nodes += at.run->system->nodes;
@@ -258,10 +257,7 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane)
 {
     Table *log = &recording->table[RECORDING_LOG];
-    /* A negative number is of no iteration: the prescribed motion ended a step.
-     */
-    double iteration = record->iteration < 0 ? NAN : record->iteration;
-    double row[] = {(double)record->step, iteration,         record->residual,
+    double row[] = {(double)record->step, record->iteration, record->residual,
                     record->alpha,        record->trials,    record->slope,
                     record->change,       record->projected, record->factorised,
                     record->shift,        record->status,    record->seconds,
