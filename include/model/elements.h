@@ -72,6 +72,11 @@ struct ElementKind {
     bool (*hessian)(const EvalPoint *at, const Element *element, Filter filter,
                     double H[4][4]);
 
+    /* Hv [4] = H v, out, where that has more digits than H itself; returns as
+     * hessian.  NULL: it has not. */
+    bool (*product)(const EvalPoint *at, const Element *element, Filter filter,
+                    const double v[4], double Hv[4]);
+
     /* With P [4], the change of a and b along p: W at alpha minus W minus
      * alpha grad W.P, J, without cancellation; and the alpha that uses up
      * ELEMENT_LIMIT of s, which must stay above 0, where W is not.  NULL: any s

@@ -67,10 +67,11 @@ void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
 void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
                           int side[3]);
 
-/* The cell that the point at [2] is in, m, where the nodes are at x [2n] m; -1:
- * none.  Contact sees nodes alone: a small ball may have none near it there. */
+/* The first of the cells cell ... end - 1 that the point at [2] is in or on the
+ * border of, m, where the nodes are at x [2n] m; -1: none.  Contact sees nodes
+ * alone: a small ball may have none near it in a cell. */
 int square_mesh_cell_at(const SquareMesh *shape, const double *x,
-                        const double *at);
+                        const double *at, int cell, int end);
 
 /* Whether triangle t is one of the two that a cell is cut into, by one or the
  * other diagonal in turn: ac where column + row is even. */

@@ -54,7 +54,7 @@ struct TermKind {
     /* In messages; NULL: no option brings it. */
     const char *name;
 
-    /* Puts the term in with the numbers of its option, of which the first is
+    /* Puts the term in with the numbers of its option, of which one at least is
      * not 0, or gives them to the one that is there; NULL: it asks for more
      * than these.  Returns OK, OUT_OF_MEMORY. */
     Status (*set)(System *system, const struct SquareMesh *mesh,

@@ -111,8 +111,10 @@ typedef struct Past {
     Machine machine[OPTIONS_MAX_PANES];
     bool keeps;   /* somebody may go back, or looks at steps behind */
     bool goes_on; /* when one of several panes fails the others go on */
-    long same; /* what was told of later steps is no more so; whoever tells of
-                  them makes that good and sets LONG_MAX */
+    long same;    /* Tables of later steps are out of date.  The player writes
+                     them anew and sets LONG_MAX. */
+    long booked;  /* The ledgers of later steps are out of date, alike: a number
+                     that changes after a step changes the ledger of it. */
     size_t bytes, limit;
     /* Work that is under way, a Newton iteration at a time. */
     bool works;    /* the rest means nothing otherwise */

@@ -90,6 +90,8 @@ typedef struct Player {
     const LecturePage *page;
     Recording recording;
     long written; /* the last step in its tables; -1: none */
+    long booked;  /* last step whose row of the ledger is up to date, at most
+                     `written`; -1: none */
     Mode mode;
     int fine; /* one on is: 0 a step, 1 an update, 2 a line */
     Then then;
@@ -100,6 +102,7 @@ typedef struct Player {
     Command later; /* what a drag does as soon as the step is there that is
                       made */
     bool warned;   /* it has stopped because a step did not converge */
+    bool gained;   /* it was told that energy has risen without work */
 
     int gesture;    /* what is done now is undone at once: its number, */
     int gestures;   /* how many there were, */

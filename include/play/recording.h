@@ -14,7 +14,8 @@
  * Of several panes states, log and springs have a column that says which, from
  * 1, and steps are those that they have together.  Where somebody goes back and
  * changes something, the rows of the new steps follow those that were written
- * before: the last rows of a step count.
+ * before: the last rows of a step count.  A number that changes after a step
+ * changes the energies of this step: their row follows, too.
  *
  * Films are made by the program ffmpeg: frames go to it through a pipe, and the
  * end of the name says what it makes of them: .mp4, .webm, .gif or .apng.  All
@@ -95,8 +96,9 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
                        int shown);
 
 /* States and energies of `count` simulations now, if they are asked for; nodes
- * and runs of the second follow those of the first. */
-Status recording_states(Recording *recording,
+ * and runs of the second follow those of the first.
+ *   ledger  in, whether the energies alone are written */
+Status recording_states(Recording *recording, bool ledger,
                         const Simulation *const *simulation, int count,
                         long step);
 

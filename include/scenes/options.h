@@ -164,6 +164,9 @@ void option_write(const OptionRow *row, double value, char *text, size_t size);
 void option_value(const OptionRow *row, const Options *options, char *text,
                   size_t size);
 
+/* Whether a number of the row is not 0: so its term is wanted. */
+bool option_is_on(const OptionRow *row, const Options *options);
+
 /* Its unit as the window writes it, "J/m\u00b2"; "": none.
  *   text  [size] out */
 void option_unit(const OptionRow *row, char *text, size_t size);

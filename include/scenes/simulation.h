@@ -15,6 +15,14 @@
 
 enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 
+/* Steps of backward Euler after which the total energy was higher than before,
+ * by more than the work that was done: the minimiser may lie behind a barrier
+ * that no motion would pass, a body on the other side of another one. */
+typedef struct Gain {
+    long steps;
+    double energy; /* J, all that was gained in them */
+} Gain;
+
 struct Simulation {
     const Scene *scene;
     Options options;                  /* what it was set up with */
@@ -33,6 +41,9 @@ struct Simulation {
     double grip[SIMULATION_MAX_RUNS]; /* a run's friction is that of the options
                                          times this; 0: 1 */
     double lift[SIMULATION_MAX_RUNS]; /* m, its grounds are so much higher */
+    Gain gain[SIMULATION_MAX_RUNS];   /* of each run */
+    double before;           /* J, energy of the run whose step is made, less
+                                the work done until then */
     bool done;               /* the scene came to its end: no more steps */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
@@ -54,7 +65,14 @@ typedef struct Energy {
  * and where the rest has gone since it began:
  *   total at the start + work
  *     = total + what the terms have taken out (TermKind.loss) + dissipated.
- * Each term books for itself; several may share a name. */
+ * Each term books for itself; several may share a name.
+ *
+ * The work of what moves is that of the force at the end of the step, times the
+ * way: right to O(h), and with it backward Euler dissipates in every step where
+ * the potential is convex.  Where it is not (springs buckle, contacts turn, as
+ * in squeeze and rub), dissipated may fall: the method has made energy.  The
+ * mean of both forces would be smaller where something is pressed, and let it
+ * fall in convex potentials, too. */
 enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {

@@ -33,6 +33,15 @@ typedef struct IntegratorMethod {
                                        explicit method, fill new_x and new_v */
 } IntegratorMethod;
 
+/* Time as whole steps from where h was last another one: a sum of all steps
+ * would be wrong in its last digits, and 60 steps of 0.002 s not 0.12 s. */
+typedef struct StepClock {
+    double now;   /* s, since + steps h */
+    double since; /* s, the time at which h became what it is */
+    double h;     /* s, of the steps since then */
+    long steps;   /* made since then */
+} StepClock;
+
 struct TimeIntegrator {
     const IntegratorMethod *method;
     System *system;  /* not owned; its terms may change it */
@@ -40,7 +49,7 @@ struct TimeIntegrator {
     double h;        /* s */
     long steps;      /* done so far */
     Status status;   /* of the last step */
-    double clock;    /* s, sum of all steps */
+    StepClock clock; /* how late it is */
     bool moves;      /* whether anything is moved in the present step */
     double moved;    /* part of its way that moved things went in it */
     double work;     /* J, done so far by what moves walls and pins */

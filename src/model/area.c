@@ -35,33 +35,64 @@ static double make_unit(double v[4], const double instead[4])
  * Hessian maps the plane of a = f+/|f+| and b = f-/|f-| to itself, and what
  * lies across, S of their halves, are eigenvectors with on_plus and on_minus.
  * In that plane a 2x2 matrix Q is projected. */
-bool area_hessian(const double f[4], double unit, double on_plus,
-                  double on_minus, double second, Filter filter, double H[4][4])
+bool area_curvature(const double f[4], double unit, double on_plus,
+                    double on_minus, double second, Filter filter,
+                    AreaCurvature *area)
 {
     static const double any_plus[4] = {0, 0.7071067811865476,
                                        -0.7071067811865476, 0};
     static const double any_minus[4] = {0, 0.7071067811865476,
                                         0.7071067811865476, 0};
-    double p[2], m[2];
+    double p[2], m[2], *a = area->a, *b = area->b, *Q = area->Q;
     area_parts(f, p, m);
-    double a[4] = {p[0], p[1], -p[1], p[0]}, b[4] = {m[0], m[1], m[1], -m[0]};
+    for (int i = 0; i < 4; i++) {
+        a[i] = (i == 2 ? -1 : 1) * p[i == 1 || i == 2];
+        b[i] = (i == 3 ? -1 : 1) * m[i == 1 || i == 2];
+    }
     double plus = unit * make_unit(a, any_plus);
     double minus = unit * make_unit(b, any_minus);
-    double Q[3] = {second * plus * plus + on_plus, -second * plus * minus,
-                   second * minus * minus + on_minus};
-    const double across_a[4] = {a[1], -a[0], a[3], -a[2]};
-    const double across_b[4] = {b[1], -b[0], b[3], -b[2]};
-    bool changed = filter_2x2(filter, Q);
-    if (filter_projects(filter)) {
-        changed = changed || on_plus < 0 || on_minus < 0;
-        on_plus = projected_eigenvalue(filter, on_plus);
-        on_minus = projected_eigenvalue(filter, on_minus);
+    Q[0] = second * plus * plus + on_plus;
+    Q[1] = -second * plus * minus;
+    Q[2] = second * minus * minus + on_minus;
+    for (int i = 0; i < 4; i++) {
+        area->across_a[i] = i % 2 ? -a[i - 1] : a[i + 1];
+        area->across_b[i] = i % 2 ? -b[i - 1] : b[i + 1];
     }
+    area->on_plus = on_plus;
+    area->on_minus = on_minus;
+    bool changed = filter_2x2(filter, Q);
+    if (!filter_projects(filter))
+        return changed;
+    area->on_plus = projected_eigenvalue(filter, on_plus);
+    area->on_minus = projected_eigenvalue(filter, on_minus);
+    return changed || on_plus < 0 || on_minus < 0;
+}
+
+void area_hessian(const AreaCurvature *area, double H[4][4])
+{
+    const double *a = area->a, *b = area->b, *Q = area->Q;
     for (int r = 0; r < 4; r++)
         for (int c = 0; c < 4; c++)
             H[r][c] = Q[0] * a[r] * a[c] + Q[2] * b[r] * b[c] +
                       Q[1] * (a[r] * b[c] + b[r] * a[c]) +
-                      on_minus * across_b[r] * across_b[c] +
-                      on_plus * across_a[r] * across_a[c];
-    return changed;
+                      area->on_minus * area->across_b[r] * area->across_b[c] +
+                      area->on_plus * area->across_a[r] * area->across_a[c];
+}
+
+static double dot(const double a[4], const double b[4])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+void area_product(const AreaCurvature *area, const double v[4], double Hv[4])
+{
+    const double *Q = area->Q;
+    double on_a = dot(area->a, v), on_b = dot(area->b, v);
+    double along_a = Q[0] * on_a + Q[1] * on_b;
+    double along_b = Q[1] * on_a + Q[2] * on_b;
+    double across_a = area->on_plus * dot(area->across_a, v);
+    double across_b = area->on_minus * dot(area->across_b, v);
+    for (int i = 0; i < 4; i++)
+        Hv[i] = along_a * area->a[i] + along_b * area->b[i] +
+                across_a * area->across_a[i] + across_b * area->across_b[i];
 }

@@ -37,11 +37,23 @@ double area_reach(const double f[4], double unit, double most,
                   const double P[4]);
 
 /* H = on_plus on the space of f+, on_minus on that of f-, plus
- * second (unit K f)(unit K f)^T, [4][4] out, filtered.  With on_plus = all +
- * slope, on_minus = all - slope, the first two are all I + slope K.
- * Returns whether an eigenvalue was changed. */
-bool area_hessian(const double f[4], double unit, double on_plus,
-                  double on_minus, double second, Filter filter,
-                  double H[4][4]);
+ * second (unit K f)(unit K f)^T, by its eigenvectors: Q in the plane of a and
+ * b, on_plus and on_minus across.  All have length 1. */
+typedef struct AreaCurvature {
+    double a[4], b[4], across_a[4], across_b[4];
+    double Q[3]; /* aa, ab, bb */
+    double on_plus, on_minus;
+} AreaCurvature;
+
+/* The same, filtered.  Returns whether an eigenvalue was changed. */
+bool area_curvature(const double f[4], double unit, double on_plus,
+                    double on_minus, double second, Filter filter,
+                    AreaCurvature *area);
+
+/* H [4][4], out; and Hv [4] = H v, out.  A turn v = S f has only the curvature
+ * across a in the product, however small that is; in the numbers of H it is
+ * lost in the last digits of the larger ones. */
+void area_hessian(const AreaCurvature *area, double H[4][4]);
+void area_product(const AreaCurvature *area, const double v[4], double Hv[4]);
 
 #endif

@@ -110,22 +110,39 @@ static inline void add_block(const Element *element, int vectors,
     }
 }
 
+/* out += Hessian q of an element. */
+static bool add_product(const ElementWalk *walk, Filter filter, const double *q,
+                        double *out)
+{
+    const Element *element = &walk->element;
+    double H[4][4], v[4], Hv[4] = {0};
+    bool changed;
+    element_vectors(element, q, v);
+    if (walk->kind->product) {
+        changed = walk->kind->product(walk->at, element, filter, v, Hv);
+    } else {
+        changed = walk->kind->hessian(walk->at, element, filter, H);
+        for (int r = 0; r < 2 * element->vectors; r++)
+            for (int c = 0; c < 2 * element->vectors; c++)
+                Hv[r] += H[r][c] * v[c];
+    }
+    element_add(element, element->factor, Hv, out);
+    return changed;
+}
+
 int elements_hessian(const EvalPoint *at, Filter filter, const int *slot,
                      const double *q, double *out)
 {
     int projected = 0, entries = entries_of_a_block(at);
-    double H[4][4], v[4];
+    double H[4][4];
     for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
         const Element *element = &walk.element;
-        projected += walk.kind->hessian(at, element, filter, H);
         if (q) {
-            double Hv[4] = {0};
-            element_vectors(element, q, v);
-            for (int r = 0; r < 2 * element->vectors; r++)
-                for (int c = 0; c < 2 * element->vectors; c++)
-                    Hv[r] += H[r][c] * v[c];
-            element_add(element, element->factor, Hv, out);
-        } else if (element->vectors == 1)
+            projected += add_product(&walk, filter, q, out);
+            continue;
+        }
+        projected += walk.kind->hessian(at, element, filter, H);
+        if (element->vectors == 1)
             add_block(element, 1, H, slot + entries * element->block, out);
         else
             add_block(element, 2, H, slot + entries * element->block, out);

@@ -88,15 +88,33 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
     g[3] = 0.5 * (p * plus[0] - q * minus[0]);
 }
 
-static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
-                    double H[4][4])
+static bool curvature(const EvalPoint *at, const Element *element,
+                      Filter filter, AreaCurvature *area)
 {
     const NeoHookean *data = at->term->data;
     double J = element->s, p, q;
     double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
     stresses(data, J, &p, &q);
-    return area_hessian(element->v, unit_of(data), 0.5 * p, 0.5 * q,
-                        data->area * bend, filter, H);
+    return area_curvature(element->v, unit_of(data), 0.5 * p, 0.5 * q,
+                          data->area * bend, filter, area);
+}
+
+static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
+                    double H[4][4])
+{
+    AreaCurvature area;
+    bool changed = curvature(at, element, filter, &area);
+    area_hessian(&area, H);
+    return changed;
+}
+
+static bool product(const EvalPoint *at, const Element *element, Filter filter,
+                    const double v[4], double Hv[4])
+{
+    AreaCurvature area;
+    bool changed = curvature(at, element, filter, &area);
+    area_product(&area, v, Hv);
+    return changed;
 }
 
 /* With J + alpha J1 + alpha^2 J2 = J (1 + z), and ln(1 + z) less its part of
@@ -134,7 +152,7 @@ static double curvature_bound(const EvalPoint *at)
 }
 
 static const ElementKind triangle = {ELEMENT_FUNCTIONS, .blocks = count,
-                                     .reach = reach};
+                                     .reach = reach, .product = product};
 
 /* Cuts each cell into two triangles.  Their sides stay as springs, which are
  * only drawn; the other diagonal gets k = 0. */

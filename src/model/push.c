@@ -70,9 +70,10 @@ static bool has_room(const Contact *contact, const System *system,
         if (after < fmin(before, keep))
             return false;
     }
+    const SquareMesh *shape = &contact->push.shape;
     return obstacle->kind == OBSTACLE_WALL ||
-           square_mesh_cell_at(&contact->push.shape, x, o) < 0 ||
-           square_mesh_cell_at(&contact->push.shape, x, obstacle->o) >= 0;
+           square_mesh_cell_at(shape, x, o, 0, shape->cells) < 0 ||
+           square_mesh_cell_at(shape, x, obstacle->o, 0, shape->cells) >= 0;
 }
 
 /* The largest part of the way that has room, up to the first place that has

@@ -92,15 +92,17 @@ static double twice_area(const double *a, const double *b, const double *p)
 }
 
 int square_mesh_cell_at(const SquareMesh *shape, const double *x,
-                        const double *at)
+                        const double *at, int cell, int end)
 {
     int node[3], side[3];
-    for (int t = 0; t < 4 * shape->cells; t++) {
+    for (int t = 4 * cell; t < 4 * end; t++) {
         square_mesh_triangle(shape, t, node, side);
         const double *a = x + 2 * node[0], *b = x + 2 * node[1];
         const double *c = x + 2 * node[2];
-        double first = twice_area(a, b, at), second = twice_area(b, c, at);
-        if (first * second > 0 && first * twice_area(c, a, at) > 0)
+        double turn = twice_area(a, b, c) < 0 ? -1 : 1;
+        if (twice_area(a, b, c) != 0 && turn * twice_area(a, b, at) >= 0 &&
+            turn * twice_area(b, c, at) >= 0 &&
+            turn * twice_area(c, a, at) >= 0)
             return t / 4;
     }
     return -1;

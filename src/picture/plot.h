@@ -28,7 +28,7 @@ typedef struct Plot {
     const Show *show;
     const Simulation *simulation; /* of the pane; of a card the active one's */
     const LecturePage *told; /* the page, unless its answer is not shown yet */
-    Box box;                      /* pixels; inside the numbers of the axes */
+    Box box;                 /* pixels; inside the numbers of the axes */
     Camera camera; /* of the logarithm, where an axis is logarithmic */
     Axis x, y;     /* 0 ... 0: a stage in metres */
     int pane;      /* index in the show */

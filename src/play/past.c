@@ -325,7 +325,7 @@ static bool watch(void *user, const NewtonRecord *record)
     if (machine->simulation.scene->step) /* an update is a step */
         machine->outcome.change = record->change;
     const Newton *newton = listened_to(&machine->simulation);
-    if (newton && machine->rounds.size > 0)
+    if (newton && machine->rounds.size > 0 && record->iteration >= 0)
         rounds_add(&machine->rounds, newton, record);
     Records *records = &machine->records;
     if (records_fit(records, records->count + 1))
@@ -722,10 +722,13 @@ bool past_drawn(Past *past)
 
 /* ---- what is done -------------------------------------------------------- */
 
-/* What was told of later steps than this is no more so. */
-static void forget_behind(Past *past, long step)
+/* Later steps than this are made anew, and this one too, if its state has
+ * changed.  The ledger of this step has changed in any case. */
+static void forget_behind(Past *past, long step, bool changed)
 {
-    past->same = step < past->same ? step : past->same;
+    long same = step - changed;
+    past->same = same < past->same ? same : past->same;
+    past->booked = step - 1 < past->booked ? step - 1 : past->booked;
 }
 
 /* All machines stand at the step that is shown. */
@@ -763,7 +766,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     Branch *branch = push_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
-    forget_behind(past, -1);
+    forget_behind(past, 0, true);
     for (int p = 0; p < panes && !status; p++) {
         Entry *entry = &branch->entry[p];
         entry->control = control_keep(past->machine[p].start);
@@ -874,12 +877,27 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
         return STATUS_OUT_OF_MEMORY;
     if (edit->kind == branch->edit.kind) /* what undo tells: the last of it */
         branch->edit = *edit;
-    forget_behind(past, past->step - moves(edit));
+    forget_behind(past, past->step, moves(edit));
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)
             status = change_entry(past, p, edit,
                                   &branch->entry[i * branch->panes + p]);
     return status || again ? status : settle(past);
+}
+
+/* What plots show of the steps at which branches low ... high begin is made
+ * once more, with the control that goes on from there now. */
+static void sample_again(Past *past, int low, int high)
+{
+    for (int b = low; b <= high; b++) {
+        const Branch *branch = &past->branch[b];
+        if (!past->keeps || branch->fresh ||
+            branch->first > past_newest(past) ||
+            !kept_of(past, 0, branch->first).entry->state)
+            continue;
+        past_aim(past, branch->first, false);
+        past_finish(past);
+    }
 }
 
 const Command *past_undo(Past *past, int way)
@@ -894,15 +912,20 @@ const Command *past_undo(Past *past, int way)
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     for (int b = low + 1; b <= high; b++) {
         const Branch *branch = &past->branch[b];
-        forget_behind(
-            past, branch->fresh ? -1 : branch->first - moves(&branch->edit));
+        if (branch->fresh)
+            forget_behind(past, 0, true);
+        else
+            forget_behind(past, branch->first, moves(&branch->edit));
     }
     stop_work(past);
     leave_all(past);
     present(past)->shown = past->step;
     past->now = to;
     past->step = present(past)->shown;
-    past_aim(past, past->step, false);
+    long shown = past->step;
+    sample_again(past, low + 1, high);
+    past->step = shown;
+    past_aim(past, shown, false);
     return &past->branch[high].edit;
 }
 
@@ -912,6 +935,7 @@ void past_create(bool keeps, bool goes_on, Past *past)
                    .keeps = keeps,
                    .goes_on = goes_on,
                    .same = LONG_MAX,
+                   .booked = LONG_MAX,
                    .limit = PAST_BYTES};
 }
 

@@ -279,8 +279,11 @@ Status player_create(const Options *options, int count, char *const *words,
 {
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
-    *player = (Player){
-        .words = words, .stop = stop, .left = options->page, .written = -1};
+    *player = (Player){.words = words,
+                       .stop = stop,
+                       .left = options->page,
+                       .written = -1,
+                       .booked = -1};
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();
     Status status = script_read(options->script, &player->script,

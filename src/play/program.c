@@ -178,6 +178,21 @@ static void print_newton(FILE *file, const Simulation *simulation)
             print(file, rows[i].name, "%lld", rows[i].count);
 }
 
+/* That total energy has risen in steps of backward Euler, if it has. */
+static void print_gain(FILE *file, const Simulation *simulation)
+{
+    Gain sum = {0};
+    for (int r = 0; r < simulation->runs; r++) {
+        sum.steps += simulation->gain[r].steps;
+        sum.energy += simulation->gain[r].energy;
+    }
+    if (sum.steps > 0)
+        print(file, "energy gained",
+              "%.4g J without work, in %ld steps of backward Euler; a shorter "
+              "timestep gains less",
+              sum.energy, sum.steps);
+}
+
 /* One quantity a line: how far a pane came, what it took, and where that led
  * its first run; of several panes those of each, one after the other. */
 static void print_summary(FILE *file, const Player *player)
@@ -198,6 +213,7 @@ static void print_summary(FILE *file, const Player *player)
                   simulation->start[0] + 0.0); /* no -0 */
             print(file, "energy at end", "%.9g J",
                   simulation_energies(simulation, 0).total);
+            print_gain(file, simulation);
         }
         fprintf(file, "steps not converged %ld", simulation->unconverged);
         for (int i = 0; i < STATUS_COUNT; i++)

@@ -228,7 +228,7 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
     return png_file_write(name, recording->message, canvas);
 }
 
-Status recording_states(Recording *recording,
+Status recording_states(Recording *recording, bool ledger,
                         const Simulation *const *simulation, int count,
                         long step)
 {
@@ -242,7 +242,8 @@ Status recording_states(Recording *recording,
             at.number = r;
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLES; t++)
-                if (kinds[t].add && recording->table[t].output.file)
+                if (kinds[t].add && recording->table[t].output.file &&
+                    (!ledger || t == RECORDING_ENERGIES))
                     kinds[t].add(&recording->table[t], &at);
             at.runs++;
             at.nodes += at.run->system->nodes;
@@ -257,7 +258,10 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane)
 {
     Table *log = &recording->table[RECORDING_LOG];
-    double row[] = {(double)record->step, record->iteration, record->residual,
+    /* A negative number is of no iteration: the prescribed motion ended a step.
+     */
+    double iteration = record->iteration < 0 ? NAN : record->iteration;
+    double row[] = {(double)record->step, iteration,         record->residual,
                     record->alpha,        record->trials,    record->slope,
                     record->change,       record->projected, record->factorised,
                     record->shift,        record->status,    record->seconds,

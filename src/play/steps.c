@@ -39,15 +39,16 @@ static Status record_updates(Player *player, long step)
     return status;
 }
 
-/* The step that is shown, if it is the next one that is not written yet and all
- * panes have its records: they have made it, and not found its state. */
+/* Writes the step that is shown, if it is the next one that is not written yet
+ * and all panes have its records: they have made it, and not found its state.
+ * Writes its row of the ledger alone, if only that is out of date. */
 static Status record_step(Player *player)
 {
     const Past *past = &player->past;
     const Simulation *simulation[OPTIONS_MAX_PANES];
     int panes = past_panes(past);
     long step = past->step;
-    bool due = step == player->written + 1;
+    bool due = step == player->booked + 1, again = step <= player->written;
     for (int p = 0; p < panes; p++) {
         const Machine *machine = &past->machine[p];
         simulation[p] = &machine->simulation;
@@ -56,11 +57,15 @@ static Status record_step(Player *player)
     }
     if (!due)
         return STATUS_OK;
-    player->written = step;
-    Status status = step > 0 ? record_updates(player, step) : STATUS_OK;
-    return status
-               ? status
-               : recording_states(&player->recording, simulation, panes, step);
+    Status status = STATUS_OK;
+    if (step > 0 && !again)
+        status = record_updates(player, step);
+    player->booked = step;
+    if (!again)
+        player->written = step;
+    return status ? status
+                  : recording_states(&player->recording, again, simulation,
+                                     panes, step);
 }
 
 Status player_write_rest(Player *player)
@@ -75,13 +80,13 @@ Status player_write_rest(Player *player)
         status = record_updates(player, shown + 1);
     if (!past->keeps || !player->recording.tables)
         return status;
-    while (player->written < past_newest(past) && !status && !*player->stop) {
-        long next = player->written + 1;
+    while (player->booked < past_newest(past) && !status && !*player->stop) {
+        long next = player->booked + 1;
         past_aim(past, next, again);
         status = past_finish(past);
         if (!status || status_is_unconverged(status))
             status = record_step(player);
-        again = player->written < next;
+        again = player->booked < next;
     }
     past_aim(past, shown, false);
     past_finish(past);
@@ -134,8 +139,8 @@ static void enter_scene(Player *player)
 static void follow(Player *player)
 {
     Past *past = &player->past;
-    long same = past->same;
-    past->same = LONG_MAX;
+    long same = past->same, booked = past->booked;
+    past->same = past->booked = LONG_MAX;
     player->changed = true;
     if (player_stands(player))
         player->sampled = -1;
@@ -146,6 +151,8 @@ static void follow(Player *player)
         enter_scene(player);
     if (player->written > same)
         player->written = same;
+    if (player->booked > booked)
+        player->booked = booked;
 }
 
 Status player_begin(Player *player, const Options *options, int count,
@@ -160,7 +167,7 @@ Status player_begin(Player *player, const Options *options, int count,
     player_leave_step(player);
     player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
     player->sampled = -1;
-    player->warned = player->holds = false;
+    player->warned = player->gained = player->holds = false;
     follow(player);
     return record_step(player);
 }
@@ -174,7 +181,7 @@ Status player_change(Player *player, const Command *change, int from, int to,
     Status status = past_edit(past, change, from, to, again, player->gesture);
     if (!status)
         follow(player);
-    return status;
+    return status || again ? status : record_step(player);
 }
 
 /* ---- where it stops by itself -------------------------------------------- */
@@ -197,6 +204,27 @@ static void report_rest(Player *player)
                 simulation_is_handled(player_simulation(player))
                     ? "pull a node, "
                     : "");
+}
+
+/* Reports the first step of a run in which the total energy has risen without
+ * work. */
+static void report_gain(Player *player)
+{
+    const Past *past = &player->past;
+    if (player->given[0].steps >= 0 || !player->attended)
+        return;
+    for (int p = 0; p < past_panes(past) && !player->gained; p++) {
+        const Simulation *simulation = &past->machine[p].simulation;
+        for (int r = 0; r < simulation->runs && !player->gained; r++) {
+            player->gained = simulation->gain[r].steps > 0;
+            if (player->gained)
+                player_note(player,
+                            "step %ld: the total energy has risen by %.3g J "
+                            "without work; a long step of backward Euler can "
+                            "do that",
+                            past->step, simulation->gain[r].energy);
+        }
+    }
 }
 
 /* A run stops by itself where all panes have ended, a step did not converge, or
@@ -391,6 +419,8 @@ static Status step_shown(Player *player, Status status, long before, bool made)
         return player_show(player, seen, THEN_NOTHING);
     }
     status = record_step(player);
+    if (!status && runs)
+        report_gain(player);
     if (!status && runs)
         detect_rest(player);
     else if (!status && then == THEN_TELL)

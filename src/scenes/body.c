@@ -149,15 +149,17 @@ static int list_obstacles(const Options *options,
     }
     if (options->ceiling[1] != 0) {
         const double *ceiling = options->ceiling;
-        /* It makes whole steps until it is where it stops, or below. */
-        double step = options->timestep * -ceiling[1];
-        double steps = ceil((ceiling[0] - ceiling[2]) / step - 1e-9);
-        list[count++] = (Obstacle){
-            .kind = OBSTACLE_WALL,
-            .n = {0, -1},
-            .o = {0, ceiling[0]},
-            .node = -1,
-            .motion = {1, {steps * options->timestep}, {{0, ceiling[1]}}}};
+        /* Where something blocks it, it gives up after the time of its way. */
+        double way = (ceiling[2] - ceiling[0]) / ceiling[1];
+        list[count++] = (Obstacle){.kind = OBSTACLE_WALL,
+                                   .n = {0, -1},
+                                   .o = {0, ceiling[0]},
+                                   .node = -1,
+                                   .motion = {1,
+                                              {way + options->timestep},
+                                              {{0, ceiling[1]}},
+                                              true,
+                                              {0, ceiling[2]}}};
     }
     if (options->scene->own)
         list[count++] = options->scene->own(options);
@@ -242,7 +244,7 @@ static Status set_terms(const Options *options, System *system)
         status = cells_set(system, &shape, k_c);
     for (const OptionRow *row = option_rows; row->name && !status; row++) {
         const double *number = options->number + row->slot;
-        if (row->term && row->term->set && number[0] == 0)
+        if (row->term && row->term->set && !option_is_on(row, options))
             system_remove_term(system, row->term);
         else if (row->term && row->term->set)
             status = row->term->set(system, &shape, number);
@@ -362,13 +364,9 @@ Status create_square(Simulation *simulation)
 
 const char *body_needs_end_of_step(const Options *options)
 {
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        int first = row->times > 0 ? row->counter : row->slot;
-        for (int i = 0; i < row->count || i == 0; i++)
-            if (row->term && row->term->end_of_step &&
-                options->number[first + i] != 0)
-                return row->term->name;
-    }
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->term && row->term->end_of_step && option_is_on(row, options))
+            return row->term->name;
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
@@ -430,6 +428,17 @@ static double side_of(const double *a, const double *b, const double *p)
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
+/* No ball begins inside of a cell: contact sees nodes alone, and a small ball
+ * may have none near it. */
+static Status check_balls(const Options *options, const SquareMesh *mesh,
+                          const double *x, Refusal told)
+{
+    for (int k = 0; k < options->balls; k++)
+        if (square_mesh_cell_at(mesh, x, options->ball[k], 0, mesh->cells) >= 0)
+            return refuse(told, "ball %d would be inside of a cell", k);
+    return STATUS_OK;
+}
+
 /* Whether the obstacles of these options leave room for the bodies, and the
  * obstacle `number` so many parts of the barrier's width. */
 static Status check_room(const Simulation *simulation, const Options *options,
@@ -449,11 +458,9 @@ static Status check_room(const Simulation *simulation, const Options *options,
         status = check_places(&system, simulation->run[run].x,
                               apart * contact.barrier.d_hat, number, told);
     }
-    for (int k = 0; k < options->balls && !status; k++)
-        if (square_mesh_cell_at(&simulation->mesh, simulation->run[0].x,
-                                options->ball[k]) >= 0)
-            status = refuse(told, "ball %d would be inside of a cell", k);
-    return status;
+    return status ? status
+                  : check_balls(options, &simulation->mesh,
+                                simulation->run[0].x, told);
 }
 
 Status simulation_has_room(const Simulation *simulation, const Options *options,
@@ -496,6 +503,25 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
            side_of(c, d, a) * side_of(c, d, b) <= 0;
 }
 
+/* No body begins inside of another one: outlines do not cross, so one node
+ * tells. */
+static Status check_inside(const Options *options, const SquareMesh *shape,
+                           const double *x, Refusal told)
+{
+    int cells = shape->cells / shape->bodies;
+    int nodes = shape->nodes / shape->bodies;
+    for (int inner = 0; inner < shape->bodies && options->self_contact; inner++)
+        for (int outer = 0; outer < shape->bodies; outer++)
+            if (inner != outer &&
+                square_mesh_cell_at(shape, x, x + 2 * inner * nodes,
+                                    outer * cells, (outer + 1) * cells) >= 0)
+                return refuse(told,
+                              "--body: body %d would begin inside of body %d; "
+                              "move one, or --self-contact off",
+                              inner + 1, outer + 1);
+    return STATUS_OK;
+}
+
 /* No outline begins across another or itself. */
 static Status check_overlap(const Options *options, const double *x,
                             Refusal told)
@@ -516,7 +542,7 @@ static Status check_overlap(const Options *options, const double *x,
                               other[0], other[1], edge[0], edge[1]);
         }
     }
-    return STATUS_OK;
+    return check_inside(options, &shape, x, told);
 }
 
 Status body_check(const Options *options, Refusal told)
@@ -534,6 +560,10 @@ Status body_check(const Options *options, Refusal told)
         status = check_overlap(options, x, told);
     if (!status)
         status = check_places(&system, x, 0, -1, told);
+    if (!status) {
+        const SquareMesh shape = body_shape(options);
+        status = check_balls(options, &shape, x, told);
+    }
     free(x);
     system_free(&system);
     return status;

@@ -169,7 +169,7 @@ const OptionRow option_rows[] = {
              1e9),
      NEEDS(BODY), TIMES(OPTIONS_MAX_BALLS, balls), TERM(contact_energy), LIVE},
     {NUMBERS(ceiling, 3, "Y,V,STOP",
-             "comes down with V < 0 (m/s) until Y <= STOP; no friction", "",
+             "comes down with V < 0 (m/s) until Y = STOP; no friction", "",
              -1e9, 1e9),
      NEEDS(BODY), TERM(contact_energy)},
     {NUMBERS(barrier, 2, "DHAT,KAPPA",
@@ -332,6 +332,16 @@ void option_value(const OptionRow *row, const Options *options, char *text,
 }
 
 /* ---- the row of numbers ------------------------------------------------- */
+
+bool option_is_on(const OptionRow *row, const Options *options)
+{
+    bool on = false;
+    if (row->times > 0)
+        return options->number[row->counter] > 0;
+    for (int i = 0; i < row->count || i == 0; i++)
+        on = on || options->number[row->slot + i] != 0;
+    return on;
+}
 
 void option_unit(const OptionRow *row, char *text, size_t size)
 {

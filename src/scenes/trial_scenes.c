@@ -148,7 +148,7 @@ static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
  * a whole second; NaN: it has not come so far. */
 static double energy_later(const Simulation *simulation, TimeIntegrator *run)
 {
-    while (run->clock + 0.5 * run->h < 1) {
+    while (run->clock.now + 0.5 * run->h < 1) {
         Status status = time_integrator_step(run);
         if (status && !status_is_unconverged(status))
             return NAN;

@@ -212,7 +212,9 @@ static Status newton_solve(Newton *newton)
 /* How well p solves H p = -g, H applied term by term.
  *   error  out, kg^(1/2) m, a bound of |p - exact p|_M: |g + H p|_(M^-1) where
  *          H - M is positive semi-definite; else twice the correction that the
- *          factor proposes
+ *          factor proposes, which must be the factor of H itself.  A factor of
+ *          an earlier Hessian may be far stiffer, where a contact has opened:
+ *          projection on demand is then judged as if it projected here.
  * Returns as newton_solve. */
 static Status direction_error_bound(Newton *newton, double *error)
 {
@@ -220,11 +222,14 @@ static Status direction_error_bound(Newton *newton, double *error)
     const System *system = newton->system;
     const Iterate *at = &newton->at;
     double *r = search->r, *z = search->z, square = 0;
-    incremental_potential_product(at, search->filter, at->p, search->q);
+    Filter filter = search->filter;
+    if (filter == FILTER_NONE && search->moved > 0)
+        filter = FILTER_CLAMP;
+    incremental_potential_product(at, filter, at->p, search->q);
     for (int i = 0; i < 2 * system->nodes; i++)
         r[i] = -at->g[i] - search->q[i];
     *error = system_inverse_mass_norm(system, r);
-    if (search->filter != FILTER_NONE)
+    if (filter != FILTER_NONE)
         return STATUS_OK;
     Status status = apply_factor(newton, r, z);
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -341,8 +346,7 @@ static Status find_residual(Newton *newton, bool exact)
     const double h = newton->settings.h;
     Status status = STATUS_OK;
     double error = 0;
-    record->residual =
-        largest_row_sum(newton->system->nodes, newton->at.p) / h;
+    record->residual = largest_row_sum(newton->system->nodes, newton->at.p) / h;
     record->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
     if (!isfinite(record->residual))
         return STATUS_NOT_FINITE;
@@ -410,8 +414,8 @@ Status find_direction(Newton *newton)
     if (factor_is_near(newton) && refine_with_last_factor(newton)) {
         keep_momentum(newton);
         Status status = find_residual(newton, false);
-        bool decided = newton->passes ||
-                       newton->record.residual > newton->tolerance;
+        bool decided =
+            newton->passes || newton->record.residual > newton->tolerance;
         if (status || decided)
             return status;
     }

@@ -70,8 +70,10 @@ static void aim_ahead(TimeIntegrator *run, double h, const double *v,
 }
 
 /* The implicit Euler step of the slides (Algorithm 3): u_tilde = h v_n,
- * w = h^2, v_(n+1) = u/h.  Order 1; damps, never gains:
- * M|v1-v0|^2/2 + P(x1) <= M|v0|^2/2 + P(x0). */
+ * w = h^2, v_(n+1) = u/h.  Order 1.  E(x1) <= E(x0) says
+ * M|v1-v0|^2/2 + P(x1) <= M|v0|^2/2 + P(x0).  It damps where P is convex from
+ * x0 to x1; else the total energy M|v1|^2/2 + P(x1) may rise: a long step may
+ * lead a body to the other side of another one. */
 static void backward_euler_aim(TimeIntegrator *run)
 {
     double h = run->h;

@@ -102,13 +102,27 @@ static bool hand_moves(const Contact *contact)
            moves(contact, contact->push.obstacle);
 }
 
+/* An obstacle that would pass the place at which it stops goes just there. */
+static void stop_obstacle(Obstacle *obstacle, double h)
+{
+    double *v = obstacle->v, square = v[0] * v[0] + v[1] * v[1], left = 0;
+    double way[2];
+    for (int c = 0; c < 2; c++) {
+        way[c] = obstacle->motion.stop[c] - obstacle->o[c];
+        left += way[c] * v[c]; /* times |v|^2, s */
+    }
+    bool here = left <= 1e-9 * h * square; /* but for rounding */
+    for (int c = 0; c < 2; c++)
+        v[c] = here ? 0 : left < h * square ? way[c] / h : v[c];
+}
+
 /* Before a step: each obstacle's v is what its motion has for this step.
  * Returns whether anything moves. */
 static bool prescribed_begin(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     bool any = run->system->pin_v != NULL;
-    double half_way = run->clock + 0.5 * run->h;
+    double half_way = run->clock.now + 0.5 * run->h;
     run->moved = 0;
     run->left = 1;
     run->part = 0;
@@ -121,6 +135,8 @@ static bool prescribed_begin(TimeIntegrator *run)
         for (int i = motion->phases - 1; i >= 0; i--)
             if (half_way < motion->until[i])
                 memcpy(obstacle->v, motion->v[i], sizeof obstacle->v);
+        if (motion->stops)
+            stop_obstacle(obstacle, run->h);
     }
     if (contact)
         push_begin(contact, run->system, run->x, run->h);
@@ -258,6 +274,21 @@ static bool prescribed_goes_on(TimeIntegrator *run, Status *status)
     return false;
 }
 
+/* Reports the end of a step that the prescribed motion has ended: the record is
+ * of no iteration. */
+static void report_end(const Newton *newton, Status status)
+{
+    const NewtonSettings *settings = &newton->settings;
+    const NewtonRecord end = {.step = newton->step,
+                              .iteration = -1,
+                              .residual = newton->record.residual,
+                              .kind = newton->record.kind,
+                              .status = status,
+                              .solver = newton->record.solver};
+    if (settings->observer)
+        settings->observer(settings->user, &end);
+}
+
 /* J, what those who moved things have done in a step.  Of the pins: their
  * reaction, which is what E's gradient has in their places, times their way. Of
  * the obstacles: the forces on the nodes, normal and of friction, times the
@@ -300,6 +331,15 @@ static double prescribed_work(const TimeIntegrator *run, double weight)
 
 /* ---- a step ------------------------------------------------------------- */
 
+/* One more step of h. */
+static void tick(StepClock *clock, double h)
+{
+    if (h != clock->h)
+        *clock = (StepClock){.since = clock->now, .h = h};
+    clock->steps++;
+    clock->now = clock->since + (double)clock->steps * h;
+}
+
 /* The step ends: made, if its status is OK or an unconverged one; else x and v
  * stay. */
 static Status end_step(TimeIntegrator *run, Status status)
@@ -318,7 +358,7 @@ static Status end_step(TimeIntegrator *run, Status status)
                                run->new_x + 2 * hand->node);
     memcpy(run->x, run->new_x, both * sizeof(double));
     run->steps++;
-    run->clock += run->h;
+    tick(&run->clock, run->h);
     if (run->moves)
         run->work += prescribed_work(run, run->newton->at.E.weight);
     System *system = run->system;
@@ -396,6 +436,8 @@ Status time_integrator_advance(TimeIntegrator *run)
             prescribed_start(run);
             continue;
         }
+        if (status != run->newton->status)
+            report_end(run->newton, status);
         if (status && !status_is_unconverged(status))
             return end_step(run, status);
         run->worst = status ? status : run->worst;

@@ -58,6 +58,34 @@ verdict ends_that_did_not_converge_are_told "$(
     ends 1 --steps 5 --stiffness 1e15 --timestep 100
     ends 1 --steps 30 unprojected
 )"
+# A step that is ended by what moves has a row for that, besides those of its
+# minimisations.
+told() { # REASON LINE
+    reason=$1
+    shift
+    "$elasto" --headless --quiet --log log "$@" >/dev/null 2>error
+    [ $? = 3 ] || echo "$*: it does not end with 3"
+    "$elasto" --headless "$@" 2>error |
+        sed -n "s/^  $reason  *\([0-9]*\)\$/\1/p" >summed
+    [ -s summed ] || echo "$*: nothing is $reason"
+    grep -c ",$reason," log | cmp -s - summed ||
+        echo "$*: $reason $(cat summed), in the log $(grep -c ",$reason," log)"
+}
+verdict what_is_blocked_is_told "$(
+    told blocked squeeze --segments 4 --pin top --steps 30
+    told blocked tear --segments 4 --ground 1,0,-0.52,0 --timestep 0.01 \
+        --steps 30
+    told blocked return --segments 4 --body 0,0 --body 0,1.1 \
+        --ground 0,1,0,-0.6 --ceiling 1.7,-50,-5 --steps 8
+)"
+verdict energy_from_nothing_is_told "$(
+    set -- --headless --segments 6 --self-contact on --material neo-hookean \
+        --body 0,0,0,8,0 --body 1.2,0.1,3,-8,0 --steps 5
+    "$elasto" "$@" --timestep 0.1 |
+        grep -q '^energy gained  *3.335e+04 J without work, in 1 steps' ||
+        echo 'not in the summary'
+    "$elasto" "$@" --timestep 0.002 | grep gained
+)"
 verdict a_start_that_is_the_minimum_is_told "$(
     ends 1 --steps 5 --stretch 1
     [ "$(grep -c ,ok, log)" -eq 5 ] && [ "$(wc -l <log)" -eq 6 ] ||

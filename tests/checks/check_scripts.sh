@@ -182,4 +182,33 @@ panes() {
 }
 verdict panes_have_one_time "$(panes)"
 
+# The last row of a step in the ledger has the numbers that the step goes on
+# with, also where a script went back to it, undid and redid.  Each line is a
+# script; the last rows of its steps are those of the first script.
+ledgers() {
+    first='2 set stiffness 2e4\n4 set stiffness 5e4\n'
+    while read -r rest; do
+        printf "$first$rest" >script
+        "$elasto" --headless --quiet --segments 2 --steps 8 --script script \
+            --energies rows || echo "$rest: ends with $?"
+        awk -F, '{ row[$1] = $0 } END { for (i in row) print row[i] }' rows |
+            sort -n >ledger
+        [ -f straight ] || cp ledger straight
+        rows=$(wc -l <ledger)
+        [ "$rows" -ge 6 ] || echo "$rest: only $rows rows"
+        head -n "$rows" straight | cmp -s - ledger ||
+            echo "$rest changes the ledger: $(diff straight ledger | head -n 2)"
+    done <<'END'
+8 pause
+6 undo\n4 undo\n2 redo\n4 redo\n
+6 undo\n4 redo\n
+4 undo\n4 undo\n2 redo\n4 redo\n
+6 goto 3\n3 goto 1\n1 goto 6\n
+5 pin 0\n5 undo\n5 undo\n4 redo\n
+7 set timestep 0.01\n7 undo\n
+6 undo\n4 undo\n2 goto 1\n1 goto 2\n2 redo\n4 redo\n
+END
+}
+verdict undo_leaves_the_ledger "$(ledgers)"
+
 exit $failed

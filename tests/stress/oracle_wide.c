@@ -75,6 +75,7 @@ static Wide power_of(Wide a, int n)
 #define fminl             smaller
 #define fmaxl             larger
 #define copysignl         with_sign
+#define exact_rise        wide_exact_rise
 #define exact_residual    wide_exact_residual
 #define oracle_energy     wide_oracle_energy
 #define oracle_clamping   wide_oracle_clamping

@@ -147,7 +147,8 @@ typedef double (*JudgedResidual)(const IncrementalPotential *E, const double *u,
 
 /* Whether the residual at u is at most the limit, with one of the Hessians that
  * the program may have judged with: on demand, as it is or cut.
- *   noise  in: part of what rounding does that is forgiven; out: what it does
+ *   noise  out, m/s, what rounding can make of it, which is forgiven; NULL:
+ *          nothing is
  *   least  out, m/s */
 static bool residual_holds(const Watch *watch, const double *u, double limit,
                            JudgedResidual judge, double *noise, double *least)
@@ -158,7 +159,6 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
                                                [FILTER_ON_DEMAND] = {1, 0}};
     const NewtonSettings *settings = &watch->run->newton->settings;
     Moment moment = watch_moment(watch);
-    double forgiven = *noise;
     *least = INFINITY;
     for (int i = 0; i < watch_size(watch); i++)
         watch->way[i] = watch->x_n[i] + u[i];
@@ -167,7 +167,7 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
             judge(&moment.E, u, watch->way, settings->h, moment.moved,
                   lifts[settings->filter][k], noise);
         *least = fmin(*least, residual);
-        if (residual <= limit + forgiven * *noise)
+        if (residual <= limit + (noise ? *noise : 0))
             return true;
     }
     return false;
@@ -175,22 +175,19 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
 
 /* Of all terms: nothing that the program has computed but the place itself is
  * looked at.  What 19 digits refuse is judged with 34: rounding can only raise
- * a residual so small.  Where the last digits of the forces themselves are more
- * than the tolerance, that is forgiven, and counted. */
+ * a residual so small.  Where the last digits of places and forces themselves
+ * are more than the tolerance, that is forgiven, and counted. */
 static void judge_terms(Watch *watch, const double *u, double limit)
 {
-    double noise = 0, residual;
+    double noise, residual;
     if (watch_size(watch) > LARGEST_SOLVED)
         return;
     watch->tally->judged++;
     limit *= 1 + DIGITS_OF_DIRECTION;
-    if (residual_holds(watch, u, limit, exact_residual, &noise, &residual))
-        return;
-    noise = 0;
-    if (residual_holds(watch, u, limit, wide_exact_residual, &noise, &residual))
+    if (residual_holds(watch, u, limit, exact_residual, NULL, &residual) ||
+        residual_holds(watch, u, limit, wide_exact_residual, NULL, &residual))
         return;
     watch->tally->blurred++;
-    noise = 1;
     if (!residual_holds(watch, u, limit, wide_exact_residual, &noise,
                         &residual))
         blame(watch,
@@ -249,16 +246,21 @@ static void judge_end(Watch *watch, const NewtonRecord *record)
                           fmin(limit, 1e-6 * sqrt(l2) / newton->settings.h));
 }
 
-/* How much higher than at `from` the energy at `to` may seem. */
-static long double allowed_rise(Watch *watch, const double *from,
-                                const double *to, long double energy)
+/* Whether the energy at `to` is higher than at `from` by more than rounding can
+ * make it seem.  Digits that 19 lack are looked for with 34. */
+static bool rises(Watch *watch, const double *from, const double *to, Real rise,
+                  Real scale)
 {
     Moment moment = watch_moment(watch);
+    if (rise <= 0)
+        return false;
     for (int i = 0; i < watch_size(watch); i++)
         watch->way[i] = to[i] - from[i];
-    return ROUNDINGS *
-           (DBL_EPSILON * energy + wide_noise(&moment, from, watch->way) +
-            wide_noise(&moment, to, watch->way));
+    Real allowed = ROUNDINGS * (DBL_EPSILON * scale +
+                                wide_noise(&moment, from, watch->way) +
+                                wide_noise(&moment, to, watch->way));
+    return !(rise <= allowed) &&
+           !(wide_exact_rise(&moment.E, from, to, moment.moved) <= allowed);
 }
 
 /* The first record of a minimisation: it starts at u = 0, or where the walls
@@ -293,8 +295,7 @@ static void watch_descent(Watch *watch, const double *u, const char *where)
     flat = flat && (watch->flat || was_flat || !isfinite(watch->energy));
     if (!isfinite(energy) && !flat)
         blame(watch, "E is %Lg %s", energy, where);
-    if (!(energy <= watch->energy) && !flat &&
-        !(energy - watch->energy <= allowed_rise(watch, watch->u, u, scale)))
+    if (!flat && rises(watch, watch->u, u, energy - watch->energy, scale))
         blame(watch, "E rises from %.17Lg to %.17Lg %s", watch->energy, energy,
               where);
     watch->energy = energy;
@@ -343,6 +344,8 @@ static bool watch_record(void *user, const NewtonRecord *record)
 {
     Watch *watch = user;
     const Newton *newton = watch->run->newton;
+    if (record->iteration < 0) /* ended by what moves, after its last one */
+        return true;
     if (record->iteration == 0)
         watch_begin(watch);
     check_edges(watch, newton->at.x);

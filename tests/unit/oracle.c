@@ -753,8 +753,24 @@ typedef struct Assembly {
     int n, lifts;
 } Assembly;
 
-/* One part's gradient and Hessian, and `lifts` times what cutting its negative
- * eigenvalues adds. */
+/* `lifts` times what cutting its negative eigenvalues adds to a part. */
+static void add_lift(const Spot *spot, int row, const void *data, int part,
+                     const Assembly *to)
+{
+    Frame frame;
+    Real lift[4], rows[4][6];
+    int n =
+        negative_part(spot, row, data, part, to->p, to->q, &frame, lift, rows);
+    for (int i = 0; i < 36 * n; i++) {
+        int k = i / 36, r = i / 6 % 6, c = i % 6;
+        if (lift[k] > 0)
+            to->H[to->n * frame_coordinate(&frame, r) +
+                  frame_coordinate(&frame, c)] +=
+                to->lifts * spot->at->w * lift[k] * rows[k][r] * rows[k][c];
+    }
+}
+
+/* One part's gradient and Hessian. */
 static void add_part(Spot *spot, int row, const void *data, int part,
                      const Assembly *to)
 {
@@ -777,37 +793,40 @@ static void add_part(Spot *spot, int row, const void *data, int part,
         to->g[r] += i % n == 0 ? w * W.p : 0;
         to->size[r] += i % n == 0 ? fabsl(w * W.p) : 0;
     }
-    if (to->lifts == 0 || formulas[row].kind->place == PLACE_FRICTION)
-        return;
-    Frame frame;
-    Real lift[4], rows[4][6];
-    n = negative_part(spot, row, data, part, to->p, to->q, &frame, lift, rows);
-    for (int i = 0; i < 36 * n; i++) {
-        int k = i / 36, r = i / 6 % 6, c = i % 6;
-        if (lift[k] > 0)
-            to->H[to->n * frame_coordinate(&frame, r) +
-                  frame_coordinate(&frame, c)] +=
-                to->lifts * w * lift[k] * rows[k][r] * rows[k][c];
-    }
+    if (to->lifts && formulas[row].kind->place != PLACE_FRICTION)
+        add_lift(spot, row, data, part, to);
 }
 
-/* What a step adds; and pinned nodes stand alone. */
-static void add_step(const IncrementalPotential *E, const double *u,
+/* All of it; pinned nodes stand alone. */
+static void assemble(const Spot *there, const double *u, const double *u_tilde,
                      const Assembly *to)
 {
-    const System *system = E->system;
+    const System *system = there->at->system;
+    Outline outline = outline_there(there);
+    Spot spot = *there;
     int n = to->n;
+    spot.p = to->p;
+    spot.q = to->q;
+    spot.outline = &outline;
+    memset(to->H, 0, (size_t)(n * n) * sizeof *to->H);
     for (int i = 0; i < n; i++) {
-        Real g = system->m[i / 2] * ((Real)u[i] - E->u_tilde[i]);
-        to->g[i] += g;
-        to->size[i] += fabsl(g);
-        to->H[(n + 1) * i] += system->m[i / 2];
+        to->g[i] = system->m[i / 2] * ((Real)u[i] - u_tilde[i]);
+        to->size[i] = fabsl(to->g[i]);
+        to->H[(n + 1) * i] = system->m[i / 2];
+    }
+    for (int t = 0; t < system->terms; t++) {
+        int row = formula_of(system->term[t].kind);
+        const void *data = system->term[t].data;
+        int count = row < 0 ? 0 : count_parts(&spot, formulas[row].parts, data);
+        for (int i = 0; i < count; i++)
+            add_part(&spot, row, data, i, to);
     }
     for (int r = 0; r < n; r++) {
-        for (int c = 0; c < n && system->pinned[r / 2]; c++)
+        if (!system->pinned[r / 2])
+            continue;
+        for (int c = 0; c < n; c++)
             to->H[n * r + c] = to->H[n * c + r] = r == c;
-        if (system->pinned[r / 2])
-            to->g[r] = to->size[r] = 0;
+        to->g[r] = to->size[r] = 0;
     }
 }
 
@@ -827,10 +846,14 @@ static bool factor_densely(int n, Real *H)
     return true;
 }
 
-/* The largest |p_x| + |p_y| of p = (L D L^T)^-1 b; b becomes p. */
-static Real solve_densely(int n, const Real *H, Real *b)
+/* The largest |p_x| + |p_y| of p = -H^-1 g; infinite where H has no factor.
+ * g becomes -p, H its factor. */
+static Real solve_densely(const Assembly *of)
 {
-    Real most = 0;
+    int n = of->n;
+    Real most = 0, *H = of->H, *b = of->g;
+    if (!factor_densely(n, H))
+        return INFINITY;
     for (int c = 0; c < n; c++)
         for (int r = c + 1; r < n; r++)
             b[r] -= H[n * r + c] / H[n * c + c] * b[c];
@@ -846,52 +869,72 @@ static Real solve_densely(int n, const Real *H, Real *b)
     return most;
 }
 
-/* Units of the last place that each part of a double gradient may be off: a
- * part takes some roundings, and so does the sum. */
-enum { UNITS_OF_A_PART = 4 };
+double exact_rise(const IncrementalPotential *E, const double *from,
+                  const double *to, double moved)
+{
+    Real energy[2];
+    for (int i = 0; i < 2; i++) {
+        EvalPoint at = eval_point_at(E->system, E->x_n, i ? to : from, NULL);
+        at.w = E->weight;
+        Spot spot = {.at = &at, .h = sqrtl(E->weight), .moved = moved};
+        energy[i] = oracle_step(&spot, E->u_tilde).f;
+    }
+    return (double)(energy[1] - energy[0]);
+}
+
+/* Units of the last place that each part of a double gradient, and each
+ * coordinate that it is of, may be off: both take some roundings. */
+enum { UNITS = 4 };
+
+/* What becomes of p where x, x_n and the parts of the gradient have other last
+ * digits: the places the same ones for all parts, so that forces still balance.
+ *   place  [4n] workspace */
+static Real nearby(const Spot *spot, const double *u, const double *u_tilde,
+                   const Assembly *of, Random *random, double *place)
+{
+    double *x = place, *x_n = place + of->n;
+    EvalPoint at = *spot->at;
+    Spot own = *spot;
+    own.at = &at;
+    at.x = x;
+    at.x_n = x_n;
+    for (int i = 0; i < of->n; i++) {
+        double ulps = UNITS * DBL_EPSILON * random_uniform(random, -1, 1);
+        x[i] = spot->at->x[i] * (1 + ulps);
+        x_n[i] = spot->at->x_n[i] * (1 + ulps);
+    }
+    assemble(&own, u, u_tilde, of);
+    for (int i = 0; i < of->n; i++)
+        of->g[i] += (2 * random_below(random, 2) - 1) * UNITS * DBL_EPSILON *
+                    of->size[i];
+    return solve_densely(of);
+}
 
 static double residual_by_side(const IncrementalPotential *E, const double *u,
                                const double *x, double h, double moved,
                                int lifts, int side, double *noise)
 {
-    const System *system = E->system;
-    size_t n = 2 * (size_t)system->nodes;
-    double *p = calloc(2 * n, sizeof *p);
-    Real *g = calloc(n * (n + 3), sizeof *g);
-    CHECK(p != NULL && g != NULL);
-    EvalPoint at = eval_point_at(system, E->x_n, u, x);
-    at.w = E->weight;
-    Spot spot = {
-        .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
-    Outline outline = outline_there(&spot);
-    const Assembly to = {g, g + n, g + 3 * n, p, p + n, (int)n, lifts};
-    spot.p = to.p;
-    spot.q = to.q;
-    spot.outline = &outline;
-    for (int t = 0; t < system->terms; t++) {
-        int row = formula_of(system->term[t].kind);
-        const void *data = system->term[t].data;
-        int count = row < 0 ? 0 : count_parts(&spot, formulas[row].parts, data);
-        for (int i = 0; i < count; i++)
-            add_part(&spot, row, data, i, &to);
-    }
-    add_step(E, u, &to);
-    Real residual = INFINITY, blur = 0;
+    size_t n = 2 * (size_t)E->system->nodes;
+    double *p = calloc(4 * n, sizeof *p);
+    Real *g = calloc(n * (n + 2), sizeof *g), blur = 0;
     Random random = {1};
-    if (factor_densely(to.n, to.H)) {
-        residual = solve_densely(to.n, to.H, g);
-        for (int round = 0; round < 3; round++) {
-            Real *off = g + 2 * n;
-            for (size_t i = 0; i < n; i++)
-                off[i] = (2 * random_below(&random, 2) - 1) * UNITS_OF_A_PART *
-                         DBL_EPSILON * to.size[i];
-            blur = fmaxl(blur, solve_densely(to.n, to.H, off));
-        }
-    }
-    *noise = (double)(blur / h);
+    CHECK(p != NULL && g != NULL);
+    EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
+    at.w = E->weight;
+    const Spot spot = {
+        .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
+    const Assembly to = {g, g + n, g + 2 * n, p, p + n, (int)n, lifts};
+    assemble(&spot, u, E->u_tilde, &to);
+    Real most = solve_densely(&to);
+    for (int round = 0; noise && round < 3; round++)
+        blur = fmaxl(
+            blur, fabsl(nearby(&spot, u, E->u_tilde, &to, &random, p + 2 * n) -
+                        most));
+    if (noise)
+        *noise = (double)(blur / h);
     free(p);
     free(g);
-    return (double)(residual / h);
+    return (double)(most / h);
 }
 
 /* Of springs that have just flowed either side is right. */
@@ -902,9 +945,9 @@ double exact_residual(const IncrementalPotential *E, const double *u,
     bool flows = system_find_term(E->system, &plastic_energy) != NULL;
     double least = INFINITY, blur;
     for (int side = flows ? -1 : 0; side <= flows; side++) {
-        double residual =
-            residual_by_side(E, u, x, h, moved, lifts, side, &blur);
-        if (residual <= least || side <= 0)
+        double residual = residual_by_side(E, u, x, h, moved, lifts, side,
+                                           noise ? &blur : NULL);
+        if (noise && (residual <= least || side <= 0))
             *noise = blur;
         least = fmin(least, residual);
     }

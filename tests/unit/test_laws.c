@@ -92,7 +92,7 @@ TEST(a_belt_takes_its_load_along)
     int slips = 0;
     point_on_wall(n, mu, 1e-4, G);
     contact_of(&few)->obstacle[0].motion =
-        (Motion){1, {1e9}, {{W * t[0], W * t[1]}}};
+        (Motion){.phases = 1, .until = {1e9}, .v = {{W * t[0], W * t[1]}}};
     let_go(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
     for (int i = 0; i < 200; i++) {
         double before = speed, done = run.work;
@@ -420,7 +420,8 @@ TEST(a_fast_ceiling_comes_in_parts)
     Simulation *scene = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *it = &scene->run[0];
     Obstacle *ceiling = &contact_of(it->system)->obstacle[1];
-    ceiling->motion = (Motion){2, {0.01, 10}, {{0, -50}, {0, -60}}};
+    ceiling->motion =
+        (Motion){.phases = 2, .until = {0.01, 10}, .v = {{0, -50}, {0, -60}}};
     make_steps(scene, 1);
     CHECK_NEAR(ceiling->o[1], 0.51 - 0.5, 1e-12);
     CHECK(it->part > 1);
@@ -428,6 +429,109 @@ TEST(a_fast_ceiling_comes_in_parts)
     CHECK_STATUS(simulation_step(scene), STATUS_BLOCKED);
     CHECK(ceiling->o[1] > -0.51 && it->moved < 1);
     CHECK(smallest_gap(it->system, it->x) > 0);
+}
+
+/* A ceiling ends where it is told to, also in the middle of a step, at any
+ * speed, after a change of h, and if nothing is in its way; not one step
+ * further. */
+TEST(a_ceiling_stops_at_its_stop)
+{
+    static const struct {
+        double y, v, stop, h, later; /* h of the steps after the third */
+    } rows[] = {{1, -100, 0.6, 0.025, 0.025}, {1, -1, 0.7025, 0.01, 0.01},
+                {1, -0.3, 0.9, 0.007, 0.01},  {0.9, -2, 0.6, 0.02, 0.003},
+                {0.8, -7, 0.8, 0.01, 0.01},   {3, -1e3, 0.55, 0.1, 0.1}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Simulation *scene =
+            simulate("square --segments 2 --stretch 1 --timestep %g --ceiling "
+                     "%g,%g,%g",
+                     rows[i].h, rows[i].y, rows[i].v, rows[i].stop);
+        const Obstacle *ceiling = contact_of(&scene->system)->obstacle;
+        double last = ceiling->o[1];
+        CHECK(last == rows[i].y);
+        for (int step = 0; step < 200; step++) {
+            if (step == 3)
+                CHECK_OK(simulation_set(scene, OPTION_SLOT(timestep),
+                                        rows[i].later));
+            make_steps(scene, 1);
+            ceiling = contact_of(&scene->system)->obstacle;
+            double h = step < 3 ? rows[i].h : rows[i].later;
+            CHECK_NEAR(ceiling->o[1], fmax(last + h * rows[i].v, rows[i].stop),
+                       4e-16);
+            last = ceiling->o[1];
+        }
+        CHECK_NEAR(last, rows[i].stop, 2.3e-16);
+        CHECK(ceiling->v[1] == 0);
+    }
+}
+
+/* Bodies that go round each other within one step lie at a true minimum, with
+ * more energy than before: it is counted, whoever of them is faster, turned or
+ * stiffer, and what shorter steps do not do is not. */
+TEST(energy_from_nothing_is_counted)
+{
+    static const struct {
+        const char *line;
+        bool gains;
+    } rows[] = {
+        {"--timestep 0.1 --body 0,0,0,8,0 --body 1.2,0.1,3,-8,0", true},
+        {"--timestep 0.1 --body 0,0,0,0,8 --body -0.1,1.2,3,0,-8", true},
+        {"--timestep 0.1 --body 0,0,0,8,0 --body 1.2,0.1,3,-8,0 --young 5e4",
+         true},
+        {"--timestep 0.1 --body 0,0,0,0,0 --body 1.2,0.1,3,-16,0", true},
+        {"--timestep 0.002 --body 0,0,0,8,0 --body 1.2,0.1,3,-8,0", false},
+        {"--timestep 0.1 --body 0,0,0,8,0", false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Simulation *scene =
+            simulate("square --segments 6 --material neo-hookean "
+                     "--self-contact on %s",
+                     rows[i].line);
+        double before = energy_now(scene, 0, "total"), gained = 0;
+        long steps = 0;
+        for (int step = 0; step < 20; step++) {
+            make_steps(scene, 1);
+            double now = energy_now(scene, 0, "total");
+            steps += now > before * (1 + 1e-9);
+            gained += now > before * (1 + 1e-9) ? now - before : 0;
+            before = now;
+        }
+        CHECK(scene->gain[0].steps == steps && (steps > 0) == rows[i].gains);
+        CHECK_NEAR(scene->gain[0].energy, gained, 1e-9 * gained);
+    }
+    CHECK(make_steps(simulate("square"), 50)->gain[0].steps == 0);
+    CHECK(make_steps(simulate("square --integrator midpoint"), 50)
+              ->gain[0]
+              .steps == 0);
+}
+
+/* A mass that a wall throws, catches and draws down with it, in a potential
+ * that is convex: with the work of the force at the end of a step backward
+ * Euler dissipates in each of them. */
+TEST(a_moving_wall_never_gives_back_what_is_dissipated)
+{
+    static const double up[2] = {0, 1}, x[2] = {0, 0.008}, v[2] = {0};
+    static const double h[] = {1e-4, 1e-3, 0.01};
+    for (int k = 0; k < 3; k++) {
+        point_on_wall(up, 0, 0, G);
+        contact_of(&few)->obstacle[0].motion =
+            (Motion){.phases = 3,
+                     .until = {0.2, 0.3, 0.8},
+                     .v = {{0, 0.5}, {0, -3}, {0, 1}}};
+        let_go(h[k], x, v);
+        double before = 0, start = 0, most = 0;
+        for (int step = 0; step < 1 / h[k]; step++) {
+            double held = system_kinetic(&few, run.v) +
+                          system_potential(&few, run.x) +
+                          system_gravity_potential(&few, run.x) - run.work;
+            start = step == 0 ? held : start;
+            CHECK(start - held >= before - 1e-12);
+            before = start - held;
+            most = fmax(most, run.work);
+            CHECK_OK(time_integrator_step(&run));
+        }
+        CHECK(before > 1e-3 && most > 0.1);
+    }
 }
 
 /* Without a line search updates of contact may go round in circles: such a step

@@ -60,8 +60,7 @@ TEST(residuals_are_what_they_are_called)
             IncrementalPotential E = newton->at.E;
             E.x_n = x_n;
             double residual = last.record.residual;
-            double exact =
-                wide_direction(&E, last.u, FILTER_CLAMP, run->h, p);
+            double exact = wide_direction(&E, last.u, FILTER_CLAMP, run->h, p);
             bool multigrid = newton->working == SOLVER_MULTIGRID;
             seen[multigrid][last.record.kind]++;
             if (last.record.kind == RESIDUAL_VALUE)
@@ -330,7 +329,7 @@ TEST(work_is_limited_by_the_size)
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *run = &simulation->run[0];
     contact_of(run->system)->obstacle[1].motion =
-        (Motion){1, {0.01}, {{0, -50}}};
+        (Motion){.phases = 1, .until = {0.01}, .v = {{0, -50}}};
     run->newton->settings.max_iterations = 10;
     CHECK_STATUS(simulation_step(simulation), STATUS_ITERATION_LIMIT);
     CHECK_AT_MOST(run->newton->counters.iterations, 19);

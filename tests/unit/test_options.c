@@ -80,6 +80,32 @@ TEST(numbers_have_ranges)
     CHECK(strstr(message, "a cell begins turned over") != NULL);
 }
 
+/* A list of numbers brings its term whichever of them is not 0; an option that
+ * may be repeated, where it is given at all. */
+TEST(any_number_that_is_not_0_counts)
+{
+    static const struct {
+        const char *line, *name;
+        bool on;
+    } rows[] = {
+        {"--velocity 0,5", "velocity", true},
+        {"--velocity 5,0", "velocity", true},
+        {"--velocity 0,0", "velocity", false},
+        {"--ceiling 2,-1,1", "ceiling", true},
+        {"--ground 0,1,0,-3", "ground", true},
+        {"--ground 0,1,0,-3", "ball", false},
+        {"--ball 0,9,1", "ball", true},
+        {"--ball 0,9,1", "ground", false},
+        {"--damping 0", "damping", false},
+        {"--damping 0.1", "damping", true},
+        {"--material neo-hookean", "material", true},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Options options = parse_good(rows[i].line);
+        CHECK(option_is_on(option_find(rows[i].name), &options) == rows[i].on);
+    }
+}
+
 /* What is not given has a value, too.  (Where a body stands, what it meets and
  * how fast it is are for test_reference.) */
 TEST(values_are_read)

@@ -15,14 +15,23 @@
 
 static Past past;
 
-/* Of a state, and of what was lost until then. */
+static uint64_t hash_number(uint64_t hash, double number)
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    return 31 * hash + bits;
+}
+
+/* Of a state, how late it is there, and its ledger. */
 static uint64_t hash_of(const Simulation *simulation, uint64_t hash)
 {
-    hash = state_hash(simulation, hash);
-    for (int i = 0; i < SYSTEM_MAX_TERMS; i++) {
-        uint64_t bits;
-        memcpy(&bits, &simulation->system.lost[i].energy, sizeof bits);
-        hash = 31 * hash + bits;
+    hash =
+        hash_number(state_hash(simulation, hash), simulation_time(simulation));
+    for (int r = 0; r < simulation->runs; r++) {
+        const Energies ledger = simulation_energies(simulation, r);
+        for (int i = 0; i < ledger.rows; i++)
+            hash = hash_number(hash, ledger.row[i].value);
+        hash = hash_number(hash, simulation->gain[r].energy);
     }
     return hash;
 }
@@ -218,6 +227,41 @@ TEST(a_gesture_is_undone_as_a_whole)
     show(2);
     CHECK(show(0) != dragged && show(1) == dragged);
     past_free(&past);
+}
+
+static double plotted_total(long step)
+{
+    static History history;
+    past_history(&past, 0, &history);
+    CHECK(history.series > 0 && history.count > step);
+    return history.value[0][step];
+}
+
+/* What plots show of a step is the ledger with the numbers that it goes on
+ * with: after an undo those of before, after a redo the others. */
+TEST(plots_follow_undo)
+{
+    static const char *const numbers[] = {"stiffness 2e4", "stiffness 7e5",
+                                          "stiffness 1e9"};
+    for (int i = 0; i < 3; i++) {
+        uint64_t hash[7];
+        begin_past("square --segments 2");
+        run(0, 4, hash);
+        show(2);
+        double before = plotted_total(2);
+        set_option(numbers[i], false);
+        double after = plotted_total(2);
+        CHECK(after != before);
+        show(3);
+        show(4);
+        past_undo(&past, -1);
+        CHECK_OK(past_finish(&past));
+        CHECK(plotted_total(2) == before && past.step == 2);
+        past_undo(&past, 1);
+        CHECK_OK(past_finish(&past));
+        CHECK(plotted_total(2) == after && past.step == 4);
+        past_free(&past);
+    }
 }
 
 /* ---- anything in any order ------------------------------------------------
