@@ -30,7 +30,7 @@ hashes() {
     shift 2
     while read -r line; do
         # shellcheck disable=SC2086
-        "$program" $line --size 300x200 "$@" 2>/dev/null |
+        "$program" $line "$@" 2>/dev/null |
             sed -n 's/^state hash *//p' | grep . || echo none
     done <"$list"
 }
