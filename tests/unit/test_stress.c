@@ -68,6 +68,16 @@ static const struct {
      "--poisson 0.187 --density 5.85e-6 --timestep 0.442 --stretch 2.6 "
      "--turn 210 --tolerance 1.01e-5",
      VERDICT_CONVERGED},
+    {10,
+     "square --segments 3 --material neo-hookean --young 9.65e12 "
+     "--poisson 0.292 --density 1.32e-5 --timestep 0.707 --stretch 2.53 "
+     "--turn 254 --tolerance 1.9e-4",
+     VERDICT_CONVERGED},
+    {10,
+     "square --segments 1 --material neo-hookean --young 1.42e12 "
+     "--poisson 0.0263 --density 6.31e-6 --timestep 0.419 --stretch 0.74 "
+     "--turn 191 --tolerance 5.72e-6",
+     VERDICT_CONVERGED},
     /* step 9 begins at rest, after an end that was looked at for a saddle:
      * the test there is of the projected Hessian again */
     {10,
@@ -77,6 +87,16 @@ static const struct {
      "1.6,-0.26,293,-8.4,-0.252 --body 0.267,1.6,41.8,6.37,-0.279 "
      "--self-friction 1.21 --pin top-corners --tolerance 1.37e-05 "
      "--filter clamp",
+     VERDICT_CONVERGED},
+    /* in step 3 a contact has opened since the Hessian was factored, whose
+     * factor proposes far too small a correction of the last direction */
+    {3,
+     "square --segments 2 --side 0.9 --stiffness 7.33e+07 --timestep 0.945 "
+     "--self-contact on --cells on --body 0,0,93.1,0.319,-5.03,0.935,0.825 "
+     "--body 1.6,0.183,116,-0.193,0.179 --body -1.6,0.442,351,1.86,2.26 "
+     "--body 0.11,3.2,224,0,-16.8,1.12,0.998 --ground -0.0727,1,0,-2.4 "
+     "--friction 0.464 --self-friction 0.753 --gravity 9.81 --tear 0.0404 "
+     "--tolerance 2.41e-06",
      VERDICT_CONVERGED},
     /* the beam folds at its notch, whose faces touch in the first step */
     {1,

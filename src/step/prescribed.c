@@ -1,0 +1,266 @@
+/* prescribed.c - walls and pins that move as prescribed, and an obstacle that a
+ * hand pushes.
+ *
+ * Within a step they are put where they belong before E is minimised, not drawn
+ * there by a stiff spring: their position is exact, and E has nothing stiff in
+ * it.  Where the way would leave no room (a gap or a cell would end), half of
+ * it is made first, then E is minimised, then the rest: each round begins at a
+ * place that all terms allow.
+ */
+#include "step/prescribed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "model/contact.h"
+#include "model/friction.h"
+#include "model/inertia_energy.h"
+
+/* Most halvings of a part of the way, and most parts of it; a wall at 50 m/s in
+ * steps of 0.01 s onto cells of 1/8 m needs 19 parts.  A body that leaves room
+ * for less than a thousandth of the way is pressed flat: there a step ends, for
+ * each further part takes more updates than the one before. */
+enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
+
+/* Nodes that a wall would touch are carried along and keep this much of the
+ * barrier's width. */
+#define CARRIED_GAP 0.3
+
+/* Most halvings of a part of the way of an obstacle that a hand moves, and most
+ * parts of it; the hand goes on in the next step. */
+enum { HAND_HALVINGS = 6, HAND_PARTS = 8 };
+
+/* Whether obstacle k moves in the rest of this step. */
+static bool moves(const Contact *contact, int k)
+{
+    const double *v = contact->obstacle[k].v;
+    bool stopped = contact->push.stopped && k == contact->push.obstacle;
+    return !stopped && (v[0] != 0 || v[1] != 0);
+}
+
+/* Whether a hand moves an obstacle in the rest of this step. */
+static bool hand_moves(const Contact *contact)
+{
+    return contact && contact->push.on &&
+           moves(contact, contact->push.obstacle);
+}
+
+/* An obstacle that would pass the place at which it stops goes just there. */
+static void stop_obstacle(Obstacle *obstacle, double h)
+{
+    double *v = obstacle->v, square = v[0] * v[0] + v[1] * v[1], left = 0;
+    double way[2];
+    for (int c = 0; c < 2; c++) {
+        way[c] = obstacle->motion.stop[c] - obstacle->o[c];
+        left += way[c] * v[c]; /* times |v|^2, s */
+    }
+    bool here = left <= 1e-9 * h * square; /* but for rounding */
+    for (int c = 0; c < 2; c++)
+        v[c] = here ? 0 : left < h * square ? way[c] / h : v[c];
+}
+
+bool prescribed_begin(TimeIntegrator *run)
+{
+    Contact *contact = contact_of(run->system);
+    bool any = run->system->pin_v != NULL;
+    double half_way = run->clock.now + 0.5 * run->h;
+    run->moved = 0;
+    run->left = 1;
+    run->part = 0;
+    run->blocked = false;
+    run->before = run->newton ? run->newton->counters.iterations : 0;
+    for (int k = 0; contact && k < contact->obstacles; k++) {
+        Obstacle *obstacle = &contact->obstacle[k];
+        const Motion *motion = &obstacle->motion;
+        obstacle->v[0] = obstacle->v[1] = 0;
+        for (int i = motion->phases - 1; i >= 0; i--)
+            if (half_way < motion->until[i])
+                memcpy(obstacle->v, motion->v[i], sizeof obstacle->v);
+        if (motion->stops)
+            stop_obstacle(obstacle, run->h);
+    }
+    if (contact)
+        push_begin(contact, run->system, run->x, run->h);
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        any = any || moves(contact, k);
+    return any;
+}
+
+/* o += way v of all obstacles. */
+static void move_obstacles(Contact *contact, double way)
+{
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        for (int c = 0; c < 2 && moves(contact, k); c++)
+            contact->obstacle[k].o[c] += way * contact->obstacle[k].v[c];
+}
+
+/* Carries nodes along, which stay in front of the obstacles that come nearer.
+ *   way     s, for which the obstacles have moved
+ *   before  [2n] m, positions of the nodes before that
+ *   u       [2n] m, displacements of the nodes, in and out */
+static void carry(const System *system, const Contact *contact, double way,
+                  const double *x_n, const double *before, double *u)
+{
+    for (int k = 0; contact && k < contact->obstacles; k++) {
+        const Obstacle *obstacle = &contact->obstacle[k];
+        double back[2] = {obstacle->o[0] - way * obstacle->v[0],
+                          obstacle->o[1] - way * obstacle->v[1]};
+        if (!moves(contact, k))
+            continue;
+        for (int i = 0; i < system->nodes; i++) {
+            if (!contact_has_pair(contact, system, i, k) ||
+                system->pinned[i]) /* it gives no way */
+                continue;
+            double now[2] = {x_n[2 * i] + u[2 * i],
+                             x_n[2 * i + 1] + u[2 * i + 1]};
+            double radius = contact_node_radius(contact, i);
+            Gap after = contact_gap(obstacle, obstacle->o, now, radius);
+            double gap = contact_gap(obstacle, back, before + 2 * i, radius).d;
+            double keep = fmin(gap, CARRIED_GAP * contact->barrier.d_hat);
+            for (int c = 0; c < 2; c++)
+                u[2 * i + c] += fmax(0, keep - after.d) * after.n[c];
+        }
+    }
+}
+
+/* Makes a part of the way: obstacles move, and u, in new_x, becomes Newton's
+ * displacement with pins and carried nodes moved.  Returns whether all terms
+ * allow that, and no body passes another on the way; if not, obstacles are put
+ * back. */
+static bool make_part(TimeIntegrator *run, double part)
+{
+    const System *system = run->system;
+    Contact *contact = contact_of(run->system);
+    const double *x_n = run->x;
+    double *u = run->new_x, *x = run->new_v, way = part * run->h;
+    double *before = run->newton->x_trial, *p = run->newton->u_trial;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        u[i] = p[i] = run->part == 0 ? 0 : run->newton->at.u[i];
+        before[i] = x_n[i] + u[i];
+        if (system->pin_v && system->pinned[i / 2])
+            u[i] += way * system->pin_v[i];
+    }
+    move_obstacles(contact, way);
+    carry(system, contact, way, x_n, before, u);
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        x[i] = x_n[i] + u[i];
+        p[i] = u[i] - p[i];
+    }
+    IncrementalPotential E = {
+        .system = system, .weight = run->h * run->h, .x_n = x_n};
+    if (incremental_potential_allowed(&E, u, x) &&
+        system_lets_pass(system, before, p))
+        return true;
+    move_obstacles(contact, -way);
+    return false;
+}
+
+/* Makes the largest part of the rest of the way that there is room for.
+ *   part      in, the first one that is tried
+ *   halvings  in, how many are tried, each half the one before
+ *   parts     in, most parts of the whole way
+ * Returns the part; 0: there was no room. */
+static double make_most(TimeIntegrator *run, double part, int halvings,
+                        int parts)
+{
+    for (int i = 0; i < halvings && run->part < parts; i++, part /= 2)
+        if (make_part(run, part))
+            return part;
+    return 0;
+}
+
+void prescribed_start(TimeIntegrator *run)
+{
+    Contact *contact = contact_of(run->system);
+    double part = 0;
+    if (hand_moves(contact)) {
+        part = make_most(run, fmin(run->left, push_most(contact, run->h)),
+                         HAND_HALVINGS, HAND_PARTS);
+        contact->push.stopped = part == 0;
+        contact->push.moved = run->moved;
+    }
+    bool others = run->system->pin_v != NULL;
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        others = others || moves(contact, k);
+    if (part == 0 && others)
+        part = make_most(run, run->left, MAX_HALVINGS, MAX_PARTS);
+    run->blocked = part == 0 && others;
+    if (part == 0) /* nothing moves any more in this step */
+        make_part(run, 0);
+    else
+        run->moved += part;
+    run->left = part == 0 ? 0 : run->left - part;
+    run->part++;
+    bool guess = run->left > 0;
+    double tolerance = run->newton->settings.tolerance;
+    newton_start(run->newton, run->x, run->new_x, run->weight,
+                 guess ? 10 * tolerance + 0.01 : tolerance);
+}
+
+/* Reports the end of a step that the prescribed motion has ended: the record is
+ * of no iteration. */
+static void report_end(const Newton *newton, Status status)
+{
+    const NewtonSettings *settings = &newton->settings;
+    const NewtonRecord end = {.step = newton->step,
+                              .iteration = -1,
+                              .residual = newton->record.residual,
+                              .kind = newton->record.kind,
+                              .status = status,
+                              .solver = newton->record.solver};
+    if (settings->observer)
+        settings->observer(settings->user, &end);
+}
+
+bool prescribed_goes_on(TimeIntegrator *run, Status *status)
+{
+    const Newton *newton = run->newton;
+    long updates = newton->counters.iterations - run->before;
+    if (*status && !status_is_unconverged(*status))
+        return false;
+    if (run->blocked && !*status)
+        *status = STATUS_BLOCKED;
+    if (run->left > 0 && updates < newton_most_iterations(newton))
+        return true;
+    if (run->left > 0) /* the parts of a step share one limit of iterations */
+        *status = STATUS_ITERATION_LIMIT;
+    if (*status != newton->status)
+        report_end(newton, *status);
+    return false;
+}
+
+double prescribed_work(const TimeIntegrator *run, double weight)
+{
+    const System *system = run->system;
+    const Contact *contact = contact_of(system);
+    const Newton *newton = run->newton;
+    const double *u = newton->at.u, *x = newton->at.x;
+    EvalPoint at = eval_point_at(system, newton->at.E.x_n, u, x);
+    double *g = run->new_x, pins = 0, sum = 0;
+    at.w = weight;
+    if (system->pin_v) {
+        memset(g, 0, run->size * sizeof *g);
+        inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,
+                                g);
+        for (int t = 0; t < system->terms; t++) {
+            const TermKind *kind = eval_point_term(&at, t);
+            if (kind->gradient)
+                kind->gradient(&at, g);
+        }
+        for (int i = 0; i < 2 * system->nodes; i++)
+            if (system->pinned[i / 2])
+                pins += g[i] * u[i] / weight;
+    }
+    at.term = system_find_term(system, &contact_energy);
+    if (at.term)
+        for (ElementWalk walk = elements_from(&at, NULL, 0);
+             elements_next(&walk);) {
+            int k = walk.element.from;
+            const double *v = contact->obstacle[k].v, *n = walk.element.n;
+            bool stopped = contact->push.stopped && k == contact->push.obstacle;
+            sum += (stopped ? contact->push.moved : run->moved) *
+                   contact_force(&contact->barrier, walk.element.s) *
+                   (n[0] * v[0] + n[1] * v[1]);
+        }
+    return pins + (run->h * sum + friction_work_of_obstacles(system, u));
+}
