@@ -27,8 +27,8 @@ typedef struct Motion {
     int phases;
     double until[MOTION_MAX_PHASES]; /* s, end of the phase */
     double v[MOTION_MAX_PHASES][2];  /* m/s in it */
-    bool stops;     /* it comes to rest at a place, however long a step is: */
-    double stop[2]; /* m, the o at which it stands still */
+    bool stops;                      /* whether the obstacle stops at `stop` */
+    double stop[2]; /* m, last place of the obstacle's point o */
 } Motion;
 
 typedef struct Obstacle {

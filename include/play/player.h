@@ -102,7 +102,7 @@ typedef struct Player {
     Command later; /* what a drag does as soon as the step is there that is
                       made */
     bool warned;   /* it has stopped because a step did not converge */
-    bool gained;   /* it was told that energy has risen without work */
+    bool gained;   /* whether a rise of the total energy was reported */
 
     int gesture;    /* what is done now is undone at once: its number, */
     int gestures;   /* how many there were, */

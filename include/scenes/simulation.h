@@ -42,8 +42,8 @@ struct Simulation {
                                          times this; 0: 1 */
     double lift[SIMULATION_MAX_RUNS]; /* m, its grounds are so much higher */
     Gain gain[SIMULATION_MAX_RUNS];   /* of each run */
-    double before;           /* J, energy of the run whose step is made, less
-                                the work done until then */
+    double before;           /* J, energy of the present run before its step,
+                                less the work done until then */
     bool done;               /* the scene came to its end: no more steps */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;

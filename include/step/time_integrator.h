@@ -49,7 +49,7 @@ struct TimeIntegrator {
     double h;        /* s */
     long steps;      /* done so far */
     Status status;   /* of the last step */
-    StepClock clock; /* how late it is */
+    StepClock clock; /* time of x and v */
     bool moves;      /* whether anything is moved in the present step */
     double moved;    /* part of its way that moved things went in it */
     double work;     /* J, done so far by what moves walls and pins */

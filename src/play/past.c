@@ -885,7 +885,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     return status || again ? status : settle(past);
 }
 
-/* What plots show of the steps at which branches low ... high begin is made
+/* The plots' samples of the steps at which branches low ... high begin are made
  * once more, with the control that goes on from there now. */
 static void sample_again(Past *past, int low, int high)
 {

@@ -178,7 +178,7 @@ static void print_newton(FILE *file, const Simulation *simulation)
             print(file, rows[i].name, "%lld", rows[i].count);
 }
 
-/* That total energy has risen in steps of backward Euler, if it has. */
+/* Reports steps of backward Euler in which the total energy has risen. */
 static void print_gain(FILE *file, const Simulation *simulation)
 {
     Gain sum = {0};
