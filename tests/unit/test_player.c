@@ -125,7 +125,8 @@ static int look_along(double *out, int room)
     for (int place = 0; place < rounds->places && count < room; place++) {
         Trace trace;
         rounds_trace(rounds, place, &trace);
-        if (trace.difference && rounds->round[rounds->place[place].round].rough)
+        const Round *round = trace.function;
+        if (trace.difference && round->rough)
             out[count++] =
                 trace.difference(trace.function, 0.625 * trace.first);
     }
