@@ -883,8 +883,9 @@ double exact_rise(const IncrementalPotential *E, const double *from,
 }
 
 /* Units of the last place that each part of a double gradient, and each
- * coordinate that it is of, may be off: both take some roundings. */
-enum { UNITS = 4 };
+ * coordinate that it is of, may be off: both take some roundings.  Of so many
+ * random places nearby the worst one counts. */
+enum { UNITS = 4, SAMPLES = 12 };
 
 /* What becomes of p where x, x_n and the parts of the gradient have other last
  * digits: the places the same ones for all parts, so that forces still balance.
@@ -926,7 +927,7 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
     const Assembly to = {g, g + n, g + 2 * n, p, p + n, (int)n, lifts};
     assemble(&spot, u, E->u_tilde, &to);
     Real most = solve_densely(&to);
-    for (int round = 0; noise && round < 3; round++)
+    for (int round = 0; noise && round < SAMPLES; round++)
         blur = fmaxl(
             blur, fabsl(nearby(&spot, u, E->u_tilde, &to, &random, p + 2 * n) -
                         most));
