@@ -1,3 +1,6 @@
+/* mathematics.c - logarithm, hypotenuse and their like, with the same bits
+ * in every C library.
+ */
 #include "base/mathematics.h"
 
 #include <math.h>

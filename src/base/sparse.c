@@ -1,3 +1,6 @@
+/* sparse.c - symmetric sparse matrices in compressed columns, built from
+ * triplets.
+ */
 #include "base/sparse.h"
 
 #include <limits.h>

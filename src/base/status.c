@@ -1,3 +1,4 @@
+/* status.c - the names and texts of all statuses. */
 #include "base/status.h"
 
 #define STATUS_ROW(name, lower, text) {#lower, text},

@@ -1,3 +1,6 @@
+/* area.c - energies that depend on a triangle's area: derivatives,
+ * projection, largest step.
+ */
 #include "model/area.h"
 
 #include "base/mathematics.h"

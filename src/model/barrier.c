@@ -1,3 +1,4 @@
+/* barrier.c - the logarithmic barrier of a distance, and its derivatives. */
 #include "model/barrier.h"
 
 #include <math.h>

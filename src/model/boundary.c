@@ -1,3 +1,6 @@
+/* boundary.c - the outline of all solid cells, and pairs of its points and
+ * edges that are near.
+ */
 #include "model/boundary.h"
 
 #include <math.h>

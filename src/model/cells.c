@@ -1,3 +1,4 @@
+/* cells.c - the energy that keeps each cell of the square from turning over. */
 #include "model/cells.h"
 
 #include <math.h>

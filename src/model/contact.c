@@ -1,3 +1,4 @@
+/* contact.c - the energy of contact between nodes and walls or balls. */
 #include "model/contact.h"
 
 #include <math.h>

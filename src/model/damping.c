@@ -1,3 +1,6 @@
+/* damping.c - damping of each spring in proportion to the rate of its
+ * strain.
+ */
 #include "model/damping.h"
 
 #include <string.h>

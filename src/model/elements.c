@@ -1,3 +1,6 @@
+/* elements.c - sums over elements: values, gradients and Hessians of terms
+ * that are made of them.
+ */
 #include "model/elements.h"
 
 #include <math.h>

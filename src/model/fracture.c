@@ -1,3 +1,4 @@
+/* fracture.c - the rule that breaks overstretched springs after a step. */
 #include "model/fracture.h"
 
 #include <stdint.h>

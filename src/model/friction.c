@@ -1,3 +1,6 @@
+/* friction.c - Coulomb friction of contacts, as an energy of the sliding
+ * distance.
+ */
 #include "model/friction.h"
 
 #include <math.h>

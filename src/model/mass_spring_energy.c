@@ -1,3 +1,6 @@
+/* mass_spring_energy.c - the energy of all springs, with gradient and
+ * Hessian (slide MassSpringEnergy.py).
+ */
 #include "model/mass_spring_energy.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* neo_hookean.c - the neo-Hookean energy of a solid of triangles. */
 #include "model/neo_hookean.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* plasticity.c - springs that flow beyond their yield strain. */
 #include "model/plasticity.h"
 
 #include <math.h>

@@ -1,3 +1,6 @@
+/* pull_energy.c - springs that draw one node to a point: the central field,
+ * and the hand.
+ */
 #include "model/pull_energy.h"
 
 #include <math.h>

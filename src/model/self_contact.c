@@ -1,3 +1,4 @@
+/* self_contact.c - contact of bodies with each other and with themselves. */
 #include "model/self_contact.h"
 
 #include <float.h>

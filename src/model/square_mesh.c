@@ -1,3 +1,6 @@
+/* square_mesh.c - nodes, springs, cells and triangles of the square (slide
+ * square_mesh.py).
+ */
 #include "model/square_mesh.h"
 
 #include <string.h>

@@ -1,3 +1,6 @@
+/* system.c - the simulated system: masses, springs, pins, gravity and the
+ * list of energy terms.
+ */
 #include "model/system.h"
 
 #include <float.h>

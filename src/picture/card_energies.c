@@ -1,3 +1,4 @@
+/* card_energies.c - the card with the energies over time. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,3 +1,6 @@
+/* card_line.c - the card with E along the search direction, and the line
+ * search on it.
+ */
 #include <math.h>
 
 #include "picture/cards.h"

@@ -1,3 +1,6 @@
+/* card_listing.c - the card with the lines of Algorithm 3 or 1, and what the
+ * slides' program prints.
+ */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,3 +1,4 @@
+/* card_page.c - the card with the texts of a page of the lecture. */
 #include <limits.h>
 
 #include "picture/cards.h"

@@ -1,3 +1,4 @@
+/* card_residual.c - the card with the residual of each update of a step. */
 #include <math.h>
 
 #include "picture/cards.h"

@@ -1,3 +1,6 @@
+/* card_spy.c - the card with the non-zero blocks of the Hessian and of its
+ * factor.
+ */
 #include <stdlib.h>
 
 #include "picture/cards.h"

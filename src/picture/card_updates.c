@@ -1,3 +1,6 @@
+/* card_updates.c - two cards: E and its parts in this step, and a table of
+ * its updates.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* cards.c - the column of cards, and the sheet of keys over it. */
 #include "picture/cards.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* colour_map.c - colours of strains, methods and runs. */
 #include "picture/colour_map.h"
 
 #include <math.h>

@@ -1,3 +1,6 @@
+/* envelope_picture.c - the map of time steps and stiffnesses for which the
+ * square converges.
+ */
 #include <math.h>
 
 #include "picture/cards.h"

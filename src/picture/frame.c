@@ -1,3 +1,6 @@
+/* frame.c - the strip, the row of numbers, the time line and the buttons
+ * around the stage.
+ */
 #include "picture/cards.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* layout.c - the places of stage, cards and controls in the window. */
 #include "picture/layout.h"
 
 #include <math.h>

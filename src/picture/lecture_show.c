@@ -1,3 +1,4 @@
+/* lecture_show.c - the code and the columns that pages of the lecture show. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,3 +1,6 @@
+/* mass_picture.c - pictures of single masses: the circle, and motion with
+ * its arrows.
+ */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* paper.c - texts, boxes and lines in sizes that fit the window. */
 #include "picture/paper.h"
 
 #include <math.h>

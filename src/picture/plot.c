@@ -1,3 +1,4 @@
+/* plot.c - axes, curves, points and labels of a graph. */
 #include "picture/plot.h"
 
 #include <math.h>

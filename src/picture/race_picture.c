@@ -1,3 +1,6 @@
+/* race_picture.c - the graph of run time against error, one curve for each
+ * method.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,3 +1,6 @@
+/* spring_picture.c - the picture of one spring, and of its energy and force
+ * over its length.
+ */
 #include <math.h>
 #include <string.h>
 

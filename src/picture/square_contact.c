@@ -1,3 +1,6 @@
+/* square_contact.c - walls, balls and contact forces in the picture of the
+ * square.
+ */
 #include <math.h>
 #include <stdio.h>
 

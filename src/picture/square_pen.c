@@ -1,3 +1,6 @@
+/* square_pen.c - the layers of the square's picture: springs, nodes, faces,
+ * outlines.
+ */
 #include "picture/square_pen.h"
 
 #include <math.h>

@@ -1,3 +1,6 @@
+/* square_picture.c - the picture of the square: what is seen of the world,
+ * and its layers.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* commands.c - the table of commands, with their keys, texts and help. */
 #define _POSIX_C_SOURCE 200809L /* getline */
 
 #include "play/command.h"

@@ -1,3 +1,4 @@
+/* film.c - films of the drawn frames, encoded by the program ffmpeg. */
 #include "play/recording.h"
 
 #include <stdio.h>

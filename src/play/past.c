@@ -1,3 +1,6 @@
+/* past.c - the tree of all computed steps and edits: going back, undo,
+ * several panes.
+ */
 #include "play/past.h"
 
 #include <limits.h>

@@ -1,3 +1,4 @@
+/* player.c - the application: creation, drawing, main loop, end. */
 #include "play/player.h"
 
 #include <math.h>

@@ -1,3 +1,6 @@
+/* program.c - the command line and the terminal: beginning, messages,
+ * summary, exit codes.
+ */
 #include "play/player.h"
 
 #include <errno.h>

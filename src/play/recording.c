@@ -1,3 +1,4 @@
+/* recording.c - the tables, frames and films that a run writes. */
 #include "play/recording.h"
 
 #include <dirent.h>

@@ -1,3 +1,6 @@
+/* rounds.c - iterates of one step, kept for the cards and for walking line
+ * by line.
+ */
 #include "play/rounds.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* body.c - bodies and obstacles as the options describe them. */
 #include "scenes/body.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* contact_scenes.c - the scenes slope, squeeze, tear and bend. */
 #include <math.h>
 
 #include "scenes/body.h"

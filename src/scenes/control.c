@@ -1,3 +1,6 @@
+/* control.c - what a user decides about a run: options, pins, the hand; and
+ * its use on a simulation.
+ */
 #include "scenes/control.h"
 
 #include <math.h>

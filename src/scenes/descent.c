@@ -1,3 +1,6 @@
+/* descent.c - scenes in which Newton's method minimises a function of one or
+ * two unknowns.
+ */
 #include "scenes/simulation.h"
 
 #include <math.h>

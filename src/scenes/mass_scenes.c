@@ -1,3 +1,4 @@
+/* mass_scenes.c - scenes of single masses without a mesh. */
 #include "scenes/simulation.h"
 
 #include <math.h>

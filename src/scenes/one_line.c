@@ -1,3 +1,4 @@
+/* one_line.c - foreign texts made fit for one line of a message. */
 #include "scenes/one_line.h"
 
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* scene.c - the table of scenes. */
 #include "scenes/scene.h"
 
 #include "scenes/small_scenes.h"

@@ -1,3 +1,6 @@
+/* simulation.c - a scene while it runs: steps of all its runs, energies,
+ * rest.
+ */
 #include "scenes/simulation.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* state.c - saving, restoring and hashing the state of a simulation. */
 #include "scenes/control.h"
 
 #include <string.h>

@@ -1,3 +1,6 @@
+/* cholesky.c - sparse Cholesky factorisation by CHOLMOD, and solves with the
+ * factor.
+ */
 #include "solve/cholesky.h"
 
 #include <cholmod.h>

@@ -1,3 +1,6 @@
+/* grid.c - the square's numbers laid out as planes, and copies to and from
+ * them.
+ */
 #include "solve/grid.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* grid_energy.c - E, its gradient and its change along a line, on the grid. */
 #include <math.h>
 
 #include "solve/grid_spring.h"

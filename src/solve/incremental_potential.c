@@ -1,3 +1,6 @@
+/* incremental_potential.c - E(x) and its derivatives, summed over the terms
+ * (slides: IP_val, IP_grad, IP_hess).
+ */
 #include "solve/incremental_potential.h"
 
 #include <math.h>

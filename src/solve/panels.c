@@ -1,3 +1,6 @@
+/* panels.c - dense panels of a Cholesky factor: products and solves, with
+ * the same bits everywhere.
+ */
 #include "solve/panels.h"
 
 #include <math.h>

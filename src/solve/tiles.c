@@ -1,3 +1,6 @@
+/* tiles.c - minimisation of E tile by tile, where folds run through the
+ * square.
+ */
 #include "solve/tiles.h"
 
 #include "solve/grid_spring.h"

@@ -1,3 +1,6 @@
+/* v_cycle.c - conjugate gradients with a multigrid V-cycle as
+ * preconditioner.
+ */
 #include "solve/v_cycle.h"
 
 #include <math.h>

@@ -1,3 +1,6 @@
+/* time_integrator.c - one time step, from its start to the accepted state
+ * (slide time_integrator.py).
+ */
 #include "step/time_integrator.h"
 
 #include <math.h>

@@ -40,6 +40,14 @@ fast_math() {
 }
 verdict fast_math_is_refused "$(fast_math)"
 
+# The first line of a source says what the file is for.
+sources_without_heading() {
+    for source in src/*.c src/*/*.c; do
+        head -n 1 "$source" | grep -q '^/\*' || echo "$source"
+    done
+}
+verdict sources_begin_with_what_they_are_for "$(sources_without_heading)"
+
 # The floor of a file goes to $number: the number of its room, or of the programs
 # above them.
 floor() { # room/file, or file
