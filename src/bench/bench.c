@@ -94,10 +94,12 @@ static Status create_motion(const Motion *motion, int segments,
     return race_reference(simulation, motion->time);
 }
 
-/* What a minimisation leaves undone in a step is a change of velocity of at
- * most its tolerance; the sum over all steps is steps * tolerance * time / 2.
- * That may be a tenth of the error that is expected.  No run takes longer than
- * so much time, none follows an error that is small enough. */
+/* The last direction of a minimisation changes velocities by at most the
+ * tolerance; summed over all steps, positions by steps * tolerance * time / 2.
+ * That may be as much as the error that is expected of the method, since the
+ * last direction is used: what is left after it is a hundredth of it or less.
+ * No run takes longer than so much time, none follows an error that is small
+ * enough. */
 static Status climb(bool quick, const Motion *motion, Simulation *simulation,
                     const IntegratorMethod *method, Best best[TARGETS])
 {
@@ -107,7 +109,7 @@ static Status climb(bool quick, const Motion *motion, Simulation *simulation,
     RacePoint now = {.error = INFINITY};
     for (long steps = FIRST_STEPS; !(now.error < enough); steps *= 2) {
         TimeIntegrator run = {0};
-        simulation->options.tolerance = 0.2 * expected / (steps * motion->time);
+        simulation->options.tolerance = 2 * expected / (steps * motion->time);
         Status status =
             race_measure(simulation, method, motion->time, steps, &run, &now);
         time_integrator_free(&run);
