@@ -115,7 +115,12 @@ const fromAddress = () => {
   shown = location.hash;
   const [words, mark] = location.hash.slice(1).split('&');
   bare = mark === 'bare';
-  return words ? words.split(/(?<!\de)\+/i).filter(Boolean).map(decoded) : ['--lecture'];
+  return words
+    ? words
+        .split(/(?<!\de)\+/i)
+        .filter(Boolean)
+        .map(decoded)
+    : ['--lecture'];
 };
 const toAddress = (words) =>
   '#' +

@@ -202,7 +202,8 @@ const dropped = async (browser, scene, file, hash) => {
 // Twenty seconds of pushing, pressing and throwing end as natively.
 const pushed = async (browser) => {
   const file = path.join(__dirname, '../data/push.script');
-  const told = (word) => new RegExp(`^# ${word}: (.*)$`, 'm').exec(fs.readFileSync(file, 'utf8'))[1];
+  const told = (word) =>
+    new RegExp(`^# ${word}: (.*)$`, 'm').exec(fs.readFileSync(file, 'utf8'))[1];
   await dropped(browser, told('line'), file, told('ends'));
 };
 
