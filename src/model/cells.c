@@ -67,21 +67,16 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
     g[3] = factor * e1[0];
 }
 
-static bool curvature(const EvalPoint *at, const Element *element,
-                      Filter filter, AreaCurvature *area)
+static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
+                    double H[4][4])
 {
     const Cells *cells = at->term->data;
     double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->area);
     double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
-    return area_curvature(element->v, q, slope, -slope, bend, filter, area);
-}
-
-static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
-                    double H[4][4])
-{
     AreaCurvature area;
-    bool changed = curvature(at, element, filter, &area);
+    bool changed =
+        area_curvature(element->v, q, slope, -slope, bend, filter, &area);
     area_hessian(&area, H);
     return changed;
 }

@@ -359,7 +359,8 @@ static Status find_residual(Newton *newton, bool exact)
     return status;
 }
 
-void evaluate_gradient(Newton *newton)
+/* g at x, until x moves. */
+static void evaluate_gradient(Newton *newton)
 {
     Iterate *at = &newton->at;
     incremental_potential_gradient(&at->E, at->u, at->x, at->g);
