@@ -17,7 +17,7 @@ endif
 
 # ---- what is built ---------------------------------------------------------
 # The rooms, from the ground up; each uses itself and those before it.
-ROOMS = base model solve step scenes picture play
+ROOMS = base model solve step run scenes lesson picture play
 
 comma   := ,
 VARIANT := $(if $(SANITIZE),sanitize-$(subst $(comma),-,$(SANITIZE)),release)
@@ -157,17 +157,17 @@ $(B)/bench/%.o: private CPPFLAGS += -DBENCH_FLAGS='"$(strip $(CFLAGS))"'
 # ---- texts ------------------------------------------------------------------
 # Pages with the functions that they show, cards, and how the handout begins are
 # compiled into the program.
-PAGES = src/scenes/pages.txt
+PAGES = src/lesson/pages.txt
 CARDS = src/picture/cards.txt
 HEAD = src/play/handout.html
-READ = awk -f src/scenes/text.awk
+READ = awk -f src/lesson/text.awk
 LISTED = $(sort $(shell sed -n 's/^code \([^ ]*\).*/\1/p' $(PAGES)))
 
 $(B)/texts.c: $(LISTED) $(PAGES) $(CARDS) $(HEAD) $(wildcard src/*/*.awk) Makefile
 	$(call shown,WRITE)
-	$(Q){ echo '#include "scenes/pages.h"'; echo 'const char handout_head[] ='; \
+	$(Q){ echo '#include "lesson/pages.h"'; echo 'const char handout_head[] ='; \
 	  sed 's/[\"]/\\&/g; s/.*/"&\\n"/' $(HEAD); echo ';'; \
-	  $(READ) -f src/scenes/code.awk -f src/scenes/pages.awk $(PAGES); \
+	  $(READ) -f src/lesson/code.awk -f src/lesson/pages.awk $(PAGES); \
 	  pages=$$?; $(READ) -f src/picture/cards.awk $(CARDS) && [ $$pages = 0 ]; \
 	  } >$@.new && mv $@.new $@
 

@@ -9,8 +9,9 @@
 #define ELASTO_SHOW_H
 
 #include "picture/layout.h"
-#include "scenes/pages.h"
-#include "scenes/simulation.h"
+#include "lesson/pages.h"
+#include "run/simulation.h"
+#include "scenes/small_scenes.h"
 
 enum {
     SHOW_TEXT = 224, /* bytes of a sentence */

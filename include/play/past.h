@@ -32,7 +32,7 @@
 
 #include "play/command.h"
 #include "play/rounds.h"
-#include "scenes/control.h"
+#include "run/control.h"
 
 #define PAST_BYTES ((size_t)256 << 20) /* of states; they give way */
 

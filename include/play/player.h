@@ -18,7 +18,7 @@
 
 #include "play/past.h"
 #include "play/command.h"
-#include "scenes/options.h"
+#include "run/options.h"
 #include "play/recording.h"
 #include "play/view.h"
 

@@ -27,7 +27,7 @@
 
 #include "picture/canvas.h"
 #include "play/output.h"
-#include "scenes/simulation.h"
+#include "run/simulation.h"
 
 typedef struct Film {
     const struct FilmKind *kind;

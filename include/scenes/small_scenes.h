@@ -14,24 +14,12 @@
  * point, its run time and its error against velocity Verlet with a 64 times
  * finer step.  envelope: the square with every time step and stiffness.
  *
- * What they keep beside the states of their runs is plain numbers (Descent,
- * Exhibit), and part of the state.
+ * What they keep beside the states of their runs is in run/exhibit.h.
  */
 #ifndef ELASTO_SMALL_SCENES_H
 #define ELASTO_SMALL_SCENES_H
 
-#include "step/time_integrator.h"
-
-typedef struct Simulation Simulation;
-
-/* "Predict, then show": where somebody thinks that the next step leads. */
-typedef struct Prediction {
-    bool made;       /* at is a guess */
-    bool shown;      /* the step was made: came and distance are valid */
-    double at[2];    /* m */
-    double came[2];  /* m, where it led */
-    double distance; /* m, between the two; along x in one variable */
-} Prediction;
+#include "run/simulation.h"
 
 /* ---- one mass, one spring ------------------------------------------------ */
 
@@ -81,32 +69,6 @@ SpringFacts spring_facts(const double d[2], double l2, double k);
 
 /* ---- descents: a minimum that Newton looks for, update by update --------- */
 
-/* What is minimised, at a point: E or f, its gradient and its Hessian, J s^2
- * and m; of one unknown the first of each counts, the others are 0. */
-typedef struct Local {
-    double value, g[2], H[3]; /* xx, xy, yy */
-    int projected;            /* springs that a filter has changed in H */
-} Local;
-
-/* A function of one unknown. */
-typedef Local ScalarEnergy(const Simulation *simulation, double x);
-
-enum { DESCENT_MAX = 256 };
-
-/* The path of a minimisation that is shown iteration by iteration. */
-typedef struct Descent {
-    int count;                        /* iterations so far */
-    NewtonRecord record[DESCENT_MAX]; /* the first DESCENT_MAX of them */
-    double point[2];                  /* the present iterate */
-    double value;                     /* f or E there */
-    double began;                     /* E where the search began */
-    double direction[2];              /* p there, m; 0 if there is none */
-    double slope;                     /* grad . p there; < 0 is downhill */
-    bool by_gradient;     /* Algorithm 1 runs: its loop tests |g|, not |p|/h */
-    double residual;      /* what is tested, there: |g|, or |p|/h, m/s */
-    ScalarEnergy *scalar; /* of one unknown; NULL: of two */
-} Descent;
-
 /* Of one unknown: node 0 is the point (x, E(x)).  Of two: node 0 is free, nodes
  * 1 and 2 are pinned. */
 Status create_overshoot(Simulation *simulation);
@@ -137,24 +99,9 @@ double descent_direction(const Simulation *simulation, Filter filter,
  * with and without projection), 1 as at a saddle, 2 as at a maximum. */
 int descent_bends_down(const Simulation *simulation, double x, double y);
 
-/* The parts of E on the map of the landscape. */
-enum LandscapePart {
-    PART_INERTIA = 1,    /* |x - x_tilde|_M^2 / 2 */
-    PART_ELASTICITY = 2, /* h^2 P(x) */
-    PART_BOTH = 3
-};
-
 /* Their value with the h of the run, J s^2. */
 double landscape_part_value(const Simulation *simulation, unsigned parts,
                             double x, double y);
-
-/* The minimiser of E for one time step after the other. */
-enum { WALK_POINTS = 41 };
-
-typedef struct Walk {
-    double h[WALK_POINTS];        /* s, ascending */
-    double point[WALK_POINTS][2]; /* m */
-} Walk;
 
 /* Turns the dial: h times 10^(1/10), up to 10 s; node 0 is the minimiser. */
 Status create_dial(Simulation *simulation);
@@ -162,34 +109,6 @@ Status step_dial(Simulation *simulation);
 void dial_restart(Simulation *simulation);
 
 /* ---- run time against error ---------------------------------------------- */
-
-#define RACE_TIME 0.064 /* s, that every run covers */
-
-/* RACE_SHOWN: the row of h, h/2 and h/4 in the table of methods. */
-enum { RACE_SHOWN = 1, RACE_METHODS = 7, RACE_STEP_SIZES = 7 };
-
-/* Steps that explicit runs go on, unmeasured, for with too long a time step a
- * run may be accurate for a while and explode later; and how often the energy
- * at their end may be that at the start. */
-enum { RACE_LONGER = 2048, RACE_ENERGY = 2 };
-
-/* One run of the race: a method with a time step. */
-typedef struct RacePoint {
-    const IntegratorMethod *method;
-    double h;       /* s */
-    double error;   /* m, largest distance of a node from where it belongs;
-                       NaN: the run failed */
-    double seconds; /* run time, of the processor */
-    bool converged; /* in all steps */
-    double later;   /* what is left of the energy at the start after a second,
-                       of the runs of RACE_SHOWN */
-    bool stable;    /* its energy stays bounded when it runs on */
-} RacePoint;
-
-typedef struct Race {
-    int count; /* runs so far */
-    RacePoint point[RACE_METHODS * RACE_STEP_SIZES];
-} Race;
 
 /* The motion of run 0, exact up to rounding after so many seconds: sets run 1
  * to its end.  Only for springs alone.  STATUS_NOT_FINITE: the motion is too
@@ -219,21 +138,6 @@ const IntegratorMethod *race_method(int i);
 
 /* ---- how far the solver can be trusted ----------------------------------- */
 
-enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
-
-typedef struct EnvelopeCell {
-    bool known;
-    Status worst; /* OK: all steps passed the test */
-    int updates;  /* Newton updates of all its steps */
-} EnvelopeCell;
-
-/* Where the square converges: a row for each stiffness, a column for each time
- * step. */
-typedef struct EnvelopeMap {
-    EnvelopeCell cell[ENVELOPE_ROWS][ENVELOPE_COLUMNS];
-    int column, row; /* the cell whose run is shown; -1: none yet */
-} EnvelopeMap;
-
 /* s, of a column; J/m^2, of a row */
 double envelope_timestep(int column);
 double envelope_stiffness(int row);
@@ -247,18 +151,5 @@ Status step_envelope(Simulation *simulation);
 /* Runs one cell and shows it: run 0 is then its run.  Returns OK also where the
  * cell's steps did not converge; OUT_OF_MEMORY. */
 Status envelope_visit(Simulation *simulation, int column, int row);
-
-/* ---- what small scenes keep ---------------------------------------------- */
-
-typedef struct Exhibit {
-    double began[4]; /* m, m/s: x and v from which one mass's exact path goes */
-    double target[2]; /* m, x_tilde; of one unknown its x */
-    unsigned parts;   /* that are switched on: enum LandscapePart; of one spring
-                         1: the energy with the square root too; of the race
-                         1: over h instead of run time */
-    Walk walk;
-    Race race;
-    EnvelopeMap map;
-} Exhibit;
 
 #endif

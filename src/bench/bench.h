@@ -2,7 +2,8 @@
 #ifndef ELASTO_BENCH_H
 #define ELASTO_BENCH_H
 
-#include "scenes/simulation.h"
+#include "lesson/command_line.h"
+#include "run/simulation.h"
 
 /* step_forward of src/lecture.c.
  *   system  springs and masses are used, nothing else

@@ -11,7 +11,7 @@
 #include "model/spring_law.h"
 #include "picture/square_pen.h"
 #include "base/mathematics.h"
-#include "scenes/control.h"
+#include "run/control.h"
 
 enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
 static const double ARROW_LEAST = 1.5; /* ems, the longest arrow has */

@@ -10,9 +10,9 @@
 
 #include "picture/plot.h"
 #include "play/playing.h"
-#include "scenes/body.h"
-#include "scenes/pages.h"
-#include "scenes/scene.h"
+#include "run/body.h"
+#include "lesson/pages.h"
+#include "run/scene.h"
 #include "scenes/small_scenes.h"
 
 Status player_own_options(Player *player, const char *scene,

@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/scene.h"
+#include "run/scene.h"
 
 static const double LONG_WORK = 0.3;  /* s; then it is shown */
 static const double SMALL_LETTER = 9; /* pixels, of a surface */

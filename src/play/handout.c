@@ -9,8 +9,8 @@
 
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/pages.h"
-#include "scenes/scene.h"
+#include "lesson/pages.h"
+#include "run/scene.h"
 
 extern const char handout_head[]; /* handout.html, by the Makefile */
 

@@ -12,7 +12,7 @@
 #include "base/mathematics.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/scene.h"
+#include "run/scene.h"
 
 enum {
     CLICK_ROOM = 4,  /* pixels that a click may move */

@@ -6,7 +6,7 @@
 
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/scene.h"
+#include "run/scene.h"
 #include "scenes/small_scenes.h"
 
 Status player_tell(Player *player, Status status)

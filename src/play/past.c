@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/scene.h"
+#include "lesson/command_line.h"
 
 /* ---- reading ------------------------------------------------------------- */
 

@@ -9,7 +9,7 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/scene.h"
+#include "run/scene.h"
 
 enum {
     FRAME_SIZE = 900,   /* pixels, without a window */

@@ -3,7 +3,8 @@
 #define ELASTO_PLAYING_H
 
 #include "play/player.h"
-#include "scenes/one_line.h"
+#include "lesson/command_line.h"
+#include "run/one_line.h"
 
 /* All deeds are called alike, whether they need to know the command or not. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -121,7 +122,8 @@ const char *player_idle(const Player *player, const OptionRow *row);
 /* ---- screen.c ------------------------------------------------------------ */
 
 /* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, or the scene where
- * somebody attends, else one step a frame through time, and iterations one at a time. */
+ * somebody attends, else one step a frame through time, and iterations one at a
+ * time. */
 int player_first_speed(const Player *player, const Options *options);
 
 /* The scenes on the sheet go on for a slice of time, where it is open. */

@@ -15,9 +15,10 @@
 #include "base/clock.h"
 #include "model/contact.h"
 #include "picture/show.h"
-#include "scenes/one_line.h"
-#include "scenes/pages.h"
-#include "scenes/scene.h"
+#include "lesson/command_line.h"
+#include "run/one_line.h"
+#include "lesson/pages.h"
+#include "scenes/scenes.h"
 
 /* The one line about what went wrong, fit for a terminal.  Returns the exit
  * code. */

@@ -12,8 +12,8 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/pages.h"
-#include "scenes/scene.h"
+#include "lesson/pages.h"
+#include "scenes/scenes.h"
 
 enum {
     WATCHED_SPEED = -5, /* of iterations that are watched one by one */

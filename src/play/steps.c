@@ -12,7 +12,7 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/scene.h"
+#include "run/scene.h"
 
 enum { SLOW_NODES = 50000 };
 

@@ -1,7 +1,7 @@
 /* contact_scenes.c - the scenes slope, squeeze, tear and bend. */
-#include <math.h>
+#include "scenes/contact_scenes.h"
 
-#include "scenes/body.h"
+#include <math.h>
 
 /* ---- slope ------------------------------------------------------------- */
 

@@ -1,7 +1,7 @@
 /* descent.c - scenes in which Newton's method minimises a function of one or
  * two unknowns.
  */
-#include "scenes/simulation.h"
+#include "scenes/small_scenes.h"
 
 #include <math.h>
 #include <string.h>

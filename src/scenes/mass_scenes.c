@@ -1,5 +1,5 @@
 /* mass_scenes.c - scenes of single masses without a mesh. */
-#include "scenes/simulation.h"
+#include "scenes/small_scenes.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,9 @@
 /* scene.c - the table of scenes. */
-#include "scenes/scene.h"
+#include "scenes/scenes.h"
 
+#include "run/body.h"
+#include "scenes/contact_scenes.h"
 #include "scenes/small_scenes.h"
-#include "scenes/body.h"
 
 /* A body of cells, by any integrator. */
 #define SQUARE PICTURE_SQUARE, NEEDS_SQUARE
@@ -25,7 +26,8 @@ const Scene scenes[] = {
      "Newton's full steps overshoot; a line search tames them", PICTURE_CURVE,
      NEEDS_START | NEEDS_ONE_NUMBER | NEEDS_MINIMUM,
      "--start 2 --tolerance 1e-10 --line-search none", create_overshoot,
-     .turn = "iteration", .explains = true, .step = step_descent, .grips = "x"},
+     .turn = "iteration", .explains = true, .step = step_descent,
+     .restart = descent_restart, .grips = "x"},
     {"unprojected", "Without projection",
      "the squeezed square: without projection Newton is stuck", SQUARE,
      "--timestep 0.02 --stretch 0.5 --filter none", create_square,
@@ -57,7 +59,8 @@ const Scene scenes[] = {
           "--at -0.08636008618973134,0.2372723867484419 "
           "--friction 0.36397023426620234 "
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
-     create_slope, .frame = {-2.3, -2.75, 0.9, 2.0}},
+     create_slope, .runs = SIMULATION_MAX_RUNS,
+     .frame = {-2.3, -2.75, 0.9, 2.0}},
     {"squeeze", "Contact: pressed flat",
      "a ceiling comes down and lets go: all of it returns", SQUARE,
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
@@ -124,8 +127,8 @@ const Scene scenes[] = {
      NEEDS_START | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_STEP,
      "--start 0.1,-0.35 --tolerance 1e-6 --timestep 0.2", create_landscape,
      .turn = "iteration", .explains = true, .step = step_descent,
-     .aim = aim_descent, .grips = "tx", .parts = {"inertia", "elasticity"},
-     .by_name = true},
+     .restart = descent_restart, .aim = aim_descent, .grips = "tx",
+     .parts = {"inertia", "elasticity"}, .by_name = true},
     {"arrows", "One mass",
      "one mass on a spring: the arrows of three Euler steps", PICTURE_MASS,
      NEEDS_TIME | NEEDS_START, "--timestep 0.5 --start 1,0", create_mass,
@@ -134,13 +137,13 @@ const Scene scenes[] = {
      "Newton in one dimension: tangents of g, parabolas of E", PICTURE_TANGENT,
      NEEDS_START | NEEDS_MINIMUM | NEEDS_ONE_NUMBER | NEEDS_STEP,
      "--start 2.5 --tolerance 1e-10 --line-search none --timestep 0.3",
-     create_tangent, .turn = "iteration", .step = step_descent, .grips = "xt",
-     .by_name = true},
+     create_tangent, .turn = "iteration", .step = step_descent,
+     .restart = descent_restart, .grips = "xt", .by_name = true},
     {"dial", "The time step as a dial",
      "a longer time step: from free flight to the rest shape", PICTURE_DIAL,
      NEEDS_STEP, "--timestep 0.005", create_dial, .turn = "point",
-     .step = step_dial, .grips = "t", .parts = {"inertia", "elasticity"},
-     .by_name = true},
+     .step = step_dial, .restart = dial_restart, .grips = "t",
+     .parts = {"inertia", "elasticity"}, .by_name = true},
     {"spring", "One spring",
      "one spring: energy, force, eigenvalues; drag its end", PICTURE_SPRING,
      NEEDS_TIME | NEEDS_START | NEEDS_SPRINGS | NEEDS_MINIMUM,

@@ -5,8 +5,8 @@
 
 #include "base/clock.h"
 #include "model/spring_law.h"
-#include "scenes/body.h"
-#include "scenes/simulation.h"
+#include "run/body.h"
+#include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
 /* The last status that is not OK of so many steps with these options, or the

@@ -4,7 +4,7 @@
 # superscripts.  Whatever a letter of ours looks like depends on these alone.
 set -eu
 mkdir -p "$1"
-letters=$(cat src/*.c src/*/*.c src/scenes/pages.txt src/picture/cards.txt include/*/*.h | python3 -c '
+letters=$(cat src/*.c src/*/*.c src/lesson/pages.txt src/picture/cards.txt include/*/*.h | python3 -c '
 import re, sys
 text = sys.stdin.read()
 text += "".join(chr(int(code, 16)) for code in re.findall(r"\\u(\w{4})", text))

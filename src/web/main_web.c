@@ -8,8 +8,8 @@
 
 #include "base/clock.h"
 #include "play/playing.h"
-#include "scenes/pages.h"
-#include "scenes/scene.h"
+#include "lesson/pages.h"
+#include "run/scene.h"
 
 enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
 

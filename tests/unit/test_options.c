@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scenes/one_line.h"
-#include "scenes/pages.h"
+#include "run/one_line.h"
+#include "lesson/pages.h"
 
 static Options parse_good(const char *line)
 {

@@ -41,6 +41,7 @@ static Simulation *open_page(const char *name, const char *more)
     Simulation *simulation = simulate_watched(
         keep_record, NULL, "%s%s%s", page->line, more[0] ? " " : "", more);
     simulation->options.page = page;
+    simulation->options.kinds = page->kinds;
     return simulation;
 }
 

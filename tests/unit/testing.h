@@ -11,7 +11,10 @@
 
 #include <cmocka.h>
 
-#include "scenes/control.h"
+#include "lesson/command_line.h"
+#include "run/control.h"
+#include "scenes/scenes.h"
+#include "scenes/small_scenes.h"
 
 /* |got - expected| <= tolerance; NaN fails. */
 #define CHECK_NEAR(got, expected, tolerance)                                   \

@@ -5,8 +5,8 @@
 #define ELASTO_BODY_H
 
 #include "model/contact.h"
-#include "scenes/one_line.h"
-#include "scenes/simulation.h"
+#include "run/one_line.h"
+#include "run/simulation.h"
 
 /* The square, or of its rows the part that the scene has. */
 SquareMesh body_shape(const Options *options);
@@ -33,24 +33,6 @@ Status body_follow(Simulation *simulation, int run);
 
 /* The only run of a scene, which is this body. */
 Status create_square(Simulation *simulation);
-
-/* What the command line has no words for (contact_scenes.c): what moves, what
- * is cut. */
-
-/* Three blocks on slopes; friction, which the option gives for the second
- * number below as what just holds, is 0.5, 0.9 and 1.1 times that. */
-Status create_slope(Simulation *simulation);
-
-/* A ceiling comes down on the square and goes up again. */
-Obstacle squeeze_ceiling(const Options *options);
-Status create_squeeze(Simulation *simulation);
-
-/* Both sides are drawn apart; a slit in the middle opens and runs. */
-Status create_tear(Simulation *simulation);
-
-/* A beam with a notch lies on two balls, and a heavy third falls on it. */
-Obstacle bend_ball(const Options *options);
-Status create_bend(Simulation *simulation);
 
 /* What the options ask for that only a step whose result is the minimiser
  * knows, in words; NULL: nothing. */

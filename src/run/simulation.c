@@ -1,7 +1,7 @@
 /* simulation.c - a scene while it runs: steps of all its runs, energies,
  * rest.
  */
-#include "scenes/simulation.h"
+#include "run/simulation.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* control.c - what a user decides about a run: options, pins, the hand; and
  * its use on a simulation.
  */
-#include "scenes/control.h"
+#include "run/control.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/pull_energy.h"
-#include "scenes/body.h"
+#include "run/body.h"
 
 static Control *make_control(int nodes)
 {

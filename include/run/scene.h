@@ -1,4 +1,4 @@
-/* scene.h - the scenes, one row of a table each.
+/* scene.h - what a scene is: a row of the table in scenes.h.
  *
  * A row names what the scene needs; the rest is skipped: no term evaluated, no
  * matrix analysed, nothing drawn.  To add a scene: one row in scene.c and one
@@ -79,6 +79,7 @@ typedef struct Scene {
      * k_c over k, 0: one half; whether pins are moved. */
     double aspect, cell_stiffness;
     bool moving_pins;
+    int runs; /* each with a body of its own; 0: one */
     /* The obstacle that comes with the scene beside those of the options, as it
      * begins, o a ball's centre too.  NULL: there is none. */
     struct Obstacle (*own)(const struct Options *options);
@@ -87,38 +88,14 @@ typedef struct Scene {
     /* The next direction again, after filter or line search changed; NULL:
      * the next step takes notice by itself. */
     void (*aim)(struct Simulation *simulation);
+    /* The search anew, after a point was dragged; NULL: only where time passes.
+     */
+    void (*restart)(struct Simulation *simulation);
     /* The points that can be dragged, a letter each: x, the mass or the
      * iterate; v, the tip of its velocity; t, x_tilde.  NULL: none. */
     const char *grips;
     /* The parts of the picture that can be switched. */
     const char *parts[SCENE_MAX_SWITCHES];
 } Scene;
-
-/* The table; the first row is the default; those by_name are the last ones; it
- * ends with a NULL name. */
-extern const Scene scenes[];
-
-/* The points that can be dragged, m: at out; the parts that can be switched.
- * Both return how many. */
-int exhibit_handles(const struct Simulation *simulation,
-                    double at[SCENE_MAX_HANDLES][2]);
-int exhibit_switches(const struct Simulation *simulation,
-                     Switch out[SCENE_MAX_SWITCHES]);
-
-/* Bit s: switch s is not as the scene begins by itself. */
-unsigned exhibit_flips(const struct Simulation *simulation);
-
-/* On a page that has them as switches: the kind of a spring, 0 ... 3. */
-bool exhibit_has_kinds(const struct Simulation *simulation);
-int exhibit_kind(const struct Simulation *simulation, int spring);
-
-/* Moves one of the points, and all that hangs on it, to (x, y), which may be no
- * place for it; switches a part.  The number is below how many there are. */
-void exhibit_drag(struct Simulation *simulation, int handle, double x,
-                  double y);
-void exhibit_flip(struct Simulation *simulation, int number);
-
-/* The row with this name, or with this number from 1; NULL: there is none. */
-const Scene *scene_find(const char *text);
 
 #endif

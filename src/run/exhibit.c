@@ -2,8 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scenes/pages.h"
-#include "scenes/simulation.h"
+#include "run/simulation.h"
 
 int exhibit_handles(const Simulation *simulation,
                     double at[SCENE_MAX_HANDLES][2])
@@ -35,7 +34,7 @@ void exhibit_drag(Simulation *simulation, int handle, double x, double y)
     if (!(scene->needs & NEEDS_TIME)) {
         memcpy(grip == 't' ? simulation->exhibit.target : run->x, to,
                sizeof to);
-        (scene->step == step_dial ? dial_restart : descent_restart)(simulation);
+        scene->restart(simulation);
         return;
     }
     for (int k = 0; k < 2; k++) {
@@ -52,7 +51,7 @@ void exhibit_drag(Simulation *simulation, int handle, double x, double y)
 
 bool exhibit_has_kinds(const Simulation *simulation)
 {
-    return simulation->options.page && simulation->options.page->kinds;
+    return simulation->options.kinds;
 }
 
 /* In the order of the mesh: n (n + 1) that lie, as many that stand, and the
@@ -71,8 +70,7 @@ int exhibit_switches(const Simulation *simulation,
         "horizontal", "vertical", "diagonal /", "diagonal \\"};
     bool has_kinds = exhibit_has_kinds(simulation);
     const char *const *part = has_kinds ? kinds : simulation->scene->parts;
-    const LecturePage *page = simulation->options.page;
-    bool none = page && page->nears && !page->flips; /* it compares nothing */
+    bool none = simulation->options.no_switches;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && part[count]; count++)
         out[count] = (Switch){

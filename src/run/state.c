@@ -1,12 +1,12 @@
 /* state.c - saving, restoring and hashing the state of a simulation. */
-#include "scenes/control.h"
+#include "run/control.h"
 
 #include <string.h>
 
 #include "model/contact.h"
 #include "model/fracture.h"
 #include "model/plasticity.h"
-#include "scenes/body.h"
+#include "run/body.h"
 
 /* Where pieces of a state are saved to or restored from, NULL: they are only
  * counted; and how many bytes there were. */

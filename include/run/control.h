@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scenes/simulation.h"
+#include "run/simulation.h"
 
 /* Never changed once it is made: all that need it share it. */
 typedef struct Control {

@@ -1,5 +1,5 @@
 /* body.c - bodies and obstacles as the options describe them. */
-#include "scenes/body.h"
+#include "run/body.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 #include "model/elements.h"
 #include "model/friction.h"
 #include "model/self_contact.h"
-#include "scenes/control.h"
+#include "run/control.h"
 #include "base/mathematics.h"
 
 /* ---- pins --------------------------------------------------------------- */
@@ -256,7 +256,7 @@ static Status set_terms(const Options *options, System *system)
 /* Runs of the scene, each with a body of its own. */
 static int runs_of(const Options *options)
 {
-    return options->scene->create == create_slope ? SIMULATION_MAX_RUNS : 1;
+    return options->scene->runs > 0 ? options->scene->runs : 1;
 }
 
 /* Where the body of a run begins, x and v [2 nodes] out: in the last step of a

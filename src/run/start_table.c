@@ -1,7 +1,7 @@
 /* start_table.c - a start out of files: a step of a table of states, and the
  * springs of that step.
  */
-#include "scenes/body.h"
+#include "run/body.h"
 
 #include <errno.h>
 #include <math.h>

@@ -6,12 +6,11 @@
 #ifndef ELASTO_SIMULATION_H
 #define ELASTO_SIMULATION_H
 
-#include "scenes/options.h"
-#include "scenes/scene.h"
+#include "run/exhibit.h"
+#include "run/options.h"
+#include "run/scene.h"
 #include "solve/newton.h"
 #include "model/square_mesh.h"
-
-#include "scenes/small_scenes.h"
 
 enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 

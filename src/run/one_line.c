@@ -1,5 +1,5 @@
 /* one_line.c - foreign texts made fit for one line of a message. */
-#include "scenes/one_line.h"
+#include "run/one_line.h"
 
 #include <stdarg.h>
 #include <stdbool.h>

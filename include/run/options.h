@@ -68,7 +68,9 @@ typedef struct Options {
     const char *state_springs;      /* the table of its springs, or NULL */
     const char *frames, *states, *log, *energies, *springs, *film, *script,
         *handout; /* or NULL */
-    int panes;    /* side by side, 1: no lists of values */
+    bool kinds;   /* each kind of springs is a switch */
+    bool no_switches;
+    int panes; /* side by side, 1: no lists of values */
 } Options;
 
 /* The slot of a number of Options: OPTION_SLOT(timestep). */
@@ -151,11 +153,6 @@ enum { OPTIONS_MOST = 64 }; /* rows */
 /* The row with this name, or NULL. */
 const OptionRow *option_find(const char *name);
 
-/* A single number as somebody types it, "1/60", "0,02", "4 ms", "clamp".
- *   value  out
- * Returns whether it can be read and is in the row's range. */
-bool option_read(const OptionRow *row, const char *text, double *value);
-
 /* A number of the row (NULL: any) as text: with as many digits as option_read
  * needs to read the same number again, or in short, as the window has room for
  * it: of what is given several times the last one; "none": it was not given.
@@ -182,35 +179,8 @@ int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST]);
  * they have three digits. */
 double option_paced(const OptionRow *row, const Options *options, double paces);
 
-/* ---- what reads and writes it ------------------------------------------- */
-
-/* argv into options, whose texts point into argv.  Where values of scene and
- * method are lists, "--timestep 0.004,0.04 --filter clamp,none" are four panes:
- * options->panes says so, and each has options of its own.
- *   pane     whose options, from 0
- *   options  out
- *   message  [size] out, one line without newline after INVALID_INPUT: the
- *            option, its value and its range stand in it, whole if 512 bytes
- *            are there
- * Returns OK or INVALID_INPUT.  Prints nothing. */
-Status options_parse(int argc, char **argv, int pane, Options *options,
-                     char *message, size_t size);
-
-/* The same of one line, "drop --segments 8", that has no texts: no files, no
- * pins. */
-Status options_of_line(const char *line, Options *options, char *message,
-                       size_t size);
-
-/* One option, by its name without dashes, of options that have a scene already:
- * what this scene cannot make use of is refused, as above. */
-Status options_set(Options *options, const char *name, const char *value,
-                   char *message, size_t size);
-
 /* The chosen integrator, or the first of the table. */
 const IntegratorMethod *options_method(const Options *options);
-
-/* Writes the text of --help, 80 columns wide. */
-void options_help(FILE *help);
 
 /* The name of a solver as on the command line. */
 const char *solver_name(int solver);

@@ -6,7 +6,7 @@
  * --help, lists side by side, its place in the window and the term come from
  * the row.
  */
-#include "scenes/options.h"
+#include "run/options.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,9 +22,8 @@
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
 #include "model/square_mesh.h"
-#include "scenes/pages.h"
-#include "scenes/body.h"
-#include "scenes/scene.h"
+#include "run/body.h"
+#include "run/scene.h"
 
 static const char *const solvers[] = {"newton", "multigrid", "auto", NULL};
 static const char *const filters[] = {"clamp", "none", "abs", "on-demand",
@@ -236,9 +235,10 @@ const OptionRow option_rows[] = {
     {TABLE(springs, "the same of the springs at every step"), NEEDS(MESH)},
     {TEXT(film, "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif")},
     {TEXT(script, "FILE", "commands, each line: STEP COMMAND")},
-    {VALUE(PAGE, "lecture", "[PAGE]", "page by page; Page Down is the next one",
-           ""),
-     .names = {lecture_pages, sizeof *lecture_pages}},
+    {
+        VALUE(PAGE, "lecture", "[PAGE]",
+              "page by page; Page Down is the next one", ""),
+    },
     {SWITCH(big, "letters have a 35th of the height")},
     {TEXT(handout, "FILE", "all pages as one HTML file, and end")},
     {SWITCH(quiet, "no summary")},

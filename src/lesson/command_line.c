@@ -1,6 +1,8 @@
-/* option_read.c - the command line: its values, its words, and what to say
+/* command_line.c - the command line: its values, its words, and what to say
  * where one of them cannot be read; and its help.
  */
+#include "lesson/command_line.h"
+
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,10 +10,10 @@
 #include <string.h>
 #include <strings.h>
 
-#include "scenes/body.h"
-#include "scenes/one_line.h"
-#include "scenes/pages.h"
-#include "scenes/scene.h"
+#include "run/body.h"
+#include "run/one_line.h"
+#include "lesson/pages.h"
+#include "scenes/scenes.h"
 
 /* ---- short texts -------------------------------------------------------- */
 
@@ -312,7 +314,7 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
                       "--%s: '%.60s' is none of: the pages from 1 to %d, their "
                       "names%s",
                       row->name, text, lecture_count(),
-                      meant(text, "", row->names).text);
+                      meant(text, "", NAMES_OF(lecture_pages)).text);
     const Gone *went = find_gone(row->name, text);
     if (went)
         return refuse(line->told, "--%s: '%s' is gone: %s", row->name, text,
@@ -774,6 +776,8 @@ Status lecture_options(const LecturePage *page, Options *options, char *message,
         options->pin = pin + strlen("--pin ");
     options->page = page;
     options->flips = page->flips;
+    options->kinds = page->kinds;
+    options->no_switches = page->nears && !page->flips;
     options->speed = page->speed;
     return status;
 }
