@@ -65,17 +65,17 @@ struct ElementKind {
     int (*blocks)(const EvalPoint *at);
     int (*nodes)(const EvalPoint *at, int block, int node[3]);
 
-    /* W, J, and its gradient g [4] out; H [4][4] out, filtered (TermKind's
+    /* W, J, and its gradient g [4] out; H [4][4] out, projected (TermKind's
      * hessian), returns whether it was changed. */
     double (*value)(const EvalPoint *at, const Element *element);
     void (*gradient)(const EvalPoint *at, const Element *element, double g[4]);
-    bool (*hessian)(const EvalPoint *at, const Element *element, Filter filter,
-                    double H[4][4]);
+    bool (*hessian)(const EvalPoint *at, const Element *element,
+                    Projection projection, double H[4][4]);
 
     /* Hv [4] = H v, out, where that has more digits than H itself; returns as
      * hessian.  NULL: it has not. */
-    bool (*product)(const EvalPoint *at, const Element *element, Filter filter,
-                    const double v[4], double Hv[4]);
+    bool (*product)(const EvalPoint *at, const Element *element,
+                    Projection projection, const double v[4], double Hv[4]);
 
     /* With P [4], the change of a and b along p: W at alpha minus W minus
      * alpha grad W.P, J, without cancellation; and the alpha that uses up
@@ -111,8 +111,8 @@ double elements_value(const EvalPoint *at);
 void elements_gradient(const EvalPoint *at, double *g);
 long long elements_entries(const EvalPoint *at);
 void elements_pattern(const EvalPoint *at, Triplets *triplets);
-int elements_hessian(const EvalPoint *at, Filter filter, const int *slot,
-                     const double *q, double *out);
+int elements_hessian(const EvalPoint *at, Projection projection,
+                     const int *slot, const double *q, double *out);
 double elements_remainder(const EvalPoint *at, const double *p, double alpha);
 double elements_reach(const EvalPoint *at, const double *p);
 bool elements_allowed(const EvalPoint *at);

@@ -12,25 +12,25 @@
 #include "base/mathematics.h"
 
 /* What is done with the negative eigenvalues of a block. */
-typedef enum Filter {
-    FILTER_CLAMP,     /* replace them by 0: the slides' projection */
-    FILTER_NONE,      /* keep them */
-    FILTER_ABS,       /* replace them by their absolute values */
-    FILTER_ON_DEMAND, /* keep them while the whole Hessian has a Cholesky
-                         factor, else clamp; for one block: as NONE */
-    FILTER_COUNT
-} Filter;
+typedef enum Projection {
+    PROJECTION_CLAMP,     /* replaced by 0, as on the slides */
+    PROJECTION_NONE,      /* kept */
+    PROJECTION_ABS,       /* replaced by their absolute values */
+    PROJECTION_ON_DEMAND, /* kept while the whole Hessian has a Cholesky factor,
+                             else replaced by 0; in a single block: kept */
+    PROJECTION_COUNT
+} Projection;
 
-/* Whether it changes a negative eigenvalue of a block at all. */
-static inline bool filter_projects(Filter filter)
+/* Whether the negative eigenvalues of each block are replaced. */
+static inline bool projects_blocks(Projection projection)
 {
-    return filter == FILTER_CLAMP || filter == FILTER_ABS;
+    return projection == PROJECTION_CLAMP || projection == PROJECTION_ABS;
 }
 
-/* What becomes of one eigenvalue where it does. */
-static inline double projected_eigenvalue(Filter filter, double value)
+/* An eigenvalue after CLAMP or ABS. */
+static inline double project_eigenvalue(Projection projection, double value)
 {
-    return value >= 0 ? value : filter == FILTER_ABS ? -value : 0;
+    return value >= 0 ? value : projection == PROJECTION_ABS ? -value : 0;
 }
 
 /* Does so with any symmetric 2x2 matrix; one without negative eigenvalues stays
@@ -38,15 +38,15 @@ static inline double projected_eigenvalue(Filter filter, double value)
  * is the projector on the eigenvector of the higher one.
  *   H  [3] in/out: H_xx, H_xy, H_yy
  * Returns whether one was changed. */
-static inline bool filter_2x2(Filter filter, double H[3])
+static inline bool project_psd_2x2(Projection projection, double H[3])
 {
     double mean = 0.5 * (H[0] + H[2]);
     double radius = math_hypot(0.5 * (H[0] - H[2]), H[1]);
     double low = mean - radius, high = mean + radius;
-    if (low >= 0 || !filter_projects(filter))
+    if (low >= 0 || !projects_blocks(projection))
         return false;
-    double new_low = projected_eigenvalue(filter, low);
-    double new_high = projected_eigenvalue(filter, high);
+    double new_low = project_eigenvalue(projection, low);
+    double new_high = project_eigenvalue(projection, high);
     double factor = high > low ? (new_high - new_low) / (high - low) : 0;
     H[0] = new_low + factor * (H[0] - low);
     H[1] = factor * H[1];

@@ -65,26 +65,27 @@ static inline double spring_across(double d2, double l2)
     return d2 - l2;
 }
 
-/* Both eigenvalues projected: a negative one becomes what the filter says.
+/* Both eigenvalues projected: a negative one becomes what the projection says.
  * Returns whether there was one; that across d is the smaller one. */
-static inline bool spring_project(Filter filter, double *along, double *across)
+static inline bool spring_project(Projection projection, double *along,
+                                  double *across)
 {
-    if (*across >= 0 || !filter_projects(filter))
+    if (*across >= 0 || !projects_blocks(projection))
         return false;
-    *along = projected_eigenvalue(filter, *along);
-    *across = projected_eigenvalue(filter, *across);
+    *along = project_eigenvalue(projection, *along);
+    *across = project_eigenvalue(projection, *across);
     return true;
 }
 
-/* H [3] out (xx, xy, yy), with its negative eigenvalues treated as the filter
- * says.  Returns whether there was a negative one that was changed; a broken
- * spring, k = 0, has none. */
+/* H [3] out (xx, xy, yy), with its negative eigenvalues treated as the
+ * projection says.  Returns whether there was a negative one that was changed;
+ * a broken spring, k = 0, has none. */
 static inline bool spring_hessian(const double d[2], double l2, double k,
-                                  Filter filter, double H[3])
+                                  Projection projection, double H[3])
 {
     double c = spring_c(l2, k), d2 = d[0] * d[0] + d[1] * d[1];
     double along = spring_along(d2, l2), across = spring_across(d2, l2);
-    if (!spring_project(filter, &along, &across)) {
+    if (!spring_project(projection, &along, &across)) {
         H[0] = c * (2 * d[0] * d[0] + across);
         H[1] = c * (2 * d[0] * d[1]);
         H[2] = c * (2 * d[1] * d[1] + across);

@@ -104,10 +104,10 @@ struct TermKind {
 
     /* out[slot[t]] += w entry t of the Hessian at x; or, where q is given,
      * out += w Hessian q, without a matrix: out and q are then [2n].  Each
-     * block is filtered: with CLAMP and ABS what is added must be positive
+     * block is projected: with CLAMP and ABS what is added must be positive
      * semi-definite; NONE and ON_DEMAND mean the Hessian as it is.  Returns how
-     * many blocks were changed by the filter. */
-    int (*hessian)(const EvalPoint *at, Filter filter, const int *slot,
+     * many blocks were changed by the projection. */
+    int (*hessian)(const EvalPoint *at, Projection projection, const int *slot,
                    const double *q, double *out);
 
     /* What w P(x + alpha p) is along a line, without its terms of degree 0 and

@@ -25,7 +25,7 @@ typedef struct Prediction {
  * and m; of one unknown the first of each counts, the others are 0. */
 typedef struct Local {
     double value, g[2], H[3]; /* xx, xy, yy */
-    int projected;            /* springs that a filter has changed in H */
+    int projected;            /* springs that a projection has changed in H */
 } Local;
 
 /* A function of one unknown. */

@@ -49,7 +49,8 @@ typedef struct Options {
             double terms[8]; /* of terms that nobody else asks for */
             double timestep, tolerance;
             double integrator;     /* its row; -1: the scene's choice */
-            double solver, filter; /* enum Solver, Filter */
+            double solver;         /* enum Solver */
+            double projection;     /* enum Projection */
             double line_search;    /* enum LineSearch */
             double flips;          /* bit s: switch s of the scene is turned
                                       over at the start: of a page, by hand */

@@ -33,7 +33,7 @@ enum SceneNeeds {
     NEEDS_MESH = 1,        /* segments, side, density, stiffness, stretch */
     NEEDS_TIME = 2,        /* an integrator */
     NEEDS_START = 4,       /* a point to start from */
-    NEEDS_SPRINGS = 8,     /* solver and filter of their Hessian */
+    NEEDS_SPRINGS = 8,     /* solver and projection of their Hessian */
     NEEDS_MINIMUM = 16,    /* tolerance and line search */
     NEEDS_ONE_NUMBER = 32, /* of the start: its x is enough */
     NEEDS_STEP = 64,       /* a time step h, but no integrator */
@@ -85,7 +85,7 @@ typedef struct Scene {
     struct Obstacle (*own)(const struct Options *options);
     /* One step; NULL: a step in time of every run. */
     Status (*step)(struct Simulation *simulation);
-    /* The next direction again, after filter or line search changed; NULL:
+    /* The next direction again, after projection or line search changed; NULL:
      * the next step takes notice by itself. */
     void (*aim)(struct Simulation *simulation);
     /* The search anew, after a point was dragged; NULL: only where time passes.

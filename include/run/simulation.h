@@ -153,11 +153,11 @@ bool simulation_is_handled(const Simulation *simulation);
 
 /* Whether there is a Hessian to project and a line to search (not in explicit
  * integrators). */
-bool simulation_has_filter(const Simulation *simulation);
+bool simulation_has_projection(const Simulation *simulation);
 bool simulation_has_line_search(const Simulation *simulation);
 
-/* Whether the blocks that a filter may change are those of the springs alone:
- * one each, and none of contact or cells. */
+/* Whether the blocks that a projection may change are those of the springs
+ * alone: one each, and none of contact or cells. */
 bool simulation_projects_springs(const Simulation *simulation);
 
 /* The point that a scene is about, m: the iterate, or node 0 of run 0; at [2]

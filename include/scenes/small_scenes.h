@@ -86,12 +86,12 @@ void aim_descent(Simulation *simulation);
 void descent_restart(Simulation *simulation);
 
 /* What is minimised there, of the parts on the map. */
-Local descent_at(const Simulation *simulation, Filter filter, double x,
+Local descent_at(const Simulation *simulation, Projection projection, double x,
                  double y);
 
-/* p = -H^-1 g from x [2] with this filter, m, whatever the run's own
- * filter is.  Returns grad E . p, J s^2, NaN where H has no inverse. */
-double descent_direction(const Simulation *simulation, Filter filter,
+/* p = -H^-1 g from x [2] with this projection, m, whatever the run's own
+ * projection is.  Returns grad E . p, J s^2, NaN where H has no inverse. */
+double descent_direction(const Simulation *simulation, Projection projection,
                          const double *x, double p[2]);
 
 /* In how many directions it bends down there, or does not bend: 0 where the

@@ -57,15 +57,15 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
  * has them when it is made again.  *grown out.  Returns OK, OUT_OF_MEMORY. */
 Status incremental_potential_grow(const Iterate *iterate, bool *grown);
 
-/* A = Hessian of E at u, x, filtered.  slot as above.
- * Returns how many blocks of terms the filter changed. */
-int incremental_potential_hessian(const Iterate *at, Filter filter,
+/* A = Hessian of E at u, x, projected.  slot as above.
+ * Returns how many blocks of terms the projection changed. */
+int incremental_potential_hessian(const Iterate *at, Projection projection,
                                   const int *slot, Sparse *A);
 
-/* y = (filtered) Hessian of E at u, x times q, without a matrix.
+/* y = (projected) Hessian of E at u, x times q, without a matrix.
  *   q  [2n] in, 0 for pinned nodes; y [2n] out
- * Returns how many blocks of terms the filter changed. */
-int incremental_potential_product(const Iterate *at, Filter filter,
+ * Returns how many blocks of terms the projection changed. */
+int incremental_potential_product(const Iterate *at, Projection projection,
                                   const double *q, double *y);
 
 /* What draws nodes to points, and nothing else, makes them heavier:

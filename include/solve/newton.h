@@ -59,7 +59,7 @@ typedef struct NewtonSettings {
     double h;                /* s, divides the residual */
     double tolerance;        /* m/s, epsilon of the slides */
     Solver solver;           /* how the minimiser is found */
-    Filter filter;           /* what is done with negative eigenvalues */
+    Projection projection;   /* what is done with negative eigenvalues */
     LineSearch search;       /* how the step length is found */
     int max_iterations;      /* at most; then ITERATION_LIMIT */
     NewtonObserver observer; /* or NULL */
@@ -90,7 +90,7 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
  * conjugate gradients on H itself, applied spring by spring, remove what the
  * shift has changed. */
 typedef struct SearchDirection {
-    Filter filter;         /* of the Hessian in A */
+    Projection projection; /* of the Hessian in A */
     CholeskyKind kind;     /* what cholesky was made for, */
     unsigned pattern;      /* and of which pattern of the system */
     Sparse A;              /* Hessian, one triangle, in elimination order */

@@ -679,8 +679,8 @@ static Status check_body(Line *line)
                       "do not flow or tear, and are not damped",
                       options->scene->name);
     if ((options->cells || options->material != 0 || options->self_contact) &&
-        !given(line, option_find("filter")))
-        options->filter = FILTER_ON_DEMAND;
+        !given(line, option_find("projection")))
+        options->projection = PROJECTION_ON_DEMAND;
     return body_check(options, line->told);
 }
 
@@ -688,8 +688,8 @@ static Status check_body(Line *line)
  * what would have no effect is refused. */
 static Status check_headless(Line *line)
 {
-    static const char *const minimising[] = {"tolerance", "solver", "filter",
-                                             "line-search", NULL};
+    static const char *const minimising[] = {"tolerance", "solver",
+                                             "projection", "line-search", NULL};
     const Options *options = line->options;
     const IntegratorMethod *method = options_method(options);
     const Word *chosen = given(line, option_find("integrator"));

@@ -39,7 +39,7 @@ static double make_unit(double v[4], const double instead[4])
  * lies across, S of their halves, are eigenvectors with on_plus and on_minus.
  * In that plane a 2x2 matrix Q is projected. */
 bool area_curvature(const double f[4], double unit, double on_plus,
-                    double on_minus, double second, Filter filter,
+                    double on_minus, double second, Projection projection,
                     AreaCurvature *area)
 {
     static const double any_plus[4] = {0, 0.7071067811865476,
@@ -63,11 +63,11 @@ bool area_curvature(const double f[4], double unit, double on_plus,
     }
     area->on_plus = on_plus;
     area->on_minus = on_minus;
-    bool changed = filter_2x2(filter, Q);
-    if (!filter_projects(filter))
+    bool changed = project_psd_2x2(projection, Q);
+    if (!projects_blocks(projection))
         return changed;
-    area->on_plus = projected_eigenvalue(filter, on_plus);
-    area->on_minus = projected_eigenvalue(filter, on_minus);
+    area->on_plus = project_eigenvalue(projection, on_plus);
+    area->on_minus = project_eigenvalue(projection, on_minus);
     return changed || on_plus < 0 || on_minus < 0;
 }
 

@@ -45,9 +45,9 @@ typedef struct AreaCurvature {
     double on_plus, on_minus;
 } AreaCurvature;
 
-/* The same, filtered.  Returns whether an eigenvalue was changed. */
+/* The same, projected.  Returns whether an eigenvalue was changed. */
 bool area_curvature(const double f[4], double unit, double on_plus,
-                    double on_minus, double second, Filter filter,
+                    double on_minus, double second, Projection projection,
                     AreaCurvature *area);
 
 /* H [4][4], out; and Hv [4] = H v, out.  A turn v = S f has only the curvature

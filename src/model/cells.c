@@ -67,8 +67,8 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
     g[3] = factor * e1[0];
 }
 
-static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
-                    double H[4][4])
+static bool hessian(const EvalPoint *at, const Element *element,
+                    Projection projection, double H[4][4])
 {
     const Cells *cells = at->term->data;
     double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->area);
@@ -76,7 +76,7 @@ static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
     AreaCurvature area;
     bool changed =
-        area_curvature(element->v, q, slope, -slope, bend, filter, &area);
+        area_curvature(element->v, q, slope, -slope, bend, projection, &area);
     area_hessian(&area, H);
     return changed;
 }

@@ -131,17 +131,18 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
 
 /* c f''/d_hat^2 n n^T, and where nothing is projected the ball's curvature
  * (c/d_hat) f'/r (I - n n^T), which is negative. */
-static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
-                    double H[4][4])
+static bool hessian(const EvalPoint *at, const Element *element,
+                    Projection projection, double H[4][4])
 {
     const Barrier *barrier = barrier_of(at);
     const double *n = element->n;
     double along = barrier->c / (barrier->d_hat * barrier->d_hat) *
                    barrier_curvature(element->s / barrier->d_hat);
     double across = -contact_force(barrier, element->s) / element->r;
-    bool changed = across < 0 && filter_projects(filter); /* a wall's is 0 */
+    bool changed =
+        across < 0 && projects_blocks(projection); /* a wall's is 0 */
     if (changed)
-        across = projected_eigenvalue(filter, across);
+        across = project_eigenvalue(projection, across);
     H[0][0] = at->w * (along * n[0] * n[0] + across * n[1] * n[1]);
     H[0][1] = H[1][0] = at->w * ((along - across) * n[0] * n[1]);
     H[1][1] = at->w * (along * n[1] * n[1] + across * n[0] * n[0]);

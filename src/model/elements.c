@@ -114,17 +114,17 @@ static inline void add_block(const Element *element, int vectors,
 }
 
 /* out += Hessian q of an element. */
-static bool add_product(const ElementWalk *walk, Filter filter, const double *q,
-                        double *out)
+static bool add_product(const ElementWalk *walk, Projection projection,
+                        const double *q, double *out)
 {
     const Element *element = &walk->element;
     double H[4][4], v[4], Hv[4] = {0};
     bool changed;
     element_vectors(element, q, v);
     if (walk->kind->product) {
-        changed = walk->kind->product(walk->at, element, filter, v, Hv);
+        changed = walk->kind->product(walk->at, element, projection, v, Hv);
     } else {
-        changed = walk->kind->hessian(walk->at, element, filter, H);
+        changed = walk->kind->hessian(walk->at, element, projection, H);
         for (int r = 0; r < 2 * element->vectors; r++)
             for (int c = 0; c < 2 * element->vectors; c++)
                 Hv[r] += H[r][c] * v[c];
@@ -133,18 +133,18 @@ static bool add_product(const ElementWalk *walk, Filter filter, const double *q,
     return changed;
 }
 
-int elements_hessian(const EvalPoint *at, Filter filter, const int *slot,
-                     const double *q, double *out)
+int elements_hessian(const EvalPoint *at, Projection projection,
+                     const int *slot, const double *q, double *out)
 {
     int projected = 0, entries = entries_of_a_block(at);
     double H[4][4];
     for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
         const Element *element = &walk.element;
         if (q) {
-            projected += add_product(&walk, filter, q, out);
+            projected += add_product(&walk, projection, q, out);
             continue;
         }
-        projected += walk.kind->hessian(at, element, filter, H);
+        projected += walk.kind->hessian(at, element, projection, H);
         if (element->vectors == 1)
             add_block(element, 1, H, slot + entries * element->block, out);
         else

@@ -191,12 +191,12 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
 }
 
 /* mu lambda f0'' t t^T, never negative */
-static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
-                    double H[4][4])
+static bool hessian(const EvalPoint *at, const Element *element,
+                    Projection projection, double H[4][4])
 {
     double bend =
         at->w * element->r * friction_curvature(element->s, friction_of(at)->e);
-    (void)filter;
+    (void)projection;
     for (int i = 0; i < 4; i++)
         for (int k = i; k < 4; k++)
             H[i][k] = H[k][i] = bend * element->v[i] * element->v[k];

@@ -27,7 +27,7 @@ static void gradient(const EvalPoint *at, double *g)
     }
 }
 
-static int hessian(const EvalPoint *at, Filter filter, const int *slot,
+static int hessian(const EvalPoint *at, Projection projection, const int *slot,
                    const double *q, double *out)
 {
     const System *system = at->system;
@@ -36,7 +36,8 @@ static int hessian(const EvalPoint *at, Filter filter, const int *slot,
         const int *e = system->e + 2 * s;
         double d[2], H[3];
         spring_vector(e, at->x, d);
-        projected += spring_hessian(d, at->l2[s], at->w * at->k[s], filter, H);
+        projected +=
+            spring_hessian(d, at->l2[s], at->w * at->k[s], projection, H);
         mass_spring_add(H, e, s, slot, q, out);
     }
     return projected;

@@ -90,30 +90,30 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
 }
 
 static bool curvature(const EvalPoint *at, const Element *element,
-                      Filter filter, AreaCurvature *area)
+                      Projection projection, AreaCurvature *area)
 {
     const NeoHookean *data = at->term->data;
     double J = element->s, p, q;
     double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
     stresses(data, J, &p, &q);
     return area_curvature(element->v, unit_of(data), 0.5 * p, 0.5 * q,
-                          data->area * bend, filter, area);
+                          data->area * bend, projection, area);
 }
 
-static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
-                    double H[4][4])
+static bool hessian(const EvalPoint *at, const Element *element,
+                    Projection projection, double H[4][4])
 {
     AreaCurvature area;
-    bool changed = curvature(at, element, filter, &area);
+    bool changed = curvature(at, element, projection, &area);
     area_hessian(&area, H);
     return changed;
 }
 
-static bool product(const EvalPoint *at, const Element *element, Filter filter,
-                    const double v[4], double Hv[4])
+static bool product(const EvalPoint *at, const Element *element,
+                    Projection projection, const double v[4], double Hv[4])
 {
     AreaCurvature area;
-    bool changed = curvature(at, element, filter, &area);
+    bool changed = curvature(at, element, projection, &area);
     area_product(&area, v, Hv);
     return changed;
 }

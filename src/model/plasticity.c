@@ -112,7 +112,7 @@ static void gradient(const EvalPoint *at, double *g)
     }
 }
 
-static int hessian(const EvalPoint *at, Filter filter, const int *slot,
+static int hessian(const EvalPoint *at, Projection projection, const int *slot,
                    const double *q, double *out)
 {
     int projected = 0;
@@ -122,7 +122,7 @@ static int hessian(const EvalPoint *at, Filter filter, const int *slot,
         double k = at->w * spring.k, factor = spring_c(spring.l2, k);
         double across = spring.l2 * flow_law_slope(spring.law, spring.strain);
         double along = flow_law_along(spring.law, spring.strain, d2, across);
-        projected += spring_project(filter, &along, &across) && k > 0;
+        projected += spring_project(projection, &along, &across) && k > 0;
         double difference = d2 > 0 ? (along - across) / d2 : 0;
         const double H[3] = {factor * (across + difference * d[0] * d[0]),
                              factor * difference * d[0] * d[1],

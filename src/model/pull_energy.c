@@ -39,12 +39,12 @@ static void pattern(const EvalPoint *at, Triplets *triplets)
 }
 
 /* It is never negative. */
-static int hessian(const EvalPoint *at, Filter filter, const int *slot,
+static int hessian(const EvalPoint *at, Projection projection, const int *slot,
                    const double *q, double *out)
 {
     const Pull *pull = at->term->data;
     double k = at->w * pull->k;
-    (void)filter;
+    (void)projection;
     for (int i = 0; i < 2; i++)
         if (q)
             out[2 * pull->node + i] += k * q[2 * pull->node + i];

@@ -219,8 +219,8 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
 /* With w = dq - r de, t along the edge and e_n = n.de: W'' w_n^2, which is
  * never negative, and beside the edge F (2 w_t e_n/|e| + d e_n^2/|e|^2), past
  * an end -F/d w_t^2: a 2x2 matrix in (w_t, e_n), which is projected. */
-static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
-                    double H[4][4])
+static bool hessian(const EvalPoint *at, const Element *element,
+                    Projection projection, double H[4][4])
 {
     const SelfContact *self = data_of(at);
     const double *n = element->n, *e = element->v + 2;
@@ -233,7 +233,7 @@ static bool hessian(const EvalPoint *at, const Element *element, Filter filter,
     bool beside = r > 0 && r < 1;
     double Q[3] = {beside ? 0 : -F / d, beside ? F / length : 0,
                    beside ? F * d / (length * length) : 0};
-    bool changed = filter_2x2(filter, Q);
+    bool changed = project_psd_2x2(projection, Q);
     const double wn[4] = {n[0], n[1], -r * n[0], -r * n[1]};
     const double wt[4] = {t[0], t[1], -r * t[0], -r * t[1]};
     const double en[4] = {0, 0, n[0], n[1]};

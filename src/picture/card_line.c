@@ -95,7 +95,8 @@ void line_draw(const Plot *card)
     }
     bool both = text_is_known(&pane->facts, "{directions}");
     if (both)
-        descent_direction(card->simulation, FILTER_CLAMP, other.from, other.p);
+        descent_direction(card->simulation, PROJECTION_CLAMP, other.from,
+                          other.p);
     other.trace.function = &other;
     fill_curves(trace, both ? &other.trace : NULL, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, "{alpha}"};

@@ -51,7 +51,7 @@ static double rim_of(const Simulation *simulation)
 
 static Corner corner_at(const Relief *relief, double x, double y)
 {
-    Local E = descent_at(relief->simulation, FILTER_NONE, x, y);
+    Local E = descent_at(relief->simulation, PROJECTION_NONE, x, y);
     return (Corner){x, y, E.value, landscape_is_convex(&E)};
 }
 

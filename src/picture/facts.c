@@ -90,7 +90,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     bool search = descent->by_gradient ? descent->scalar && !whole : !explicit;
     fact_when(facts, "Algorithm 1", descent->by_gradient && !search);
     fact_when(facts, "search", search);
-    fact_when(facts, "raw", options->filter == FILTER_NONE);
+    fact_when(facts, "raw", options->projection == PROJECTION_NONE);
     fact_when(facts, "whole", whole);
     fact(facts, "springs", simulation->system.springs);
     fact_when(facts, "of a solid", solid_of(&simulation->system));
@@ -173,7 +173,7 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
 static double descent_difference(const void *function, double alpha)
 {
     const DescentTrace *space = function;
-    Local there = descent_at(space->simulation, FILTER_NONE,
+    Local there = descent_at(space->simulation, PROJECTION_NONE,
                              space->from[0] + alpha * space->p[0],
                              space->from[1] + alpha * space->p[1]);
     return there.value - space->value;
@@ -197,7 +197,7 @@ static const Trace *descent_trace(const Simulation *simulation,
     }
     bool aims = space->p[0] != 0 || space->p[1] != 0, taken = aims && made;
     space->value =
-        descent_at(simulation, FILTER_NONE, space->from[0], space->from[1])
+        descent_at(simulation, PROJECTION_NONE, space->from[0], space->from[1])
             .value;
     space->trace = (Trace){
         .line = aims && !made ? LINE_SOLVE : LINE_NONE,

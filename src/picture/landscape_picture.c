@@ -77,7 +77,7 @@ static void draw_ground(const Plot *plot)
     canvas_fill(canvas, *box, COLOUR_WHITE);
     for (int j = box->y; j < box->y + box->height; j += 2)
         for (int i = box->x; i < box->x + box->width; i += 2) {
-            Local E = descent_at(simulation, FILTER_NONE,
+            Local E = descent_at(simulation, PROJECTION_NONE,
                                  plot->x.low + (i - box->x + 1) * metre,
                                  plot->y.high - (j - box->y + 1) * metre);
             if (!landscape_is_convex(&E))
@@ -102,7 +102,7 @@ static void name_levels(const Plot *plot)
     for (double gone = 0; gone < 3; gone += pace) {
         const Point x = along(simulation->exhibit.target, gone, ray);
         double value =
-            descent_at(simulation, FILTER_NONE, x.at[0], x.at[1]).value / e;
+            descent_at(simulation, PROJECTION_NONE, x.at[0], x.at[1]).value / e;
         plot_place(plot, x.at, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
@@ -148,7 +148,7 @@ static void name_still(const Plot *plot)
     for (int i = 0; i < 3; i++) {
         double p[2] = {1, 1};
         for (int k = 0; k < 40 && length_of(p) > 1e-9; k++) {
-            descent_direction(simulation, FILTER_NONE, at[i], p);
+            descent_direction(simulation, PROJECTION_NONE, at[i], p);
             at[i][0] += p[0];
             at[i][1] += p[1];
         }
@@ -168,14 +168,14 @@ static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
-    bool raw = simulation->options.filter == FILTER_NONE;
+    bool raw = simulation->options.projection == PROJECTION_NONE;
     bool alone = simulation->exhibit.parts != PART_BOTH;
     const double *own = descent->direction, *from = descent->point;
     double p[2], slope;
     if (own[0] == 0 && own[1] == 0)
         return;
-    slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE,
-                              from, p);
+    slope = descent_direction(
+        simulation, raw ? PROJECTION_CLAMP : PROJECTION_NONE, from, p);
     bool other = both && !alone && apart(own, p) > 1e-9;
     Colour colour = slope > 0 ? COLOUR_WARNING
                     : raw     ? COLOUR_PROJECT
@@ -205,7 +205,7 @@ static double view_size(const Plot *plot)
 static void draw_steepest(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
-    Local E = descent_at(plot->simulation, FILTER_NONE, x[0], x[1]);
+    Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
     double far = 6 * plot->em / plot->camera.scale[0] / length_of(E.g);
     plot_arrow(plot, x, E.g, -far, 2.2, COLOUR_TEXT);
     plot_words(plot, 1, along(x, -far, E.g).at, COLOUR_TEXT, "\u2212\u2207E");
@@ -219,7 +219,7 @@ static void draw_pulls(const Plot *plot)
     const double *x = simulation->descent.point, *m = simulation->system.m;
     const double *target = simulation->exhibit.target;
     unsigned parts = simulation->exhibit.parts;
-    Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
+    Local E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
     double inertia[2], springs[2];
     for (int c = 0; c < 2; c++) {
         inertia[c] = parts & PART_INERTIA ? m[0] * (target[c] - x[c]) : 0;
@@ -256,7 +256,7 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     unsigned parts = simulation->exhibit.parts;
     double h = simulation->run[0].h;
     const double *x = descent->point;
-    Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
+    Local E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
     fact_point(facts, "place", x);
     fact_point(facts, "x tilde", simulation->exhibit.target);
     for (int k = 0; k < 2; k++) /* nothing but rounding */
@@ -265,11 +265,11 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "solution", descent->direction);
     fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
     if (parts == PART_BOTH) { /* the projected Hessian, and its direction */
-        Local P = descent_at(simulation, FILTER_CLAMP, x[0], x[1]);
+        Local P = descent_at(simulation, PROJECTION_CLAMP, x[0], x[1]);
         fact_matrix(facts, projected, P.H, 0);
         fact_when(facts, "directions",
                   simulation->options.page && descent->count == 0 &&
-                      simulation->options.filter == FILTER_NONE);
+                      simulation->options.projection == PROJECTION_NONE);
     }
     fact_when(facts, landscape_is_convex(&E) ? "convex" : "shaded", true);
     fact_when(facts, "moves", descent->slope != 0);
@@ -304,7 +304,7 @@ static void draw_model(const Plot *plot)
     static const double levels[] = {1, 0.6, 0.25};
     const Descent *descent = &simulation->descent;
     const double *x = descent->point, *p = descent->direction;
-    Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
+    Local E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
     double low = E.H[0], lift = E.H[1] / E.H[0];
     double rest = E.H[2] - lift * E.H[1]; /* H = L D L^T */
     double q = p[0] + lift * p[1];
@@ -323,7 +323,7 @@ static void draw_model(const Plot *plot)
 static void draw_linear(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
-    Local E = descent_at(plot->simulation, FILTER_NONE, x[0], x[1]);
+    Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
     for (int k = 0; k < 2; k++) {
         const double *slope = E.H + k, across[2] = {-slope[1], slope[0]};
         double square = slope[0] * slope[0] + slope[1] * slope[1];
@@ -338,7 +338,7 @@ static void draw_linear(const Plot *plot)
 static void draw_downhill(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
-    Local E = descent_at(plot->simulation, FILTER_NONE, x[0], x[1]);
+    Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
     const double across[2] = {-E.g[1], E.g[0]};
     double far = view_size(plot) / length_of(E.g);
     const Point a = along(x, far, across), b = along(x, -far, across);
@@ -372,7 +372,7 @@ void landscape_draw(Plot *stage)
         plot_line(&plot, from, to, 3.2, colour);
         plot_disc(&plot, from, 5, COLOUR_X);
     }
-    bool raw = simulation->options.filter == FILTER_NONE;
+    bool raw = simulation->options.projection == PROJECTION_NONE;
     bool both = !show->lecture || (raw && !show->lecture->predict);
     if (told && raw && !simulation->done)
         draw_model(&plot);

@@ -26,7 +26,7 @@ typedef struct Update {
 
 static Local scalar_at(const Simulation *simulation, double x)
 {
-    return descent_at(simulation, FILTER_NONE, x, 0);
+    return descent_at(simulation, PROJECTION_NONE, x, 0);
 }
 
 /* Update i, 0, 1, ...; -1: the first one, which is still to come. */

@@ -132,8 +132,8 @@ void length_facts(const Simulation *simulation, Facts *facts)
     SpringFacts now = facts_at(d, system);
     double along = 2 * now.along, across = 2 * now.across; /* of its block */
     const LecturePage *page = simulation->options.page;
-    bool folds = simulation->options.filter == FILTER_ABS && !page;
-    Filter filter = folds ? FILTER_ABS : FILTER_CLAMP;
+    bool folds = simulation->options.projection == PROJECTION_ABS && !page;
+    Projection projection = folds ? PROJECTION_ABS : PROJECTION_CLAMP;
     bool both = simulation->exhibit.parts;
     fact_point(facts, "d", d);
     fact(facts, "distance", now.length);
@@ -147,11 +147,11 @@ void length_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "across", now.across);
     fact(facts, "block along", along);
     fact(facts, "block across", across);
-    fact(facts, "projected along", projected_eigenvalue(filter, along));
-    fact(facts, "projected across", projected_eigenvalue(filter, across));
+    fact(facts, "projected along", project_eigenvalue(projection, along));
+    fact(facts, "projected across", project_eigenvalue(projection, across));
     fact(facts, "negative", fmin(fmin(along, across), 0));
     for (int i = 0; i < 2; i++) { /* the Hessian, and the projected one */
-        spring_hessian(d, l2, k, i == 0 ? FILTER_NONE : filter, H);
+        spring_hessian(d, l2, k, i == 0 ? PROJECTION_NONE : projection, H);
         fact_matrix(facts, names[i], H, 1e-12 * k);
     }
     if (page)

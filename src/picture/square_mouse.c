@@ -139,7 +139,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
 {
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
-    Filter filter = pane->simulation->options.filter;
+    Projection projection = pane->simulation->options.projection;
     double k = solid_of(system) ? NAN : system->k[s]; /* NaN: no block */
     double l2 = system->l2[s], d[2];
     double d2 = spring_vector(e, pane_x(pane), d);
@@ -156,9 +156,9 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     fact(&facts, "strain", 100 * (length_of(d) / sqrt(l2) - 1));
     fact(&facts, "across", across);
     fact(&facts, "along", along);
-    if (filter_projects(filter) && fmin(along, across) < 0) {
-        fact(&facts, "across after", projected_eigenvalue(filter, across));
-        fact(&facts, "along after", projected_eigenvalue(filter, along));
+    if (projects_blocks(projection) && fmin(along, across) < 0) {
+        fact(&facts, "across after", project_eigenvalue(projection, across));
+        fact(&facts, "along after", project_eigenvalue(projection, along));
     }
     draw_note(stage, &facts, text_spring);
 }

@@ -84,7 +84,7 @@ SpringPen square_pen(Plot *stage, int run)
         pen.width *= 1.4;
     pen.projected = trace && trace->line >= LINE_PROJECT &&
                     trace->line <= LINE_SEARCH && !show->strain &&
-                    simulation->options.filter != FILTER_NONE &&
+                    simulation->options.projection != PROJECTION_NONE &&
                     trace->projected != 0 && !solid_of(system);
     return pen;
 }

@@ -616,7 +616,7 @@ static void add_block(const Simulation *simulation, Facts *facts)
     for (int i = 0; i < 4; i++)
         fact(facts, rows[i], 2 * e[i / 2] + i % 2);
     spring_vector(e, simulation->run[0].x, d);
-    spring_hessian(d, l2, k, FILTER_CLAMP, H); /* as the page has it */
+    spring_hessian(d, l2, k, PROJECTION_CLAMP, H); /* as the page has it */
     fact_matrix(facts, names, H, 1e-7 * k);
 }
 

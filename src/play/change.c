@@ -349,7 +349,8 @@ const char *player_idle(const Player *player, const OptionRow *row)
     for (int p = 0; p < past_panes(&player->past); p++)
         minimises =
             minimises || player->past.machine[p].simulation.run[0].newton;
-    if (slot == OPTION_SLOT(filter) && !simulation_has_filter(simulation))
+    if (slot == OPTION_SLOT(projection) &&
+        !simulation_has_projection(simulation))
         return "nothing to project here";
     if (slot == OPTION_SLOT(line_search) &&
         !simulation_has_line_search(simulation))
@@ -491,11 +492,11 @@ Status obey_select(Player *player, const Command *command)
 Status obey_switch(Player *player, const Command *command)
 {
     bool search = command->kind == COMMAND_SEARCH;
-    const OptionRow *row = option_find(search ? "line-search" : "filter");
-    double off = search ? LINE_SEARCH_NONE : FILTER_NONE;
+    const OptionRow *row = option_find(search ? "line-search" : "projection");
+    double off = search ? LINE_SEARCH_NONE : PROJECTION_NONE;
     double on = player->given[0].number[row->slot];
     if (on == off)
-        on = search ? LINE_SEARCH_BACKTRACK : FILTER_CLAMP;
+        on = search ? LINE_SEARCH_BACKTRACK : PROJECTION_CLAMP;
     bool was_off = player_settings(player)->number[row->slot] == off;
     return player_ask_set(player, row, was_off ? on : off);
 }

@@ -197,8 +197,9 @@ static void fill_chips(Player *player)
     add_chip(player, COMMAND_RESTART, 0, ended);
     if (newton)
         add_chip(player, COMMAND_FINER, player->fine, false);
-    if (simulation_has_filter(simulation))
-        add_chip(player, COMMAND_FILTER, options->filter == FILTER_NONE, false);
+    if (simulation_has_projection(simulation))
+        add_chip(player, COMMAND_PROJECTION,
+                 options->projection == PROJECTION_NONE, false);
     if (simulation_has_line_search(simulation))
         add_chip(player, COMMAND_SEARCH,
                  options->line_search == LINE_SEARCH_NONE, false);

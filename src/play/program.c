@@ -104,7 +104,7 @@ static const char *advice(const Player *player, Status status)
     bool time = player->given[0].scene->needs & NEEDS_TIME;
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE
                ? "; try fewer --segments"
-           : status == STATUS_NOT_POSITIVE_DEFINITE ? "; try --filter clamp"
+           : status == STATUS_NOT_POSITIVE_DEFINITE ? "; try --projection clamp"
            : status == STATUS_INVALID_INPUT
                ? "; try numbers nearer to the defaults"
            : status != STATUS_NOT_FINITE ? ""

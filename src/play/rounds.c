@@ -211,7 +211,7 @@ void rounds_end(Rounds *rounds, const Options *options)
         bool fails = record->alpha == 0, passes = record->status == STATUS_OK;
         int trials = record->trials;
         add_place(rounds, i, LINE_DO, 0);
-        if (options->filter != FILTER_NONE)
+        if (options->projection != PROJECTION_NONE)
             add_place(rounds, i, LINE_PROJECT, 0);
         add_place(rounds, i, LINE_SOLVE, 0);
         for (int t = 1; searches && t < trials && trials < TRIALS_WALKED; t++)

@@ -171,7 +171,7 @@ static Status use_options(Simulation *simulation, const Options *options)
         options->integrator != before.integrator)
         simulation->prediction = (Prediction){0};
     if (simulation->scene->aim && !simulation->done &&
-        (options->filter != before.filter ||
+        (options->projection != before.projection ||
          options->line_search != before.line_search))
         simulation->scene->aim(simulation);
     return status;

@@ -26,8 +26,8 @@
 #include "run/scene.h"
 
 static const char *const solvers[] = {"newton", "multigrid", "auto", NULL};
-static const char *const filters[] = {"clamp", "none", "abs", "on-demand",
-                                      NULL};
+static const char *const projections[] = {"clamp", "none", "abs", "on-demand",
+                                          NULL};
 static const char *const searches[] = {"backtrack", "none", NULL};
 static const char *const cells[] = {"off", "on", NULL};
 static const char *const materials[] = {"springs", "neo-hookean", NULL};
@@ -213,7 +213,9 @@ const OptionRow option_rows[] = {
           "what finds p; auto is newton up to 8 segments", SOLVER_AUTO,
           solvers),
      NEEDS(MESH), LIST("solver"), LIVE, ROW(11, 15, 0)},
-    {NAME("filter", filter, "F", "the projection", FILTER_CLAMP, filters),
+    {NAME("projection", projection, "P",
+          "what negative eigenvalues of H become", PROJECTION_CLAMP,
+          projections),
      NEEDS(SPRINGS), LIST("projection"), AGAIN, ROW(9, 9, 0)},
     {NAME("line-search", line_search, "L", "", LINE_SEARCH_BACKTRACK, searches),
      NEEDS(MINIMUM), LIST("line search"), AGAIN, ROW(10, 9, 0)},
@@ -255,6 +257,8 @@ _Static_assert(sizeof option_rows / sizeof *option_rows - 1 <= OPTIONS_MOST,
 
 const OptionRow *option_find(const char *name)
 {
+    if (strcmp(name, "filter") == 0) /* its name in earlier versions */
+        name = "projection";
     int place = name_place(NAMES_OF(option_rows), name);
     return place >= 0 && name[0] ? &option_rows[place] : NULL;
 }

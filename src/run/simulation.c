@@ -22,7 +22,7 @@ void newton_settings_take(const Options *options, NewtonSettings *settings)
     settings->h = options->timestep;
     settings->tolerance = options->tolerance;
     settings->solver = options->solver;
-    settings->filter = options->filter;
+    settings->projection = options->projection;
     settings->search = options->line_search;
     settings->max_iterations = MAX_NEWTON_ITERATIONS;
 }
@@ -279,7 +279,7 @@ static bool forces_balance(const Simulation *simulation, double l)
     double T2 = stiffest > 0 ? 0.99e10 * lightest / stiffest : 1;
     NewtonSettings settings = {.h = sqrt(T2),
                                .solver = SOLVER_NEWTON,
-                               .filter = FILTER_CLAMP,
+                               .projection = PROJECTION_CLAMP,
                                .search = LINE_SEARCH_BACKTRACK,
                                .max_iterations = 1};
     Newton newton;
@@ -321,7 +321,7 @@ NewtonCounters simulation_counters(const Simulation *simulation)
 
 /* Springs, a Newton object that asks for their Hessian, and a scene that shows
  * what it does. */
-bool simulation_has_filter(const Simulation *simulation)
+bool simulation_has_projection(const Simulation *simulation)
 {
     return simulation->system.springs > 0 && simulation->run[0].newton &&
            (simulation->scene->needs & NEEDS_SPRINGS);
@@ -330,7 +330,7 @@ bool simulation_has_filter(const Simulation *simulation)
 /* Newton with springs, or in one variable. */
 bool simulation_has_line_search(const Simulation *simulation)
 {
-    return simulation_has_filter(simulation) || simulation->descent.scalar;
+    return simulation_has_projection(simulation) || simulation->descent.scalar;
 }
 
 bool simulation_projects_springs(const Simulation *simulation)
@@ -367,7 +367,7 @@ double simulation_fastest(const Simulation *simulation, const double *x,
         for (int t = 0; t < system->terms; t++) {
             const TermKind *kind = eval_point_term(&at, t);
             if (kind->hessian)
-                kind->hessian(&at, FILTER_NONE, NULL, mode, pulled);
+                kind->hessian(&at, PROJECTION_NONE, NULL, mode, pulled);
         }
         for (int i = 0; i < n; i++)
             pulled[i] /= system->m[i / 2];

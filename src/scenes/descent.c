@@ -57,7 +57,7 @@ static Local line_energy(const Simulation *simulation, double x)
 
 /* The parts of E of landscape and dial, with this h; or f of one unknown. */
 static Local landscape_at(const Simulation *simulation, unsigned parts,
-                          double h, Filter filter, const double at[2])
+                          double h, Projection projection, const double at[2])
 {
     if (simulation->descent.scalar)
         return simulation->descent.scalar(simulation, at[0]);
@@ -80,7 +80,7 @@ static Local landscape_at(const Simulation *simulation, unsigned parts,
         P += spring_energy(l2, k, spring_strain(d2, l2));
         for (int i = 0; i < 2; i++)
             E.g[i] += pull * d[i];
-        E.projected += spring_hessian(d, l2, k, filter, H);
+        E.projected += spring_hessian(d, l2, k, projection, H);
         for (int i = 0; i < 3; i++)
             E.H[i] += w * H[i];
     }
@@ -88,24 +88,24 @@ static Local landscape_at(const Simulation *simulation, unsigned parts,
     return E;
 }
 
-Local descent_at(const Simulation *simulation, Filter filter, double x,
+Local descent_at(const Simulation *simulation, Projection projection, double x,
                  double y)
 {
     const double at[2] = {x, y};
     return landscape_at(simulation, simulation->exhibit.parts,
-                        simulation->run[0].h, filter, at);
+                        simulation->run[0].h, projection, at);
 }
 
 double landscape_part_value(const Simulation *simulation, unsigned parts,
                             double x, double y)
 {
     const double at[2] = {x, y}, h = simulation->run[0].h;
-    return landscape_at(simulation, parts, h, FILTER_NONE, at).value;
+    return landscape_at(simulation, parts, h, PROJECTION_NONE, at).value;
 }
 
 int descent_bends_down(const Simulation *simulation, double x, double y)
 {
-    Local E = descent_at(simulation, FILTER_NONE, x, y);
+    Local E = descent_at(simulation, PROJECTION_NONE, x, y);
     if (simulation->descent.scalar)
         return E.H[0] < 0 ? 2 : 0;
     bool same = E.H[0] * E.H[2] - E.H[1] * E.H[1] > 0;
@@ -137,10 +137,10 @@ static double newton_direction(const Local *E, bool scalar, double p[2])
     return g[0] * p[0] + g[1] * p[1];
 }
 
-double descent_direction(const Simulation *simulation, Filter filter,
+double descent_direction(const Simulation *simulation, Projection projection,
                          const double *x, double p[2])
 {
-    Local E = descent_at(simulation, filter, x[0], x[1]);
+    Local E = descent_at(simulation, projection, x[0], x[1]);
     return newton_direction(&E, simulation->descent.scalar, p);
 }
 
@@ -160,7 +160,7 @@ static double descent_difference(const void *function, double alpha)
     const double to[2] = {way->from[0] + alpha * way->p[0],
                           way->from[1] + alpha * way->p[1]};
     Local E =
-        landscape_at(way->simulation, way->parts, way->h, FILTER_NONE, to);
+        landscape_at(way->simulation, way->parts, way->h, PROJECTION_NONE, to);
     return E.value - way->value;
 }
 
@@ -169,11 +169,12 @@ static double descent_difference(const void *function, double alpha)
 static Local present(const Simulation *simulation)
 {
     const double *at = simulation->descent.point;
-    Filter filter = (Filter)simulation->options.filter;
-    if (filter == FILTER_ON_DEMAND)
-        filter = descent_bends_down(simulation, at[0], at[1]) ? FILTER_CLAMP
-                                                              : FILTER_NONE;
-    return descent_at(simulation, filter, at[0], at[1]);
+    Projection projection = (Projection)simulation->options.projection;
+    if (projection == PROJECTION_ON_DEMAND)
+        projection = descent_bends_down(simulation, at[0], at[1])
+                         ? PROJECTION_CLAMP
+                         : PROJECTION_NONE;
+    return descent_at(simulation, projection, at[0], at[1]);
 }
 
 /* Shows the iterate where the picture and the states look for it, p, and what
@@ -186,7 +187,7 @@ static Status show_iterate(Simulation *simulation, Status status)
     Descent *descent = &simulation->descent;
     double *p = descent->direction;
     descent->value =
-        descent_at(simulation, FILTER_NONE, run->x[0], run->x[1]).value;
+        descent_at(simulation, PROJECTION_NONE, run->x[0], run->x[1]).value;
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
@@ -212,7 +213,7 @@ static void choose_test(Simulation *simulation)
 {
     const Options *options = &simulation->options;
     Descent *descent = &simulation->descent;
-    bool plain = descent->scalar || (options->filter == FILTER_NONE &&
+    bool plain = descent->scalar || (options->projection == PROJECTION_NONE &&
                                      options->line_search == LINE_SEARCH_NONE);
     if (plain != descent->by_gradient)
         descent->count = 0; /* residuals of another kind */
@@ -344,7 +345,8 @@ static void dial_minimise(const Simulation *simulation, double h,
     if (fabs(point[1]) < DIAL_BESIDE)
         point[1] = copysign(DIAL_BESIDE, point[1]);
     for (int update = 0; update < DIAL_UPDATES && length > 1e-14; update++) {
-        Local E = landscape_at(simulation, PART_BOTH, h, FILTER_CLAMP, point);
+        Local E =
+            landscape_at(simulation, PART_BOTH, h, PROJECTION_CLAMP, point);
         const Way way = {simulation, PART_BOTH, h, point, p, E.value};
         double alpha = 1;
         int trials;

@@ -30,13 +30,13 @@ const Scene scenes[] = {
      .restart = descent_restart, .grips = "x"},
     {"unprojected", "Without projection",
      "the squeezed square: without projection Newton is stuck", SQUARE,
-     "--timestep 0.02 --stretch 0.5 --filter none", create_square,
+     "--timestep 0.02 --stretch 0.5 --projection none", create_square,
      .explains = true},
     /* Within the first step E rises to 2e16 J s^2 and nodes fly 1.7 km (found
      * by a scan of 2560 squares); with either ingredient it does not. */
     {"explosion", "Newton's method explodes",
      "one step without projection and line search: nodes fly", SQUARE,
-     "--segments 3 --timestep 0.02 --stretch 0.485 --filter none "
+     "--segments 3 --timestep 0.02 --stretch 0.485 --projection none "
      "--line-search none",
      create_square, .explains = true},
     {"hang", "Gravity: a hanging square",

@@ -28,15 +28,15 @@ void direction_free_matrix(SearchDirection *search)
 
 /* A = the Hessian at x.  Pattern and symbolic analysis: once, and again only
  * when the system's pattern or the kind of factor is another, or x wants more.
- * Filter NONE: for a factor L D L^T, which allows negative eigenvalues;
+ * Projection NONE: for a factor L D L^T, which allows negative eigenvalues;
  * ON_DEMAND: as it is, for one that does not. projected  out, blocks projected
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-static Status assemble(Newton *newton, Filter filter, int *projected)
+static Status assemble(Newton *newton, Projection projection, int *projected)
 {
     SearchDirection *search = &newton->search;
     const System *system = newton->system;
     CholeskyKind kind =
-        filter == FILTER_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
+        projection == PROJECTION_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
     bool grown;
     Status status = incremental_potential_grow(&newton->at, &grown);
     *projected = 0;
@@ -50,10 +50,11 @@ static Status assemble(Newton *newton, Filter filter, int *projected)
         if (!status)
             status = cholesky_create(&search->A, kind, &search->cholesky);
     }
-    search->filter = filter == FILTER_ON_DEMAND ? FILTER_NONE : filter;
+    search->projection =
+        projection == PROJECTION_ON_DEMAND ? PROJECTION_NONE : projection;
     if (!status)
-        *projected = incremental_potential_hessian(&newton->at, search->filter,
-                                                   search->slot, &search->A);
+        *projected = incremental_potential_hessian(
+            &newton->at, search->projection, search->slot, &search->A);
     return status;
 }
 
@@ -67,7 +68,7 @@ static double largest_diagonal(const Newton *newton)
     return largest;
 }
 
-/* Factors A; with a shift if it must: only a filtered A is known to be
+/* Factors A; with a shift if it must: only a projected A is known to be
  * semi-definite but for rounding, so only that is shifted.  Returns OK,
  * NOT_POSITIVE_DEFINITE, NOT_FINITE, OUT_OF_MEMORY. */
 static Status factor(Newton *newton)
@@ -78,7 +79,7 @@ static Status factor(Newton *newton)
         newton->counters.factorisations++;
         Status status = cholesky_factor(search->cholesky);
         if (status != STATUS_NOT_POSITIVE_DEFINITE || tries == SHIFT_TRIES ||
-            search->filter == FILTER_NONE)
+            search->projection == PROJECTION_NONE)
             return status;
         double shift =
             tries > 0 ? 100 * search->shift : 1e-15 * largest_diagonal(newton);
@@ -88,18 +89,18 @@ static Status factor(Newton *newton)
     }
 }
 
-/* Assembles and factors the Hessian at x as the filter says.  Projection on
+/* Assembles and factors the Hessian at x as the projection asks.  Projection on
  * demand first tries it as it is; after a failure it clamps, and goes on to do
  * so for some iterations. */
 static Status newton_factor(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    Filter filter = newton->settings.filter;
-    if (filter == FILTER_ON_DEMAND && newton->clamps > 0) {
+    Projection projection = newton->settings.projection;
+    if (projection == PROJECTION_ON_DEMAND && newton->clamps > 0) {
         newton->clamps--;
-        filter = FILTER_CLAMP;
+        projection = PROJECTION_CLAMP;
     }
-    Status status = assemble(newton, filter, &record->projected);
+    Status status = assemble(newton, projection, &record->projected);
     if (!status)
         status = factor(newton);
     record->factorised = true;
@@ -108,7 +109,8 @@ static Status newton_factor(Newton *newton)
     if (!status && newton->search.kind == CHOLESKY_INDEFINITE)
         record->negative = cholesky_negative_pivots(newton->search.cholesky);
     newton->counters.projected += record->projected;
-    if (filter != FILTER_ON_DEMAND || status != STATUS_NOT_POSITIVE_DEFINITE)
+    if (projection != PROJECTION_ON_DEMAND ||
+        status != STATUS_NOT_POSITIVE_DEFINITE)
         return status;
     newton->clamps = CLAMPS_AFTER_FAILURE;
     return newton_factor(newton);
@@ -150,7 +152,7 @@ static double dot(int n, const double *a, const double *b)
  * r.  H is applied term by term: that keeps small masses which the assembled
  * matrix has lost to rounding. */
 typedef struct ConjugateGradients {
-    Filter filter;
+    Projection projection;
     double enough;    /* part of the first r.z at which they end */
     double rz, first; /* r.z, squared size of the residual, and the first */
 } ConjugateGradients;
@@ -171,7 +173,7 @@ static bool conjugate_step(Newton *newton, ConjugateGradients *state)
         return false;
     for (int i = 0; i < n; i++)
         d[i] = z[i] + (last == 0 ? 0 : state->rz / last * d[i]);
-    incremental_potential_product(&newton->at, state->filter, d, q);
+    incremental_potential_product(&newton->at, state->projection, d, q);
     double curvature = dot(n, d, q);
     double alpha = state->rz / curvature;
     if (!(curvature > 0) || !(alpha > 0) || !isfinite(alpha))
@@ -196,7 +198,7 @@ static Status newton_solve(Newton *newton)
         at->p[i] = -at->p[i];
     if (status || search->shift == 0)
         return status;
-    ConjugateGradients state = {search->filter, .enough = ALL_DIGITS};
+    ConjugateGradients state = {search->projection, .enough = ALL_DIGITS};
     for (int i = 0; i < n; i++) {
         search->z[i] = at->p[i]; /* factor^-1 (-g) already */
         at->p[i] = search->d[i] = 0;
@@ -222,14 +224,14 @@ static Status direction_error_bound(Newton *newton, double *error)
     const System *system = newton->system;
     const Iterate *at = &newton->at;
     double *r = search->r, *z = search->z, square = 0;
-    Filter filter = search->filter;
-    if (filter == FILTER_NONE && search->moved > 0)
-        filter = FILTER_CLAMP;
-    incremental_potential_product(at, filter, at->p, search->q);
+    Projection projection = search->projection;
+    if (projection == PROJECTION_NONE && search->moved > 0)
+        projection = PROJECTION_CLAMP;
+    incremental_potential_product(at, projection, at->p, search->q);
     for (int i = 0; i < 2 * system->nodes; i++)
         r[i] = -at->g[i] - search->q[i];
     *error = system_inverse_mass_norm(system, r);
-    if (filter != FILTER_NONE)
+    if (projection != PROJECTION_NONE)
         return STATUS_OK;
     Status status = apply_factor(newton, r, z);
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -266,7 +268,7 @@ static void solve_diagonal(Newton *newton)
     int n = 2 * newton->system->nodes;
     for (int i = 0; i < n; i++)
         ones[i] = 1;
-    incremental_potential_product(at, FILTER_NONE, ones, H);
+    incremental_potential_product(at, PROJECTION_NONE, ones, H);
     for (int i = 0; i < n; i++)
         at->p[i] = at->g[i] == 0 ? 0 : -at->g[i] / H[i];
 }
@@ -322,7 +324,7 @@ static bool refine_with_last_factor(Newton *newton)
             break;
         last = size;
         newton->record.projected = incremental_potential_product(
-            &newton->at, search->filter, p, search->q);
+            &newton->at, search->projection, p, search->q);
         for (int i = 0; i < n; i++)
             r[i] = -g[i] - search->q[i];
     }
@@ -372,7 +374,7 @@ static void evaluate_gradient(Newton *newton)
  * judged as if it projected here. */
 bool next_direction_is_negligible(Newton *newton)
 {
-    if (newton->settings.filter == FILTER_NONE)
+    if (newton->settings.projection == PROJECTION_NONE)
         return false;
     evaluate_gradient(newton);
     double norm = system_inverse_mass_norm(newton->system, newton->at.g);
@@ -385,7 +387,8 @@ bool next_direction_is_negligible(Newton *newton)
 static bool factor_is_near(const Newton *newton)
 {
     const SearchDirection *search = &newton->search;
-    return search->shift == 0 && newton->settings.filter != FILTER_NONE &&
+    return search->shift == 0 &&
+           newton->settings.projection != PROJECTION_NONE &&
            search->moved <= NEARBY * newton->rounding.shortest;
 }
 

@@ -102,8 +102,8 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
 
 /* Adds all terms' Hessians to a matrix through its slots or, where q is given,
  * their products with it.  Returns how many blocks were projected. */
-static int add_hessians(const Iterate *iterate, Filter filter, const int *slot,
-                        const double *q, double *out)
+static int add_hessians(const Iterate *iterate, Projection projection,
+                        const int *slot, const double *q, double *out)
 {
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     int projected = 0;
@@ -111,7 +111,7 @@ static int add_hessians(const Iterate *iterate, Filter filter, const int *slot,
         const TermKind *kind = eval_point_term(&at, t);
         if (!kind->hessian)
             continue;
-        projected += kind->hessian(&at, filter, slot, q, out);
+        projected += kind->hessian(&at, projection, slot, q, out);
         if (!q)
             slot += kind->entries(&at);
     }
@@ -131,22 +131,23 @@ Status incremental_potential_grow(const Iterate *iterate, bool *grown)
     return status;
 }
 
-int incremental_potential_hessian(const Iterate *at, Filter filter,
+int incremental_potential_hessian(const Iterate *at, Projection projection,
                                   const int *slot, Sparse *A)
 {
     const System *system = at->E.system;
     memset(A->value, 0, ((size_t)A->entries + 1) * sizeof *A->value);
     inertia_energy_hessian(system->nodes, system->m, slot, A->value);
-    return add_hessians(at, filter, slot + 2 * system->nodes, NULL, A->value);
+    return add_hessians(at, projection, slot + 2 * system->nodes, NULL,
+                        A->value);
 }
 
-int incremental_potential_product(const Iterate *at, Filter filter,
+int incremental_potential_product(const Iterate *at, Projection projection,
                                   const double *q, double *y)
 {
     const System *system = at->E.system;
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
-    int projected = add_hessians(at, filter, NULL, q, y);
+    int projected = add_hessians(at, projection, NULL, q, y);
     system_clear_pinned(system, y);
     return projected;
 }
@@ -222,7 +223,7 @@ void incremental_potential_inertia(const Iterate *iterate, double *m,
         if (!kind->diagonal)
             continue;
         kind->gradient(&at, iterate->g);
-        kind->hessian(&at, FILTER_NONE, NULL, iterate->p, m);
+        kind->hessian(&at, PROJECTION_NONE, NULL, iterate->p, m);
     }
     for (int i = 0; i < 2 * system->nodes; i++)
         if (m[i] != system->m[i / 2]) {

@@ -99,7 +99,7 @@ static const char *refusal(const Newton *newton)
         return "there is no square grid";
     if (!alone)
         return "there are energies beside the springs'";
-    if (settings->filter != FILTER_CLAMP)
+    if (settings->projection != PROJECTION_CLAMP)
         return "the projection is not clamp";
     if (settings->search != LINE_SEARCH_BACKTRACK)
         return "there is no line search";

@@ -191,7 +191,7 @@ summary /^(Newton iterations|factorisations|solves|blocks projected)  *[1-9]/ { 
 summary /^energy at start     103680 J$/ { n++ } END { if (!n) print "20 springs along with strain 0.96, 32 diagonals with 0.48, l2 k/2 strain^2 each" }
 0|3468|square --steps 2 --segments 33
 summary /^V-cycles  *[1-9]/ { n = 1 } /^(factorisations|solves)/ { n = 0 } END { if (!n) print "not by V-cycles" }
-0|100|square --steps 3 --stretch 0 --timestep 0.1 --filter none
+0|100|square --steps 3 --stretch 0 --timestep 0.1 --projection none
 summary /^not at a minimum  *3$/ { n = 1 } END { if (!n) print "it is not said" }
 0|100|square --steps 3 --stretch 0 --timestep 0.1
 summary /^not at a minimum/

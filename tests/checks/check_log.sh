@@ -50,9 +50,9 @@ verdict every_end_is_told "$(
     ends 1 --steps 20 --integrator midpoint --tolerance 1e-12 --timestep 1
 )"
 verdict ends_that_did_not_converge_are_told "$(
-    ends 1 --steps 10 --filter none --timestep 0.02 --stretch 0.5
+    ends 1 --steps 10 --projection none --timestep 0.02 --stretch 0.5
     ends 1 --steps 10 --line-search none --timestep 0.05 --stretch 0.3
-    ends 1 --steps 10 --line-search none --filter none --timestep 0.05 \
+    ends 1 --steps 10 --line-search none --projection none --timestep 0.05 \
         --stretch 0.5 --segments 1
     ends 1 --steps 5 --segments 1 --stiffness 1e30 --tolerance 1e-14
     ends 1 --steps 5 --stiffness 1e15 --timestep 100
@@ -110,7 +110,7 @@ verdict kinds_of_residuals_are_told "$(
     kinds estimate '$9 == 0' --segments 4
     kinds estimate 1 --segments 33
     kinds value 1 --stretch 1
-    kinds value '$NF == 2' --filter clamp,none
+    kinds value '$NF == 2' --projection clamp,none
 )"
 
 exit $failed

@@ -156,7 +156,7 @@ each_pane() {
     done | sort -u | wc -l)
     [ "$hashes" = 3 ] || echo "$hashes hashes of 3 pairs"
     for pair in none,clamp clamp,none; do
-        "$elasto" unprojected --headless --quiet --steps 5 --filter $pair
+        "$elasto" unprojected --headless --quiet --steps 5 --projection $pair
         code=$?
         [ $code = 3 ] || echo "$pair ends with $code"
     done
@@ -166,7 +166,7 @@ verdict every_pane_counts "$(each_pane)"
 # Panes have one time; files know all of them.
 panes() {
     "$elasto" --headless --quiet --steps 4 --states states.csv \
-        --timestep 0.001,0.002 --filter clamp,none || echo "ends with $?"
+        --timestep 0.001,0.002 --projection clamp,none || echo "ends with $?"
     awk -F, 'NR > 1 { nodes[$1]++; time[$1 "," $2] = 1 }
         END { for (s = 0; s < 5; s++) if (nodes[s] != 100) print "step", s, nodes[s]
               n = 0; for (t in time) n++

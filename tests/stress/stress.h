@@ -26,10 +26,10 @@ long double wide_noise(const Moment *moment, const double *u,
                        const double *way);
 
 /* Gradient [2n] and Hessian [2n 2n] of E of springs and the central field, 0
- * and 1 for pinned nodes; negative eigenvalues of each spring as the filter
+ * and 1 for pinned nodes; negative eigenvalues of each spring as the projection
  * says. */
 void wide_derivatives(const IncrementalPotential *E, const double *u,
-                      Filter filter, Wide *g, Wide *H);
+                      Projection projection, Wide *g, Wide *H);
 
 /* H becomes its factors L D L^T, without pivots; false: a pivot is 0.
  *   negative  out, how many pivots are below 0 */
@@ -43,7 +43,7 @@ double wide_residual(int n, const Wide *p, double h);
 
 /* p = -H^-1 grad E [2n] out, of at most 25 nodes; returns its residual, m/s. */
 double wide_direction(const IncrementalPotential *E, const double *u,
-                      Filter filter, double h, Real *p);
+                      Projection projection, double h, Real *p);
 
 typedef enum LargeVerdict {
     LARGE_PASSED,

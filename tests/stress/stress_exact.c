@@ -91,9 +91,9 @@ static void cut_negative(Wide H[3], int share)
 }
 
 /* Force [2] on node i and block [3] of one spring, both weighted, the block
- * filtered. */
+ * projected. */
 static void wide_spring(const IncrementalPotential *E, const double *u, int s,
-                        Filter filter, Wide f[2], Wide H[3])
+                        Projection projection, Wide f[2], Wide H[3])
 {
     Wide l2 = E->system->l2[s], k = E->system->k[s];
     Wide dx = wide_difference(E, u, s, 0), dy = wide_difference(E, u, s, 1);
@@ -103,8 +103,8 @@ static void wide_spring(const IncrementalPotential *E, const double *u, int s,
     H[0] = factor * (2 * dx * dx / l2 + more);
     H[1] = factor * (2 * dx * dy / l2);
     H[2] = factor * (2 * dy * dy / l2 + more);
-    if (filter == FILTER_CLAMP || filter == FILTER_ABS)
-        cut_negative(H, filter == FILTER_ABS ? 0 : 1);
+    if (projection == PROJECTION_CLAMP || projection == PROJECTION_ABS)
+        cut_negative(H, projection == PROJECTION_ABS ? 0 : 1);
 }
 
 /* The rows and columns of pinned nodes become those of the unit matrix. */
@@ -140,7 +140,7 @@ static Wide wide_pull(const System *system, int i, Wide x, Wide *force)
 /* The same with the springs' blocks [3 springs] in the place of H, behind what
  * is its diagonal besides, [2n]; NULL: none. */
 static void wide_blocks(const IncrementalPotential *E, const double *u,
-                        Filter filter, Wide *g, Real *blocks)
+                        Projection projection, Wide *g, Real *blocks)
 {
     const System *system = E->system;
     for (int i = 0; i < 2 * system->nodes; i++) {
@@ -153,7 +153,7 @@ static void wide_blocks(const IncrementalPotential *E, const double *u,
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         Wide f[2], block[3];
-        wide_spring(E, u, s, filter, f, block);
+        wide_spring(E, u, s, projection, f, block);
         for (int c = 0; c < 2; c++) {
             g[2 * e[0] + c] += f[c];
             g[2 * e[1] + c] -= f[c];
@@ -165,12 +165,12 @@ static void wide_blocks(const IncrementalPotential *E, const double *u,
 }
 
 void wide_derivatives(const IncrementalPotential *E, const double *u,
-                      Filter filter, Wide *g, Wide *H)
+                      Projection projection, Wide *g, Wide *H)
 {
     const System *system = E->system;
     int n = 2 * system->nodes;
     Wide force;
-    wide_blocks(E, u, filter, g, NULL);
+    wide_blocks(E, u, projection, g, NULL);
     if (!H)
         return;
     for (int i = 0; i < n * n; i++)
@@ -181,7 +181,7 @@ void wide_derivatives(const IncrementalPotential *E, const double *u,
     for (int s = 0; s < system->springs; s++) {
         int end[2] = {2 * system->e[2 * s], 2 * system->e[2 * s + 1]};
         Wide f[2], block[3];
-        wide_spring(E, u, s, filter, f, block);
+        wide_spring(E, u, s, projection, f, block);
         for (int t = 0; t < 16; t++) {
             int r = end[t / 8] + t / 4 % 2, c = end[t / 2 % 2] + t % 2;
             Wide value = block[t / 4 % 2 + t % 2];
@@ -236,13 +236,13 @@ double wide_residual(int n, const Wide *p, double h)
 }
 
 double wide_direction(const IncrementalPotential *E, const double *u,
-                      Filter filter, double h, Real *p)
+                      Projection projection, double h, Real *p)
 {
     enum { MOST = 50 };
     int n = 2 * E->system->nodes, negative;
     Wide g[MOST], H[MOST * MOST];
     CHECK(n <= MOST);
-    wide_derivatives(E, u, filter, g, H);
+    wide_derivatives(E, u, projection, g, H);
     CHECK(wide_factor(n, H, &negative));
     wide_solve(n, H, g);
     for (int i = 0; i < n; i++)
@@ -338,7 +338,7 @@ LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
     LargeVerdict verdict = LARGE_UNDECIDED;
     if (g && blocks) {
         Real *r = blocks + entries;
-        wide_blocks(E, u, FILTER_CLAMP, g, blocks);
+        wide_blocks(E, u, PROJECTION_CLAMP, g, blocks);
         for (size_t i = 0; i < size; i++)
             r[i] = -(Real)g[i];
         verdict = decide(E->system, h, tolerance, blocks, r + size, r,

@@ -68,8 +68,8 @@ static const struct Draw {
     {"f", 3, " --tolerance <1e-8 1e-2>"},
     {"ctbwmn", 1, " --tolerance <1e-8 1e-2>"},
     {"s", 4, " --pin (0 1,2 left top-corners)"},
-    {"s", 2, " --filter (clamp none abs on-demand)"},
-    {"ctbwmn", 4, " --filter clamp"},
+    {"s", 2, " --projection (clamp none abs on-demand)"},
+    {"ctbwmn", 4, " --projection clamp"},
     {"s", 1, " --solver (newton multigrid)"},
     {"s", 2,
      " --integrator (forward-euler symplectic-euler verlet bdf2 midpoint "

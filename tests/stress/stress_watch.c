@@ -83,14 +83,14 @@ static double residual_noise(const Watch *watch, const double *u, Wide blur)
     Wide g[LARGEST_JUDGED], moved[LARGEST_JUDGED];
     double x_n[LARGEST_JUDGED], most = 0;
     Random random = {1};
-    wide_derivatives(&E, u, FILTER_NONE, g, NULL);
+    wide_derivatives(&E, u, PROJECTION_NONE, g, NULL);
     E.x_n = x_n;
     for (int round = 0; round < 3; round++) {
         for (int i = 0; i < n; i++)
             x_n[i] = watch->x_n[i] + 2 * DBL_EPSILON *
                                          random_uniform(&random, -1, 1) *
                                          (fabs(watch->x_n[i]) + fabs(u[i]));
-        wide_derivatives(&E, u, FILTER_NONE, moved, NULL);
+        wide_derivatives(&E, u, PROJECTION_NONE, moved, NULL);
         for (int i = 0; i < n; i++)
             moved[i] = (random_below(&random, 2) ? 1 : -1) *
                        (ROUNDINGS * (moved[i] - g[i]) + blur +
@@ -102,15 +102,16 @@ static double residual_noise(const Watch *watch, const double *u, Wide blur)
     return most;
 }
 
-/* Residual at u with the Hessian of this filter, and what rounding may add
+/* Residual at u with the Hessian of this projection, and what rounding may add
  * to it where it exceeds the limit; infinite where there is no factor. */
-static double judged_residual(Watch *watch, const double *u, Filter filter,
-                              double limit, double *noise)
+static double judged_residual(Watch *watch, const double *u,
+                              Projection projection, double limit,
+                              double *noise)
 {
     IncrementalPotential E = watch_potential(watch);
     int n = watch_size(watch), negative;
     Wide largest = 0;
-    wide_derivatives(&E, u, filter, watch->g, watch->H);
+    wide_derivatives(&E, u, projection, watch->g, watch->H);
     for (int i = 0; i < n; i++)
         largest = fmaxl((long double)largest, fabsl((long double)watch->g[i]));
     *noise = INFINITY;
@@ -119,7 +120,8 @@ static double judged_residual(Watch *watch, const double *u, Filter filter,
     wide_solve(n, watch->H, watch->g);
     double residual = residual_of_direction(watch, watch->g);
     /* 1e-8: as cholesky.h says of INDEFINITE */
-    bool indefinite = watch->run->newton->settings.filter == FILTER_NONE;
+    bool indefinite =
+        watch->run->newton->settings.projection == PROJECTION_NONE;
     *noise = residual <= limit
                  ? 0
                  : residual_noise(watch, u, indefinite ? largest * 1e-8L : 0);
@@ -131,7 +133,7 @@ static void judge_large(Watch *watch, const double *u, double tolerance)
 {
     IncrementalPotential E = watch_potential(watch);
     const NewtonSettings *settings = &watch->run->newton->settings;
-    if (settings->filter != FILTER_CLAMP)
+    if (settings->projection != PROJECTION_CLAMP)
         return;
     LargeVerdict verdict = large_judge(&E, u, settings->h, tolerance);
     watch->tally->judged++;
@@ -153,10 +155,11 @@ typedef double (*JudgedResidual)(const IncrementalPotential *E, const double *u,
 static bool residual_holds(const Watch *watch, const double *u, double limit,
                            JudgedResidual judge, double *noise, double *least)
 {
-    static const int lifts[FILTER_COUNT][2] = {[FILTER_CLAMP] = {1, 1},
-                                               [FILTER_NONE] = {0, 0},
-                                               [FILTER_ABS] = {2, 2},
-                                               [FILTER_ON_DEMAND] = {1, 0}};
+    static const int lifts[PROJECTION_COUNT][2] = {
+        [PROJECTION_CLAMP] = {1, 1},
+        [PROJECTION_NONE] = {0, 0},
+        [PROJECTION_ABS] = {2, 2},
+        [PROJECTION_ON_DEMAND] = {1, 0}};
     const NewtonSettings *settings = &watch->run->newton->settings;
     Moment moment = watch_moment(watch);
     *least = INFINITY;
@@ -165,7 +168,7 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
     for (int k = 0; k < 2; k++) {
         double residual =
             judge(&moment.E, u, watch->way, settings->h, moment.moved,
-                  lifts[settings->filter][k], noise);
+                  lifts[settings->projection][k], noise);
         *least = fmin(*least, residual);
         if (residual <= limit + (noise ? *noise : 0))
             return true;
@@ -202,7 +205,7 @@ static void judge_terms(Watch *watch, const double *u, double limit)
 static void judge_convergence(Watch *watch, const double *u, double limit)
 {
     const NewtonSettings *settings = &watch->run->newton->settings;
-    bool either = settings->filter == FILTER_ON_DEMAND;
+    bool either = settings->projection == PROJECTION_ON_DEMAND;
     double noise;
     if (!watch->residuals)
         return;
@@ -215,10 +218,11 @@ static void judge_convergence(Watch *watch, const double *u, double limit)
         return;
     }
     double residual = judged_residual(
-        watch, u, either ? FILTER_CLAMP : settings->filter, limit, &noise);
+        watch, u, either ? PROJECTION_CLAMP : settings->projection, limit,
+        &noise);
     watch->tally->judged++;
     if (!(residual <= limit + noise) && either)
-        residual = judged_residual(watch, u, FILTER_NONE, limit, &noise);
+        residual = judged_residual(watch, u, PROJECTION_NONE, limit, &noise);
     if (!(residual <= limit) && !(residual <= limit + noise))
         blame(
             watch,

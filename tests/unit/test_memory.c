@@ -68,7 +68,7 @@ static Status run_once(const Options *options)
 TEST(every_allocation_may_fail)
 {
     static const char *const lines[] = {
-        "--segments 3", "--segments 19", "--filter none",
+        "--segments 3", "--segments 19", "--projection none",
         "dent --segments 3 --damping 0.01 --tear 0.3",
         "--segments 2 --body 0,0 --body 1.001,0 --self-friction 1"};
     share_with_cholmod();

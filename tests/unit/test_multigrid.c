@@ -361,7 +361,7 @@ TEST(what_does_not_fit_is_left_to_newton)
         {"--segments 33 --integrator bdf2", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --integrator sdirk2", SOLVER_MULTIGRID, NULL},
         {"--segments 33 --gravity 9.81 --pin top", SOLVER_MULTIGRID, NULL},
-        {"--segments 33 --filter abs", SOLVER_NEWTON, "projection"},
+        {"--segments 33 --projection abs", SOLVER_NEWTON, "projection"},
         {"--segments 33 --line-search none", SOLVER_NEWTON, "line search"},
         {"--segments 33 --stiffness 1e17", SOLVER_NEWTON, "outweigh"},
         {"--segments 8 --solver multigrid", SOLVER_MULTIGRID, NULL},

@@ -60,7 +60,8 @@ TEST(residuals_are_what_they_are_called)
             IncrementalPotential E = newton->at.E;
             E.x_n = x_n;
             double residual = last.record.residual;
-            double exact = wide_direction(&E, last.u, FILTER_CLAMP, run->h, p);
+            double exact =
+                wide_direction(&E, last.u, PROJECTION_CLAMP, run->h, p);
             bool multigrid = newton->working == SOLVER_MULTIGRID;
             seen[multigrid][last.record.kind]++;
             if (last.record.kind == RESIDUAL_VALUE)
@@ -95,11 +96,11 @@ static void make_pair(double m0, double m1, double k)
     pair.m[1] = m1;
 }
 
-static void watch_pair(double h, double tolerance, Filter filter)
+static void watch_pair(double h, double tolerance, Projection projection)
 {
     const NewtonSettings settings = {.h = h,
                                      .tolerance = tolerance,
-                                     .filter = filter,
+                                     .projection = projection,
                                      .max_iterations = 100};
     CHECK_OK(newton_create(&pair, &settings, &newton));
 }
@@ -123,7 +124,7 @@ TEST(a_maximum_is_counted_without_projection)
     const double x[4] = {0};
     for (int i = 0; i < 6; i++) {
         make_pair(rows[i].m0, rows[i].m1, 1);
-        watch_pair(1, 1e-3, FILTER_NONE);
+        watch_pair(1, 1e-3, PROJECTION_NONE);
         CHECK_OK(minimise_pair(x, 1));
         CHECK(newton.counters.negative == rows[i].maximum);
     }
@@ -137,18 +138,19 @@ TEST(levers_swing_or_say_why_not)
 {
     static const struct {
         double k, pull;
-        Filter filter;
+        Projection projection;
         Status end;
-    } rows[] = {{(1 - 1e-8) / 1.5, 1e30, FILTER_NONE, STATUS_LINE_SEARCH_LIMIT},
-                {2.0 / 3, 1, FILTER_NONE, STATUS_SINGULAR},
-                {2.0 / 3, 1, FILTER_CLAMP, STATUS_OK}};
+    } rows[] = {
+        {(1 - 1e-8) / 1.5, 1e30, PROJECTION_NONE, STATUS_LINE_SEARCH_LIMIT},
+        {2.0 / 3, 1, PROJECTION_NONE, STATUS_SINGULAR},
+        {2.0 / 3, 1, PROJECTION_CLAMP, STATUS_OK}};
     const double x[4] = {0, 0, 0.5, 0};
     for (int i = 0; i < 3; i++) {
         Real g[4];
         const Iterate *at = &newton.at;
         make_pair(1, 1, rows[i].k);
         pair.pinned[0] = 1;
-        watch_pair(1, 1e-6, rows[i].filter);
+        watch_pair(1, 1e-6, rows[i].projection);
         newton.u_tilde[3] = rows[i].pull;
         CHECK_STATUS(minimise_pair(x, 1), rows[i].end);
         CHECK(at->u[0] == 0 && at->u[1] == 0);
@@ -207,19 +209,19 @@ static const char *const massless[] = {
     "--segments 5 --density 1e-6 --timestep 1e9 --stiffness 1e10 "
     "--stretch 1.12 --solver multigrid",
     "--segments 6 --density 2.4e-5 --timestep 9.3e8 --stiffness 3.25e8 "
-    "--stretch 1.05 --solver multigrid --filter abs",
+    "--stretch 1.05 --solver multigrid --projection abs",
     "--segments 5 --density 2.31e-5 --timestep 4.17e8 --stiffness 9.51e8 "
     "--stretch 1.12 --solver newton",
     "--segments 6 --density 3.78e-6 --timestep 3.07e8 --stiffness 1.51e8 "
-    "--stretch 0.5 --solver newton --filter on-demand",
+    "--stretch 0.5 --solver newton --projection on-demand",
     "--segments 5 --timestep 1e12 --stiffness 1e10 --stretch 1.12 "
-    "--solver multigrid --filter abs",
+    "--solver multigrid --projection abs",
     "--segments 1 --density 0.02078113651981987 --timestep "
     "3364147816908.643 --stiffness 5526952586.520507 --stretch 2 "
-    "--solver multigrid --filter on-demand",
+    "--solver multigrid --projection on-demand",
     "--segments 4 --density 8.641832226359739 --timestep "
     "6315292785651.445 --stiffness 98681394.03566141 --stretch 0.3 "
-    "--solver multigrid --filter abs",
+    "--solver multigrid --projection abs",
 };
 
 enum { MASSLESS = sizeof massless / sizeof *massless };

@@ -152,7 +152,7 @@ TEST(numbers_of_long_runs)
     } rows[] = {
         {"square --yield 0.05 --hardening 0.1", 4, {"", "set yield 0.1"}},
         {"square --damping 0.01", 5, {"", "set damping 0.02"}},
-        {"square --filter none --stretch 0.6", 3, {"", "projection"}},
+        {"square --projection none --stretch 0.6", 3, {"", "projection"}},
         {"square --integrator sdirk2", 3, {"", "set integrator verlet"}},
         {"square --segments 2", 3, {"", "method", "add-pane", "add-pane"}},
         {"dent --segments 6", 80, {""}},

@@ -199,8 +199,8 @@ TEST(numbers_are_worked_out)
     double value;
     CHECK(option_read(option_find("gravity"), "9.81 m/s^2", &value));
     CHECK(value == 9.81);
-    CHECK(option_read(option_find("filter"), "abs", &value));
-    CHECK(value == FILTER_ABS);
+    CHECK(option_read(option_find("projection"), "abs", &value));
+    CHECK(value == PROJECTION_ABS);
     CHECK(parse_good("--at 10cm,5mm").at[1] == 0.005);
 }
 
@@ -208,8 +208,9 @@ TEST(numbers_are_worked_out)
 static void add_piece(Random *random, char *word)
 {
     static const char pieces[] =
-        "--segments=8|--side=2|--st|--timestep=1/60|--filter|--lo|-h|3|-1|1e3|"
-        "--integrator=bdf2|--steps=1e3|--quiet|--filter=none|inf|--stif=1e3|"
+        "--segments=8|--side=2|--st|--timestep=1/60|--projection|--lo|-h|3|-1|"
+        "1e3|--integrator=bdf2|--steps=1e3|--quiet|--projection=none|inf|"
+        "--stif=1e3|"
         "1,2|--stretch=-.5||verlet,bdf2|none|\n|=|--|\303\274|%s%n|circle|"
         "\302\233";
     const char *at = pieces;

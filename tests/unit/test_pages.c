@@ -493,8 +493,8 @@ TEST(claim_explodes)
 {
     CHECK(2 * open_page("explodes", "")->system.nodes == 32);
     static const char *const watched[] = {
-        "--filter clamp", "--line-search backtrack",
-        "--filter clamp --line-search backtrack"};
+        "--projection clamp", "--line-search backtrack",
+        "--projection clamp --line-search backtrack"};
     double E = 0, highest = 0, farthest = 0;
     simulation_step(open_page("explodes", ""));
     for (int i = 0; i < updates.count; i++) {
@@ -638,14 +638,14 @@ TEST(claim_descent)
     CHECK_NEAR(simulation->run[0].x[0], 0.1, 0);
     CHECK_NEAR(simulation->run[0].x[1], -0.35, 0);
     CHECK_NEAR(simulation->descent.slope, 0.86, 0.005);
-    simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
+    simulation_set(simulation, OPTION_SLOT(projection), PROJECTION_CLAMP);
     CHECK_NEAR(simulation->descent.slope, -2.94, 0.005);
 }
 
 TEST(claim_psd)
 {
     CHECK_NEAR(known("psd", "negative"), -220, 1e-12);
-    Simulation *simulation = open_page("psd", "--filter abs");
+    Simulation *simulation = open_page("psd", "--projection abs");
     CHECK(known_now(simulation, "projected across") == 0);
     exhibit_drag(simulation, 0, 2, 1);
     CHECK(known_now(simulation, "negative") == 0);
@@ -698,7 +698,7 @@ TEST(claim_potential)
     memcpy(before, simulation->run[0].x, sizeof before);
     make_steps(simulation, 72);
     assert_memory_equal(before, simulation->run[0].x, sizeof before);
-    simulation = open_page("potential", "--stretch 0.5 --filter none");
+    simulation = open_page("potential", "--stretch 0.5 --projection none");
     CHECK(known_now(simulation, "Byy") == 0); /* projected all the same */
 }
 
@@ -728,7 +728,7 @@ TEST(claim_step)
         CHECK_NEAR(at[-1].residual / at->residual, factors[k], 0.5);
         CHECK(at->projected == 20);
     }
-    make_steps(open_page("step", "--filter none"), 1);
+    make_steps(open_page("step", "--projection none"), 1);
     CHECK(updates.count == 4);
     for (int k = 2; k < 4; k++) {
         double before = updates.record[k - 1].residual;
@@ -1146,7 +1146,7 @@ TEST(claim_trust)
     CHECK(!speaks_of(simulation, "{rounded}") &&
           !speaks_of(simulation, "{refused}"));
     CHECK(speaks_of_all(simulation));
-    simulation = run_out("trust", "--stretch 0.5 --filter none");
+    simulation = run_out("trust", "--stretch 0.5 --projection none");
     CHECK(speaks_of(simulation, "{refused}"));
     CHECK(!speaks_of(simulation, "{rounded}"));
 }

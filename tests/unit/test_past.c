@@ -114,7 +114,7 @@ static void check_all_steps(long steps, const uint64_t *hash)
 
 static const char *const lines[] = {
     "square --segments 3",
-    "square --segments 3 --filter on-demand --stretch 0.6 --timestep 0.01",
+    "square --segments 3 --projection on-demand --stretch 0.6 --timestep 0.01",
     "square --segments 3 --integrator bdf2",
     "square --segments 3 --integrator verlet --timestep 0.0005",
     "square --segments 3 --integrator sdirk2 --solver multigrid",
@@ -309,7 +309,7 @@ static Command random_edit(Random *random, int kind)
 {
     static const char *const settings[] = {
         "timestep 0.01",  "timestep 0.003",      "stiffness 2e4",
-        "stiffness 1e5",  "filter none",         "filter clamp",
+        "stiffness 1e5",  "projection none",     "projection clamp",
         "tolerance 1e-6", "integrator midpoint", "integrator backward-euler"};
     const Simulation *simulation = &past.machine[0].simulation;
     const double *x = simulation->run[0].x;

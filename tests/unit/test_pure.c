@@ -116,11 +116,11 @@ TEST(steps_are_pure)
 TEST(all_solvers_are_pure)
 {
     static const char *const lines[] = {
-        "--segments 3 --filter on-demand --stretch 0.6 --timestep 0.01",
-        "--segments 4 --filter on-demand --stretch 2.5 --timestep 0.01",
-        "--segments 8 --filter on-demand --stretch 2.5 --timestep 0.01",
-        "--segments 3 --filter none --stretch 1.1",
-        "--segments 3 --filter abs",
+        "--segments 3 --projection on-demand --stretch 0.6 --timestep 0.01",
+        "--segments 4 --projection on-demand --stretch 2.5 --timestep 0.01",
+        "--segments 8 --projection on-demand --stretch 2.5 --timestep 0.01",
+        "--segments 3 --projection none --stretch 1.1",
+        "--segments 3 --projection abs",
         "--segments 3 --line-search none --stretch 1.1",
         "--segments 3 --solver multigrid",
         "--segments 5 --solver multigrid --damping 0.01",
@@ -131,7 +131,7 @@ TEST(all_solvers_are_pure)
         "drop --segments 4 --damping 0.01",
         "dent --segments 4",
         "tear --segments 6",
-        "squeeze --segments 4 --filter on-demand",
+        "squeeze --segments 4 --projection on-demand",
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         Options options = line_options(lines[i]);

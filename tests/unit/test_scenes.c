@@ -58,13 +58,15 @@ TEST(scenes_are_complete)
 static void check_path(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
-    bool on_demand = simulation->options.filter == FILTER_ON_DEMAND;
+    bool on_demand = simulation->options.projection == PROJECTION_ON_DEMAND;
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->from, *to = record->to;
         CHECK(record->slope < 0 && record->change < 0 && record->alpha > 0);
-        double E = descent_at(simulation, FILTER_NONE, from[0], from[1]).value;
-        CHECK_NEAR(descent_at(simulation, FILTER_NONE, to[0], to[1]).value - E,
+        double E =
+            descent_at(simulation, PROJECTION_NONE, from[0], from[1]).value;
+        CHECK_NEAR(descent_at(simulation, PROJECTION_NONE, to[0], to[1]).value -
+                       E,
                    record->change, 1e-12 * (1 + fabs(E)));
         if (on_demand)
             CHECK((record->projected > 0) ==
@@ -85,12 +87,12 @@ TEST(landscape_is_downhill_from_everywhere)
         const double *x = simulation->run[0].x;
         CHECK(simulation->descent.slope < 0);
         bool convex = !descent_bends_down(simulation, at[0], at[1]);
-        simulation_set(simulation, OPTION_SLOT(filter), FILTER_NONE);
+        simulation_set(simulation, OPTION_SLOT(projection), PROJECTION_NONE);
         uphill += simulation->descent.slope > 0;
         hollow += convex;
         CHECK(!convex || simulation->descent.slope < 0);
-        simulation_set(simulation, OPTION_SLOT(filter),
-                       i % 2 ? FILTER_CLAMP : FILTER_ON_DEMAND);
+        simulation_set(simulation, OPTION_SLOT(projection),
+                       i % 2 ? PROJECTION_CLAMP : PROJECTION_ON_DEMAND);
         CHECK_OK(run_to_end(simulation, 100));
         check_path(simulation);
         CHECK(!descent_bends_down(simulation, x[0], x[1]));
@@ -141,9 +143,9 @@ TEST(mass_is_dragged)
 TEST(landscape_minimises_what_it_shows)
 {
     static const char *const lines[] = {
-        "landscape --start 0.2,-0.3 --filter abs",
-        "landscape --start 0.6,0.9 --filter on-demand",
-        "landscape --start 0.6,0.9 --filter none --line-search none"};
+        "landscape --start 0.2,-0.3 --projection abs",
+        "landscape --start 0.6,0.9 --projection on-demand",
+        "landscape --start 0.6,0.9 --projection none --line-search none"};
     for (int i = 0; i < 6; i++) {
         Simulation *scene = simulate("%s", lines[i / 2]);
         const Descent *descent = &scene->descent;
@@ -353,7 +355,8 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);
     CHECK(self->pairs > 0);
-    incremental_potential_product(&before, newton->search.filter, before.p, Hp);
+    incremental_potential_product(&before, newton->search.projection, before.p,
+                                  Hp);
     for (int i = 0; i < 36; i++)
         CHECK_NEAR(Hp[i], -newton->at.g[i], 1e-10);
     CHECK_OK(incremental_potential_grow(&newton->at, &grown));

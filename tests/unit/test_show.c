@@ -174,7 +174,7 @@ static double falling(const void *unused, double alpha)
     return 20 * alpha * alpha * alpha - 4 * alpha;
 }
 
-#define CLAMPED "unprojected --filter clamp"
+#define CLAMPED "unprojected --projection clamp"
 
 enum { STAGE = -1, LISTING = 1, LINE, CURVE };
 
@@ -594,7 +594,7 @@ TEST(energies_before_an_explosion_are_seen)
 TEST(maps_have_levels_and_pulls)
 {
     static const double levels[] = {0.2, 0.6, 1};
-    stand_up("landscape --filter none --start 0.6,0.9 --timestep 0.1", 0);
+    stand_up("landscape --projection none --start 0.6,0.9 --timestep 0.1", 0);
     show.lecture = lecture_find("parts");
     simulation.exhibit.parts = PART_INERTIA;
     CHECK(is_drawn("0.6"));
@@ -672,7 +672,8 @@ TEST(right_digits_are_marked)
 TEST(curves_are_where_the_gradient_is_0)
 {
     static const Colour colours[2] = {0xff009e73u, 0xffb0559au};
-    stand_up("landscape --filter none --line-search none --start 0.6,0.9", 0);
+    stand_up("landscape --projection none --line-search none --start 0.6,0.9",
+             0);
     show.lecture = lecture_find("newton");
     draw_without_words();
     Plot stage = show_stage(&paper, &show, &layout, 0);
@@ -702,7 +703,7 @@ TEST(curves_are_where_the_gradient_is_0)
  */
 TEST(the_downhill_side_has_a_colour)
 {
-    stand_up("landscape --filter none --start 0.1,-0.35", 0);
+    stand_up("landscape --projection none --start 0.1,-0.35", 0);
     LecturePage page = *lecture_find("descent");
     assert_true(page.downhill);
     show.lecture = &page;
@@ -766,7 +767,8 @@ TEST(the_relief_has_two_valleys)
         int valleys;
     } rows[] = {{"0.03", 1}, {"0.067", 1}, {"0.2", 2}, {"1", 2}, {"10", 2}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char line[96] = "landscape --start 0.1,-0.35 --filter none --timestep ";
+        char line[96] =
+            "landscape --start 0.1,-0.35 --projection none --timestep ";
         strcat(line, rows[i].h);
         stand_up(line, 0);
         show.lecture = lecture_find("parts");

@@ -86,7 +86,7 @@ static const struct {
      "0,0,349,-1.05,-4.92,0.822,1.14 --body "
      "1.6,-0.26,293,-8.4,-0.252 --body 0.267,1.6,41.8,6.37,-0.279 "
      "--self-friction 1.21 --pin top-corners --tolerance 1.37e-05 "
-     "--filter clamp",
+     "--projection clamp",
      VERDICT_CONVERGED},
     /* in step 3 a contact has opened since the Hessian was factored, whose
      * factor proposes far too small a correction of the last direction */

@@ -267,10 +267,10 @@ static void make_case(const Row *row, Random *random, Case *c)
 
 /* TermKind's hessian, without a matrix; a force that is the same everywhere has
  * none. */
-static int times_hessian(const Case *c, const TermKind *kind, Filter filter,
-                         const double *q, double *out)
+static int times_hessian(const Case *c, const TermKind *kind,
+                         Projection projection, const double *q, double *out)
 {
-    return kind->hessian ? kind->hessian(&c->at, filter, NULL, q, out) : 0;
+    return kind->hessian ? kind->hessian(&c->at, projection, NULL, q, out) : 0;
 }
 
 static double dot(const Case *c, const double *a, const double *b)
@@ -329,7 +329,7 @@ static Real entries_noise(Case *c, const TermKind *kind)
     for (int i = 0; i < c->size; i++) {
         double unit[SIZE] = {0}, column[SIZE] = {0};
         unit[i] = c->q[i];
-        times_hessian(c, kind, FILTER_NONE, unit, column);
+        times_hessian(c, kind, PROJECTION_NONE, unit, column);
         sum += dot_noise(c, c->p, column);
     }
     return sum;
@@ -344,19 +344,19 @@ static void derivatives(Case *c, const TermKind *kind)
     kind->gradient(&c->at, g);
     noise.p += dot_noise(c, g, c->p);
     noise.pq += entries_noise(c, kind);
-    times_hessian(c, kind, FILTER_NONE, c->q, Hq);
-    times_hessian(c, kind, FILTER_NONE, c->p, Hp);
+    times_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
+    times_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
     if (!(system_data(&c->system, &damping) && kind->internal))
         near("value", c->at.w * kind->value(&c->at), formula.f, noise.f);
     near("gradient", dot(c, g, c->p), formula.p, noise.p);
     near("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
     near("symmetry", dot(c, Hp, c->q), formula.pq, noise.pq);
-    for (int f = 0; f < FILTER_COUNT; f++) { /* it says what it changes */
-        double filtered[SIZE] = {0};
+    for (int f = 0; f < PROJECTION_COUNT; f++) { /* it says what it changes */
+        double projected[SIZE] = {0};
         bool differs = false;
-        int changed = times_hessian(c, kind, (Filter)f, c->q, filtered);
+        int changed = times_hessian(c, kind, (Projection)f, c->q, projected);
         for (int i = 0; i < c->size; i++)
-            differs = differs || filtered[i] != Hq[i];
+            differs = differs || projected[i] != Hq[i];
         CHECK((changed > 0) == differs);
     }
     if (!kind->internal)
@@ -445,7 +445,7 @@ static void limit(Case *c, const TermKind *kind)
         near("what the limit leaves", part_left(c, x), 0.1, 1e-8);
 }
 
-/* The matrix is the products' one, and filtered it has the blocks' negative
+/* The matrix is the products' one, and projected it has the blocks' negative
  * eigenvalues cut or mirrored. */
 static void projection(Case *c, Random *random)
 {
@@ -458,10 +458,11 @@ static void projection(Case *c, Random *random)
     bool grown;
     CHECK_OK(incremental_potential_grow(&iterate, &grown));
     CHECK_OK(incremental_potential_pattern(&c->system, &A, &slot));
-    CHECK(incremental_potential_hessian(&iterate, FILTER_NONE, slot, &A) == 0);
+    CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, slot, &A) ==
+          0);
     dense_from_sparse(&A, plain);
     double Hq[SIZE], scale = 0;
-    incremental_potential_product(&iterate, FILTER_NONE, c->q, Hq);
+    incremental_potential_product(&iterate, PROJECTION_NONE, c->q, Hq);
     for (int i = 0; i < n * n; i++)
         scale = fmax(scale, fabs(plain[i]));
     for (int i = 0; i < n; i++) {
@@ -470,10 +471,10 @@ static void projection(Case *c, Random *random)
             sum += (Real)plain[n * i + j] * c->q[j];
         near("matrix", Hq[i], sum, 2e-14L * scale);
     }
-    const Filter filters[2] = {FILTER_CLAMP, FILTER_ABS};
+    const Projection projections[2] = {PROJECTION_CLAMP, PROJECTION_ABS};
     for (int f = 0; f < 2; f++) {
-        Filter filter = filters[f];
-        incremental_potential_hessian(&iterate, filter, slot, &A);
+        Projection projection = projections[f];
+        incremental_potential_hessian(&iterate, projection, slot, &A);
         dense_from_sparse(&A, H);
         for (int trial = 0; trial < 20; trial++) {
             double y[SIZE], value = 0;
@@ -506,7 +507,7 @@ static void whole_step(Case *c, Random *random)
     exact(c, NULL, 0, &noise);
     Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
     incremental_potential_gradient(&E, c->u, c->x, g);
-    incremental_potential_product(&iterate, FILTER_NONE, c->q, Hq);
+    incremental_potential_product(&iterate, PROJECTION_NONE, c->q, Hq);
     near("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
     near("E's Hessian", dot(c, Hq, c->p), part.pq,
          noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
