@@ -155,18 +155,16 @@ $(B)/bench/%.o: private CPPFLAGS += -DBENCH_FLAGS='"$(strip $(CFLAGS))"'
 -include $(wildcard $(B)/*.d $(B)/*/*.d $(B)/tests/*/*.d)
 
 # ---- texts ------------------------------------------------------------------
-# Pages with the functions that they show, cards, and how the handout begins are
-# compiled into the program.
+# Pages with the functions that they show, and cards, are compiled into the
+# program.
 PAGES = src/lesson/pages.txt
 CARDS = src/picture/cards.txt
-HEAD = src/play/handout.html
 READ = awk -f src/lesson/text.awk
 LISTED = $(sort $(shell sed -n 's/^code \([^ ]*\).*/\1/p' $(PAGES)))
 
-$(B)/texts.c: $(LISTED) $(PAGES) $(CARDS) $(HEAD) $(wildcard src/*/*.awk) Makefile
+$(B)/texts.c: $(LISTED) $(PAGES) $(CARDS) $(wildcard src/*/*.awk) Makefile
 	$(call shown,WRITE)
-	$(Q){ echo '#include "lesson/pages.h"'; echo 'const char handout_head[] ='; \
-	  sed 's/[\"]/\\&/g; s/.*/"&\\n"/' $(HEAD); echo ';'; \
+	$(Q){ echo '#include "lesson/pages.h"'; \
 	  $(READ) -f src/lesson/code.awk -f src/lesson/pages.awk $(PAGES); \
 	  pages=$$?; $(READ) -f src/picture/cards.awk $(CARDS) && [ $$pages = 0 ]; \
 	  } >$@.new && mv $@.new $@
@@ -205,10 +203,6 @@ bench: build/elasto-bench
 figures:
 	gnuplot -c src/bench/figures.gnuplot build/bench tests/data
 
-handout: build/elasto
-	./build/elasto --handout build/handout.html
-	@echo build/handout.html
-
 install: build/elasto
 	install -d '$(DESTDIR)$(PREFIX)/bin'
 	install -m 755 build/elasto '$(DESTDIR)$(PREFIX)/bin/elasto'
@@ -228,7 +222,6 @@ help:
 	@echo 'make homework   write homework.c, lecture.c with functions to write;'
 	@echo '                make check-homework [FILE=...] says what is wrong'
 	@echo 'make web        write build/elasto.html, all of it as one page'
-	@echo 'make handout    write the lecture as build/handout.html'
 	@echo 'make bench      measure run time against error (TABLES=work);'
 	@echo '                make figures: draw what it measured'
 	@echo 'make stress     named cases, random scenes, faults: half an hour;'
@@ -239,7 +232,7 @@ help:
 	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS, LDLIBS are respected'
 
 .PHONY: all web test-web homework check-homework elasto lecture run run-lecture test long-test suites stress \
-        same-bits mutants analyse pictures bench figures handout install \
+        same-bits mutants analyse pictures bench figures install \
         uninstall clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -32,7 +32,7 @@ typedef struct LecturePage {
     const char *lit;         /* those with this text are at work */
     const char *claim;       /* what a test holds */
     unsigned flips;          /* bit s: switch s of the scene is turned over */
-    int picture;             /* the step that the handout shows */
+    int picture;             /* the step that the printed page shows */
     double speed;            /* steps a frame; 0: the scene's */
     bool numbers;            /* the nodes' are shown */
     const char *open;        /* commands when it opens, ';' between; or NULL */

@@ -238,7 +238,6 @@ typedef struct Show {
     Held held;
     bool strain; /* springs coloured by strain */
     bool bare;   /* the picture of the slide and nothing else */
-    bool print;  /* stage and cards alone, and the page's question */
     struct Text
         *text;     /* what a page's words are measured with; NULL: guessed */
     double letter; /* pixels that an em has at least; 0: the usual ones */
@@ -301,12 +300,6 @@ void show_describe(Show *show);
 
 /* The number that texts know by this name now; NaN: none. */
 double show_number(Show *show, const char *name);
-
-/* The first line of a page's text with the numbers that it has at its start, as
- * far as it is known, and "x^{0}" as "x^0"; out [size].  Returns OK,
- * OUT_OF_MEMORY, ... */
-Status show_plain(const LecturePage *page, const char *text, char *out,
-                  size_t size);
 
 /* What the history of this scene's picture shows of the state now.  row out;
  * returns how many. */

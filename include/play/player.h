@@ -199,16 +199,6 @@ Status player_open_page(Player *player);
 Status player_finish(Player *player, Status status);
 void player_free(Player *player);
 
-/* Writes the lecture as an HTML file to options->handout; it appears when it is
- * whole.
- *   player   workspace; it must stay where it is
- *   stop     in, not 0 ends it after the present page: INTERRUPTED
- *   told     as of output_open
- * Returns OK, OUT_OF_MEMORY, FILE_FAILED, INTERRUPTED, or how a page could not
- * be drawn. */
-Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
-                     char *told, Player *player);
-
 /* ---- the program --------------------------------------------------------- */
 
 /* From its command line to its exit code, wherever it runs.  What is wrong it

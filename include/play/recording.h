@@ -110,10 +110,8 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
  * or has failed, none gets its name. */
 Status recording_close(Recording *recording, Keep keep);
 
-/* One picture as a PNG file, whole or not at all (output.h); or into a stream.
- *   small  the file is worth more than the time it takes
+/* One picture as a PNG file, whole or not at all (output.h).
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
 Status png_file_write(const char *name, char *told, const Canvas *canvas);
-Status png_write(FILE *file, const Canvas *canvas, bool small);
 
 #endif

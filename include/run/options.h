@@ -58,7 +58,7 @@ typedef struct Options {
             double speed;   /* steps a frame; 0: the scene's */
             double size[2]; /* pixels; 0: the usual ones */
             double paused, fullscreen, headless, quiet, big;
-            double help, version, list, notes; /* print that and stop */
+            double help, version, list; /* print that and stop */
         };
         double number[OPTIONS_NUMBERS];
     };
@@ -67,9 +67,9 @@ typedef struct Options {
     const char *pin;                /* which nodes never move, or NULL */
     const char *state;              /* the table it begins in, or NULL */
     const char *state_springs;      /* the table of its springs, or NULL */
-    const char *frames, *states, *log, *energies, *springs, *film, *script,
-        *handout; /* or NULL */
-    bool kinds;   /* each kind of springs is a switch */
+    const char *frames, *states, *log, *energies, *springs, *film,
+        *script; /* or NULL */
+    bool kinds;  /* each kind of springs is a switch */
     bool no_switches;
     int panes; /* side by side, 1: no lists of values */
 } Options;

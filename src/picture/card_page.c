@@ -56,8 +56,6 @@ static int put_page(Paper *paper, Box inside, double size, const Show *show,
     const Words words[] = {
         {NULL, page->text, COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA},
-        {show->print ? "Ask" : NULL, show->print ? page->ask : NULL, COLOUR_X,
-         1},
         {asks ? "Ask" : "Look", asks ? page->ask : page->look, COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;

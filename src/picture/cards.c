@@ -29,8 +29,7 @@ void cards_hint(const Plot *card, const char *text)
 }
 
 /* Frame, title and cross; returns what is inside. */
-static Box draw_frame(Paper *paper, Box box, const char *words,
-                      const Show *show, bool closed)
+static Box draw_frame(Paper *paper, Box box, const char *words, bool closed)
 {
     int margin = paper_pixels(paper, 0.8), bar = paper_pixels(paper, TITLE);
     Box title = {box.x + margin, box.y, box.width - bar - margin, bar};
@@ -39,9 +38,8 @@ static Box draw_frame(Paper *paper, Box box, const char *words,
               title, ALIGN_LEFT, words);
     title.x = box.x + box.width - bar;
     title.width = bar;
-    if (!show->print)
-        paper_fit(paper, FACE_REGULAR, 1.2, COLOUR_GREY, title, ALIGN_CENTRE,
-                  closed ? "+" : "\u00d7");
+    paper_fit(paper, FACE_REGULAR, 1.2, COLOUR_GREY, title, ALIGN_CENTRE,
+              closed ? "+" : "\u00d7");
     return cards_inside(box, paper->em);
 }
 
@@ -177,7 +175,7 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
     if (layout->page) { /* over the whole column */
         Box inside = draw_frame(
             paper, box_inset(layout->column, paper_pixels(paper, 0.9)),
-            code ? show->lecture->file : titles[show->column], show, false);
+            code ? show->lecture->file : titles[show->column], false);
         Box before = canvas_clip(&paper->canvas, inside);
         if (code)
             draw_code(paper, page_draw_claim(paper, inside, show), show);
@@ -196,7 +194,7 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
             .paper = paper,
             .show = show,
             .simulation = simulation,
-            .box = draw_frame(paper, box, title.words, show, closed),
+            .box = draw_frame(paper, box, title.words, closed),
             .pane = show->active,
             .text = true,
             .em = paper->em};

@@ -282,29 +282,6 @@ double show_number(Show *show, const char *name)
     return fact_number(&show_pane(show)->facts, name);
 }
 
-Status show_plain(const LecturePage *page, const char *text, char *out,
-                  size_t size)
-{
-    Options options;
-    Simulation simulation = {0};
-    Show show;
-    Status status = lecture_options(page, &options, out, size);
-    if (!status)
-        status = simulation_create(&options, NULL, NULL, &simulation);
-    if (!status) {
-        show_create(&simulation, &show);
-        show_know(&show);
-        char *to = out;
-        TextLine line = text_first(&show.pane->facts, text);
-        for (const char *at = line.words; *at && to < out + size - 1; at++)
-            if (!strchr("{}", *at))
-                *to++ = *at;
-        *to = '\0';
-    }
-    simulation_free(&simulation);
-    return status;
-}
-
 /* One number or word of a line, as the letters behind the colon say: with / it
  * is 1/2, 1/4, ... where it is one of them. */
 static void put_fact(const Fact *one, const char *format, char *out,

@@ -99,7 +99,7 @@ void glow_draw(Paper *paper, const Show *show)
                                                [LINE_SEARCH] = COLOUR_ALPHA};
     const Trace *trace = show_pane(show)->trace;
     Colour colour = 0;
-    if (!show->lecture || show->print)
+    if (!show->lecture)
         return;
     if (show->over.zone == ZONE_CARD || show->over.zone == ZONE_STAGE)
         colour = term_near(&paper->canvas, show->over.at,

@@ -127,7 +127,7 @@ static Box place_zones(const Show *show, Layout *layout)
 {
     Box rest = {0, 0, layout->width, layout->height};
     double high = layout->height / layout->em;
-    if (show->bare || show->print || high < 16)
+    if (show->bare || high < 16)
         return rest;
     bool roomy = high >= 40;
     layout->strip =

@@ -53,38 +53,15 @@ static int check_output(void)
                                    output_reason(STATUS_FILE_FAILED));
 }
 
-/* What a presenter says, page by page, and when it begins, min. */
-static Status print_notes(void)
-{
-    double begins = 0;
-    char ask[512];
-    Status status = STATUS_OK;
-    for (int i = 0; lecture_pages[i].name; i++) {
-        const LecturePage *page = &lecture_pages[i];
-        printf("%2d  %s\n    from minute %g, %g min\n    %s\n", i + 1,
-               page->topic, begins, page->minutes, page->notes);
-        if (page->ask && !status)
-            status = show_plain(page, page->ask, ask, sizeof ask);
-        if (page->ask && !status)
-            printf("    Ask: %s\n", ask);
-        begins += page->minutes;
-    }
-    printf("%g min in all\n", begins);
-    return status;
-}
-
-/* --help, --version, --notes, --lecture --list, --list.  Returns the exit code;
+/* --help, --version, --lecture --list, --list.  Returns the exit code;
  * PROGRAM_PLAYS: none of them was asked for. */
 static int print_information(const Options *options)
 {
-    Status status = STATUS_OK;
     errno = 0;
     if (options->help)
         options_help(stdout);
     else if (options->version)
         puts("elasto " ELASTO_VERSION);
-    else if (options->notes)
-        status = print_notes();
     else if (!options->list)
         return PROGRAM_PLAYS;
     else if (options->page)
@@ -94,8 +71,7 @@ static int print_information(const Options *options)
     else
         for (const Scene *scene = scenes; scene->name; scene++)
             printf("%-12s %s\n", scene->name, scene->sentence);
-    return status ? tell(EXIT_FAILED, "%s", status_text(status))
-                  : check_output();
+    return check_output();
 }
 
 /* What a user can do about a failure. */
@@ -374,21 +350,11 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
             return tell(EXIT_FAILED, "%s; try fewer --segments",
                         status_text(status));
     }
-    if (options->notes && argc > 2)
-        return tell(EXIT_MISUSED,
-                    "--notes prints those of all pages: nothing goes with it");
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
     if (check_files(options, (Refusal){message, sizeof message}))
         return tell(EXIT_MISUSED, "%s", message);
-    if (options->handout) {
-        message[0] = '\0';
-        Status status = handout_write(options, stop, message, player);
-        *player = (Player){0};
-        output_tell(message, options->handout, status, NULL);
-        return status ? tell(EXIT_FAILED, "%s", message) : EXIT_FINE;
-    }
     print_forgotten(options);
     Status status = player_create(options, options->panes, argv, stop, player);
     return status ? program_end(player, status) : PROGRAM_PLAYS;

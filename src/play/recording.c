@@ -101,14 +101,14 @@ static const struct {
 
 /* libpng's simplified writer wants red, green and blue of each pixel; it leaves
  * errno of a failed write alone. */
-Status png_write(FILE *file, const Canvas *canvas, bool small)
+static Status png_write(FILE *file, const Canvas *canvas)
 {
     size_t count = (size_t)canvas->width * (size_t)canvas->height;
     png_image image = {.version = PNG_IMAGE_VERSION,
                        .width = (png_uint_32)canvas->width,
                        .height = (png_uint_32)canvas->height,
                        .format = PNG_FORMAT_RGB,
-                       .flags = small ? 0 : PNG_IMAGE_FLAG_FAST};
+                       .flags = PNG_IMAGE_FLAG_FAST};
     uint8_t *bytes = malloc(3 * count);
     if (!bytes)
         return STATUS_OUT_OF_MEMORY;
@@ -131,7 +131,7 @@ Status png_file_write(const char *name, char *told, const Canvas *canvas)
     Status status = output_open(name, told, &output);
     if (status)
         return status;
-    status = png_write(output.file, canvas, false);
+    status = png_write(output.file, canvas);
     if (!status)
         return output_close(&output, KEEP_WHOLE);
     output_tell(told, name, status, NULL);

@@ -242,13 +242,11 @@ const OptionRow option_rows[] = {
               "page by page; Page Down is the next one", ""),
     },
     {SWITCH(big, "letters have a 35th of the height")},
-    {TEXT(handout, "FILE", "all pages as one HTML file, and end")},
     {SWITCH(quiet, "no summary")},
     {SWITCH(help, "this; --help commands: what scripts can say"),
      .letter = 'h'},
     {SWITCH(version, "the number of this version"), .letter = 'v'},
     {SWITCH(list, "the scenes")},
-    {SWITCH(notes, "what to say on each page of the lecture, and how long")},
     {.name = NULL},
 };
 

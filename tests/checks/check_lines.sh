@@ -31,7 +31,6 @@ mkdir refused
 cd refused || exit 1
 verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 1|too large.*fewer --segments|--segments 3000 --body 0,0 --body 2,0
-1|missing/x.html|--handout missing/x.html
 2|line 1.*'jump'.*--help commands$|--headless --script jump
 2|line 1.*'box' is gone: place|--headless --script box
 2|nowhere: No such file|--headless --script nowhere

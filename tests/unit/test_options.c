@@ -116,7 +116,6 @@ TEST(values_are_read)
     CHECK(parse_good("-h -V").help && parse_good("-V").version);
     assert_string_equal(parse_good("--lecture").page->name, "opening");
     assert_string_equal(parse_good("--lecture 2").page->name, "solid");
-    assert_string_equal(parse_good("--handout h.html").handout, "h.html");
     CHECK(parse_good("--side 2 --side 3").side == 3); /* the last one counts */
     o = parse_good("overshoot --start 3");
     CHECK(o.start[0] == 3 && o.start[1] == 0);
