@@ -35,6 +35,11 @@ Status options_of_line(const char *line, Options *options, char *message,
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size);
 
+/* The same of a number, for a row with a single one; of a name its place.  NaN,
+ * which a field gives that is empty, is refused as an empty text is. */
+Status options_put(Options *options, const OptionRow *row, double value,
+                   char *message, size_t size);
+
 /* Writes the text of --help, 80 columns wide. */
 void options_help(FILE *help);
 

@@ -46,7 +46,6 @@ typedef struct Options {
             double material, young, poisson;    /* 0: springs, 1: triangles */
             double yield, hardening, tear;      /* 0: never */
             double damping;
-            double terms[8]; /* of terms that nobody else asks for */
             double timestep, tolerance;
             double integrator;     /* its row; -1: the scene's choice */
             double solver;         /* enum Solver */

@@ -237,6 +237,15 @@ static double number_meant(const OptionRow *row, const char *text)
     return NAN;
 }
 
+/* Whether the row's range has this number; of names their places. */
+static bool option_allows(const OptionRow *row, double number)
+{
+    if (row->kind == OPTION_NAME)
+        return number >= 0 && number < names_count(row->names);
+    return number >= row->low && number <= row->high &&
+           (row->kind != OPTION_WHOLE || number == floor(number));
+}
+
 /* As many numbers as the row has, or fewer if it allows that, each in its
  * range; a single one may have a decimal comma.  number [count] out.  Returns
  * whether they can be read. */
@@ -262,8 +271,7 @@ static bool read_numbers(const OptionRow *row, int count, const char *text,
         for (char *comma; count == 1 && (comma = strchr(at, ','));)
             *comma = '.';
         number[i] = number_meant(row, at);
-        if (!(number[i] >= row->low && number[i] <= row->high) ||
-            (row->kind == OPTION_WHOLE && number[i] != floor(number[i])))
+        if (!option_allows(row, number[i]))
             return false;
         at = next + 1;
     }
@@ -437,6 +445,16 @@ static Status check_integrator(const Line *line)
                         method->name, end);
 }
 
+/* Whether the other options, and the body, can have the row's new value. */
+static Status check_change(const Line *line, const OptionRow *row)
+{
+    const Options *options = line->options;
+    bool begins = row->effect == EFFECT_START && (row->needs & NEEDS_SQUARE) &&
+                  (options->scene->needs & NEEDS_BODY);
+    Status status = check_integrator(line);
+    return status || !begins ? status : body_check(options, line->told);
+}
+
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size)
 {
@@ -445,12 +463,27 @@ Status options_set(Options *options, const char *name, const char *value,
     if (!row || row->kind == OPTION_SWITCH)
         return refuse(line.told, "there is no option '%.60s' with a value",
                       name);
-    if (check_scene(&line, row) || apply(&line, row, value) ||
-        check_integrator(&line))
+    if (check_scene(&line, row) || apply(&line, row, value))
         return STATUS_INVALID_INPUT;
-    bool begins = row->effect == EFFECT_START && (row->needs & NEEDS_SQUARE) &&
-                  (options->scene->needs & NEEDS_BODY);
-    return begins ? body_check(options, line.told) : STATUS_OK;
+    return check_change(&line, row);
+}
+
+Status options_put(Options *options, const OptionRow *row, double value,
+                   char *message, size_t size)
+{
+    const Line line = {.options = options, .told = {message, size}};
+    char text[32] = "";
+    if (row->kind == OPTION_NAME) /* the scene's own choice: the first */
+        value = fmax(value, 0);
+    if (check_scene(&line, row))
+        return STATUS_INVALID_INPUT;
+    if (row->count > 1 || !option_allows(row, value)) {
+        if (!isnan(value))
+            option_write(row, value, text, sizeof text);
+        return refuse_value(&line, row, row->count, text);
+    }
+    options->number[row->slot] = value;
+    return check_change(&line, row);
 }
 
 /* ---- words -------------------------------------------------------------- */

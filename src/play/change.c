@@ -382,13 +382,12 @@ Status obey_add(Player *player, const Command *command)
 static Status put_value(Player *player, int pane, const Command *command,
                         Options *options)
 {
-    char value[COMMAND_TEXT_SIZE];
     const OptionRow *row = &option_rows[command->number];
-    snprintf(value, sizeof value, "%s", command->text);
-    if (!value[0] && !isnan(command->x))
-        option_write(row, command->x, value, sizeof value);
-    Status status = options_set(options, row->name, value, player->message,
-                                sizeof player->message);
+    Status status = command->text[0]
+                        ? options_set(options, row->name, command->text,
+                                      player->message, sizeof player->message)
+                        : options_put(options, row, command->x, player->message,
+                                      sizeof player->message);
     if (!status && row->slot == OPTION_SLOT(integrator) &&
         integrator_method_refuses(options_method(options),
                                   &player_simulation(player)->system))

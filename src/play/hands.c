@@ -198,14 +198,20 @@ static Status drag_number(Player *player, const Under *under)
 static Status load_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;
-    char lines[256];
-    snprintf(lines, sizeof lines,
-             "scene square;set segments %g;set stretch %.17g;"
-             "set timestep %.17g;set stiffness %.17g;pause;restart",
-             map.segments, map.stretch,
-             envelope_timestep((int)(cell % ENVELOPE_COLUMNS)),
-             envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
-    Status status = player_obey_lines(player, lines);
+    const struct {
+        const char *name;
+        double value;
+    } number[] = {
+        {"segments", map.segments},
+        {"stretch", map.stretch},
+        {"timestep", envelope_timestep((int)(cell % ENVELOPE_COLUMNS))},
+        {"stiffness", envelope_stiffness((int)(cell / ENVELOPE_COLUMNS))}};
+    Status status = player_obey_lines(player, "scene square");
+    for (size_t i = 0; i < sizeof number / sizeof *number && !status; i++)
+        status = player_ask_set(player, option_find(number[i].name),
+                                number[i].value);
+    if (!status)
+        status = player_obey_lines(player, "pause;restart");
     player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
                 map.page ? ", Page Down goes on" : "");
     return status;

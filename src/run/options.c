@@ -1,10 +1,8 @@
 /* options.c - the table of options.
  *
- * To add an option: a field in options.h and a row here; of a term that nobody
- * else asks for a number one of options.h's `terms` is the field.  Reading,
- * range, unit, "did you mean", refusal where a scene cannot make use of it,
- * --help, lists side by side, its place in the window and the term come from
- * the row.
+ * To add an option: a field in options.h and a row here.  Reading, range, unit,
+ * "did you mean", refusal where a scene cannot make use of it, --help, lists
+ * side by side, its place in the window and the term come from the row.
  */
 #include "run/options.h"
 
