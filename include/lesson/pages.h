@@ -19,8 +19,9 @@ typedef struct LecturePage {
     const char *look;    /* what to look at */
     const char *touch;   /* what to change, and how */
     const char *ask;     /* what to guess before the rest is shown; or NULL */
-    const char *answer;  /* a fact (facts.h): the number that is guessed; or
-                            NULL: a place, or words */
+    const char *answer;  /* a fact (facts.h): the number that is guessed;
+                            "click": the place to which the next step leads;
+                            NULL: words */
     const char *veils; /* cards that wait for the guess, with blanks between */
     const char *star;  /* the card that is enlarged, or NULL */
     const char *law;   /* that the card of it draws (card_law.c), or NULL */
@@ -34,21 +35,12 @@ typedef struct LecturePage {
     unsigned flips;          /* bit s: switch s of the scene is turned over */
     int picture;             /* the step that the printed page shows */
     double speed;            /* steps a frame; 0: the scene's */
-    bool numbers;            /* the nodes' are shown */
     const char *open;        /* commands when it opens, ';' between; or NULL */
     const char *tell;        /* and when N shows the answer; or NULL */
     int lines;               /* or so many lines on from where the page opens */
-    bool predict;            /* a click says where the next step leads */
-    bool waits;              /* its answer comes before a step */
-    bool forces;             /* that on each node is an arrow */
-    bool modes;    /* so is the fastest oscillation, or eigenvectors */
-    bool writes;   /* the spring is lit whose number is the step's */
-    bool kinds;    /* each kind has its colour, and is a switch */
-    bool nears;    /* N brings the end of the spring nearer */
-    bool stops;    /* it plays up to its picture */
-    bool downhill; /* -grad E is an arrow, and its half plane has a colour */
-    bool curves;   /* where each component of the gradient is 0 */
-    bool cuts;     /* before the guess a solid; then it shows kinds */
+    unsigned layers;         /* bits of Layer */
+    NextDeed next;           /* what N does */
+    int pause;               /* step at which playing pauses; 0: none */
 } LecturePage;
 
 /* Text, formulas, look and touch are texts of facts.h: live numbers stand in
@@ -60,6 +52,12 @@ int lecture_count(void);
 
 /* The page with this name, or with this number from 1; NULL: there is none. */
 const LecturePage *lecture_find(const char *text);
+
+/* Whether the page asks for a click; NULL: no page. */
+bool page_wants_click(const LecturePage *page);
+
+/* Puts a page, and what its picture shows, into options with its scene. */
+void lecture_enter(const LecturePage *page, Options *options);
 
 /* The options of a page: its line on top of the defaults.  Returns OK, or
  * INVALID_INPUT with a message [size] out, which a test rules out. */

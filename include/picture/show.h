@@ -244,8 +244,10 @@ typedef struct Show {
 
     /* The lecture: the page that is shown, or NULL outside of it. */
     const LecturePage *lecture;
-    bool veiled;    /* its answer is not shown before a guess, */
-    unsigned veils; /* nor is what is in these cards */
+    bool veiled;         /* its answer is not shown before a guess, */
+    unsigned veils;      /* nor is what is in these cards */
+    const char *verdict; /* on a guess at this page; NULL: none was made */
+    int guesses, right;  /* at all pages */
 } Show;
 
 /* Nothing selected, everything fits, one pane that shows the simulation. */

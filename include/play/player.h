@@ -121,11 +121,13 @@ typedef struct Player {
 
     /* What only the screen shows. */
     Column column;
-    struct Sheet *sheet;     /* of scenes; NULL: it is closed */
-    const LecturePage *left; /* the page that was last open, or NULL */
-    const LecturePage *told; /* the page whose answer is shown, or NULL */
-    bool opens;              /* a page: its own lines are obeyed */
-    bool asks;               /* pages wait for a guess before they tell */
+    struct Sheet *sheet;      /* of scenes; NULL: it is closed */
+    const LecturePage *left;  /* the page that was last open, or NULL */
+    const LecturePage *told;  /* the page whose answer is shown, or NULL */
+    char verdict[SHOW_VALUE]; /* on the guess at this page, or "" */
+    int guesses, right;       /* numbers and clicks of all pages */
+    bool opens;               /* a page: its own lines are obeyed */
+    bool asks;                /* pages wait for a guess before they tell */
     bool strain, bare, blank;
     unsigned closed;      /* cards that are not as the picture has them */
     int large;            /* the enlarged card, */

@@ -10,13 +10,13 @@
 
 typedef struct Simulation Simulation;
 
-/* "Predict, then show": where somebody thinks that the next step leads. */
+/* A guess of where the next step leads, and where it does lead. */
 typedef struct Prediction {
-    bool made;       /* at is a guess */
-    bool shown;      /* the step was made: came and distance are valid */
-    double at[2];    /* m */
-    double came[2];  /* m, where it led */
-    double distance; /* m, between the two; along x in one variable */
+    bool made;       /* the fields below are valid */
+    long step;       /* number of steps when the guess was made */
+    double at[2];    /* guess, m */
+    double came[2];  /* where the step leads, m */
+    double distance; /* between the two, m; along x in one variable */
 } Prediction;
 
 /* ---- descents: a minimum that Newton looks for, update by update --------- */

@@ -17,6 +17,26 @@
 struct Scene;
 struct LecturePage;
 
+/* What a picture shows besides its scene, as bits. */
+typedef enum Layer {
+    LAYER_NUMBERS = 1 << 0,    /* number of each node */
+    LAYER_FORCES = 1 << 1,     /* force on each node, as an arrow */
+    LAYER_MODES = 1 << 2,      /* fastest oscillation, or eigenvectors */
+    LAYER_KINDS = 1 << 3,      /* colour of each kind of spring; kinds are
+                                  switches */
+    LAYER_CUTS = 1 << 4,       /* a solid without springs before the guess */
+    LAYER_DOWNHILL = 1 << 5,   /* -grad E, and the half plane on its side */
+    LAYER_CURVES = 1 << 6,     /* where each component of the gradient is 0 */
+    LAYER_FIRST_STEP = 1 << 7, /* the first step alone, as large as it fits */
+} Layer;
+
+/* What N does. */
+typedef enum NextDeed {
+    NEXT_STEP,   /* makes a step */
+    NEXT_NEARER, /* brings the end of the spring nearer by a fifth */
+    NEXT_SPRING, /* lights the spring whose number is that of the step */
+} NextDeed;
+
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 
 /* Numbers of a body's start: centre, turn, velocity, stretch. */
@@ -47,15 +67,15 @@ typedef struct Options {
             double yield, hardening, tear;      /* 0: never */
             double damping;
             double timestep, tolerance;
-            double integrator;     /* its row; -1: the scene's choice */
-            double solver;         /* enum Solver */
-            double projection;     /* enum Projection */
-            double line_search;    /* enum LineSearch */
-            double flips;          /* bit s: switch s of the scene is turned
-                                      over at the start: of a page, by hand */
-            double steps;   /* -1: until closed, or 100 without a screen */
-            double speed;   /* steps a frame; 0: the scene's */
-            double size[2]; /* pixels; 0: the usual ones */
+            double integrator;  /* its row; -1: the scene's choice */
+            double solver;      /* enum Solver */
+            double projection;  /* enum Projection */
+            double line_search; /* enum LineSearch */
+            double flips;       /* bit s: switch s of the scene is turned
+                                   over at the start: of a page, by hand */
+            double steps;       /* -1: until closed, or 100 without a screen */
+            double speed;       /* steps a frame; 0: the scene's */
+            double size[2];     /* pixels; 0: the usual ones */
             double paused, fullscreen, headless, quiet, big;
             double help, version, list; /* print that and stop */
         };
@@ -63,14 +83,16 @@ typedef struct Options {
     };
     const struct Scene *scene;
     const struct LecturePage *page; /* of the lecture, or NULL */
-    const char *pin;                /* which nodes never move, or NULL */
-    const char *state;              /* the table it begins in, or NULL */
-    const char *state_springs;      /* the table of its springs, or NULL */
+    unsigned layers;                /* bits of Layer */
+    NextDeed next;                  /* what N does */
+    int pause;                      /* step at which playing pauses; 0: none */
+    const char *law, *star;    /* of card law, of the large card; or NULL */
+    const char *pin;           /* which nodes never move, or NULL */
+    const char *state;         /* the table it begins in, or NULL */
+    const char *state_springs; /* the table of its springs, or NULL */
     const char *frames, *states, *log, *energies, *springs, *film,
         *script; /* or NULL */
-    bool kinds;  /* each kind of springs is a switch */
-    bool no_switches;
-    int panes; /* side by side, 1: no lists of values */
+    int panes;   /* side by side, 1: no lists of values */
 } Options;
 
 /* The slot of a number of Options: OPTION_SLOT(timestep). */

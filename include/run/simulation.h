@@ -165,10 +165,6 @@ bool simulation_projects_springs(const Simulation *simulation);
  * variable is searched, 0 where there is no single point. */
 int simulation_point(const Simulation *simulation, double at[2]);
 
-/* The guess that the next step leads to (x, y), m; nothing where a scene has no
- * single point or has ended. */
-void simulation_predict(Simulation *simulation, double x, double y);
-
 /* omega of the fastest small oscillation around x [2n], 1/s: M mode'' = -H mode
  * with the Hessian of P as it is; NaN where there is none, or more nodes.
  *   mode  [2n] out, its length is 1 */

@@ -21,6 +21,11 @@
 
 #include "run/simulation.h"
 
+/* Notes the guess that the next step leads to (x, y), m: on the dial the end of
+ * the longest step.  Does nothing where a scene has no single point or has
+ * ended. */
+void scene_predict(Simulation *simulation, double x, double y);
+
 /* ---- one mass, one spring ------------------------------------------------ */
 
 /* Node 0 is free; each of the others is held and has a spring to it.  kg, m,

@@ -800,6 +800,21 @@ const LecturePage *lecture_find(const char *text)
     return place < 0 ? NULL : &lecture_pages[place];
 }
 
+bool page_wants_click(const LecturePage *page)
+{
+    return page && page->answer && strcmp(page->answer, "click") == 0;
+}
+
+void lecture_enter(const LecturePage *page, Options *options)
+{
+    options->page = page;
+    options->layers = page->layers;
+    options->next = page->next;
+    options->pause = page->pause;
+    options->law = page->law;
+    options->star = page->star;
+}
+
 Status lecture_options(const LecturePage *page, Options *options, char *message,
                        size_t size)
 {
@@ -807,10 +822,8 @@ Status lecture_options(const LecturePage *page, Options *options, char *message,
     const char *pin = strstr(page->line, "--pin ");
     if (pin) /* the line's last option: its text stays */
         options->pin = pin + strlen("--pin ");
-    options->page = page;
+    lecture_enter(page, options);
     options->flips = page->flips;
-    options->kinds = page->kinds;
-    options->no_switches = page->nears && !page->flips;
     options->speed = page->speed;
     return status;
 }

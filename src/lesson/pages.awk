@@ -1,6 +1,18 @@
 # pages.awk - pages.txt, which says how it is written, as rows of the table of
 # pages.h.
 
+# Names of layers, with blanks between, as bits of Layer.
+function layers_of(text,    i, n, name, bits)
+{
+    n = split(text, name, " ")
+    for (i = 1; i <= n; i++) {
+        if (!(name[i] in layers))
+            fail(begins, "there is no layer " name[i])
+        bits = bits (i > 1 ? " | " : "") "LAYER_" toupper(name[i])
+    }
+    return bits
+}
+
 # The lines of one word, put together in text, as fields of the row.
 function put_word(    part)
 {
@@ -10,8 +22,10 @@ function put_word(    part)
         print "." texts[word] " = " quoted(text) ","
     else if (word in numbers && text ~ /^[0-9.]+$/)
         print "." word " = " text ","
-    else if (word in switches && text == "")
-        print "." word " = true,"
+    else if (word == "layers")
+        print ".layers = " layers_of(text) ","
+    else if (word == "next" && text in of_next)
+        print ".next = NEXT_" toupper(text) ","
     else if (word == "code" && split(text, part, " ") >= 3)
         print ".file = " quoted(part[1]) ", .function = " quoted(part[2]) \
               ", .lit = " quoted(substr(text, length(part[1] part[2]) + 3)) \
@@ -52,11 +66,11 @@ BEGIN {
     texts["law"] = "law"
     texts["notes"] = "notes"
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
-    numbers["minutes"]
-    switches["numbers"] switches["predict"] switches["forces"]
-    switches["downhill"] switches["curves"]
-    switches["waits"] switches["modes"] switches["writes"] switches["kinds"] switches["cuts"]
-    switches["nears"] switches["stops"]
+    numbers["minutes"] numbers["pause"]
+    of_next["nearer"] of_next["spring"]
+    split("numbers forces modes kinds cuts downhill curves first_step", layer)
+    for (i in layer)
+        layers[layer[i]]
     print "const LecturePage lecture_pages[] = {"
 }
 

@@ -161,7 +161,7 @@ Axis energies_axis(const Show *show, double *last)
     low = fmax(low, -1e300);
     if (!(first > nothing)) /* at rest in a field: what came first tells */
         first = -low;
-    bool modes = show->lecture && show->lecture->modes;
+    bool modes = show_pane(show)->simulation->options.layers & LAYER_MODES;
     if (first > 0 && (modes || high > LOG_FROM * first))
         return (Axis){pow(10, floor(log10(fmax(least, LEAST_LOG * first))) - 1),
                       pow(10, ceil(log10(fmin(high, MOST_LOG * first)))), true,

@@ -132,11 +132,11 @@ static double value_now(const Law *law, const LawNow *now)
  * law. */
 static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
 {
-    const LecturePage *page = simulation->options.page;
+    const char *name = simulation->options.law;
     const System *system = simulation->run[run].system;
     const double *x = simulation->run[run].x, *v = simulation->run[run].v;
-    const Law *law = page && page->law ? laws : NULL;
-    while (law && strcmp(law->name, page->law) != 0)
+    const Law *law = name ? laws : NULL;
+    while (law && strcmp(law->name, name) != 0)
         law++;
     const Term *term = law ? system_find_term(system, law->kind) : NULL;
     if (!term)
@@ -230,7 +230,6 @@ static bool flowed_one_way(const LawNow *now, double from[2], double to[2])
 
 bool law_way(const Simulation *simulation, double way[2])
 {
-    const LecturePage *page = simulation->options.page;
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
     int last = mesh->bodies - 1, nodes = mesh->nodes / mesh->bodies;
@@ -242,7 +241,7 @@ bool law_way(const Simulation *simulation, double way[2])
     double mu =
         options->self_friction < 0 ? options->friction : options->self_friction;
     way[1] = v * v / (2 * mu * options->gravity);
-    return page && page->law && strcmp(page->law, "rub") == 0;
+    return options->law && strcmp(options->law, "rub") == 0;
 }
 
 void law_facts(const Simulation *simulation, Facts *facts)

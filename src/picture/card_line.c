@@ -122,8 +122,8 @@ void line_draw(const Plot *card)
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
     plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
     double first = trace_alpha(trace, 1), full = exact_value(trace, first);
-    const LecturePage *page = card->show->lecture;
-    if (trace->trials == 0 && page && page->star && full > plot.y.high)
+    bool star = card->simulation->options.star;
+    if (trace->trials == 0 && star && full > plot.y.high)
         draw_trial(&plot, first, full, false);
     for (int t = 0; t < trace->trials; t++) {
         double at = trace_alpha(trace, t + 1);

@@ -14,6 +14,7 @@ typedef struct Words {
 
 static const double HEAD_ROOM = 3.2; /* ems of the letters, of a head */
 static const double TEST_ROOM = 4.4; /* of the head of a test */
+static const double VERDICT = 1.5;   /* times that, what became of a guess */
 static const double GAP = 0.35;      /* lines, between two texts */
 static const double LETTERS = 1.2;   /* ems, on every page */
 static const double FORMULA = 1.25;  /* times that, a formula */
@@ -49,13 +50,18 @@ static int put_page(Paper *paper, Box inside, double size, const Show *show,
                     bool draw)
 {
     const LecturePage *page = show->lecture;
-    const char *how = page->answer    ? "Type a number, then Enter. N shows it."
-                      : page->predict ? "Click where you think. N shows it."
-                                      : "Say it, then press N or Space.";
+    const char *how = page_wants_click(page)
+                          ? "Click on the picture. N shows it."
+                      : page->answer ? "Type a number, then Enter. N shows it."
+                                     : "Say it, then press N or Space.";
     bool asks = show->veiled; /* before a guess nothing that would tell */
+    bool judged = show->verdict && !asks;
     const Words words[] = {
         {NULL, page->text, COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA},
+        {judged ? "Ask" : NULL, judged ? page->ask : NULL, COLOUR_X, 1},
+        {judged ? "You" : NULL, judged ? show->verdict : NULL, COLOUR_HAND,
+         VERDICT},
         {asks ? "Ask" : "Look", asks ? page->ask : page->look, COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;

@@ -28,8 +28,8 @@ void residual_draw(const Plot *card)
             high = fmax(high, residual);
         }
     }
-    const LecturePage *page = card->show->lecture;
-    bool star = page && page->star; /* from 0, as the slides' program prints */
+    bool star = card->simulation->options.star; /* from 0, as the slides'
+                                                   program prints */
     double most = fmax(updates + pending, 4);
     Axis x = {0.5 - star, most + 0.5 - 0.4 * star, false, true,
               star ? "iteration" : "update"};

@@ -90,16 +90,16 @@ void spy_draw(const Plot *card)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
-    const LecturePage *page = card->show->lecture;
+    bool writes = card->simulation->options.next == NEXT_SPRING;
     Box inside = card->box;
     int line = paper_pixels(paper, 1.4), gap = line;
     int side = (inside.width - gap) / 2;
-    int below = page && page->writes ? paper_pixels(paper, 9) : 0;
+    int below = writes ? paper_pixels(paper, 9) : 0;
     below = 2 * below < inside.height ? below : 0;
     if (side > inside.height - line - below)
         side = inside.height - line - below;
-    int springs = page && page->writes ? lecture_spring(card->simulation) + 1
-                                       : system->springs;
+    int springs =
+        writes ? lecture_spring(card->simulation) + 1 : system->springs;
     if (side < 4 * line || system->nodes > side) {
         cards_hint(card,
                    side < 4 * line ? "enlarge it" : "too many nodes to draw");

@@ -88,6 +88,9 @@ double energies_value(const Simulation *simulation, const History *history,
  *   last  out, s, the latest time that the curves may reach */
 Axis energies_axis(const Show *show, double *last);
 
+/* Whether the picture has a card of this name, and the page shows it. */
+bool show_has_card(const Show *show, const char *name);
+
 /* The text whose lines are lit in the page's code: that of Algorithm 3's line
  * while it is gone through, else the page's. */
 const char *lecture_lit(const Show *show);

@@ -97,6 +97,8 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "done", simulation->done);
     fact_when(facts, "paused", show->paused);
     fact_when(facts, show->veiled ? "asked" : "told", true);
+    fact(facts, "guesses", show->guesses > 0 ? show->guesses : NAN);
+    fact(facts, "right", show->right);
     fact_when(facts, show->held.on ? "held" : "free", true);
     if (simulation->done && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* the gradient is 0, too */
@@ -225,8 +227,8 @@ void show_know(Show *show)
     static const char *const lines[LINE_COUNT] = {"",       "line 1", "line 2",
                                                   "line 3", "line 4", "line 5",
                                                   "line 6", "line 7", "line 8"};
-    const char *cards = show->lecture ? show->lecture->cards : "listing";
-    bool walks = strstr(cards, "listing") || strstr(cards, "line");
+    bool walks = !show->lecture || show_has_card(show, "listing") ||
+                 show_has_card(show, "line");
     for (int i = 0; i < show->panes; i++) {
         Pane *now = &show->pane[i];
         Facts *facts = &now->facts;

@@ -104,10 +104,11 @@ void glow_draw(Paper *paper, const Show *show)
     if (show->over.zone == ZONE_CARD || show->over.zone == ZONE_STAGE)
         colour = term_near(&paper->canvas, show->over.at,
                            (int)(AT_MOUSE * paper->em));
-    bool plain = show->hover.kind == PICK_SWITCH && !show->lecture->kinds;
+    bool plain = show->hover.kind == PICK_SWITCH &&
+                 !exhibit_has_kinds(show_pane(show)->simulation);
     if (plain || (colour == COLOUR_X && show->over.zone == ZONE_STAGE))
         colour = 0; /* all of the square; a switch without a term */
-    if (!colour && trace && strstr(show->lecture->cards, "listing"))
+    if (!colour && trace && show_has_card(show, "listing"))
         colour = of_line[trace->line];
     if (colour)
         light(&paper->canvas, colour, (int)(GLOW_RADIUS * paper->unit + 0.5));

@@ -59,10 +59,10 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
     }
 }
 
-/* The page, if it is told and wants its curves. */
-static bool has_curves(const Plot *plot)
+/* Whether the page is answered and shows this layer. */
+static bool has_layer(const Plot *plot, Layer layer)
 {
-    return plot->told && plot->told->curves;
+    return plot->told && plot->simulation->options.layers & layer;
 }
 
 /* Where E is not convex, contours of the parts that are switched on, and where
@@ -84,7 +84,7 @@ static void draw_ground(const Plot *plot)
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             draw_contours(plot, i, j, E.value / e, E.g[0] * metre / e,
                           E.g[1] * metre / e, false, COLOUR_GREY);
-            for (int k = 0; k < 2 && has_curves(plot); k++)
+            for (int k = 0; k < 2 && has_layer(plot, LAYER_CURVES); k++)
                 draw_contours(plot, i, j, E.g[k], E.H[k] * metre,
                               E.H[k + 1] * metre, true, curve_colour[k]);
         }
@@ -282,16 +282,16 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "both", parts == PART_BOTH);
     fact_when(facts, "elastic", parts != PART_INERTIA);
     fact_when(facts, "inertial", parts != PART_ELASTICITY);
-    const LecturePage *page = simulation->options.page;
-    bool pulls = page && page->forces, up = descent->slope > 0;
+    unsigned layers = simulation->options.layers;
+    bool pulls = layers & LAYER_FORCES, up = descent->slope > 0;
     bool down = descent->slope < 0 && parts == PART_BOTH && !pulls;
     for (int i = 0; i < descent->count; i++) {
         down = down || descent->record[i].slope < 0;
         up = up || descent->record[i].slope > 0;
     }
     fact_when(facts, "pulls", pulls);
-    fact_when(facts, "halves", page && page->downhill);
-    fact_when(facts, "curves", page && page->curves);
+    fact_when(facts, "halves", layers & LAYER_DOWNHILL);
+    fact_when(facts, "curves", layers & LAYER_CURVES);
     fact_when(facts, "directed", down);
     fact_when(facts, "went uphill", up);
 }
@@ -356,10 +356,10 @@ void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
-    const LecturePage *told = stage->told;
+    bool told = stage->told;
     const Descent *descent = &simulation->descent;
     Plot plot = draw_map(stage);
-    bool halves = show->lecture && show->lecture->downhill;
+    bool halves = simulation->options.layers & LAYER_DOWNHILL;
     if (halves)
         draw_downhill(&plot);
     for (int i = 0; i < descent->count; i++) {
@@ -373,12 +373,12 @@ void landscape_draw(Plot *stage)
         plot_disc(&plot, from, 5, COLOUR_X);
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
-    bool both = !show->lecture || (raw && !show->lecture->predict);
+    bool both = !show->lecture || (raw && !page_wants_click(show->lecture));
     if (told && raw && !simulation->done)
         draw_model(&plot);
-    if (has_curves(&plot) && !simulation->done)
+    if (has_layer(&plot, LAYER_CURVES) && !simulation->done)
         draw_linear(&plot);
-    if (told && told->forces)
+    if (has_layer(stage, LAYER_FORCES))
         draw_pulls(&plot);
     else if (!show->veiled)
         draw_directions(&plot, plot.text && both);

@@ -168,10 +168,10 @@ typedef struct CardRow {
 static bool is_below(const Show *show, int card)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    const LecturePage *page = show->lecture;
-    return page && page->star && picture->cards[card]->below &&
+    const char *star = show_pane(show)->simulation->options.star;
+    return star && picture->cards[card]->below &&
            !((show->hidden | show->closed) >> card & 1) &&
-           (card == picture_card(picture, page->star) ||
+           (card == picture_card(picture, star) ||
             show->column == COLUMN_CARDS);
 }
 
@@ -323,8 +323,8 @@ static void put_below(Layout *layout, int card, double high)
 static void place_star(const Show *show, Layout *layout)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    const LecturePage *page = show->lecture;
-    int star = page && page->star ? picture_card(picture, page->star) : -1;
+    const char *name = show_pane(show)->simulation->options.star;
+    int star = name ? picture_card(picture, name) : -1;
     double bar = 3 * layout->em; /* more than a card that is closed has */
     if (star < 0 || star >= layout->cards || layout->panes != 1 ||
         layout->stage.height < 2 * bar || show->closed >> star & 1 ||
@@ -353,16 +353,17 @@ static void place_star(const Show *show, Layout *layout)
 static void place_folded(const Show *show, Layout *layout)
 {
     const Simulation *simulation = show_pane(show)->simulation;
-    const LecturePage *page = show->lecture;
+    const Options *options = &simulation->options;
     int bar = pixels(layout, TITLE_BAR), folded = 1;
     unsigned shut = show->closed | show->hidden;
     while (folded < layout->cards &&
            (shut >> folded & 1 ||
             (layout->card[folded].height != bar && !layout->page)))
         folded++;
-    bool big = simulation->options.big;
-    if (!page || page->star || show->large >= 0 || folded >= layout->cards ||
-        (!big && ((page->law && !layout->page) || layout->panes != 1 ||
+    bool big = options->big;
+    if (!show->lecture || options->star || show->large >= 0 ||
+        folded >= layout->cards ||
+        (!big && ((options->law && !layout->page) || layout->panes != 1 ||
                   simulation->scene->parts[layout->page])))
         return;
     const Card *card = picture_of(simulation->scene)->cards[folded];

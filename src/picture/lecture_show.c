@@ -19,9 +19,6 @@ static const char *const line_texts[LINE_COUNT] = {
 
 const char *lecture_lit(const Show *show)
 {
-    static const char *const kinds[SCENE_MAX_SWITCHES] = {
-        "j, (i + 1) * row + j, k)", "(&solid, i * row + j, i * row + j + 1",
-        "j, (i + 1) * row + j + 1", "1) * row + j, i * row + j + 1"};
     const LecturePage *page = show->lecture;
     const Simulation *simulation = show_pane(show)->simulation;
     const Trace *trace = show_pane(show)->trace;
@@ -29,8 +26,6 @@ const char *lecture_lit(const Show *show)
     if (strcmp(page->function, "step_forward") == 0 && trace && !whole &&
         trace->line != LINE_NONE)
         return line_texts[trace->line];
-    if (page->kinds)
-        return kinds[exhibit_kind(simulation, lecture_spring(simulation))];
     return page->lit;
 }
 

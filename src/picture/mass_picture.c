@@ -250,10 +250,9 @@ void circle_facts(const Simulation *simulation, Facts *facts)
 void mass_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
-    const LecturePage *page = stage->show->lecture;
     MassStep first;
-    if (page && !page->tell && simulation->steps == 0 &&
-        simulation->runs == 1 && mass_next_step(simulation, 0, &first)) {
+    if (simulation->options.layers & LAYER_FIRST_STEP &&
+        simulation->steps == 0 && mass_next_step(simulation, 0, &first)) {
         double side = 0;
         for (int k = 0; k < 2; k++) {
             double x = first.x[k], tip = x + first.v[k], next = first.new_x[k];
@@ -386,15 +385,14 @@ static void draw_mass_step(Plot *stage)
     }
 }
 
-/* Of several runs the way that each goes next.  Before a guess, and until what
- * it was about is shown, arrows would tell. */
+/* Of several runs the way that each goes next.  Before the answer of a page
+ * arrows would tell it. */
 void mass_draw(Plot *stage)
 {
     const Show *show = stage->show;
     const Simulation *simulation = stage->simulation;
     const TimeIntegrator *run = simulation->run;
     double start[2], across[2]; /* the axes of the exact path */
-    const Prediction *guess = &simulation->prediction;
     mass_exact(simulation, 0, start);
     mass_exact(simulation, 0.25 * MASS_TURN, across);
     plot_ellipse(stage, origin, start, across, 4, false, COLOUR_GRID);
@@ -411,9 +409,7 @@ void mass_draw(Plot *stage)
     }
     if (simulation->runs == 1 && show->veiled)
         plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
-    else if (simulation->runs == 1 &&
-             (!show->lecture || !show->lecture->predict || !guess->made ||
-              guess->shown))
+    else if (simulation->runs == 1)
         draw_mass_step(stage);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, run[r].x, 8, run_colour(simulation, r));

@@ -27,8 +27,8 @@ typedef struct Plot {
     Paper *paper; /* NULL: it only tells where things are */
     const Show *show;
     const Simulation *simulation; /* of the pane; of a card the active one's */
-    const LecturePage *told; /* the page, unless its answer is not shown yet */
-    Box box;                 /* pixels; inside the numbers of the axes */
+    bool told;                    /* a page whose answer is shown */
+    Box box;                      /* pixels; inside the numbers of the axes */
     Camera camera; /* of the logarithm, where an axis is logarithmic */
     Axis x, y;     /* 0 ... 0: a stage in metres */
     int pane;      /* index in the show */

@@ -201,11 +201,10 @@ static Plot tangent_plot(const Plot *stage, int half)
 void tangent_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const Prediction *guess = &simulation->prediction;
     const double target[2] = {simulation->exhibit.target[0], 0};
     Update update = update_at(simulation, simulation->descent.count - 1);
     const Plot plot[2] = {tangent_plot(stage, 0), tangent_plot(stage, 1)};
-    bool asked = stage->show->veiled || (guess->made && !guess->shown);
+    bool asked = stage->show->veiled;
     for (int half = 0; half < 2; half++) {
         update.slopes = half == 0;
         draw_search(&plot[half], &update, update.made || !asked);

@@ -20,6 +20,13 @@ const Picture *picture_of(const struct Scene *scene)
     return &pictures[scene->picture];
 }
 
+bool show_has_card(const Show *show, const char *name)
+{
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    int card = picture_card(picture, name);
+    return card >= 0 && !(show->hidden >> card & 1);
+}
+
 int picture_card(const Picture *picture, const char *name)
 {
     for (int c = 0; c < picture->count; c++)
@@ -97,7 +104,7 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
                   .show = show,
                   .simulation = show->pane[pane].simulation,
                   .box = layout->pane[pane],
-                  .told = show->veiled ? NULL : show->lecture,
+                  .told = show->lecture && !show->veiled,
                   .pane = pane,
                   .text = !show->bare,
                   .em = layout->em};
@@ -193,10 +200,8 @@ static void stage_prediction(const Plot *stage)
     for (int k = -1; k <= 1; k += 2)
         canvas_line(canvas, at[0] - arm, at[1] - k * arm, at[0] + arm,
                     at[1] + k * arm, 3 * unit, COLOUR_HAND);
-    if (guess->shown)
-        canvas_dashes(canvas, at, came, 1.6 * unit, unit, NULL, COLOUR_HAND);
-    plot_words(stage, 1, guess->at, COLOUR_HAND,
-               guess->shown ? "%s m off" : "your guess; N shows the step",
+    canvas_dashes(canvas, at, came, 1.6 * unit, unit, NULL, COLOUR_HAND);
+    plot_words(stage, 1, guess->at, COLOUR_HAND, "your guess, %s off",
                number_of(guess->distance).text);
 }
 

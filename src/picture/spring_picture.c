@@ -74,7 +74,7 @@ void spring_draw(Plot *stage)
     double l = sqrt(simulation->system.l2[0]);
     SpringFacts facts = facts_at(x, &simulation->system);
     bool projects = facts.across < 0 && !show->veiled;
-    bool modes = show->lecture && show->lecture->modes;
+    bool modes = simulation->options.layers & LAYER_MODES;
     spring_circle(stage, l, COLOUR_FAINT, "l");
     if (!show->lecture || modes)
         spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
@@ -131,7 +131,7 @@ void length_facts(const Simulation *simulation, Facts *facts)
     double l2 = system->l2[0], H[3];
     SpringFacts now = facts_at(d, system);
     double along = 2 * now.along, across = 2 * now.across; /* of its block */
-    const LecturePage *page = simulation->options.page;
+    bool page = simulation->options.page;
     bool folds = simulation->options.projection == PROJECTION_ABS && !page;
     Projection projection = folds ? PROJECTION_ABS : PROJECTION_CLAMP;
     bool both = simulation->exhibit.parts;
@@ -158,7 +158,7 @@ void length_facts(const Simulation *simulation, Facts *facts)
         add_differences(simulation, facts);
     fact_when(facts, "root", both);
     fact_when(facts, page ? "lecture" : "alone", true);
-    fact_when(facts, "pulled", !page || !page->modes);
+    fact_when(facts, "pulled", !(simulation->options.layers & LAYER_MODES));
     fact(facts, "tip", root_over(system, 0));
     fact_when(facts, "shortened", now.across < 0);
     fact(facts, "root energy", both ? now.root_energy : NAN);

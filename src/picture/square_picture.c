@@ -244,7 +244,7 @@ static void draw_mouse(const SpringPen *pen)
     const Control *hand = stage->pane == show->active ? show->hand : NULL;
     const Pick *hover = &show->hover;
     bool over = hover->pane == stage->pane;
-    bool writes = show->lecture && show->lecture->writes;
+    bool writes = pen->simulation->options.next == NEXT_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? lecture_spring(pen->simulation)
                                          : -1;
@@ -402,18 +402,18 @@ static void rest_places(const Simulation *simulation, double *x)
  */
 static void draw_page_arrows(const SpringPen *pen)
 {
-    const LecturePage *page = pen->stage->show->lecture;
+    unsigned layers = pen->simulation->options.layers;
     const System *system = pen->system;
     double arrow[2 * NUMBERED] = {0};
-    if (!page || system->nodes > NUMBERED)
+    if (system->nodes > NUMBERED)
         return;
-    if (page->modes) {
+    if (layers & LAYER_MODES) {
         rest_places(pen->simulation, arrow);
         for (int k = 0; k < 2 * system->nodes; k++)
             arrow[k] = pen->x[k] - arrow[k];
         draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
     }
-    if (!page->forces || !pen->stage->told)
+    if (!(layers & LAYER_FORCES) || !pen->stage->told)
         return;
     system_acceleration(system, pen->x, arrow);
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -430,7 +430,7 @@ static void draw_kinds(const SpringPen *pen)
     static const int colours[] = {0, 1, 3, 3}; /* of runs */
     const System *system = pen->system;
     int newest = exhibit_kind(pen->simulation, lecture_spring(pen->simulation));
-    bool wide = pen->stage->told->kinds;
+    bool wide = pen->simulation->options.layers & LAYER_KINDS;
     for (int s = 0; s < system->springs; s++) {
         int kind = exhibit_kind(pen->simulation, s);
         if (system->k[s] > 0)
@@ -545,7 +545,7 @@ void square_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     int runs = simulation->runs, folded = 0;
-    const LecturePage *page = show->lecture;
+    unsigned layers = simulation->options.layers;
     for (int r = 0; r < runs; r++) {
         pen[r] = square_pen(stage, r);
         square_contact_obstacles(&pen[r]);
@@ -561,12 +561,12 @@ void square_draw(Plot *stage)
     }
     if (!show->bare)
         folded = draw_ground(pen);
-    bool solid = page && page->cuts && show->veiled; /* not cut yet */
-    if (page && page->cuts)
+    bool cuts = layers & LAYER_CUTS, solid = cuts && show->veiled;
+    if (cuts)
         square_cells(pen, true);
     if (solid)
         square_outline(pen, pen->x, false, COLOUR_X);
-    else if (stage->told && (page->cuts || page->kinds))
+    else if (stage->told && layers & (LAYER_CUTS | LAYER_KINDS))
         draw_kinds(pen);
     else if (pen->spacing >= LEAST_CELL || system_data(system, &fracture))
         square_springs(pen);
@@ -586,7 +586,7 @@ void square_draw(Plot *stage)
     draw_mouse(pen);
     draw_page_arrows(pen);
     draw_warnings(pen, folded);
-    if (stage->told && stage->told->numbers && system->nodes <= NUMBERED)
+    if (stage->told && layers & LAYER_NUMBERS && system->nodes <= NUMBERED)
         draw_numbers(pen);
     if (pen->range > 0)
         draw_colours(pen);
@@ -642,11 +642,10 @@ void square_facts(const Simulation *simulation, Facts *facts)
     const System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
-    const LecturePage *page = options->page;
     double start[2 * NUMBERED], mode[2 * SIMULATION_MODE_NODES];
     int n = (int)options->segments, nodes = system->nodes, shorter = 0;
     const double *x = simulation->run[0].x;
-    if (!page)
+    if (!options->page)
         return;
     for (int s = 0; s < system->springs; s++) {
         double d[2], d2 = spring_vector(system->e + 2 * s, x, d);
@@ -668,10 +667,10 @@ void square_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "newest", lecture_spring(simulation));
     fact(facts, "from", e[0]);
     fact(facts, "to", e[1]);
-    if (page->writes)
+    if (options->next == NEXT_SPRING)
         add_block(simulation, facts);
     law_facts(simulation, facts);
-    if (page->modes && nodes <= SIMULATION_MODE_NODES) {
+    if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
         rest_places(simulation, start);
         double omega = simulation_fastest(simulation, start, mode);
         fact(facts, "fastest", omega);
@@ -680,7 +679,7 @@ void square_facts(const Simulation *simulation, Facts *facts)
         fact(facts, t > 1 ? "h omega" : "short h omega", turn);
         fact(facts, "growth", t > 1 ? t + sqrt(t * t - 1) : NAN);
     }
-    if (page->forces && nodes <= NUMBERED)
+    if (options->layers & LAYER_FORCES && nodes <= NUMBERED)
         force_facts(simulation, x, facts);
 }
 

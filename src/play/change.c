@@ -4,10 +4,12 @@
  * hands.
  */
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathematics.h"
 #include "picture/plot.h"
 #include "play/playing.h"
 #include "run/body.h"
@@ -193,8 +195,18 @@ bool player_veils(const Player *player)
            !player->opens;
 }
 
-/* Two of a hundred are near enough for what was calculated on paper.  Where the
- * answer is no number the page itself is what the guess is compared with. */
+/* Keeps what became of a guess for the page's card and for the score. */
+static void judge_guess(Player *player, bool right, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(player->verdict, sizeof player->verdict, format, arguments);
+    va_end(arguments);
+    player->guesses++;
+    player->right += right;
+}
+
+/* A guess within two percent is right, as it may be calculated on paper. */
 Status player_unveil(Player *player, const char *typed)
 {
     const LecturePage *page = player_settings(player)->page;
@@ -205,17 +217,22 @@ Status player_unveil(Player *player, const char *typed)
     if (typed && (!option_read(&any, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
+    Number number = number_with(truth, 5);
     player->told = page;
-    Status status = player_obey_lines(player, page->tell);
+    player->verdict[0] = '\0';
     if (typed && !page->answer)
-        player_note(player, "your answer %s: the page tells what happens",
-                    typed);
+        snprintf(player->verdict, sizeof player->verdict, "Your answer: %s.",
+                 typed);
+    else if (typed && !isnan(truth))
+        judge_guess(player, right, right ? "%s is right." : "%s? It is %s.",
+                    typed, number.text);
+    Status status = player_obey_lines(player, page->tell);
     if (page->answer && !isnan(truth))
         player_note(player, "%s%sit is %s", typed ? typed : "",
                     !typed  ? ""
                     : right ? ": right, "
                             : ": no, ",
-                    number_with(truth, 5).text);
+                    number.text);
     return status;
 }
 
@@ -251,6 +268,7 @@ Status obey_page(Player *player, const Command *command)
     player->speed = player_first_speed(player, &options);
     player->left = page;
     player->told = NULL;
+    player->verdict[0] = '\0';
     player->column = COLUMN_CARDS;
     player->fine = 0;
     player_close_sheet(player);
@@ -260,7 +278,8 @@ Status obey_page(Player *player, const Command *command)
     return player_open_page(player);
 }
 
-/* A guess of where the next step leads. */
+/* A guess of where the next step leads; on a page that asks for a click it is
+ * the answer.  A guess is right within a tenth of the way. */
 Status obey_predict(Player *player, const Command *command)
 {
     double at[2];
@@ -268,8 +287,17 @@ Status obey_predict(Player *player, const Command *command)
     if (simulation->done || simulation_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
     player_stop(player);
-    simulation_predict(simulation, command->x, command->y);
-    return STATUS_OK;
+    scene_predict(simulation, command->x, command->y);
+    const Prediction *guess = &simulation->prediction;
+    if (!player_veils(player))
+        return STATUS_OK;
+    double way = math_hypot(guess->came[0] - at[0], guess->came[1] - at[1]);
+    bool right = guess->distance <= 0.1 * way;
+    Status status = player_unveil(player, NULL);
+    judge_guess(player, right,
+                right ? "Your click is right." : "Your click is %s off.",
+                number_of(guess->distance).text);
+    return status;
 }
 
 /* ---- the map ------------------------------------------------------------- */
@@ -417,7 +445,6 @@ Status obey_set(Player *player, const Command *command)
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);
     player_options(player, options);
-    const LecturePage *page = player_settings(player)->page;
     double old = options[player->active].number[row->slot];
     Status status = STATUS_OK;
     for (int p = from; p < to && !status; p++)
@@ -429,7 +456,7 @@ Status obey_set(Player *player, const Command *command)
     bool again =
         (!past_is_given(&player->past) || player_machine(player)->failed) &&
         (row->effect == EFFECT_AGAIN ||
-         (page && page->law && player->past.step > 0 &&
+         (player_settings(player)->law && player->past.step > 0 &&
           player_stands(player)) ||
          (player->fine > 0 && player->side[player->active].place >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)

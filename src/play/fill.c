@@ -173,7 +173,7 @@ static void fill_chips(Player *player)
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_settings(player);
     bool time = simulation->scene->needs & NEEDS_TIME;
-    bool nears = options->page && options->page->nears;
+    bool nears = options->next == NEXT_NEARER;
     bool newton = simulation->run[0].newton && time && !nears;
     bool ended = simulation->done || player->mode > MODE_END;
     bool stands = player_stands(player);
@@ -294,8 +294,8 @@ static void fill_time(Player *player)
         longest = fmax(longest, h);
     }
     show->paused = player_stands(player);
-    const LecturePage *page = player_settings(player)->page;
-    if (page && page->writes && /* its steps are springs */
+    if (player_settings(player)->next ==
+            NEXT_SPRING && /* its steps are springs */
         past->step < player_simulation(player)->system.springs) {
         snprintf(text, SHOW_TEXT, "spring %ld", past->step);
         return;
@@ -362,6 +362,11 @@ void player_fill(Player *player)
         fill_options(player);
     bool explained = show->sentence[0];
     show->veiled = player_veils(player);
+    bool judged = show->pane[0].simulation->options.page == player->told &&
+                  player->verdict[0];
+    show->verdict = judged ? player->verdict : NULL;
+    show->guesses = player->guesses;
+    show->right = player->right;
     show_lecture(player->column, player->left, show);
     show->closed ^= player->closed;
     player_fill_sheet(player);

@@ -251,7 +251,7 @@ static Status take(Player *player, const Under *under)
     case PICK_CELL:
         return load_cell(player, under->pick.index);
     case PICK_PLACE:
-        if (page && page->predict && !player_simulation(player)->done)
+        if (page_wants_click(page) && !player_simulation(player)->done)
             return ask_at(player, COMMAND_PREDICT, 0, under->pick.point);
         mouse->drag = COMMAND_START;
         return ask_at(player, COMMAND_START, mouse->index, under->pick.point);

@@ -104,30 +104,26 @@ static Status check_number(Player *player, const Command *command)
 /* What a key means here, so that a script of it leads to the same place. */
 static Command meant_by(const Player *player, const Command *asked)
 {
-    const LecturePage *page = player_settings(player)->page;
     const double *x = player_simulation(player)->run[0].x;
     Command meant = *asked;
     if (asked->kind == COMMAND_TOGGLE_PAUSE)
         meant.kind = player_stands(player) ? COMMAND_PLAY : COMMAND_PAUSE;
-    if (asked->kind == COMMAND_NEXT && page && page->nears &&
-        !player_veils(player))
+    if (asked->kind == COMMAND_NEXT && !player_veils(player) &&
+        player_settings(player)->next == NEXT_NEARER)
         meant =
             (Command){.kind = COMMAND_HANDLE, .x = 0.8 * x[0], .y = 0.8 * x[1]};
     return meant;
 }
 
-/* A page that waits for a guess tells what it is; whether that is all that a
- * step on means. */
+/* Where a page waits for a guess, N and Space show its answer and make no step.
+ * Returns whether they did. */
 static bool unveils(Player *player, const Command *command, Status *status)
 {
-    const LecturePage *page = player_settings(player)->page;
     if (!player_veils(player) ||
         (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
         return false;
     *status = player_unveil(player, NULL);
-    bool guessed = player_simulation(player)->prediction.made;
-    return page->answer || page->waits || page->tell ||
-           (page->predict && !guessed);
+    return true;
 }
 
 /* The step that is made is not wanted any more; what a drag does is not to be

@@ -234,9 +234,10 @@ static void detect_rest(Player *player)
     const Past *past = &player->past;
     bool ended = true, rests = true, bad = false;
     int going = 0;
-    const LecturePage *page = player_settings(player)->page;
+    const Options *options = player_settings(player);
     if (player->given[0].steps >= 0 || !player->attended ||
-        (page && page->writes && /* its steps write, they move nothing */
+        (options->next ==
+             NEXT_SPRING && /* its steps write, they move nothing */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
@@ -261,8 +262,8 @@ static void detect_rest(Player *player)
     player->warned = player->warned || bad;
     if (player->mode == MODE_REST)
         report_rest(player);
-    if (page && (page->law || page->stops) && page == player->told &&
-        past->step == page->picture) /* what the page is about */
+    if (past->step == options->pause && options->pause > 0 &&
+        options->page == player->told) /* what the page is about */
         player->mode = MODE_PAUSE;
 }
 
@@ -581,8 +582,8 @@ Status obey_finer(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
-    const LecturePage *page = player_settings(player)->page;
-    if ((page && page->nears) || (!has_updates(player) && player->fine == 0))
+    if (player_settings(player)->next == NEXT_NEARER ||
+        (!has_updates(player) && player->fine == 0))
         return player_refuse(player, "a step here has no finer ones");
     player->fine = (player->fine + 1) % 3;
     player_stop(player);

@@ -51,7 +51,7 @@ void exhibit_drag(Simulation *simulation, int handle, double x, double y)
 
 bool exhibit_has_kinds(const Simulation *simulation)
 {
-    return simulation->options.kinds;
+    return simulation->options.layers & LAYER_KINDS;
 }
 
 /* In the order of the mesh: n (n + 1) that lie, as many that stand, and the
@@ -70,7 +70,8 @@ int exhibit_switches(const Simulation *simulation,
         "horizontal", "vertical", "diagonal /", "diagonal \\"};
     bool has_kinds = exhibit_has_kinds(simulation);
     const char *const *part = has_kinds ? kinds : simulation->scene->parts;
-    bool none = simulation->options.no_switches;
+    const Options *options = &simulation->options;
+    bool none = options->next == NEXT_NEARER && !options->flips; /* alone */
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && part[count]; count++)
         out[count] = (Switch){

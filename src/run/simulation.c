@@ -78,14 +78,6 @@ int simulation_point(const Simulation *simulation, double at[2])
     return simulation->descent.scalar ? 1 : 2;
 }
 
-void simulation_predict(Simulation *simulation, double x, double y)
-{
-    double at[2];
-    if (simulation->done || !simulation_point(simulation, at))
-        return;
-    simulation->prediction = (Prediction){.made = true, .at = {x, y}};
-}
-
 /* The step is over, or could not be made. */
 static Status end_step(Simulation *simulation, Status status)
 {
@@ -94,15 +86,8 @@ static Status end_step(Simulation *simulation, Status status)
     if (status && !status_is_unconverged(status))
         return status;
     simulation->steps++;
-    if (guess->shown) /* it was of the step before */
+    if (simulation->steps > guess->step + 1) /* a guess of the step before */
         *guess = (Prediction){0};
-    guess->shown = guess->made;
-    if (guess->made) {
-        bool line = simulation_point(simulation, guess->came) == 1;
-        double dx = guess->came[0] - guess->at[0];
-        guess->distance =
-            math_hypot(dx, line ? 0 : guess->came[1] - guess->at[1]);
-    }
     if (status) {
         simulation->unconverged++;
         simulation->reasons[status]++;

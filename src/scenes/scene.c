@@ -157,3 +157,28 @@ const Scene *scene_find(const char *text)
     int place = name_or_number(NAMES_OF(scenes), text);
     return place < 0 ? NULL : &scenes[place];
 }
+
+void scene_predict(Simulation *simulation, double x, double y)
+{
+    const Walk *walk = &simulation->exhibit.walk;
+    const double *p = simulation->descent.direction;
+    double at[2], came[2];
+    int count = simulation_point(simulation, at);
+    MassStep step;
+    if (simulation->done || count == 0)
+        return;
+    bool time = simulation->scene->needs & NEEDS_TIME;
+    bool dial = simulation->scene->step == step_dial;
+    if (time)
+        mass_next_step(simulation, 0, &step);
+    for (int k = 0; k < 2; k++)
+        came[k] = time   ? step.new_x[k]
+                  : dial ? walk->point[WALK_POINTS - 1][k]
+                         : at[k] + p[k];
+    simulation->prediction = (Prediction){
+        .made = true,
+        .step = simulation->steps,
+        .at = {x, y},
+        .came = {came[0], came[1]},
+        .distance = math_hypot(came[0] - x, count == 1 ? 0 : came[1] - y)};
+}

@@ -596,6 +596,7 @@ TEST(maps_have_levels_and_pulls)
     static const double levels[] = {0.2, 0.6, 1};
     stand_up("landscape --projection none --start 0.6,0.9 --timestep 0.1", 0);
     show.lecture = lecture_find("parts");
+    lecture_enter(show.lecture, &simulation.options);
     simulation.exhibit.parts = PART_INERTIA;
     CHECK(is_drawn("0.6"));
     Plot stage = show_stage(&paper, &show, &layout, 0);
@@ -644,6 +645,7 @@ TEST(right_digits_are_marked)
                                         "1.17", "1.177993", "1.17799325406"};
     stand_up("tangent", 0);
     show.lecture = lecture_find("tangent");
+    lecture_enter(show.lecture, &simulation.options);
     for (int i = 0; i <= 6; i++) {
         if (i > 0)
             CHECK(!simulation_step(&simulation));
@@ -675,6 +677,7 @@ TEST(curves_are_where_the_gradient_is_0)
     stand_up("landscape --projection none --line-search none --start 0.6,0.9",
              0);
     show.lecture = lecture_find("newton");
+    lecture_enter(show.lecture, &simulation.options);
     draw_without_words();
     Plot stage = show_stage(&paper, &show, &layout, 0);
     const double *x = simulation.descent.point;
@@ -704,15 +707,13 @@ TEST(curves_are_where_the_gradient_is_0)
 TEST(the_downhill_side_has_a_colour)
 {
     stand_up("landscape --projection none --start 0.1,-0.35", 0);
-    LecturePage page = *lecture_find("descent");
-    assert_true(page.downhill);
-    show.lecture = &page;
+    simulation.options.layers = LAYER_DOWNHILL;
     draw_without_words();
     size_t size = sizeof(Colour) * 1280 * 800;
     Colour *with = malloc(size);
     assert_non_null(with);
     memcpy(with, paper.canvas.pixels, size);
-    page.downhill = false;
+    simulation.options.layers = 0;
     draw_without_words();
     Plot stage = show_stage(&paper, &show, &layout, 0);
     const double *x = simulation.descent.point;
@@ -772,6 +773,7 @@ TEST(the_relief_has_two_valleys)
         strcat(line, rows[i].h);
         stand_up(line, 0);
         show.lecture = lecture_find("parts");
+        lecture_enter(show.lecture, &simulation.options);
         draw_without_words();
         Plot card = blank_card(1000, 750);
         relief_draw(&card);
