@@ -23,6 +23,8 @@ $(B)/tests/unit/test_show $(B)/tests/unit/test_session: \
   LIBS += $(call wrap,text_draw)
 $(B)/tests/unit/test_pages: LIBS += $(call wrap,font_glyph)
 
+$(B)/tests/unit/test_document: $(B)/web/document.o
+
 # Multigrid's loops once more, for one number at a time, and Cholesky's for two:
 # before the archive.
 $(B)/narrow/%.o: src/solve/%.c $(B)/flags

@@ -14,8 +14,7 @@
 bool option_read(const OptionRow *row, const char *text, double *value);
 
 /* argv into options, whose texts point into argv.  Where values of scene and
- * method are lists, "--timestep 0.004,0.04 --projection clamp,none" are four
- * panes:
+ * method are lists, "--timestep 0.004,0.04 --projection clamp,none" are four panes:
  * options->panes says so, and each has options of its own.
  *   pane     whose options, from 0
  *   options  out

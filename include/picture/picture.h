@@ -67,4 +67,9 @@ int picture_card(const Picture *picture, const char *name);
 /* Draws all of the paper: stage, cards, strip, row, time line, last line. */
 void show_draw(Paper *paper, const Show *show);
 
+/* Draws the inside of one card, without frame and title, over all of a paper of
+ * its own.
+ *   card  its index in the picture of the active pane's scene */
+void show_draw_card(Paper *paper, const Show *show, int card);
+
 #endif

@@ -241,6 +241,8 @@ typedef struct Show {
     struct Text
         *text;     /* what a page's words are measured with; NULL: guessed */
     double letter; /* pixels that an em has at least; 0: the usual ones */
+    bool document; /* the paper has the stage alone: texts, numbers, keys and
+                      cards are elements of a page beside it */
 
     /* The lecture: the page that is shown, or NULL outside of it. */
     const LecturePage *lecture;

@@ -176,6 +176,9 @@ Paper *player_paper(Player *player);
 /* The frame on any paper, which nobody sees. */
 void player_paint(Player *player, Paper *paper);
 
+/* One card of that frame, over all of a paper of its own. */
+void player_paint_card(Player *player, Paper *paper, int card);
+
 /* Until the window is closed, or to the end. */
 Status player_run(Player *player);
 

@@ -45,6 +45,9 @@ void window_size(int size[2]);
 /* Pixels that a letter needs there, so that it can be read. */
 double window_letter(void);
 
+/* Whether a page shows texts, numbers, keys and cards beside the paper. */
+bool window_has_document(void);
+
 void window_set_title(const char *title);
 
 /* Why the last SCREEN_FAILED; "" where nobody knows. */

@@ -163,10 +163,30 @@ static void draw_code(Paper *paper, Box inside, const Show *show)
     }
 }
 
+void card_draw(Paper *paper, Box inside, const Show *show, int card)
+{
+    const Pane *pane = show_pane(show);
+    const Card *row = picture_of(pane->simulation->scene)->cards[card];
+    const Plot plot = {.paper = paper,
+                       .show = show,
+                       .simulation = pane->simulation,
+                       .box = inside,
+                       .pane = show->active,
+                       .text = true,
+                       .em = paper->em};
+    if (show->veils >> card & 1)
+        cards_hint(&plot, "after your guess");
+    else if (row->words)
+        text_in_card(&plot, &pane->facts, row->words);
+    else if (row->rows)
+        rows_in_card(&plot, row->rows);
+    else
+        row->draw(&plot);
+}
+
 void cards_draw(Paper *paper, const Layout *layout, const Show *show)
 {
-    const Simulation *simulation = show_pane(show)->simulation;
-    const Picture *picture = picture_of(simulation->scene);
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     static const char *const titles[] = {
         [COLUMN_PAGES] = "The pages of the lecture",
         [COLUMN_KEYS] = "Keys and mouse",
@@ -190,25 +210,11 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         if (box.width < 1)
             continue; /* hidden */
         bool closed = box.height <= paper_pixels(paper, TITLE) + 1;
-        const Plot inside = {
-            .paper = paper,
-            .show = show,
-            .simulation = simulation,
-            .box = draw_frame(paper, box, title.words, closed),
-            .pane = show->active,
-            .text = true,
-            .em = paper->em};
-        if (closed || inside.box.width < 1 || inside.box.height < 1)
+        Box inside = draw_frame(paper, box, title.words, closed);
+        if (closed || inside.width < 1 || inside.height < 1)
             continue;
         Box before = canvas_clip(&paper->canvas, box_inset(box, 1));
-        if (show->veils >> i & 1)
-            cards_hint(&inside, "after your guess");
-        else if (card->words)
-            text_in_card(&inside, &show_pane(show)->facts, card->words);
-        else if (card->rows)
-            rows_in_card(&inside, card->rows);
-        else
-            card->draw(&inside);
+        card_draw(paper, inside, show, i);
         canvas_clip(&paper->canvas, before);
     }
 }

@@ -111,6 +111,9 @@ void rows_in_card(const Plot *card, const ListingRow *row);
 /* How wide the code of a page wants to be, ems. */
 double cards_code_needs(const LecturePage *page);
 
+/* The inside of a card, with its index in the picture, in this box. */
+void card_draw(Paper *paper, Box inside, const Show *show, int card);
+
 /* All cards of the layout, or the page in their place and one on the stage. */
 void cards_draw(Paper *paper, const Layout *layout, const Show *show);
 

@@ -390,9 +390,14 @@ Layout show_layout(const Show *show, int width, int height)
         least = fmax(show->letter, big ? fmin(height / 35.0, width / 54.0)
                                        : fmin(height / 55.0, width / 64.0));
     layout.em = fmax(size, least);
-    layout.stage = place_zones(show, &layout);
+    layout.stage = show->document ? (Box){0, 0, width, height}
+                                  : place_zones(show, &layout);
     if (show->cells > 0) {
         place_sheet(show, &layout);
+        return layout;
+    }
+    if (show->document) {
+        place_panes(show->panes, &layout);
         return layout;
     }
     double wide = width / layout.em, high = height / layout.em;

@@ -380,18 +380,35 @@ static void draw_cell(Paper *paper, Box box, const SheetCell *cell, bool chosen)
               cell->name);
 }
 
+/* White paper with letters of this size, pixels. */
+static void begin_paper(Paper *paper, double em, const Show *show)
+{
+    paper->em = em;
+    paper->unit = em / 14;
+    paper->least = show->lecture ? 1 : 0;
+    canvas_clear(&paper->canvas, COLOUR_WHITE);
+}
+
+void show_draw_card(Paper *paper, const Show *show, int card)
+{
+    const Canvas *canvas = &paper->canvas;
+    begin_paper(paper, show->letter, show);
+    card_draw(paper, box_inset((Box){0, 0, canvas->width, canvas->height},
+                               paper_pixels(paper, 0.4)),
+              show, card);
+    glow_draw(paper, show);
+}
+
 void show_draw(Paper *paper, const Show *show)
 {
     Layout layout =
         show_layout(show, paper->canvas.width, paper->canvas.height);
-    paper->em = layout.em;
-    paper->unit = layout.em / 14;
-    paper->least = show->lecture ? 1 : 0;
-    canvas_clear(&paper->canvas, COLOUR_WHITE);
+    begin_paper(paper, layout.em, show);
     for (int i = 0; i < layout.cells; i++)
         draw_cell(paper, layout.cell[i], &show->cell[i], i == show->chosen);
     if (layout.cells > 0) {
-        frame_draw(paper, &layout, show);
+        if (!show->document)
+            frame_draw(paper, &layout, show);
         return;
     }
     if (layout.panes > 1) /* lines between them */
@@ -403,6 +420,10 @@ void show_draw(Paper *paper, const Show *show)
     }
     if (show->bare)
         return;
+    if (show->document) {
+        glow_draw(paper, show);
+        return;
+    }
     if (show->column != COLUMN_CARDS)
         canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
     cards_draw(paper, &layout, show);

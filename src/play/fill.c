@@ -356,6 +356,7 @@ void player_fill(Player *player)
     show->letter = player->window  ? window_letter()
                    : player->draws ? SMALL_LETTER
                                    : 0;
+    show->document = player->window && window_has_document();
     if (player->column == COLUMN_KEYS)
         fill_help(show);
     if (player->column == COLUMN_OPTIONS)

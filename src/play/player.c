@@ -113,6 +113,15 @@ void player_paint(Player *player, Paper *paper)
     } while (past_drawn(&player->past));
 }
 
+void player_paint_card(Player *player, Paper *paper, int card)
+{
+    show_draw_card(paper, &player->show, card);
+    while (past_drawn(&player->past)) { /* what it draws is known only now */
+        player_fill(player);
+        show_draw_card(paper, &player->show, card);
+    }
+}
+
 Status player_draw(Player *player)
 {
     player->changed = false;

@@ -150,6 +150,11 @@ double window_letter(void)
     return 9 * scale[0];
 }
 
+bool window_has_document(void)
+{
+    return false;
+}
+
 Status window_show(const Canvas *canvas)
 {
     SDL_Surface *surface = SDL_GetWindowSurface(window);

@@ -18,14 +18,12 @@ EM_JS(void, window_size, (int *size), {
     HEAP32[size >> 2] = Page.width();
     HEAP32[(size >> 2) + 1] = Page.height();
 });
-EM_JS(double, window_letter, (void), { return 9.5 * devicePixelRatio; });
-EM_JS(void, window_set_title, (const char *title), {
-    document.title = UTF8ToString(title);
-});
+EM_JS(double, window_letter, (void), { return Page.letter(); });
+EM_JS(bool, window_has_document, (void), { return true; });
 EM_JS(void, window_set_full, (bool full), { Page.full(full); });
 EM_JS(bool, window_is_full, (void), { return !!document.fullscreenElement; });
-EM_JS(void, page_show, (const uint32_t *pixels, int width, int height), {
-    Page.show(HEAPU8, pixels, width, height);
+EM_JS(void, page_show, (const void *pixels, int width, int height, int card), {
+    Page.show(HEAPU8, pixels, width, height, card);
 });
 EM_JS(int, page_films, (void), { return Page.films() ? 1 : 0; });
 EM_JS(void, page_film, (const char *name), { Page.film(UTF8ToString(name)); });
@@ -36,8 +34,14 @@ bool window_open(const char *title, const int size[2], bool full)
 {
     (void)size;
     (void)full;
-    window_set_title(title);
+    (void)title;
     return true;
+}
+
+/* The title is that of the document. */
+void window_set_title(const char *title)
+{
+    (void)title;
 }
 
 void window_close(void)
@@ -50,7 +54,7 @@ const char *window_failure(void)
 }
 
 /* As a canvas wants them: red first, nothing shines through. */
-Status window_show(const Canvas *canvas)
+static Status show(const Canvas *canvas, int card)
 {
     static uint32_t *rgba; /* [room] */
     static size_t room;
@@ -67,8 +71,18 @@ Status window_show(const Canvas *canvas)
         rgba[i] =
             0xff000000 | (p & 0xff00) | (p & 0xff) << 16 | (p >> 16 & 0xff);
     }
-    page_show(rgba, canvas->width, canvas->height);
+    page_show(rgba, canvas->width, canvas->height, card);
     return STATUS_OK;
+}
+
+Status window_show(const Canvas *canvas)
+{
+    return show(canvas, -1);
+}
+
+void window_show_card(const Canvas *canvas, int card)
+{
+    show(canvas, card);
 }
 
 /* ---- what the page tells ------------------------------------------------- */

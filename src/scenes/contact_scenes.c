@@ -59,13 +59,13 @@ static void cut(Simulation *simulation, double x, double low, double high)
     System *system = &simulation->system;
     for (int s = 0; s < system->springs && simulation->options.tear > 0; s++) {
         double a[2], b[2];
-        square_mesh_rest_position(&simulation->mesh, system->e[2 * s], a);
-        square_mesh_rest_position(&simulation->mesh, system->e[2 * s + 1], b);
+        square_mesh_place(&simulation->mesh, system->e[2 * s], a);
+        square_mesh_place(&simulation->mesh, system->e[2 * s + 1], b);
         double middle = 0.5 * (a[1] + b[1]);
         if ((a[0] < x) != (b[0] < x) && middle > low && middle < high)
             system->k[s] = 0;
     }
-    system_mark_changed(system, false);
+    system_changed(system, false);
 }
 
 /* The pins of the left half go left, the others right, at 0.2 sides a
@@ -77,7 +77,7 @@ Status create_tear(Simulation *simulation)
     Status status = create_square(simulation);
     double rest[2];
     for (int i = 0; i < mesh->nodes && !status; i++) {
-        square_mesh_rest_position(mesh, i, rest);
+        square_mesh_place(mesh, i, rest);
         if (system->pinned[i]) /* a pin set later stays */
             system->pin_v[2 * i] = copysign(0.2 * mesh->side, rest[0]);
     }

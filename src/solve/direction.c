@@ -249,7 +249,7 @@ static void keep_momentum(Newton *newton)
     const System *system = newton->system;
     const double *u = newton->at.u, *u_tilde = newton->u_tilde;
     double *p = newton->at.p, mass = 0, missing[2] = {0, 0};
-    if (!system_falls_freely(system))
+    if (!system_is_free(system))
         return;
     for (int i = 0; i < 2 * system->nodes; i++) {
         mass += 0.5 * system->m[i / 2];
@@ -372,19 +372,15 @@ static void evaluate_gradient(Newton *newton)
 /* The projected Hessian is M plus something positive semi-definite, so
  * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  Projection on demand is
  * judged as if it projected here. */
-double negligible_direction(const Newton *newton)
-{
-    return fmin(newton->tolerance * newton->settings.h,
-                NEGLIGIBLE * newton->rounding.shortest);
-}
-
 bool next_direction_is_negligible(Newton *newton)
 {
     if (newton->settings.projection == PROJECTION_NONE)
         return false;
     evaluate_gradient(newton);
     double norm = system_inverse_mass_norm(newton->system, newton->at.g);
-    return largest_of_norm(newton, norm) <= negligible_direction(newton);
+    double most = fmin(newton->tolerance * newton->settings.h,
+                       NEGLIGIBLE * newton->rounding.shortest);
+    return largest_of_norm(newton, norm) <= most;
 }
 
 /* Whether the last factor is of a Hessian nearby, in the same minimisation. */

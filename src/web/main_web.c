@@ -7,9 +7,10 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "play/playing.h"
 #include "lesson/pages.h"
+#include "play/playing.h"
 #include "run/scene.h"
+#include "web/document.h"
 
 enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
 
@@ -91,15 +92,128 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
     return words;
 }
 
-/* What the picture shows, in the markup of its texts. */
-EMSCRIPTEN_KEEPALIVE const char *web_text(void)
+/* ---- the page beside the canvas ------------------------------------------ */
+
+/* Texts of the last frame (document.c).  The same memory each time. */
+EMSCRIPTEN_KEEPALIVE const char *web_document(void)
 {
-    static char text[MOST_TEXT];
-    const Show *show = &run->player.show;
-    snprintf(text, sizeof text, "%s. %s. %s. %s. %s. %s",
-             show->topic ? show->topic : "", show->sentence, show->method,
-             show->time_text, show->state, show->message);
+    static char text[DOCUMENT_SIZE];
+    if (plays)
+        document_write(&run->player, text);
     return text;
+}
+
+/* Pages, scenes and keys (document.c). */
+EMSCRIPTEN_KEEPALIVE const char *web_lists(void)
+{
+    static char text[DOCUMENT_SIZE];
+    document_write_lists(text);
+    return text;
+}
+
+/* A colour of the markup as CSS has it, "#d55e00". */
+EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
+{
+    static char text[8];
+    Colour colour = colour_named(name, strlen(name));
+    snprintf(text, sizeof text, "#%06x", (unsigned)colour & 0xffffff);
+    return text;
+}
+
+/* Draws a card of the last frame on a canvas of the page: Page.show(). */
+EMSCRIPTEN_KEEPALIVE void web_card(int card, int width, int height)
+{
+    static Paper paper;
+    Player *player = &run->player;
+    canvas_free(&paper.canvas);
+    paper.text = player->paper.text;
+    if (plays && !canvas_create(width, height, &paper.canvas)) {
+        player_paint_card(player, &paper, card);
+        window_show_card(&paper.canvas, card);
+    }
+}
+
+/* Obeys lines of a script, "set timestep 0.004; flip 1". */
+EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
+{
+    Player *player = &run->player;
+    if (!plays)
+        return;
+    player->gesture = player->mouse.gesture = ++player->gestures;
+    player_tell(player, player_obey_lines(player, lines));
+    player->changed = true;
+}
+
+/* A guess of the number that the page asks for; "": shows the answer. */
+EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
+{
+    Player *player = &run->player;
+    if (plays && player_veils(player))
+        player_tell(player, player_unveil(player, *guess ? guess : NULL));
+    player->changed = true;
+}
+
+/* ---- the printed lecture --------------------------------------------------
+ */
+
+/* Plays a page of the lecture, from 0, up to the picture that is printed. Until
+ * -1 leads back to the run of the window, web_document and web_card are of it.
+ */
+EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
+{
+    static bool played, prints;
+    const Command next = {.kind = COMMAND_NEXT};
+    const LecturePage *row = &lecture_pages[page];
+    Run *other = run == &runs[0] ? &runs[1] : &runs[0];
+    Player *player = prints ? &run->player : &other->player;
+    Options options;
+    char message[256];
+    if (prints)
+        player_free(player);
+    if (prints != (page >= 0)) { /* the first one, or back */
+        played = prints ? played : plays;
+        plays = prints ? played : true;
+        prints = !prints;
+        run = other;
+    }
+    if (page < 0)
+        return;
+    Status status = lecture_options(row, &options, message, sizeof message);
+    options.headless = options.quiet = true;
+    options.steps = row->picture;
+    if (!status)
+        status = player_create(&options, 1, NULL, &never, player);
+    player->draws = true;
+    if (!status)
+        status = player_open_page(player);
+    if (!status)
+        status = player_obey_lines(player, row->tell);
+    for (int i = 0; i < row->lines && !status; i++)
+        status = player_obey(player, &next);
+    if (!status && !row->lines)
+        player_run(player);
+    player->window = true; /* from here on as in the page */
+}
+
+/* Draws its picture on the canvas that Page.show has chosen. */
+EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int width, int height)
+{
+    Player *player = &run->player;
+    player->size[0] = width;
+    player->size[1] = height;
+    Paper *paper = player_paper(player);
+    if (paper) {
+        player_paint(player, paper);
+        window_show_card(&paper->canvas, -2);
+    }
+}
+
+/* Its texts as before the guess. */
+EMSCRIPTEN_KEEPALIVE void web_sheet_veil(void)
+{
+    run->player.asks = true;
+    run->player.told = NULL;
+    player_fill(&run->player);
 }
 
 /* ---- the loop ----------------------------------------------------------- */

@@ -1,12 +1,12 @@
-"""pack.py PAGE.html PAGE.js MODULE.js MODULE.wasm LIBRARIES OUT.html: all in one
-file, the program and the licences as gzip in base64.  The same input gives the
+"""pack.py PAGE.html SCRIPT.js ... MODULE.js MODULE.wasm LIBRARIES OUT.html: all
+in one file, the program and the licences as gzip in base64.  The same input gives the
 same file."""
 import base64
 import gzip
 import pathlib
 import sys
 
-page, glue, module, wasm, libraries, out = map(pathlib.Path, sys.argv[1:])
+page, *scripts, module, wasm, libraries, out = map(pathlib.Path, sys.argv[1:])
 
 # Whose work is in the page, and under which licence.
 DEBIAN = "/usr/share/common-licenses/"
@@ -51,7 +51,7 @@ notice = ABOUT + "".join(f"\n{rule}\n{title}\n{rule}\n\n" + "\n".join(
     licence(name) for name in names) for title, names in PARTS)
 text = page.read_text(encoding="utf-8")
 for mark, what in (
-        ("/*GLUE*/", script(glue)),
+        ("/*GLUE*/", "".join(map(script, scripts))),
         ("/*MODULE*/", script(module)),
         ("/*LICENCES*/", packed(notice.encode())),
         ("/*WASM*/", packed(wasm.read_bytes())),

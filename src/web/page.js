@@ -4,7 +4,6 @@
 
 const $ = (id) => document.getElementById(id);
 const canvas = $('canvas');
-const context = canvas.getContext('2d');
 let Module = null;
 let FS = null;
 
@@ -32,16 +31,19 @@ const filmKind = () =>
     (kind) => window.MediaRecorder && canvas.captureStream && MediaRecorder.isTypeSupported(kind),
   );
 
+const pixels = (length) => Math.max(1, Math.round(length * devicePixelRatio));
 const Page = {
-  width: () => Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)),
-  height: () => Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio)),
-  show(heap, at, width, height) {
-    if (canvas.width !== width || canvas.height !== height) {
-      canvas.width = width;
-      canvas.height = height;
-    }
+  width: () => pixels(canvas.clientWidth),
+  height: () => pixels(canvas.clientHeight),
+  letter: () => (sheet ? 26 : pixels(bare ? 10 : 12)),
+  // The stage (card -1), or a card of the frame, on its canvas.
+  show(heap, at, width, height, card) {
+    const target = sheet?.canvas ?? (card < 0 ? canvas : cards.get(card));
+    if (card < 0) drawn = true;
+    if (target.width !== width || target.height !== height)
+      [target.width, target.height] = [width, height];
     const bytes = new Uint8ClampedArray(heap.buffer, at, 4 * width * height);
-    context.putImageData(new ImageData(bytes, width, height), 0, 0);
+    target.getContext('2d').putImageData(new ImageData(bytes, width, height), 0, 0);
   },
   full(on) {
     const done = on ? document.documentElement.requestFullscreen() : document.exitFullscreen();
@@ -104,6 +106,7 @@ addEventListener('drop', async (event) => {
 let line = [];
 let bare = false;
 let shown = ''; // the address that was read or written
+let entry = null; // the page of this entry of the history; null: it comes
 const decoded = (word) => {
   try {
     return decodeURIComponent(word);
@@ -133,7 +136,11 @@ const follow = () => {
   const words = ask('web_address', 'string').split('\n').filter(Boolean);
   if (!words.length || toAddress(words) === shown) return;
   shown = toAddress(words);
-  history.replaceState(null, '', shown);
+  const turns = entry !== null && entry !== field('page', 2);
+  entry = field('page', 2);
+  if (turns)
+    history.pushState(null, '', shown); // Back goes a page back
+  else history.replaceState(null, '', shown);
 };
 addEventListener('hashchange', () => {
   if (location.hash !== shown) begin(fromAddress());
@@ -144,16 +151,11 @@ const copyLink = () => {
   copied?.then(() => say('The link to this is copied.', true)).catch(() => {});
 };
 
-// What the picture shows, in words.
-const describe = () => {
-  const text = ask('web_text', 'string').replace(/[{}^_\\]/g, '');
-  if (text !== canvas.getAttribute('aria-label')) canvas.setAttribute('aria-label', text);
-};
-
 // ---- the loop ---------------------------------------------------------------
 
 // The program says for how many milliseconds nothing is due.
 let [timer, asked, looked] = [0, 0, 0];
+let drawn = false; // since cards and texts were shown
 const frame = () => {
   asked = 0;
   if (document.hidden && !canvas.hidden) return;
@@ -166,10 +168,10 @@ const frame = () => {
     const more = canvas.hidden || $('said').textContent;
     return more || say('The end. Reload the page to begin again.', true);
   }
+  if (drawn) showDocument(start);
   if (start - looked > 500 && !canvas.hidden) {
     looked = start;
     follow();
-    describe();
   }
   if (canvas.hidden) timer = setTimeout(frame, 0);
   else if (wait <= 20) asked = requestAnimationFrame(frame);
@@ -191,15 +193,19 @@ const begin = (words) => {
   const all = still ? [...words, '--paused'] : words;
   const code = ask('web_begin', 'number', all.join('\n'));
   download();
+  if (code > 0 && !line.length && words.join() !== '--lecture') {
+    const why = $('said').textContent; // a wrong address: the tour, and one line
+    begin(['--lecture']);
+    return say(why);
+  }
   if (code >= 0) return;
   line = words;
+  entry = null;
   canvas.hidden = words.includes('--headless');
   document.body.classList.toggle('bare', bare);
-  if (bare) key('H', false);
   looked = 0;
   clearTimeout(timer);
   canvas.hidden ? frame() : wake();
-  canvas.focus();
 };
 
 // ---- keys -------------------------------------------------------------------
@@ -220,31 +226,21 @@ const nameOf = ({ key, code }) => {
   return key.replace('Arrow', '').replace('Enter', 'Return').replace(' ', 'Space');
 };
 
-let tabHeld = false;
-let tabAlone = false;
+// With a modifier, and what leaves or reloads a page, keys are the browser's; no
+// key ends the program.  What stands in the document is opened there.
+const FOLDS = { K: 'code', 'Shift+G': 'pages', G: 'scenes', A: 'more', '?': 'keys', F1: 'keys' };
 canvas.addEventListener('keydown', (event) => {
-  if (event.altKey || event.metaKey || event.isComposing) return;
-  if (event.key === 'Tab') {
-    tabHeld = tabAlone = true;
-    return event.preventDefault();
-  }
-  const sign = event.key.length === 1 && !event.ctrlKey;
-  const plain = nameOf(event);
-  if (!plain && !sign) return;
-  const held =
-    (event.ctrlKey ? 'Ctrl+' : '') + (event.shiftKey ? 'Shift+' : '') + (tabHeld ? 'Tab+' : '');
-  tabAlone = false;
+  if (event.ctrlKey || event.altKey || event.metaKey || event.isComposing) return;
+  const name = nameOf(event) || (event.key.length === 1 ? event.key : '');
+  const whole = (event.shiftKey && /^\w{2}|^[A-Z]$/.test(name) ? 'Shift+' : '') + name;
+  if (field('asks') === 'number' && /^[\d.,+-]$/.test(name)) return $('answer').focus();
+  if (!name || /^(Q|F\d+|Escape)$/.test(name)) return;
   event.preventDefault();
-  key(plain ? held + plain : event.key, event.repeat);
-  if (held + plain === 'Y') copyLink();
-});
-canvas.addEventListener('keyup', (event) => {
-  if (event.key !== 'Tab') return;
-  if (tabAlone) key(event.shiftKey ? 'Shift+Tab' : 'Tab', false);
-  tabHeld = tabAlone = false;
+  if (FOLDS[whole]) return openPart(FOLDS[whole]);
+  key(whole, event.repeat);
+  if (whole === 'Y') copyLink();
 });
 canvas.addEventListener('blur', () => {
-  tabHeld = tabAlone = false;
   if (last.clicks) tell(RELEASE, last); // a drag ends where the keys go elsewhere
 });
 
@@ -260,8 +256,7 @@ const STILL = 8; // points that a finger may move and still touch one place
 const tell = (kind, at, button = 0, clicks = 1, amount = 0) => {
   if (!FS) return;
   const box = canvas.getBoundingClientRect();
-  const scale = canvas.width / box.width;
-  const [x, y] = [(at.clientX - box.left) * scale, (at.clientY - box.top) * scale];
+  const [x, y] = [at.clientX - box.left, at.clientY - box.top].map((n) => n * devicePixelRatio);
   Module._web_mouse(kind, x, y, button, clicks, amount);
   wake();
 };
@@ -339,7 +334,7 @@ const touchUp = (event) => {
 const BUTTONS = [LEFT, MIDDLE, RIGHT];
 const isTouch = (event) => event.pointerType === 'touch';
 canvas.addEventListener('pointerdown', (event) => {
-  canvas.focus();
+  canvas.focus({ preventScroll: true });
   canvas.setPointerCapture(event.pointerId);
   event.preventDefault();
   if (isTouch(event)) touchDown(event);
@@ -358,6 +353,7 @@ canvas.addEventListener('pointercancel', up);
 canvas.addEventListener('pointerleave', (event) => isTouch(event) || tell(LEAVE, event));
 canvas.addEventListener('contextmenu', (event) => event.preventDefault());
 canvas.onwheel = (event) => {
+  if (event.ctrlKey || document.activeElement !== canvas) return; // the browser's
   tell(WHEEL, event, 0, 1, -event.deltaY / (event.deltaMode ? 1 : 100));
   event.preventDefault();
 };
@@ -372,7 +368,7 @@ const unpack = async (id) => {
 };
 
 $('licences').onclick = async () => {
-  $('text').textContent = new TextDecoder().decode(await unpack('packed-licences'));
+  $('licence').textContent = new TextDecoder().decode(await unpack('packed-licences'));
   $('notice').showModal();
 };
 
@@ -405,9 +401,12 @@ const start = async () => {
   FS.mkdir(OUT);
   FS.chdir(OUT);
   $('loading').hidden = true;
+  listDocument();
   begin(fromAddress());
+  if (window === top) canvas.focus({ preventScroll: true });
   stats.first = performance.now();
   new ResizeObserver(() => tell(REDRAW, { clientX: 0, clientY: 0 })).observe(canvas);
+  if (/[?&]print/.test(location.search)) printLecture();
 };
 
 // While the page arrives over a network; it has about 1.2 million letters.

@@ -11,7 +11,8 @@ WEB_CFLAGS = -std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -I$(W)/libraries/include \
 
 # In a page other sources are window and film: the same headers answered.
 WEB_SOURCES = $(filter-out src/play/window_sdl.c src/play/film.c,\
-              $(wildcard $(ROOMS:%=src/%/*.c))) src/web/main_web.c
+              $(wildcard $(ROOMS:%=src/%/*.c))) src/web/main_web.c \
+              src/web/document.c
 WEB_OBJECTS = $(WEB_SOURCES:src/%.c=$(W)/%.o) $(W)/texts.o
 WEB_LIBRARIES = $(patsubst %,$(W)/libraries/lib%.a,suitesparse freetype \
                 libpng1.6 zlib)
@@ -53,8 +54,8 @@ $(W)/elasto.js: $(WEB_OBJECTS) $(W)/fonts/done src/web/web.mk
 	  --embed-file $(W)/fonts@/usr/share/fonts/truetype/dejavu \
 	  --exclude-file '*/done' 2>$@.log || { cat $@.log; exit 1; }
 
-build/elasto.html: src/web/pack.py src/web/page.html src/web/page.js \
-                   $(W)/elasto.js
+build/elasto.html: src/web/pack.py src/web/page.html src/web/markup.js \
+                   src/web/page.js src/web/document.js $(W)/elasto.js
 	$(call shown,PACK)
 	$(Q)python3 $^ $(W)/elasto.wasm $(W)/libraries $@
 

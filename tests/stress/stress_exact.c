@@ -32,7 +32,7 @@ static Jet energy(const Moment *moment, const double *u, const double *way,
                  .p = way,
                  .moved = moment->moved,
                  .jitter = jitter};
-    at.weight = E->weight;
+    at.w = E->weight;
     return oracle_step(&spot, E->u_tilde);
 }
 

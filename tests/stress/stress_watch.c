@@ -234,7 +234,7 @@ static void judge_convergence(Watch *watch, const double *u, double limit)
 
 /* The last direction passed the test, and was used; or the one after it passes
  * the test and is shorter than a millionth of the shortest spring. */
-static void judge_end(Watch *watch)
+static void judge_end(Watch *watch, const NewtonRecord *record)
 {
     const Newton *newton = watch->run->newton;
     const System *system = newton->system;
@@ -243,7 +243,7 @@ static void judge_end(Watch *watch)
         l2 = fmin(l2, system->l2[s]);
     bool guess = watch->run->moves && watch->run->left > 0;
     double limit = guess ? newton->tolerance : watch->tolerance;
-    if (newton->passes)
+    if (record->residual <= newton->tolerance)
         judge_convergence(watch, watch->u, limit);
     else
         judge_convergence(watch, newton->at.u,
@@ -367,7 +367,7 @@ static bool watch_record(void *user, const NewtonRecord *record)
     check_excuse(watch, record);
     check_walls(watch, newton->at.x);
     if (record->status == STATUS_OK)
-        judge_end(watch);
+        judge_end(watch, record);
     memcpy(watch->u, newton->at.u,
            (size_t)watch_size(watch) * sizeof *watch->u);
     return true;

@@ -503,7 +503,7 @@ TEST(contacts_slide_or_hold)
     for (int r = 0; r < 3; r++) {
         const SpringPen pen = square_pen(&stage, r);
         double lowest = 0, at[2];
-        for (ElementIterator to = square_contacts(&pen); elements_next(&to);) {
+        for (ElementWalk to = square_contacts(&pen); elements_next(&to);) {
             Touch touch = square_touch(&pen, &to.element);
             CHECK(touch.rough && touch.slides == (r < 2));
             plot_place(&stage, pen.x + 2 * touch.node, at);

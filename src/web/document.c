@@ -1,0 +1,318 @@
+/* document.c - the frame as text: what the page says, the numbers that can be
+ * set, the cards, what has just happened.
+ *
+ * A line is a word and its fields, a tab before each.  TEXT is markup (text.h)
+ * with its numbers filled in, LINE is "COLOUR BOLD TEXT".
+ *     page NUMBER OF NAME          NUMBER 0: a scene, NAME is its name
+ *     topic, sentence, time, picture, event TEXT
+ *     text, formula, ask, look, try, claim, notes LINE
+ *     told WARNING TEXT            what the last command did
+ *     verdict TEXT RIGHT GUESSES   on the guess at this page; of all so far
+ *     asks KIND COORDINATES        a guess is awaited: number, words or place,
+ *                                  which has one coordinate or two
+ *     number NAME LABEL VALUE UNIT CHOICES HELP IDLE SHOWN
+ *                                  CHOICES: names with | between, "": a number;
+ *                                  SHOWN: it is in the row of the window, too
+ *     point INDEX X Y              can be dragged
+ *     switch INDEX ON LABEL
+ *     code LIT TEXT                a line of the page's function, as it is
+ *     card INDEX NAME KIND CLOSED TITLE NUMBERS   KIND: text, graph (drawn), or
+ *                                  star (drawn, and larger than the picture);
+ *                                  NUMBERS: what a graph shows, in words
+ *     words INDEX LINE             a line of a card of kind text
+ *     row INDEX LIT STRUCK INDENTED TEXT VALUE   a line of an algorithm
+ *     step STEP NEWEST PAUSED
+ */
+#include "web/document.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "picture/cards.h"
+#include "play/playing.h"
+#include "run/scene.h"
+#include "scenes/scenes.h"
+
+/* Text that grows up to its room; what is beyond is left out. */
+typedef struct Writer {
+    char *text; /* [DOCUMENT_SIZE] */
+    size_t used;
+} Writer;
+
+__attribute__((format(printf, 2, 3))) static void put(Writer *to,
+                                                      const char *format, ...)
+{
+    size_t room = DOCUMENT_SIZE - to->used;
+    va_list arguments;
+    va_start(arguments, format);
+    int count = vsnprintf(to->text + to->used, room, format, arguments);
+    va_end(arguments);
+    to->used += count < (int)room ? (size_t)count : room - 1;
+}
+
+/* All known lines of a text. */
+static void put_text(Writer *to, const Facts *facts, const char *words,
+                     const char *text)
+{
+    for (TextLine line = text_of(facts, text); text_next(&line);)
+        put(to, "%s\t#%06x\t%d\t%s\n", words, (unsigned)line.colour & 0xffffff,
+            line.face == FACE_BOLD, line.words);
+}
+
+/* ---- the page of the lecture ----------------------------------------------
+ */
+
+/* Before a guess nothing that would tell the answer. */
+static void put_page(Writer *to, const Show *show)
+{
+    const LecturePage *page = show->lecture;
+    const Facts *facts = &show_pane(show)->facts;
+    put_text(to, facts, "text", page->text);
+    put_text(to, facts, "formula", page->formula);
+    put_text(to, facts, "ask", page->ask);
+    if (show->veiled) {
+        double at[2];
+        put(to, "asks\t%s\t%d\n",
+            page_wants_click(page) ? "place"
+            : page->answer         ? "number"
+                                   : "words",
+            simulation_point(show_pane(show)->simulation, at));
+    } else {
+        put_text(to, facts, "look", page->look);
+        put_text(to, facts, "try", page->touch);
+    }
+    put_text(to, facts, "claim", page->claim);
+    put_text(to, facts, "notes", page->notes);
+    for (int i = 0; page->code[i]; i++)
+        put(to, "code\t%d\t%s\n",
+            strstr(page->code[i], lecture_lit(show)) != NULL, page->code[i]);
+}
+
+/* ---- cards -----------------------------------------------------------------
+ */
+
+/* The lines of an algorithm as card_listing.c draws them. */
+static void put_rows(Writer *to, const Show *show, int card,
+                     const ListingRow *row)
+{
+    const Facts *facts = &show_pane(show)->facts;
+    const Trace *trace = show_pane(show)->update;
+    for (; row->of; row++) {
+        bool struck = text_is_known(facts, row->off);
+        bool reached =
+            trace && (trace->line == LINE_NONE || trace->line >= row->line);
+        bool lit = row->lit ? text_is_known(facts, row->lit)
+                            : trace && trace->line == row->line;
+        TextLine value =
+            text_first(facts, reached || struck ? row->value : NULL);
+        if (text_is_known(facts, row->of))
+            put(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, lit, struck,
+                row->indented, text_first(facts, row->shows).words,
+                value.words);
+    }
+}
+
+/* What a graph of energies, or of the updates of a step, shows. */
+static void put_graph(Writer *to, const Show *show, const char *name)
+{
+    const Pane *pane = show_pane(show);
+    const Trace *trace = pane->update;
+    if (strcmp(name, "energies") == 0 || strcmp(name, "budget") == 0) {
+        const Energies energies = simulation_energies(pane->simulation, 0);
+        for (int i = 0; i < energies.rows; i++)
+            put(to, "%s%s %s J", i ? ", " : "", energies.row[i].name,
+                number_of(energies.row[i].value).text);
+    } else if (trace && strstr("residual prints updates", name)) {
+        for (int i = 0; i < trace->updates; i++)
+            put(to, "%supdate %d: residual %s, step length %s", i ? "; " : "",
+                i + 1, number_of(trace->record[i].residual).text,
+                number_of(trace->record[i].alpha).text);
+    } else if (strcmp(name, "line") == 0) {
+        for (TextLine line = text_of(&pane->facts, text_trials);
+             text_next(&line);)
+            put(to, "%s; ", line.words);
+    }
+}
+
+static void put_cards(Writer *to, const Show *show)
+{
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    const Facts *facts = &show_pane(show)->facts;
+    const LecturePage *page = show->lecture;
+    for (int i = 0; i < picture->count && show->cells == 0; i++) {
+        const Card *card = picture->cards[i];
+        bool veiled = show->veils >> i & 1;
+        bool star = page && page->star && strcmp(page->star, card->name) == 0;
+        bool text = veiled || card->words || card->rows;
+        char words[24];
+        if (show->hidden >> i & 1 || strcmp(card->name, "page") == 0)
+            continue;
+        put(to, "card\t%d\t%s\t%s\t%d\t%s\t", i, card->name,
+            text   ? "text"
+            : star ? "star"
+                   : "graph",
+            show->closed >> i & 1, text_first(facts, card->title).words);
+        if (!text)
+            put_graph(to, show, card->name);
+        put(to, "\n");
+        snprintf(words, sizeof words, "words\t%d", i);
+        if (veiled)
+            put_text(to, facts, words, "after your guess");
+        else if (card->rows)
+            put_rows(to, show, i, card->rows);
+        else
+            put_text(to, facts, words, card->words);
+    }
+}
+
+/* ---- what can be set -------------------------------------------------------
+ */
+
+static void put_numbers(Writer *to, const Player *player)
+{
+    const OptionRow *row[OPTIONS_MOST];
+    const Options now = player_numbers(player);
+    int count = player_row(player, true, row);
+    for (int i = 0; i < count; i++) {
+        char value[COMMAND_TEXT_SIZE], unit[16];
+        const char *idle = player_idle(player, row[i]);
+        bool shown = false;
+        for (int k = 0; k < player->numbers; k++)
+            shown = shown || player->number[k] == row[i];
+        option_value(row[i], &now, value, sizeof value);
+        option_unit(row[i], unit, sizeof unit);
+        put(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
+            row[i]->label ? row[i]->label : row[i]->name, value, unit);
+        bool named = row[i]->kind == OPTION_NAME;
+        for (int k = 0; named && name_at(row[i]->names, k); k++)
+            put(to, "%s%s", k ? "|" : "", name_at(row[i]->names, k));
+        put(to, "\t%s\t%s\t%d\n", row[i]->help, idle ? idle : "", shown);
+    }
+}
+
+static void put_exhibit(Writer *to, const Simulation *simulation)
+{
+    double at[SCENE_MAX_HANDLES][2];
+    Switch part[SCENE_MAX_SWITCHES];
+    int handles = exhibit_handles(simulation, at);
+    int switches = exhibit_switches(simulation, part);
+    for (int i = 0; i < handles; i++)
+        put(to, "point\t%d\t%.4g\t%.4g\n", i, at[i][0], at[i][1]);
+    for (int i = 0; i < switches; i++)
+        put(to, "switch\t%d\t%d\t%s\n", i, part[i].on, part[i].label);
+}
+
+/* ---- what is seen, and what happened ---------------------------------------
+ */
+
+static void put_shape(Writer *to, const Pane *pane)
+{
+    const Simulation *simulation = pane->simulation;
+    const double *x = pane_x(pane);
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    double at[2];
+    int nodes = simulation->system.nodes;
+    for (int i = 0; i < 2 * nodes; i++) {
+        low[i & 1] = fmin(low[i & 1], x[i]);
+        high[i & 1] = fmax(high[i & 1], x[i]);
+    }
+    if (nodes > 1)
+        put(to, " %d masses, %d springs, %s m wide and %s m high.", nodes,
+            simulation->system.springs, number_of(high[0] - low[0]).text,
+            number_of(high[1] - low[1]).text);
+    else if (simulation_point(simulation, at) == 1)
+        put(to, " The point is at %s.", number_with(at[0], 4).text);
+    else if (simulation_point(simulation, at) == 2)
+        put(to, " The point is at (%s, %s).", number_with(at[0], 4).text,
+            number_with(at[1], 4).text);
+}
+
+/* The picture in words: of each pane method and shape, the energies of the
+ * active one. */
+static void put_picture(Writer *to, const Player *player)
+{
+    const Show *show = &player->show;
+    const Simulation *simulation = player_simulation(player);
+    put(to, "picture\t");
+    for (int p = 0; p < show->panes; p++) {
+        const Pane *pane = &show->pane[p];
+        const IntegratorMethod *method = pane->simulation->run[0].method;
+        if (show->panes > 1)
+            put(to, " Picture %d of %d:", p + 1, show->panes);
+        if (method && pane->simulation->scene->needs & NEEDS_TIME)
+            put(to, " %s.", method->label);
+        put_shape(to, pane);
+    }
+    put(to, " %s, %s.", show->time_text, show->state);
+    if (simulation->scene->needs & NEEDS_BODY) {
+        const Energies energies = simulation_energies(simulation, 0);
+        put(to, " Energies:");
+        for (int i = 0; i < energies.rows; i++)
+            put(to, "%s %s %s J", i ? "," : "", energies.row[i].name,
+                number_of(energies.row[i].value).text);
+        put(to, ".");
+    }
+    put(to, "\n");
+}
+
+/* The last step in a few words: "step 12: 3 updates, E fell by 13.8 J s²". */
+static void put_event(Writer *to, const Player *player)
+{
+    const Show *show = &player->show;
+    const Trace *trace = show_pane(show)->update;
+    const char *turn = player_simulation(player)->scene->turn;
+    double change = 0;
+    put(to, "event\t%s %ld", turn ? turn : "step", show->step);
+    if (trace && trace->line != LINE_NONE) {
+        put(to, ": %s", show->sentence);
+    } else if (trace && trace->updates > 0) {
+        for (int i = 0; i < trace->updates; i++)
+            change += trace->record[i].change;
+        put(to, ": %d update%s, %s %s by %s", trace->updates,
+            trace->updates > 1 ? "s" : "", show_pane(show)->trace ? "E" : "f",
+            change > 0 ? "rose" : "fell", number_of(fabs(change)).text);
+    }
+    put(to, "\n");
+}
+
+void document_write(const Player *player, char *text)
+{
+    const Show *show = &player->show;
+    const LecturePage *page = show->lecture;
+    Writer writer = {.text = text}, *to = &writer;
+    text[0] = '\0';
+    put(to, "page\t%d\t%d\t%s\n", page ? (int)(page - lecture_pages) + 1 : 0,
+        lecture_count(),
+        page ? page->name : player_simulation(player)->scene->name);
+    put(to, "topic\t%s\nsentence\t%s\n", show->topic ? show->topic : "",
+        show->sentence);
+    put(to, "time\t%s · %s · %s\n", show->time_text, show->method, show->state);
+    put(to, "told\t%d\t%s\n", show->warning, show->message);
+    put(to, "step\t%ld\t%ld\t%d\n", show->step, show->bars, show->paused);
+    if (page)
+        put_page(to, show);
+    if (show->verdict && !show->veiled)
+        put(to, "verdict\t%s\t%d\t%d\n", show->verdict, show->right,
+            show->guesses);
+    put_cards(to, show);
+    put_numbers(to, player);
+    put_exhibit(to, show_pane(show)->simulation);
+    put_picture(to, player);
+    put_event(to, player);
+}
+
+void document_write_lists(char *text)
+{
+    Writer writer = {.text = text}, *to = &writer;
+    text[0] = '\0';
+    for (const LecturePage *page = lecture_pages; page->name; page++)
+        put(to, "pages\t%s\t%s\n", page->name, page->topic);
+    for (const Scene *scene = scenes; scene->name; scene++)
+        put(to, "scenes\t%s\t%s\n", scene->name, scene->sentence);
+    for (int kind = 1; kind < COMMAND_KINDS; kind++)
+        if (command_rows[kind].keys && command_rows[kind].does)
+            put(to, "keys\t%s\t%s\n", command_rows[kind].keys,
+                command_rows[kind].does);
+}

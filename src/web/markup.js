@@ -1,0 +1,227 @@
+// markup.js - texts in the markup of text.h as elements: words stay words, a
+// formula becomes MathML.
+//
+//   parse    markup -> parts: {text}, {colour, of}, {up}, {down}, {above, below},
+//            {rows}; `of`, `up`, ... are lists of parts again
+//   row      parts -> MathML; the blanks of the text are the room around signs
+//   prose    parts -> text, spans, and one <math> for each word with a formula
+//   formula  parts -> one <math> for each side of =, so that lines can break there
+'use strict';
+
+const make = (name, children = [], attributes = {}, space = 'http://www.w3.org/1999/xhtml') => {
+  const element = document.createElementNS(space, name);
+  element.append(...children);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  return element;
+};
+const math = (name, children, attributes) =>
+  make(name, children, attributes, 'http://www.w3.org/1998/Math/MathML');
+
+// ---- parse ------------------------------------------------------------------
+
+const LETTERS = { x: 'x', xt: 'x\u0303', p: 'p', alpha: 'α' };
+const OPENS = /\{(x|xt|p|alpha)\}|(\^|_|frac|matrix|#[a-z0-9-]*)\{/;
+
+// The parts of a text between the places of a word outside of all braces.
+const split = (text, word) => {
+  const parts = [''];
+  for (let at = 0, depth = 0; at < text.length; at++) {
+    depth += (text[at] === '{') - (text[at] === '}');
+    if (depth === 0 && text.startsWith(word, at)) at += parts.push('') && word.length - 1;
+    else parts[parts.length - 1] += text[at];
+  }
+  return parts;
+};
+
+const parse = (text) => {
+  const found = OPENS.exec(text);
+  if (!found) return text ? [{ text }] : [];
+  const parts = found.index ? [{ text: text.slice(0, found.index) }] : [];
+  const from = found.index + found[0].length;
+  const [, letter, word] = found;
+  if (letter)
+    return [
+      ...parts,
+      { colour: letter, of: [{ text: LETTERS[letter] }] },
+      ...parse(text.slice(from)),
+    ];
+  let end = from;
+  for (let depth = 1; end < text.length; end++) {
+    depth += (text[end] === '{') - (text[end] === '}');
+    if (depth === 0) break;
+  }
+  const inside = text.slice(from, end);
+  if (word === '^') parts.push({ up: parse(inside) });
+  else if (word === '_') parts.push({ down: parse(inside) });
+  else if (word === 'frac') {
+    const [above, below = ''] = split(inside, ' over ');
+    parts.push({ above: parse(above), below: parse(below) });
+  } else if (word === 'matrix') {
+    const cells = (line) => split(line, '&').map((cell) => parse(cell.trim()));
+    parts.push({ rows: split(inside, ';').map(cells) });
+  } else parts.push({ colour: word.slice(1), of: parse(inside) });
+  return [...parts, ...parse(text.slice(end + 1))];
+};
+
+// ---- formulas ---------------------------------------------------------------
+
+const TOKEN = /[ \u00a0]+|\d+(?:[.,]\d+)*|(?:[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*)+|./gsu;
+const LETTER = /[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*/gu;
+const RAISED = { '²': '2', '³': '3', ᵀ: 'T', ⁿ: 'n', '⁻': '−', '¹': '1' };
+const PLAIN = /[∇∂∞½¼°…⋯⋮⋱%]/; // no sign between two things
+const OPEN = /[([{|‖]/;
+const CLOSE = /[)\]}|‖,;:]/;
+
+// A mark that stands over its letter in DejaVu Sans is a lid in MathML.
+const LIDS = { '\u0302': '^', '\u0303': '~', '\u0304': '¯', '\u0307': '˙', '\u0308': '¨' };
+const letterOf = (letter) => {
+  const base = math('mi', [letter[0]]);
+  const lid = LIDS[letter[1]] && math('mo', [LIDS[letter[1]]], { stretchy: false });
+  return lid ? math('mover', [base, lid], { accent: true }) : base;
+};
+
+// A script hangs on what stands before it; a second one on the same.
+const hang = (out, up, body) => {
+  const base = out.pop() || math('mi');
+  const both = base.localName === (up ? 'msub' : 'msup');
+  const [core, other] = both ? base.children : [];
+  if (!both) return out.push(math(up ? 'msup' : 'msub', [base, body]));
+  return out.push(math('msubsup', up ? [core, other, body] : [core, body, other]));
+};
+
+const row = (parts) => {
+  const out = [];
+  let blank = 0; // blanks before the next thing
+  let sign = true; // the thing before is a sign, or nothing: a minus has one side
+  let unit = false; // the thing before is a unit, or the stroke behind one
+  let root = false; // the next thing is below a root
+  const put = (element) => {
+    if (blank > 0) out.push(math('mspace', [], { width: blank > 1 ? '1.2em' : '0.25em' }));
+    out.push(root ? math('msqrt', [element]) : element);
+    blank = 0;
+    sign = root = false;
+  };
+  const token = (text) => {
+    const last = out[out.length - 1];
+    const upright = () => put(math('mi', [text], { mathvariant: 'normal' }));
+    if (/^[ \u00a0]/.test(text)) blank = text.length;
+    else if (RAISED[text] && last?.raised) last.lastChild.append(RAISED[text]);
+    else if (RAISED[text]) {
+      hang(out, true, math('mi', [RAISED[text]]));
+      out[out.length - 1].raised = true;
+    } else if (/[′″]/.test(text)) hang(out, true, math('mo', [text], { lspace: 0, rspace: 0 }));
+    else if (text === '√') root = true;
+    else if (/^\d/.test(text)) put(math('mn', [text]));
+    else {
+      // "hω" is a product, "kg" and "tanh" are words; "2 m" and "J/m" have units.
+      const letters = text.match(LETTER);
+      const counts = blank && !sign && /^(mn|msup|mo)$/.test(last?.localName);
+      if (text !== '/') unit = /^[mNsJ]$/.test(text) && (unit ? last?.textContent === '/' : counts);
+      if (unit && text !== '/') return upright();
+      if (letters && (letters.length === 1 || /[α-ωΑ-Ω]/u.test(text)))
+        return letters.forEach((letter) => put(letterOf(letter)));
+      if (letters) return put(math('mi', [text]));
+      if (PLAIN.test(text)) return upright();
+      const room = blank ? '0.25em' : 0;
+      const how = {
+        stretchy: false,
+        largeop: false,
+        movablelimits: false,
+        lspace: room,
+        rspace: 0,
+      };
+      const fence = OPEN.test(text) || CLOSE.test(text);
+      if (!fence) how.form = sign ? 'prefix' : 'infix';
+      if (blank > 1) put(math('mspace'));
+      out.push(math('mo', [text], how));
+      blank = 0;
+      sign = !CLOSE.test(text) || /[,;:]/.test(text);
+    }
+  };
+  for (const { text, up, down, above, below, rows, of, colour } of parts) {
+    // "Ĥ" is H and its mark; other signs, as ≠, stay whole.
+    const apart = text?.replace(/[\u00c0-\u017f]/g, (letter) => letter.normalize('NFD'));
+    if (apart) for (const [one] of apart.matchAll(TOKEN)) token(one);
+    else if (up) hang(out, true, math('mrow', row(up)));
+    else if (down) hang(out, false, math('mrow', row(down)));
+    else if (above) put(math('mfrac', [math('mrow', row(above)), math('mrow', row(below))]));
+    else if (rows) {
+      const lines = rows.map((cells) =>
+        math(
+          'mtr',
+          cells.map((cell) => math('mtd', row(cell))),
+        ),
+      );
+      put(math('mrow', [math('mo', ['[']), math('mtable', lines), math('mo', [']'])]));
+    } else if (of) {
+      const inner = row(of);
+      const one = inner.length === 1 ? inner[0] : math('mrow', inner);
+      put(coloured(one, colour));
+    }
+  }
+  return out;
+};
+
+// ---- words ------------------------------------------------------------------
+
+const colours = {};
+const coloured = (element, name) => {
+  element.style.color = colours[name] ??= ask('web_colour', 'string', name);
+  element.dataset.term = name;
+  return element;
+};
+const isLetter = ({ colour, of }) =>
+  colour && of.length === 1 && /^.[\u0300-\u036f]?$/u.test(of[0].text || '');
+const isSet = (part) =>
+  part.up || part.down || part.above || part.rows || isLetter(part) || /[|‖∇∂√]/.test(part.text);
+
+const prose = (parts) => {
+  const out = [];
+  let word = [];
+  const flush = (...next) => {
+    if (word.some(isSet)) out.push(math('math', row(word)));
+    else out.push(...word.map((part) => part.text));
+    out.push(...next);
+    word = [];
+  };
+  for (const part of parts)
+    if (part.text !== undefined)
+      part.text.split(' ').forEach((text, i) => {
+        if (i > 0) flush(' ');
+        if (text) word.push({ text });
+      });
+    else if (!part.colour || isLetter(part)) word.push(part);
+    else flush(coloured(make('span', prose(part.of)), part.colour));
+  flush();
+  return out;
+};
+
+const SIDES = /( {2,}|(?<=[,:]) | (?=[=≈≤≥<>→⇔+−] ))/;
+const formula = (parts) => {
+  const sides = [[]];
+  let depth = 0; // of parentheses
+  let bars = 0;
+  for (const part of parts) {
+    const side = () => sides[sides.length - 1];
+    if (part.of?.some(({ text }) => / /.test(text)))
+      sides.push(coloured(make('span', formula(part.of).slice(0, -1)), part.colour), []);
+    else if (part.text === undefined) side().push(part);
+    else
+      part.text.split(SIDES).forEach((text, i) => {
+        if (i % 2 && depth === 0 && bars % 2 === 0) sides.push(text.length > 1 ? '\u2003' : '', []);
+        else if (text) side().push({ text });
+        depth += text.split('(').length - text.split(')').length;
+        bars += text.split('|').length - 1;
+      });
+  }
+  return sides.flatMap((side) => {
+    if (!Array.isArray(side)) return [side];
+    return side.length ? [math('math', row(side), { displaystyle: true }), ' '] : [];
+  });
+};
+
+const setMarkup = (element, text, asFormula) => {
+  element.replaceChildren(...(asFormula ? formula : prose)(parse(text)));
+  element.normalize(); // words of one text, so that a reader reads on
+  return element;
+};

@@ -1,0 +1,111 @@
+/* Documents: what the page says beside its canvas, on all pages of the lecture
+ * and in all scenes. */
+#include "attended.h"
+#include "scenes/scenes.h"
+#include "test.h"
+#include "web/document.h"
+
+static char text[DOCUMENT_SIZE];
+
+static void write_document(void)
+{
+    player_fill(&player);
+    document_write(&player, text);
+}
+
+/* How many lines begin with this word. */
+static int count_lines(const char *word)
+{
+    size_t length = strlen(word);
+    int count = 0;
+    for (const char *line = text; *line; line = strchr(line, '\n') + 1)
+        count += strncmp(line, word, length) == 0 && line[length] == '\t';
+    return count;
+}
+
+/* Each line has as many fields as its word wants, and its braces match. */
+static void check_lines(void)
+{
+    static const struct {
+        const char *word;
+        int fields;
+    } words[] = {
+        {"page", 3},  {"topic", 1},  {"sentence", 1}, {"time", 1},
+        {"told", 2},  {"step", 3},   {"text", 3},     {"formula", 3},
+        {"ask", 3},   {"asks", 2},   {"look", 3},     {"try", 3},
+        {"claim", 3}, {"notes", 3},  {"code", 2},     {"verdict", 3},
+        {"card", 6},  {"words", 4},  {"row", 6},      {"number", 8},
+        {"point", 3}, {"switch", 3}, {"picture", 1},  {"event", 1},
+    };
+    assert_true(strlen(text) < DOCUMENT_SIZE - 100);
+    for (char *line = text, *end; *line; line = end + 1) {
+        size_t word = strcspn(line, "\t\n"), row = 0;
+        int fields = 0, depth = 0;
+        end = strchr(line, '\n');
+        while (row < sizeof words / sizeof *words &&
+               (strlen(words[row].word) != word ||
+                strncmp(line, words[row].word, word) != 0))
+            row++;
+        assert_true(row < sizeof words / sizeof *words);
+        for (const char *at = line; at < end; at++) {
+            fields += *at == '\t';
+            depth += (*at == '{') - (*at == '}');
+            assert_true(depth >= 0 || strncmp(line, "code", 4) == 0);
+        }
+        assert_int_equal(fields, words[row].fields);
+        assert_true(depth == 0 || strncmp(line, "code", 4) == 0);
+    }
+}
+
+TEST(a_page_keeps_its_answer_until_the_guess)
+{
+    for (const LecturePage *page = lecture_pages; page->name; page++) {
+        char line[64];
+        snprintf(line, sizeof line, "--lecture %s", page->name);
+        begin(line);
+        player.asks = true;
+        write_document();
+        check_lines();
+        assert_true(count_lines("topic") == 1 && count_lines("text") > 0);
+        CHECK((count_lines("ask") > 0) == (page->ask != NULL));
+        assert_int_equal(count_lines("asks"), page->ask != NULL);
+        if (page->ask)
+            assert_int_equal(count_lines("look") + count_lines("try"), 0);
+        CHECK_OK(player_unveil(&player, NULL));
+        write_document();
+        check_lines();
+        assert_int_equal(count_lines("asks"), 0);
+        CHECK(count_lines("look") > 0 && count_lines("code") > 0);
+        end();
+    }
+}
+
+TEST(scenes_have_numbers_and_a_picture_in_words)
+{
+    for (const Scene *scene = scenes; scene->name; scene++) {
+        begin(scene->name);
+        write_document();
+        check_lines();
+        CHECK(count_lines("number") > 0 && count_lines("picture") == 1);
+        assert_int_equal(count_lines("ask") + count_lines("look"), 0);
+        end();
+    }
+}
+
+TEST(an_event_tells_the_updates_of_a_step_and_the_change_of_E)
+{
+    begin("square --steps 1");
+    CHECK_OK(player_step(&player));
+    write_document();
+    assert_non_null(strstr(text, "\nevent\tstep 1: 3 updates, E fell by "));
+    end();
+}
+
+TEST(lists_have_all_pages_and_scenes)
+{
+    document_write_lists(text);
+    assert_int_equal(count_lines("pages"), lecture_count());
+    assert_true(count_lines("scenes") > 20 && count_lines("keys") > 20);
+}
+
+TESTS(NULL, NULL)
