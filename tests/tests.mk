@@ -21,6 +21,7 @@ $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc realloc) \
   -lsuitesparseconfig
 $(B)/tests/unit/test_show $(B)/tests/unit/test_session: \
   LIBS += $(call wrap,text_draw)
+$(B)/tests/unit/test_player: LIBS += $(call wrap,clock_gettime)
 $(B)/tests/unit/test_pages: LIBS += $(call wrap,font_glyph)
 
 $(B)/tests/unit/test_document: $(B)/web/document.o
@@ -54,6 +55,9 @@ same-bits: build/elasto
 
 mutants:
 	@sh tests/checks/mutants.sh $(ARGS)
+
+random-faults: suites build/elasto build/lecture
+	@$(SETTINGS) perl tests/checks/random_faults.pl $(ARGS)
 
 # What other tools find in the sources.
 analyse: build/config.mk

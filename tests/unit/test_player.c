@@ -5,6 +5,7 @@
 #include "attended.h"
 
 #include <math.h>
+#include <time.h>
 
 /* How far a node gets from where it is in 400 steps of a hundredth of a second
  * with nine digits, over the length of the shortest spring. */
@@ -257,6 +258,47 @@ TEST(time_goes_on_while_a_node_is_pulled)
     }
     CHECK(player.past.step == 20);
     end();
+}
+
+/* The clock of the window, s; < 0: the real one. */
+static double wound = -1;
+
+int __real_clock_gettime(clockid_t clock, struct timespec *now);
+int __wrap_clock_gettime(clockid_t clock, struct timespec *now);
+
+int __wrap_clock_gettime(clockid_t clock, struct timespec *now)
+{
+    if (wound < 0)
+        return __real_clock_gettime(clock, now);
+    now->tv_sec = (time_t)wound;
+    now->tv_nsec = (long)(1e9 * (wound - (double)now->tv_sec));
+    return 0;
+}
+
+/* At speed s time makes 60 2^s steps a second, and the window waits until the
+ * next one is due. */
+TEST(steps_are_due_at_the_speed_that_was_asked_for)
+{
+    for (int speed = -5; speed <= 3; speed++) {
+        begin("square --segments 1 --stretch 1 --velocity 3,4");
+        player.draws = player.window = true;
+        player.size[0] = player.size[1] = 100;
+        wound = 100;
+        while (player.speed != speed)
+            CHECK_OK(obey(player.speed < speed ? "faster" : "slower"));
+        CHECK_OK(player_frame(&player)); /* the start is a frame, too */
+        const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
+        CHECK_NEAR(player_wait(&player), fmin(1e3 * every, 200), 1);
+        const long before = player.past.step;
+        for (int tick = 0; tick < 3 * 240; tick++) {
+            wound += 1 / 240.0;
+            CHECK_OK(player_frame(&player));
+        }
+        CHECK_NEAR(player.past.step - before, 180 * ldexp(1, speed),
+                   fmax(1, ldexp(1, speed)));
+        wound = -1;
+        end();
+    }
 }
 
 static const History *history_now(void)

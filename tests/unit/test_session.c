@@ -64,8 +64,10 @@ static uint64_t seen(const char *what)
                                 : (Box){0, 0, canvas->width, canvas->height});
 }
 
-/* The texts of the frame that was drawn last, a line each. */
-static char written[1 << 16];
+/* The texts of the frame that was drawn last, a line each; those of the list or
+ * code in the column. */
+static char written[1 << 16], listed[1 << 15];
+static Box column;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
@@ -75,18 +77,25 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
-    size_t used = strlen(written);
+    size_t used = strlen(written), more = strlen(listed);
     snprintf(written + used, sizeof written - used, "%s\n", markup);
+    if (box_contains(column, x, y)) /* key and meaning are two texts */
+        snprintf(listed + more, sizeof listed - more, "%s%s", markup,
+                 style->face == FACE_BOLD ? " " : "\n");
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
-/* Whether the window has a text with these words. */
-static void read_words(const char *words, bool wanted)
+/* Whether the window, or the column, has a text with these words. */
+static void read_words(const char *verb, const char *words)
 {
-    written[0] = '\0';
+    const char *among = strcmp(verb, "list") == 0 ? listed : written;
+    bool wanted = strcmp(verb, "lacks") != 0;
+    written[0] = listed[0] = '\0';
+    player_fill(&player);
+    column = layout_now().column;
     CHECK_STATUS(player_draw(&player), STATUS_OK);
-    if ((strstr(written, words) != NULL) != wanted)
-        fail_msg("%s '%s':\n%s", wanted ? "no" : "there is", words, written);
+    if ((strstr(among, words) != NULL) != wanted)
+        fail_msg("%s '%s':\n%s", wanted ? "no" : "there is", words, among);
 }
 
 static void finish_session(void)
@@ -152,22 +161,68 @@ static const Setting *number_shown(const char *name, int *place)
     return NULL;
 }
 
+/* The middle of a box, or its lower left corner, where a stage is empty. */
+static void point_into(Box box, bool corner)
+{
+    mouse[0] = box.x + (corner ? 0.1 : 0.5) * box.width;
+    mouse[1] = box.y + (corner ? 0.95 : 0.5) * box.height;
+}
+
+/* Whether the mouse is on this grip. */
+static bool is_grip(const Layout *layout, int grip)
+{
+    Pick pick = show_pick(&player.show, layout, mouse[0], mouse[1]);
+    return pick.kind == PICK_HANDLE && pick.index == grip;
+}
+
+/* Whether the place is something in a pane's picture. */
+static bool point_in_pane(const char *place, const Layout *layout)
+{
+    const char *of = strstr(place, " of ");
+    int i = 0, p = of ? atoi(of + 4) : 0;
+    const Pane *pane = &player.show.pane[p];
+    double at[2], grip[SCENE_MAX_HANDLES][2];
+    if (sscanf(place, "grip %d", &i) == 1) {
+        assert_true(i < exhibit_handles(pane->simulation, grip));
+        memcpy(at, grip[i], sizeof at);
+    } else if (sscanf(place, "node %d", &i) == 1)
+        memcpy(at, pane_x(pane) + 2 * i, sizeof at);
+    else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) != 2)
+        return false;
+    Camera camera = show_camera(&player.show, layout, p);
+    camera_pixel(&camera, at, mouse);
+    if (place[0] == 'g' && !is_grip(layout, i)) /* it is above, on a curve */
+        for (mouse[1] = layout->pane[p].y; !is_grip(layout, i); mouse[1]++)
+            assert_true(mouse[1] < layout->height);
+    return true;
+}
+
+/* The chip with this key, or the cell of the sheet with this scene; -1: none */
+static int find_chip(const char *key)
+{
+    int i = player.show.chips - 1;
+    while (i >= 0 && strcmp(player.show.chip[i].key, key) != 0)
+        i--;
+    return i;
+}
+
+static int find_cell(const char *scene)
+{
+    int i = player.show.cells - 1;
+    while (i >= 0 && strcmp(player.show.cell[i].name, scene) != 0)
+        i--;
+    return i;
+}
+
 static void point_at(const char *place)
 {
-    double x, y, at[2];
+    double x, y;
     int i = 0;
     player_fill(&player);
     Layout layout = layout_now();
     if (sscanf(place, "%lf %lf", &x, &y) == 2) {
-        bool relative = place[0] == '+' || place[0] == '-';
-        mouse[0] = x + (relative ? mouse[0] : 0);
-        mouse[1] = y + (relative ? mouse[1] : 0);
-    } else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) == 2 ||
-               sscanf(place, "node %d", &i) == 1) {
-        const Pane *pane = &player.show.pane[0];
-        Camera camera = show_camera(&player.show, &layout, 0);
-        camera_pixel(&camera, place[0] == 'm' ? at : pane_x(pane) + 2 * i,
-                     mouse);
+        mouse[0] += x;
+        mouse[1] += y;
     } else if (strncmp(place, "step ", 5) == 0) {
         long step = atol(place + 5);
         mouse[0] = layout.bars.x;
@@ -175,11 +230,33 @@ static void point_at(const char *place)
         while (show_step_at(&player.show, &layout, mouse[0]) < step &&
                mouse[0] < layout.width)
             mouse[0]++;
-    } else {
+    } else if (strcmp(place, "strip") == 0) {
+        point_into(layout.strip, false);
+    } else if (strcmp(place, "time") == 0) {
+        point_into(layout.time, false);
+    } else if (strcmp(place, "stage") == 0) {
+        point_into(layout.stage, true);
+    } else if (strncmp(place, "chip ", 5) == 0) {
+        assert_true((i = find_chip(place + 5)) >= 0);
+        point_into(layout.chip[i], false);
+    } else if (strncmp(place, "cell ", 5) == 0) {
+        assert_true((i = find_cell(place + 5)) >= 0);
+        point_into(layout.cell[i], false);
+    } else if (!point_in_pane(place, &layout)) {
         number_shown(place, &i);
         mouse[0] = layout.setting[i].x + 2;
         mouse[1] = layout.setting[i].y + layout.setting[i].height / 2;
     }
+}
+
+/* Pixels a metre of the first pane, and before the mouse did something. */
+static double scale_before;
+
+static double scale_now(void)
+{
+    player_fill(&player);
+    Layout layout = layout_now();
+    return show_camera(&player.show, &layout, 0).scale[0];
 }
 
 /* Returns false if this is nothing that a mouse does. */
@@ -195,10 +272,12 @@ static bool use_mouse(const char *verb, const char *place)
         {"right", {.kind = INPUT_PRESS, .button = BUTTON_RIGHT}},
         {"middle", {.kind = INPUT_PRESS, .button = BUTTON_MIDDLE}},
         {"move", {.kind = INPUT_MOVE}},
-        {"wheel", {.kind = INPUT_WHEEL, .amount = 1}}};
+        {"wheel", {.kind = INPUT_WHEEL, .amount = 1}},
+        {"wheel-out", {.kind = INPUT_WHEEL, .amount = -1}}};
     for (size_t i = 0; i < sizeof deeds / sizeof *deeds; i++)
         if (strcmp(deeds[i].verb, verb) == 0) {
             point_at(place);
+            scale_before = scale_now();
             put(deeds[i].input);
             return true;
         }
@@ -314,11 +393,27 @@ static const char *text_or(const char *text)
     return text && text[0] ? text : "<nothing>";
 }
 
+/* Whether all nodes of a pane are in its part of the window. */
+static bool pane_has_all(const Show *show, const Layout *layout, int p)
+{
+    const Pane *pane = &show->pane[p];
+    Camera camera = show_camera(show, layout, p);
+    double at[2];
+    for (int i = 0; i < pane->simulation->system.nodes; i++) {
+        camera_pixel(&camera, pane_x(pane) + 2 * i, at);
+        if (!box_contains(layout->pane[p], at[0], at[1]))
+            return false;
+    }
+    return true;
+}
+
 /* Of a part of the window, the parts that it has several of. */
 static void collect_parts(const Show *show)
 {
+    Layout layout = layout_now();
     for (int p = 0; p < show->panes; p++) {
         const Trace *trace = show->pane[p].trace;
+        fact("inside %d %d", p, pane_has_all(show, &layout, p));
         fact("label %d\t%s", p, text_or(show->pane[p].label));
         fact("line %d %d", p, trace ? (int)trace->line : 0);
     }
@@ -357,6 +452,10 @@ static void collect_facts(void)
     fact("speed %d", player.speed);
     fact("scene %s", player_simulation(&player)->scene->name);
     fact("over %s %d", kinds[show->hover.kind], show->hover.index);
+    double scale = scale_now();
+    fact("scale %s", scale < scale_before   ? "smaller"
+                     : scale > scale_before ? "larger"
+                                            : "same");
     fact("residual %.5g", trace ? trace->residual : -1);
     fact("says\t%s", text_or(player.note));
     fact("topic\t%s", text_or(show->topic));
@@ -420,8 +519,8 @@ static void session_line(const char *line)
         check_tables(rest);
     else if (strcmp(verb, "row") == 0)
         check_row(rest);
-    else if (strcmp(verb, "reads") == 0 || strcmp(verb, "lacks") == 0)
-        read_words(rest, verb[0] == 'r');
+    else if (strstr("reads lacks list", verb))
+        read_words(verb, rest);
     else if (strstr("mark same other", verb))
         compare(verb, rest);
     else if (!use_mouse(verb, rest))
@@ -444,7 +543,8 @@ static char session_text[1 << 16];
 static int read_sessions(void)
 {
     int count = 0, used = 0;
-    FILE *file = fopen("tests/data/sessions.txt", "r");
+    FILE *file =
+        fopen("tests/data/sessions.txt", "r");
     assert_non_null(file);
     size_t size = fread(session_text, 1, sizeof session_text, file);
     assert_true(size < sizeof session_text);
@@ -493,31 +593,32 @@ static int end_session(void **unused)
 
 /* ---- a hand on every scene ---------------------------------------------- */
 
-/* What is taken hold of where, and what makes sense there: g the hand pulls, d
- * a point is dragged, p pins, k there is a k, l lines of Algorithm 3, f the
- * projection, s the line search, m other methods. */
+/* What is taken hold of, how far it is dragged, in pixels, and what makes sense
+ * there: g the hand pulls, d a point is dragged, p pins, k there is a k, l
+ * lines of Algorithm 3, f the projection, s the line search, m other methods.
+ */
 static const struct Scene_row {
-    const char *scene;
-    int x, y, dx, dy; /* pixels of a 900 x 900 window */
+    const char *scene, *start;
+    int dx, dy;
     const char *can;
 } rows[] = {
-    {"square", 280, 389, 60, -60, "gpklfsm"},
-    {"circle", 438, 404, 40, -60, "g"},
-    {"overshoot", 320, 466, 60, -30, "ds"},
-    {"landscape", 293, 455, 60, -60, "dfs"},
-    {"unprojected", 277, 388, 60, -60, "gpklfsm"},
-    {"explosion", 257, 342, 60, -60, "gpklfsm"},
-    {"hang", 277, 388, 60, -60, "gpklfsm"},
-    {"drop", 212, 312, 60, 60, "gpklfs"},
-    {"slope", 371, 105, 60, 20, "gpklfs"},
-    {"squeeze", 277, 390, 60, 20, "gpklfs"},
-    {"dent", 277, 250, 60, 60, "gpklfs"},
-    {"tear", 180, 390, 60, 60, "gpklfs"},
-    {"bend", 167, 350, 40, -60, "gpklfs"},
-    {"arrows", 428, 404, 40, -60, "d"},
-    {"tangent", 511, 97, -60, 0, "ds"},
-    {"dial", 307, 358, 60, 60, "d"},
-    {"spring", 377, 353, 40, 40, "dlfsm"},
+    {"square", "node 12", 60, -60, "gpklfsm"},
+    {"circle", "m 1,0", 40, -60, "g"},
+    {"overshoot", "m 1.98,1.97", 60, -30, "ds"},
+    {"landscape", "grip 1", 60, -60, "dfs"},
+    {"unprojected", "node 12", 60, -60, "gpklfsm"},
+    {"explosion", "node 6", 60, -60, "gpklfsm"},
+    {"hang", "node 84", 60, -60, "gpklfsm"},
+    {"drop", "node 144", 60, 60, "gpklfs"},
+    {"slope", "node 24", 60, 20, "gpklfs"},
+    {"squeeze", "node 144", 60, 20, "gpklfs"},
+    {"dent", "node 144", 60, 60, "gpklfs"},
+    {"tear", "node 137", 60, 60, "gpklfs"},
+    {"bend", "node 59", 40, -60, "gpklfs"},
+    {"arrows", "grip 0", 40, -60, "d"},
+    {"tangent", "m 2.495,2.522", -60, 0, "ds"},
+    {"dial", "grip 0", 60, 60, "d"},
+    {"spring", "grip 0", 40, 40, "dlfsm"},
 };
 enum { SCENES = sizeof rows / sizeof *rows };
 
@@ -526,20 +627,21 @@ enum { SCENES = sizeof rows / sizeof *rows };
 static bool fill_in(const char *pattern, const struct Scene_row *row,
                     char *line, size_t size)
 {
-    static const char *const words[] = {"START", "HALF", "WHOLE"};
     if (pattern[0] == '[') {
         bool lacks = pattern[1] == '-';
         if (lacks != !strchr(row->can, pattern[1 + lacks]))
             return false;
         pattern += 4 + lacks;
     }
-    snprintf(line, size, "%s", pattern);
-    for (int i = 0; i < 3; i++) {
-        char *word = strstr(line, words[i]);
-        if (word)
-            snprintf(word, size - (size_t)(word - line), "%d %d",
-                     row->x + i * row->dx / 2, row->y + i * row->dy / 2);
-    }
+    const char *place = strchr(pattern, ' ') + 1;
+    int verb = (int)(place - pattern), half = strcmp(place, "ON") == 0;
+    half = strcmp(place, "BACK") == 0 ? -1 : half;
+    if (half)
+        snprintf(line, size, "%.*s%+d %+d", verb, pattern, half * row->dx / 2,
+                 half * row->dy / 2);
+    else
+        snprintf(line, size, "%.*s%s", verb, pattern,
+                 strcmp(place, "START") == 0 ? row->start : place);
     return true;
 }
 
@@ -553,6 +655,31 @@ static void a_hand_on_this_scene(void **state)
         if (fill_in(*act, row, line, sizeof line))
             session_line(line);
     replay(row->scene);
+    present = NULL;
+}
+
+/* Each grip of each scene is found where it was dragged to. */
+static void grips_go_where_they_are_dragged(void **unused)
+{
+    (void)unused;
+    int grips = 0;
+    for (const Scene *scene = scenes; scene->name; scene++)
+        for (int i = 0; scene->grips && scene->grips[i]; i++, grips++) {
+            char line[80];
+            double at[SCENE_MAX_HANDLES][2];
+            bool flat = scene->needs & NEEDS_ONE_NUMBER; /* x alone counts */
+            snprintf(line, sizeof line, "begin %s --paused", scene->name);
+            session_line(line);
+            snprintf(line, sizeof line, "press grip %d", i);
+            session_line(present = line);
+            session_line("move +9 +9");
+            session_line("move m 0.4,-0.3");
+            session_line("release +0 +0");
+            exhibit_handles(player_simulation(&player), at);
+            CHECK_NEAR(at[i][0], 0.4, 1e-9);
+            CHECK(flat || fabs(at[i][1] + 0.3) < 1e-9);
+        }
+    CHECK(grips > 8);
     present = NULL;
 }
 
@@ -666,17 +793,22 @@ static void random_hands_are_written_down(void **unused)
 
 int main(void)
 {
-    struct CMUnitTest tests[SESSIONS + SCENES + 2];
+    struct CMUnitTest tests[SESSIONS + SCENES + 3];
     char before[4096];
-    int count = 0, plain = read_sessions() - 2; /* then "hand" and "acts" */
+    int count = 0, all = read_sessions();
     assert_true(getcwd(before, sizeof before) && mkdtemp(folder));
-    for (int i = 0; i < plain; i++)
-        tests[count++] = (struct CMUnitTest){sessions[i].name, a_session, NULL,
-                                             end_session, (void *)&sessions[i]};
+    for (int i = 0; i < all; i++)
+        if (strcmp(sessions[i].name, "hand") &&
+            strcmp(sessions[i].name, "acts"))
+            tests[count++] =
+                (struct CMUnitTest){sessions[i].name, a_session, NULL,
+                                    end_session, (void *)&sessions[i]};
     for (int i = 0; i < SCENES; i++)
         tests[count++] =
             (struct CMUnitTest){rows[i].scene, a_hand_on_this_scene, NULL,
                                 end_session, (void *)&rows[i]};
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
+        grips_go_where_they_are_dragged, end_session);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
         random_keys_stay_in_their_field, end_session);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
