@@ -57,7 +57,7 @@ run-lecture: build/lecture
 GOALS := $(or $(MAKECMDGOALS),all)
 ifneq ($(filter-out clean help uninstall figures web homework,$(GOALS)),)
 include build/config.mk
-ifneq ($(filter test long-test suites stress mutants random-faults build/stress \
+ifneq ($(filter test long-test suites stress mutants build/stress \
           $(B)/tests/%,$(GOALS)),)
 include build/config-test.mk
 endif
@@ -232,7 +232,7 @@ help:
 	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS, LDLIBS are respected'
 
 .PHONY: all web test-web homework check-homework elasto lecture run run-lecture test long-test suites stress \
-        same-bits mutants random-faults analyse pictures bench figures install \
+        same-bits mutants analyse pictures bench figures install \
         uninstall clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -54,11 +54,8 @@ stress: build/stress build/elasto
 same-bits: build/elasto
 	@$(SETTINGS) sh tests/checks/same_bits.sh
 
-mutants:
-	@sh tests/checks/mutants.sh $(ARGS)
-
-random-faults: suites build/elasto build/lecture
-	@$(SETTINGS) perl tests/checks/random_faults.pl $(ARGS)
+mutants: suites build/elasto build/lecture
+	@$(SETTINGS) perl tests/checks/mutants.pl $(ARGS)
 
 # What other tools find in the sources.
 analyse: build/config.mk

@@ -151,7 +151,7 @@ verdict the_readme_names_what_there_is "$(names_missing README.md)"
 # Each fault of the list stands in its source exactly once.
 if command -v perl >/dev/null; then
     verdict mutants_stand_where_the_list_says \
-        "$(perl tests/checks/mutate.pl check tests/data/mutants.txt 2>&1)"
+        "$(perl tests/checks/mutants.pl --check 2>&1)"
 else
     echo 'skipped mutants_stand_where_the_list_says: no perl'
 fi
