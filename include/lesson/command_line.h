@@ -1,4 +1,4 @@
-/* command_line.h - the command line: reads values and lines into options, and
+/* command_line.h - reads command lines and single values into options, and
  * writes --help.
  */
 #ifndef ELASTO_COMMAND_LINE_H
@@ -8,35 +8,33 @@
 
 #include "run/options.h"
 
-/* A single number as somebody types it, "1/60", "0,02", "4 ms", "clamp".
+/* Reads a number as users type it: "1/60", "0,02", "4 ms", or a name: "clamp".
  *   value  out
- * Returns whether it can be read and is in the row's range. */
+ * Returns whether the text is a number in the row's range. */
 bool option_read(const OptionRow *row, const char *text, double *value);
 
-/* argv into options, whose texts point into argv.  Where values of scene and
- * method are lists, "--timestep 0.004,0.04 --projection clamp,none" are four panes:
- * options->panes says so, and each has options of its own.
- *   pane     whose options, from 0
+/* Reads a command line into options, whose texts point into argv.  Lists of
+ * values make several panes: "--timestep 0.004,0.04 --projection clamp,none" is
+ * four.  options->panes is their number; each pane has its own options.
+ *   pane     number of the pane, from 0
  *   options  out
- *   message  [size] out, one line without newline after INVALID_INPUT: the
- *            option, its value and its range stand in it, whole if 512 bytes
- *            are there
- * Returns OK or INVALID_INPUT.  Prints nothing. */
+ *   message  [size] out, after INVALID_INPUT a line with the option, its value
+ *            and its range; 512 bytes are enough
+ * Returns OK or INVALID_INPUT. */
 Status options_parse(int argc, char **argv, int pane, Options *options,
                      char *message, size_t size);
 
-/* The same of one line, "drop --segments 8", that has no texts: no files, no
- * pins. */
+/* Reads a line such as "drop --segments 8", without files and pins. */
 Status options_of_line(const char *line, Options *options, char *message,
                        size_t size);
 
-/* One option, by its name without dashes, of options that have a scene already:
- * what this scene cannot make use of is refused, as above. */
+/* Sets an option, named without dashes, to a value as on the command line.
+ * Options that the scene cannot use are refused, with a message as above. */
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size);
 
-/* The same of a number, for a row with a single one; of a name its place.  NaN,
- * which a field gives that is empty, is refused as an empty text is. */
+/* Sets an option that has one number, or one name by its index, with the same
+ * checks as options_set.  NaN is refused as an empty text would be. */
 Status options_put(Options *options, const OptionRow *row, double value,
                    char *message, size_t size);
 

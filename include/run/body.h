@@ -1,5 +1,5 @@
-/* body.h - the body that options describe: the square, or a beam of square
- * cells, where it begins, what it meets, and what becomes of its springs.
+/* body.h - the body that options describe: a square or a beam of square cells,
+ * its start, its obstacles and its energy terms.
  */
 #ifndef ELASTO_BODY_H
 #define ELASTO_BODY_H
@@ -8,51 +8,52 @@
 #include "run/one_line.h"
 #include "run/simulation.h"
 
-/* The square, or of its rows the part that the scene has. */
+/* The mesh of the options; in scenes with a beam it has fewer rows. */
 SquareMesh body_shape(const Options *options);
 
-/* The words that --pin knows besides node numbers. */
+/* Words that --pin accepts besides node numbers. */
 #define PINS_WORDS "top-corners, top, bottom, left, right, all"
 
-/* Reads node numbers and words, separated by commas; "top:2" is the second
- * body's.
- *   pinned  [nodes] in/out: 1 for each that is named; NULL: the text is only
- *           checked
+/* Reads node numbers and words, separated by commas; "top:2" is the top of the
+ * second body.
+ *   pinned  [nodes] in/out: 1 for each node that is named; NULL: the text is
+ *           only checked
  * Returns OK or INVALID_INPUT. */
 Status pins_read(const char *text, const SquareMesh *shape,
                  unsigned char *pinned);
 
-/* Mesh and system of this run, with all terms of its options, and the run from
- * where they put it.  A ball that comes with the scene is the last node.
+/* Creates the mesh, the system with all its terms, and the run at its start.  A
+ * ball of the scene is the last node.
  * Returns OK, INVALID_INPUT, TOO_LARGE, OUT_OF_MEMORY. */
 Status body_create(Simulation *simulation, int run);
 
-/* Terms and springs of a run that goes on get the numbers of the simulation's
- * options.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+/* Gives the terms and springs of a run the numbers of the simulation's options,
+ * while the run goes on.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status body_follow(Simulation *simulation, int run);
 
-/* The only run of a scene, which is this body. */
+/* Creates a scene with one run, which is this body. */
 Status create_square(Simulation *simulation);
 
-/* What the options ask for that only a step whose result is the minimiser
- * knows, in words; NULL: nothing. */
+/* Name of a term or feature that needs a method whose step ends at the
+ * minimiser, as backward Euler's does; NULL: the options have none. */
 const char *body_needs_end_of_step(const Options *options);
 
-/* Whether the body can begin where the options put it: obstacles make sense,
- * all gaps and cells are > 0.  Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
+/* Checks that the body can start: obstacles make sense, no body overlaps an
+ * obstacle or another body, no cell is turned over.
+ * Returns OK, INVALID_INPUT with a message, OUT_OF_MEMORY. */
 Status body_check(const Options *options, Refusal told);
 
-/* A step of the table that --states wrote, for the nodes of one run; and of the
- * table that --springs wrote, for its springs: which are broken, what has
- * flowed.  Columns are found by their names, others may stand between them.
- *   step     below 0: the last one
- *   nodes    n of each run; those of run r follow those of run r - 1
- *   runs     of the scene
- *   x, v     [2n] out, m, m/s
+/* Reads positions and velocities of a run from a table that --states wrote, or
+ * which of its springs are broken and have flowed from one of --springs.
+ * Columns are found by their names; other columns are ignored.
+ *   step     step in the table; below 0: the last one
+ *   nodes    nodes of each run; the rows of run r follow those of run r - 1
+ *   runs     runs of the scene
+ *   x, v     [2 nodes] out, m, m/s
  *   system   in/out, with all its terms
- * Returns OK; INVALID_INPUT: there is no such table or step, a line is no row
- * of it, or it has other nodes or springs or fewer runs, or more of them and no
- * panes.  (Of a table of several panes it takes the first.) */
+ * Returns OK, or INVALID_INPUT if the file has no such step, has a line that
+ * cannot be read, or is about another number of nodes, springs or runs.  Of a
+ * table with several panes the first one is read. */
 Status start_table_read(const char *name, double step, int nodes, int run,
                         int runs, double *x, double *v, Refusal told);
 Status start_springs_read(const Options *options, int run, int runs,

@@ -1,6 +1,5 @@
-/* control.h - what a step is a function of: all that somebody decides about a
- * run, its options, which nodes are pinned, and what a hand holds; and the
- * state before it.
+/* control.h - the inputs of a step: the control, which is all that a user
+ * decides (options, pins, what the mouse holds), and the state before the step.
  */
 #ifndef ELASTO_CONTROL_H
 #define ELASTO_CONTROL_H
@@ -10,66 +9,71 @@
 
 #include "run/simulation.h"
 
-/* Never changed once it is made: all that need it share it. */
+/* All that a user decides about a run.  Steps share a control, so it is not
+ * changed after it was made. */
 typedef struct Control {
-    int users; /* counted; 0: freed */
+    int users; /* reference count; the last user frees the control */
     Options options;
-    int hand;     /* the node that it holds; -1: none */
-    int push;     /* Number of the obstacle that the hand holds; -1: none. */
-    double at[2]; /* m, where it pulls it */
+    int hand;     /* node that the mouse holds; -1: none */
+    int push;     /* obstacle that the mouse holds; -1: none */
+    double at[2]; /* m, place to which the mouse pulls or pushes */
     int nodes;
-    unsigned char pinned[]; /* [nodes] 1: it never moves */
+    unsigned char pinned[]; /* [nodes] 1: the node is pinned */
 } Control;
 
-/* What a simulation has now; the same once more.  One user, who may change it
- * as long as it is alone.  NULL: no memory. */
+/* The control of a simulation now, or a copy, with one user, who may change it
+ * until others share it.  NULL: no memory. */
 Control *control_of(const Simulation *simulation);
 Control *control_copy(const Control *from);
 
-/* Whether the hand holds a node or an obstacle. */
+/* Whether the mouse holds a node or an obstacle. */
 bool control_holds(const Control *control);
 
-/* [2] m, where a ground or, behind those, a ball of the options is. */
+/* Place of an obstacle in the options, [2] m.
+ *   number  of the obstacle: grounds first, then balls */
 double *obstacle_at(Options *options, int number);
 
-/* at [2] m, out: where a run has this obstacle now, as the options count it. */
+/* Finds where an obstacle of a run is now; in slope, where grounds differ by
+ * their run, without that difference.
+ *   at  [2] out, m */
 void simulation_obstacle(const Simulation *simulation, int run, int number,
                          double at[2]);
 
-/* Gives the obstacle with this number the place in the options that it has now
- * in the simulation, unless its runs differ in that. */
+/* Takes the place of an obstacle from the simulation into the options, if all
+ * runs have it at the same place. */
 void control_keep_place(Control *control, int number,
                         const Simulation *simulation);
 
-/* One user more, one less; NULL is accepted. */
+/* Adds a user, or removes one; NULL is accepted. */
 const Control *control_keep(const Control *control);
 void control_drop(const Control *control);
 
-/* From now on the simulation is one with this control; scene, mesh and start
- * must be those that it has.  What this does to the energy is booked as work.
- * Returns as simulation_create; after a failure only simulation_free is
- * allowed. */
+/* Gives a simulation this control from the next step on; scene, mesh and start
+ * must be the same.  The change of the energy is booked as work.
+ * Returns as simulation_create; after a failure only simulation_free may
+ * follow. */
 Status simulation_use(Simulation *simulation, const Control *control);
 
 /* ---- the state ----------------------------------------------------------- */
 
-/* All that a step changes, as bytes: positions, velocities, what integrators
- * and terms remember, counters; of the lecture's small scenes what they show,
- * too, and of those that show iterations the minimisation that is under way. */
+/* The state is all that a step changes: positions, velocities, the memory of
+ * integrators and terms, counters, and what a small scene shows. */
 
-/* Returns how many bytes it has.  bytes: out, or NULL. */
+/* Writes the state as bytes.
+ *   bytes  out, or NULL
+ * Returns how many bytes there are. */
 size_t state_save(const Simulation *simulation, void *bytes);
 
-/* As it was when these bytes were saved.  Springs that are whole, and walls,
- * have the numbers of the simulation's options.
- *   bytes  in, of a simulation with the same system */
+/* Restores a saved state.  The stiffness of whole springs and the numbers of
+ * walls are those of the simulation's options.
+ *   bytes  in, from a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);
 
-/* 64 bits of steps, positions and velocities of all runs (FNV-1a): equal
- * states have equal hashes. */
+/* Hash (FNV-1a) of steps, positions and velocities of all runs.
+ *   seed  STATE_HASH_SEED, or the hash of the simulation before, if several
+ *         are hashed together */
 uint64_t state_hash(const Simulation *simulation, uint64_t seed);
 
-/* The seed of the first of several simulations. */
 #define STATE_HASH_SEED UINT64_C(14695981039346656037)
 
 #endif

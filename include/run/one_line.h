@@ -1,4 +1,4 @@
-/* one_line.h - texts from outside, made fit for a line of a message.
+/* one_line.h - makes texts from outside safe to print in a line of a message.
  */
 #ifndef ELASTO_ONE_LINE_H
 #define ELASTO_ONE_LINE_H
@@ -8,29 +8,29 @@
 
 #include "base/status.h"
 
-/* Copies a text: each byte of a control character, of those that turn the
- * direction of writing, and that is no UTF-8 becomes '?', so that a message
- * stays one line, says what it seems to say, and a terminal obeys nothing.
- * A text that does not fit loses its middle: "abc...xyz".
+/* Copies a text for a message.  Control characters, characters that change the
+ * direction of writing, and bytes that are not UTF-8 become '?', so that the
+ * message stays one line and a terminal takes no command from it.  A text that
+ * is too long loses its middle: "abc...xyz".
  *   text  in, or NULL: ""
- *   line  [size] out, 12 at least; may be the text itself */
+ *   line  [size] out, size at least 12; may be the text itself */
 void one_line(const char *text, char *line, size_t size);
 
-/* Whether a text is UTF-8 without any of those. */
+/* Whether a text is UTF-8 without control characters. */
 bool is_one_line(const char *text);
 
-/* Writes behind what the text has; what does not fit is cut off.
+/* Appends to a text, as far as it fits.
  *   text  [size] in/out */
 void append(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Where the line goes that says why something is refused, [size]. */
+/* Buffer for the message that says why an input is refused. */
 typedef struct Refusal {
     char *message;
     size_t size;
 } Refusal;
 
-/* Writes it, as one line.  Returns INVALID_INPUT. */
+/* Writes the message as one line.  Returns INVALID_INPUT. */
 Status refuse(Refusal told, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

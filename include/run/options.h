@@ -1,7 +1,9 @@
-/* options.h - the command line as a struct, and the table that knows of it.
+/* options.h - the options of a run as a struct, and a table that describes
+ * them.
  *
- * A row of the table is all that the command line, --help, the row of numbers
- * in the window, commands of scripts and the labels of panes know of an option.
+ * A row of the table is the only description of an option: the command line,
+ * --help, the row of numbers in the window, scripts and the labels of panes all
+ * read it.
  */
 #ifndef ELASTO_OPTIONS_H
 #define ELASTO_OPTIONS_H
@@ -39,172 +41,199 @@ typedef enum NextDeed {
 
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 
-/* Numbers of a body's start: centre, turn, velocity, stretch. */
+/* Numbers of --body: centre X, Y; turn; velocity X, Y; stretch X, Y. */
 enum { BODY_NUMBERS = 7 };
 
 static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
-/* All numbers are doubles that are seen as an array, too: a slot is the place
- * of one in it.  Whole numbers, switches (0 or 1) and names (their place in the
- * row's list) are among them.  What each is, its unit and its range: see its
- * row in options.c. */
-enum { OPTIONS_NUMBERS = 256 }; /* room; the compiler says if it is too small */
+/* Capacity of Options.number; the static assertion below fails if more numbers
+ * are declared. */
+enum { OPTIONS_NUMBERS = 256 };
+
+/* The value of every option.  Numbers, whole numbers, switches (0 or 1) and
+ * names (their index in the row's list) are doubles; the union makes them an
+ * array, so that a row of the table can name its number by an index, the slot.
+ * The struct has many fields because there are many options; meaning, unit and
+ * range of each stand in its row in options.c. */
 
 typedef struct Options {
     union {
         struct {
             double segments, side, density, stiffness, stretch;
             double turn, at[2], velocity[2], gravity, start[2];
-            double state_step; /* of the table; -1: the last */
-            double grounds, ground[OPTIONS_MAX_GROUNDS][4]; /* how many, and */
-            double balls, ball[OPTIONS_MAX_BALLS][3];       /* which ones */
-            double bodies, body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
-            double ceiling[3]; /* its velocity 0: there is none */
-            double barrier[2]; /* 0: side/100, 4 k */
-            double friction, slip_speed, cells;
-            double self_contact, self_friction; /* -1: as friction */
-            double material, young, poisson;    /* 0: springs, 1: triangles */
-            double yield, hardening, tear;      /* 0: never */
+            double state_step; /* step of the table --state; -1: the last */
+            double grounds;    /* number of rows of ground that are used */
+            double ground[OPTIONS_MAX_GROUNDS][4];
+            double balls; /* number of rows of ball that are used */
+            double ball[OPTIONS_MAX_BALLS][3];
+            double bodies; /* number of rows of body that are used */
+            double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
+            double ceiling[3]; /* velocity 0: no ceiling */
+            double barrier[2]; /* 0: side/100 and 4 k */
+            double friction, slip_speed, cells, self_contact;
+            double self_friction; /* -1: equal to friction */
+            double material;      /* 0: springs, 1: triangles */
+            double young, poisson;
+            double yield, hardening, tear; /* 0: never */
             double damping;
             double timestep, tolerance;
-            double integrator;  /* its row; -1: the scene's choice */
+            double integrator;  /* row of integrator_methods; -1: the scene's */
             double solver;      /* enum Solver */
             double projection;  /* enum Projection */
             double line_search; /* enum LineSearch */
-            double flips;       /* bit s: switch s of the scene is turned
-                                   over at the start: of a page, by hand */
-            double steps;       /* -1: until closed, or 100 without a screen */
-            double speed;       /* steps a frame; 0: the scene's */
-            double size[2];     /* pixels; 0: the usual ones */
+            double flips; /* bit s: switch s of the scene starts turned over */
+            double steps; /* -1: until the window closes, 100 without one */
+            double speed; /* steps a frame; 0: the scene's */
+            double size[2]; /* pixels; 0: the usual size */
             double paused, fullscreen, headless, quiet, big;
-            double help, version, list; /* print that and stop */
+            double help, version, list; /* print a text and exit */
         };
         double number[OPTIONS_NUMBERS];
     };
     const struct Scene *scene;
-    const struct LecturePage *page; /* of the lecture, or NULL */
+    const struct LecturePage *page; /* page of the tour, or NULL */
     unsigned layers;                /* bits of Layer */
     NextDeed next;                  /* what N does */
     int pause;                      /* step at which playing pauses; 0: none */
-    const char *law, *star;    /* of card law, of the large card; or NULL */
-    const char *pin;           /* which nodes never move, or NULL */
-    const char *state;         /* the table it begins in, or NULL */
-    const char *state_springs; /* the table of its springs, or NULL */
-    const char *frames, *states, *log, *energies, *springs, *film,
-        *script; /* or NULL */
-    int panes;   /* side by side, 1: no lists of values */
+    const char *law;                /* law that the card "law" draws, or NULL */
+    const char *star;               /* name of the enlarged card, or NULL */
+    const char *pin;                /* nodes that are pinned, or NULL */
+    const char *state;              /* CSV file with the start, or NULL */
+    const char *state_springs;      /* CSV file with its springs, or NULL */
+    const char *frames, *states, *log, *energies, *springs, *film, *script;
+    int panes; /* runs side by side; 1: no option has a list of values */
 } Options;
 
-/* The slot of a number of Options: OPTION_SLOT(timestep). */
+/* Slot of a number in Options.number: OPTION_SLOT(timestep). */
 #define OPTION_SLOT(field) ((int)(offsetof(Options, field) / sizeof(double)))
 
 _Static_assert(OPTION_SLOT(scene) == OPTIONS_NUMBERS, "each number has a slot");
 
-/* Runs of one command line: as many as are drawn side by side, or more where
- * nothing is drawn. */
+/* Most runs of one command line: drawn side by side, and without pictures. */
 enum { OPTIONS_MAX_DRAWN = 6, OPTIONS_MAX_PANES = 64 };
 
 /* ---- the table ---------------------------------------------------------- */
 
 typedef enum OptionKind {
-    OPTION_SWITCH, /* 0 or 1; takes no value */
-    OPTION_NUMBER, /* [count] */
-    OPTION_WHOLE,  /* [count] without a fraction */
-    OPTION_NAME,   /* the place of one of the row's names */
-    OPTION_TEXT,   /* a file, a folder: not empty */
-    OPTION_PAGE,   /* of the lecture; the value may be left out */
+    OPTION_SWITCH, /* no value: 0, or 1 if the option is given */
+    OPTION_NUMBER, /* count numbers */
+    OPTION_WHOLE,  /* count whole numbers */
+    OPTION_NAME,   /* index of one of the row's names */
+    OPTION_TEXT,   /* file, folder or list of nodes, not empty */
+    OPTION_PAGE,   /* page of the tour; the value may be left out */
 } OptionKind;
 
-/* The names of a table whose rows begin with one, up to NULL. */
+/* The first column of a table whose rows begin with a name; a NULL name ends
+ * the table. */
 typedef struct Names {
     const void *table;
-    size_t size; /* of a row */
+    size_t size; /* bytes of a row */
 } Names;
 
 #define NAMES_OF(table) ((Names){table, sizeof *(table)})
 
-/* Name i, NULL behind the last; the place of a name, or of a number from 1 too,
- * -1: there is none; how many there are. */
+/* Name i; NULL after the last one. */
 const char *name_at(Names names, int i);
+
+/* Index of a name; -1 if the table has no such name. */
 int name_place(Names names, const char *name);
+
+/* Index of a name, or of a number that counts the names from 1; -1: neither. */
 int name_or_number(Names names, const char *text);
+
 int names_count(Names names);
 
-/* When another number takes effect. */
+/* When a changed option takes effect. */
 typedef enum Effect {
-    EFFECT_START, /* another system, or another start: a new run from step 0 */
+    EFFECT_START, /* at the start of a new run: the system or the start differ
+                   */
     EFFECT_LIVE,  /* from the next step on */
-    EFFECT_AGAIN  /* and the present step is made once more with it */
+    EFFECT_AGAIN  /* from the present step on, which is computed again */
 } Effect;
 
+/* How the window shows an option and changes it by mouse, wheel and keys. */
+typedef struct OptionField {
+    int place;   /* in the row of numbers, from 1; 0: only on request */
+    int letters; /* length of the longest value */
+    double pace; /* step of the wheel; 0: factors, or the next name */
+} OptionField;
+
+/* One option.  The fields are many because each is one thing that may differ
+ * between options; most rows leave most of them 0. */
 typedef struct OptionRow {
-    const char *name;  /* without its dashes; "": help begins a section of
-                          --help; NULL ends the table */
+    const char *name;  /* without dashes; "": help is the heading of a section
+                          of --help; NULL ends the table */
     char letter;       /* short form, or 0 */
-    const char *value; /* what stands for the value in --help */
-    const char *help;  /* what it is */
+    const char *value; /* placeholder of the value in --help */
+    const char *help;  /* description in --help */
     OptionKind kind;
-    int slot;           /* of its first number */
-    size_t offset;      /* OPTION_TEXT: of its field in Options */
-    bool table;         /* OPTION_TEXT: a file of CSV */
-    int count;          /* numbers of one value; 0: one */
-    unsigned fewer;     /* bit n: it may have only n numbers, */
-    const double *rest; /* [count] the others are these */
-    char between;       /* what stands between them; 0: a comma */
-    int times;          /* more than 0: it may be given so often; the values */
-    int counter;        /* stand behind one another, how many in this slot */
-    double standard;    /* the slides' number */
-    double low, high;   /* from ... to, both included */
-    const char *unit;   /* of the numbers, or "" */
-    Names names;        /* OPTION_NAME, OPTION_PAGE: as on the command line */
-    unsigned needs;     /* of enum SceneNeeds, one of them; 0: nothing */
-    /* Why it has no meaning with these options; NULL: it has one. */
+    int slot;           /* slot of the first number */
+    size_t offset;      /* OPTION_TEXT: offset of the field in Options */
+    bool table;         /* OPTION_TEXT: the file is a CSV table */
+    int count;          /* numbers in a value; 0: one */
+    unsigned fewer;     /* bit n: a value may stop after n numbers */
+    const double *rest; /* [count] numbers that a shorter value leaves out */
+    char between;       /* separator of the numbers; 0: a comma */
+    int times;          /* how often the option may be repeated; 0: once, the
+                           last value counts */
+    int counter;        /* times > 0: slot with the number of repetitions, whose
+                           values follow each other from `slot` on */
+    double standard;    /* default, as on the slides */
+    double low, high;   /* range, both ends included */
+    const char *unit;   /* unit of the numbers, or "" */
+    Names names;        /* OPTION_NAME: the values */
+    unsigned needs;     /* enum SceneNeeds: the scene must have one of these */
+    /* Returns why the option has no effect beside the others; NULL: it has. */
     const char *(*idle)(const Options *options);
     Effect effect;
-    const TermKind *term; /* that it brings where it is not 0; or NULL */
-    const char *label; /* in the window, in the markup of text.h; of all whose
-                          lists of values are side by side; or NULL */
-    int place;         /* in the row of numbers, from 1; 0: not there */
-    int letters;       /* the longest value has */
-    double pace;       /* what one pace adds; 0: by factors, or names */
+    const TermKind *term; /* energy term that the option adds, or NULL */
+    const char *label;    /* name in the window, in the markup of text.h; NULL:
+                             the option takes no list of values */
+    OptionField field;
 } OptionRow;
 
 extern const OptionRow option_rows[];
-enum { OPTIONS_MOST = 64 }; /* rows */
+
+/* Capacity of arrays with an element for each row. */
+enum { OPTIONS_MOST = 64 };
 
 /* The row with this name, or NULL. */
 const OptionRow *option_find(const char *name);
 
-/* A number of the row (NULL: any) as text: with as many digits as option_read
- * needs to read the same number again, or in short, as the window has room for
- * it: of what is given several times the last one; "none": it was not given.
+/* Writes a number so that option_read reads the same number.
+ *   row   whose number it is: a name is written for a number; NULL: any
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
+
+/* Writes the value of an option shortly, for the window; of an option that is
+ * repeated the last value; "none" if the option was not given.
+ *   text  [size] out */
 void option_value(const OptionRow *row, const Options *options, char *text,
                   size_t size);
 
-/* Whether a number of the row is not 0: so its term is wanted. */
+/* Whether the option is given with a number other than 0, so that its term is
+ * part of the energy. */
 bool option_is_on(const OptionRow *row, const Options *options);
 
-/* Its unit as the window writes it, "J/m\u00b2"; "": none.
+/* Writes the unit of an option as the window shows it, "J/m\u00b2", or "".
  *   text  [size] out */
 void option_unit(const OptionRow *row, char *text, size_t size);
 
-/* The rows that the row of numbers has, in their places.
+/* The options that the row of numbers shows for these options, in order.
  *   found  [OPTIONS_MOST] out
  * Returns how many. */
 int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST]);
 
-/* The value `paces` paces up (or, below 0, down): by what the row says a pace
- * adds; or a factor of 10 is 6 paces, and whole paces end on 1, 1.5, 2, 3, 5,
- * 7; names follow one another in a circle.  Parts of a pace are for dragging:
- * they have three digits. */
+/* The value of an option after `paces` steps of the wheel up, or down if paces
+ * is negative.  A step adds the row's pace; without one, six steps are a factor
+ * of 10 and whole steps end on 1, 1.5, 2, 3, 5, 7; names follow each other in a
+ * circle.  A drag gives fractions of a step, and a value of three digits. */
 double option_paced(const OptionRow *row, const Options *options, double paces);
 
 /* The chosen integrator, or the first of the table. */
 const IntegratorMethod *options_method(const Options *options);
 
-/* The name of a solver as on the command line. */
+/* The name of a solver on the command line. */
 const char *solver_name(int solver);
 
 #endif

@@ -1,7 +1,8 @@
-/* simulation.h - what a scene set up, while it runs.
+/* simulation.h - a scene while it runs: a system and one or more runs of it,
+ * each with its integrator and its state.
  *
- * A system and one or more runs of it, each with its own integrator and state;
- * all scenes but the comparison of integrators have one run.
+ * Most scenes have one run; circle compares three integrators, slope three
+ * frictions.
  */
 #ifndef ELASTO_SIMULATION_H
 #define ELASTO_SIMULATION_H
@@ -14,160 +15,177 @@
 
 enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 
-/* Steps of backward Euler after which the total energy was higher than before,
- * by more than the work that was done: the minimiser may lie behind a barrier
- * that no motion would pass, a body on the other side of another one. */
+/* Steps of backward Euler in which the total energy grew by more than the work
+ * that was done.  The minimiser may then lie behind an energy barrier that no
+ * motion passes, such as a body on the other side of another one. */
 typedef struct Gain {
     long steps;
-    double energy; /* J, all that was gained in them */
+    double energy; /* J, sum over these steps */
 } Gain;
 
+/* What a run has booked since it began. */
+typedef struct Ledger {
+    double start; /* J, total energy at the start */
+    double work;  /* J, done by the mouse and by changed options */
+    Gain gain;
+} Ledger;
+
+/* How a run differs from the options, in scenes that compare runs. */
+typedef struct RunVariant {
+    double friction_factor; /* times the friction of the options; 0: 1 */
+    double lift;            /* m, added to the heights of body and grounds */
+} RunVariant;
+
+/* A scene while it runs. */
 struct Simulation {
     const Scene *scene;
-    Options options;                  /* what it was set up with */
-    SquareMesh mesh;                  /* zeroed in scenes without a square */
-    System system;                    /* of run 0, and of all others but */
-    System more[SIMULATION_MAX_RUNS]; /* where runs differ: run 1, 2 */
+    Options options;
+    SquareMesh mesh;                  /* zero in scenes without a square */
+    System system;                    /* system of run 0, and mostly of all */
+    System more[SIMULATION_MAX_RUNS]; /* runs 1 and 2, where they have their own
+                                         system */
     int runs;
-    int stepping; /* the run whose step is made, while it is made */
-    Status worst; /* of the runs before it */
     TimeIntegrator run[SIMULATION_MAX_RUNS];
-    double start[SIMULATION_MAX_RUNS]; /* J, total energy when it began */
-    Descent descent;       /* zeroed in scenes that move through time */
-    Exhibit exhibit;       /* zeroed in scenes without one */
-    Prediction prediction; /* of where the next step leads */
-    double work[SIMULATION_MAX_RUNS]; /* J, done by the hand in each run */
-    double grip[SIMULATION_MAX_RUNS]; /* a run's friction is that of the options
-                                         times this; 0: 1 */
-    double lift[SIMULATION_MAX_RUNS]; /* m, its grounds are so much higher */
-    Gain gain[SIMULATION_MAX_RUNS];   /* of each run */
-    double before;           /* J, energy of the present run before its step,
-                                less the work done until then */
-    bool done;               /* the scene came to its end: no more steps */
-    NewtonObserver observer; /* called after each Newton iteration, or NULL */
-    void *user;
-    long steps;                /* done so far */
-    long unconverged;          /* of them not converged */
-    int reasons[STATUS_COUNT]; /* how many of these ended in this way */
-    Status status;             /* of the last step */
-    NewtonCounters counted;    /* by solvers that are no more */
+    RunVariant variant[SIMULATION_MAX_RUNS];
+    Ledger ledger[SIMULATION_MAX_RUNS];
+    int stepping; /* run whose step is being computed */
+    Status worst; /* last status of the runs before `stepping` that is not OK */
+    double before;   /* J, energy less work of run `stepping` before its step */
+    Descent descent; /* zero in scenes that move in time */
+    Exhibit exhibit; /* zero in scenes of the square */
+    Prediction prediction;     /* guess where the next step leads */
+    NewtonObserver observer;   /* called after each Newton iteration, or NULL */
+    void *user;                /* argument of observer */
+    long steps;                /* steps so far */
+    long unconverged;          /* steps so far that did not converge */
+    int reasons[STATUS_COUNT]; /* unconverged steps by their status */
+    Status status;             /* status of the last step */
+    bool done;                 /* the scene has ended: step does nothing */
+    NewtonCounters old_counters; /* of integrators that were replaced */
 };
 
-/* A quantity of the ledger by its name: "elastic", "friction". */
+/* A quantity of energy by its name: "elastic", "friction". */
 typedef struct Energy {
     const char *name; /* not owned */
     double value;     /* J */
 } Energy;
 
-/* The ledger of a run, J.  What it holds now:
+/* The energies of a run, J.  What the run holds now is
  *   total = kinetic + gravity + what the terms store (TermKind.energy)
- * and where the rest has gone since it began:
+ * and the balance since the start is
  *   total at the start + work
  *     = total + what the terms have taken out (TermKind.loss) + dissipated.
- * Each term books for itself; several may share a name.
+ * Each term books its own energy; several terms may share a name.
  *
- * The work of what moves is that of the force at the end of the step, times the
- * way: right to O(h), and with it backward Euler dissipates in every step where
- * the potential is convex.  Where it is not (springs buckle, contacts turn, as
- * in squeeze and rub), dissipated may fall: the method has made energy.  The
- * mean of both forces would be smaller where something is pressed, and let it
- * fall in convex potentials, too. */
+ * The work of a moving wall, pin or hand is its force at the end of the step
+ * times its way, which is right to O(h): backward Euler then dissipates in
+ * every step where the potential is convex.  Where the potential is not convex
+ * (springs buckle, contacts turn, as in squeeze and rub) `dissipated` may fall:
+ * the method has made energy.  The mean of the forces at both ends would have a
+ * smaller error where a body is pressed, but would let `dissipated` fall in
+ * convex potentials, too. */
 enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {
     double kinetic, gravity, total;
-    double work;       /* done by what moves walls, pins and the hand */
-    double dissipated; /* by the integrator; < 0: it has made energy */
+    double work;       /* done by walls, pins and hand */
+    double dissipated; /* by the integrator; negative: it has made energy */
     int rows;
-    Energy row[ENERGY_ROWS]; /* all, as legends have it: total first */
+    Energy row[ENERGY_ROWS]; /* all energies in the order of legends */
 } Energies;
 
-/* Sets up options->scene.  simulation out; free it in any case.
+/* Creates the simulation of options->scene; free it in any case.
  *   observer, user  called after each Newton iteration, or NULL
+ *   simulation      out
  * Returns OK, OUT_OF_MEMORY, TOO_LARGE, INVALID_INPUT. */
 Status simulation_create(const Options *options, NewtonObserver observer,
                          void *user, Simulation *simulation);
 void simulation_free(Simulation *simulation);
 
-/* For a scene's create: what its options say to Newton's method; and run 0, 1,
- * ... of it, as time_integrator_create makes it. */
+/* Takes the settings of Newton's method from the options. */
 void newton_settings_take(const Options *options, NewtonSettings *settings);
+
+/* Creates a run of a scene at x, v; for Scene.create. */
 Status simulation_start(Simulation *simulation, int run,
                         const IntegratorMethod *method, System *system,
                         const double *x, const double *v);
 
-/* One step: of time in every run, or one Newton iteration; none where
- * simulation->done.  A pure function of the state (control.h) and the settings:
- * solvers keep nothing from step to step that changes a bit.
- * OK; an unconverged status: the step was made; a failure: nothing moved in the
- * run that failed. */
+/* Makes one step: a time step of every run, or one Newton iteration; none if
+ * simulation->done.  The result depends only on the state (control.h) and the
+ * settings, to the last bit: solvers keep nothing from step to step.
+ * Returns OK; an unconverged status, with which the step was made; or a
+ * failure, and the run that failed did not move. */
 Status simulation_step(Simulation *simulation);
 
-/* The same with pauses, where Newton's observer asks for them: begin, then
- * advance while it returns RUNNING; at the end as simulation_step.  After a
- * step that is left before its end state_restore has to follow. */
+/* Makes one step with pauses after Newton iterations, when the observer asks
+ * for one: call begin, then advance while it returns RUNNING; the last status
+ * is as from simulation_step.  A step that is left before its end must be
+ * followed by state_restore. */
 Status simulation_begin(Simulation *simulation);
 Status simulation_advance(Simulation *simulation);
 
-/* Simulated time, s; 0 in scenes where no time passes. */
+/* Simulated time, s; 0 in scenes without time. */
 double simulation_time(const Simulation *simulation);
 
-/* Energies of one run, computed now. */
+/* Computes the energies of a run. */
 Energies simulation_energies(const Simulation *simulation, int run);
 
-/* Whether run 0 is at rest: within a frame, and a step, no node moves by more
- * than a millionth of the shortest spring, and the forces balance within a
- * thousandth of its length.  The first alone would be true at a turning point,
- * too. */
+/* Whether run 0 is at rest: in a frame and in a step no node moves by more than
+ * a millionth of the shortest spring, and the nodes are within a thousandth of
+ * it from where the forces vanish.  Without the second condition a turning
+ * point would count as rest. */
 bool simulation_rests(const Simulation *simulation);
 
-/* Sum over the runs of what Newton did; zero where all are explicit. */
+/* Newton's counters, summed over the runs; zero with explicit methods. */
 NewtonCounters simulation_counters(const Simulation *simulation);
 
-/* When another number of this row takes effect here: as the row says, but in
- * scenes of other runs, and where each run has a method of its own, at a
- * start. */
+/* When a changed option takes effect in this scene: as its row says, except
+ * that scenes without time, and another method where runs have different ones,
+ * need a new start. */
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
 
-/* Whether the obstacles of other options leave room for the bodies as they are:
- * OK; INVALID_INPUT where not.
- *   message  [size] out, one line then */
+/* Checks that obstacles of changed options overlap no body where it is now.
+ *   message  [size] out, why not
+ * Returns OK or INVALID_INPUT. */
 Status simulation_has_room(const Simulation *simulation, const Options *options,
                            char *message, size_t size);
 
-/* How far a ground or, numbered on, a ball of these options can be moved
- * straight towards `to` [2] m: all of the way, 1, if there is room at its end;
- * else the part of it before it touches a body. */
+/* The part of the way that an obstacle of these options can move straight
+ * towards `to` [2] m: 1 if there is room at the end, else the part before the
+ * obstacle touches a body.
+ *   number  of the obstacle: grounds first, then balls */
 double simulation_way(const Simulation *simulation, const Options *options,
                       int number, const double to[2]);
 
-/* Puts a node at (x, y), m, at rest; really: else it is only tried.  What this
- * does to the energy is booked as work.
- * Returns OK; INVALID_INPUT: there is no such node, or a cell would be turned
- * over there, or an obstacle is. */
+/* Puts a node at rest at (x, y), m; the change of the energy is booked as work.
+ *   really  false: only checks whether the node can be there
+ * Returns OK, or INVALID_INPUT if there is no such node, an obstacle is in the
+ * way, or a cell would be turned over. */
 Status simulation_place(Simulation *simulation, int node, double x, double y,
                         bool really);
 
-/* Whether a hand can take hold of its nodes. */
-bool simulation_is_handled(const Simulation *simulation);
+/* Whether the mouse can drag the nodes. */
+bool simulation_is_draggable(const Simulation *simulation);
 
-/* Whether there is a Hessian to project and a line to search (not in explicit
- * integrators). */
+/* Whether the method projects a Hessian, and whether it searches a line; an
+ * explicit integrator does neither. */
 bool simulation_has_projection(const Simulation *simulation);
 bool simulation_has_line_search(const Simulation *simulation);
 
-/* Whether the blocks that a projection may change are those of the springs
- * alone: one each, and none of contact or cells. */
+/* Whether springs are the only terms whose Hessian may need the projection. */
 bool simulation_projects_springs(const Simulation *simulation);
 
-/* The point that a scene is about, m: the iterate, or node 0 of run 0; at [2]
- * out.  Returns how many of its coordinates count: 1 where a minimum in one
- * variable is searched, 0 where there is no single point. */
+/* The point that a scene shows: the iterate, or the only mass of run 0.
+ *   at  [2] out, m
+ * Returns how many coordinates count: 1 for a function of one variable, 0 if
+ * the scene has several points. */
 int simulation_point(const Simulation *simulation, double at[2]);
 
-/* omega of the fastest small oscillation around x [2n], 1/s: M mode'' = -H mode
- * with the Hessian of P as it is; NaN where there is none, or more nodes.
- *   mode  [2n] out, its length is 1 */
+/* Angular frequency of the fastest small oscillation around x, 1/s:
+ * M mode'' = -H mode with the Hessian H of P, not projected.  NaN if no mode
+ * oscillates, or with more than SIMULATION_MODE_NODES nodes.
+ *   x     [2n] m, in
+ *   mode  [2n] out, of length 1 */
 double simulation_fastest(const Simulation *simulation, const double *x,
                           double *mode);
 

@@ -5,11 +5,11 @@
 
 #include "run/scene.h"
 
-/* The table; the first row is the default; those by_name are the last ones; it
- * ends with a NULL name. */
+/* The scenes; a NULL name ends the table.  The first row is the default, the
+ * last ones are those that open by name only. */
 extern const Scene scenes[];
 
-/* The row with this name, or with this number from 1; NULL: there is none. */
+/* The scene with this name, or with this number from 1; NULL: no such scene. */
 const Scene *scene_find(const char *text);
 
 #endif

@@ -201,10 +201,10 @@ static void draw_updates(const Relief *relief)
 /* The minimisers for all h, and that of this one. */
 static void draw_walk(const Relief *relief)
 {
-    const Walk *walk = &relief->simulation->exhibit.walk;
-    int points = relief->plot.show->veiled ? 0 : WALK_POINTS;
+    const DialCurve *dial = &relief->simulation->exhibit.dial;
+    int points = relief->plot.show->veiled ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
-        draw_way(relief, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
+        draw_way(relief, dial->point[i - 1], dial->point[i], 3, COLOUR_X);
     draw_point(relief, relief->simulation->run[0].x, 7, COLOUR_TEXT, NULL);
 }
 

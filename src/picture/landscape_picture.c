@@ -396,19 +396,19 @@ void landscape_draw(Plot *stage)
 void dial_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const Walk *walk = &simulation->exhibit.walk;
+    const DialCurve *dial = &simulation->exhibit.dial;
     Plot plot = draw_map(stage);
-    int points = stage->show->veiled ? 0 : WALK_POINTS;
+    int points = stage->show->veiled ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
-        plot_line(&plot, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
+        plot_line(&plot, dial->point[i - 1], dial->point[i], 3, COLOUR_X);
     for (int i = 10; i < points; i += 10)
-        plot_disc(&plot, walk->point[i], 4.5, COLOUR_X);
+        plot_disc(&plot, dial->point[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
     for (int i = points - 11; i > 0; i -= 10)
-        plot_words(&plot, 1, walk->point[i], COLOUR_X, "h %s %s s",
+        plot_words(&plot, 1, dial->point[i], COLOUR_X, "h %s %s s",
                    i == points - 11 ? "\u2265" : "=",
-                   number_of(walk->h[i]).text);
+                   number_of(dial->h[i]).text);
 }
 
 void dial_facts(const Simulation *simulation, Facts *facts)

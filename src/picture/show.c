@@ -371,7 +371,7 @@ static void draw_cell(Paper *paper, Box box, const SheetCell *cell, bool chosen)
         Show show;
         show_create(cell->simulation, &show);
         show.bare = true;
-        show.strain = cell->simulation->scene->strain > 0;
+        show.strain = cell->simulation->scene->strain_colour_max > 0;
         draw_pane(paper, &layout, &show, 0);
     }
     Box name = {box.x, box.y + box.width, box.width, box.height - box.width};

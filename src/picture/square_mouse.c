@@ -128,9 +128,9 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     fact_point(&facts, "force", force);
     fact_point(&facts, "inertia", tilde);
     fact_words(&facts, "pin", /* where time passes */
-               !simulation_is_handled(simulation) ? NULL
-               : system->pinned[node]             ? "frees"
-                                                  : "pins");
+               !simulation_is_draggable(simulation) ? NULL
+               : system->pinned[node]               ? "frees"
+                                                    : "pins");
     draw_note(stage, &facts, text_node);
 }
 

@@ -27,8 +27,8 @@ static double strain_range(const Simulation *simulation, const double *ep)
     double most = ep ? 0 : fabs(fabs(simulation->options.stretch) - 1);
     for (int s = 0; ep && s < simulation->system.springs; s++)
         most = fmax(most, fabs(ep[s]));
-    if (!ep && simulation->scene->strain > 0)
-        return simulation->scene->strain;
+    if (!ep && simulation->scene->strain_colour_max > 0)
+        return simulation->scene->strain_colour_max;
     return plot_round_up(fmax(0.5 * most, 0.05));
 }
 

@@ -47,8 +47,9 @@ typedef struct View {
 static bool is_free(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
-    return options->grounds + options->balls == 0 && !simulation->scene->own &&
-           options->ceiling[1] == 0 && simulation->runs == 1;
+    return options->grounds + options->balls == 0 &&
+           !simulation->scene->body.obstacle && options->ceiling[1] == 0 &&
+           simulation->runs == 1;
 }
 
 /* The view of the scene; else the square as it starts, or with the room that a

@@ -633,7 +633,7 @@ static Status take(Player *player, CommandKind kind, long number,
 Status obey_grab(Player *player, const Command *command)
 {
     const Simulation *simulation = player_simulation(player);
-    if (!simulation_is_handled(simulation))
+    if (!simulation_is_draggable(simulation))
         return player_refuse(player, "nothing to take hold of here");
     return take(player, COMMAND_GRAB, command->number,
                 simulation->run[0].x + 2 * command->number);
@@ -643,7 +643,7 @@ Status obey_push(Player *player, const Command *command)
 {
     const Simulation *simulation = player_simulation(player);
     double at[2];
-    if (!simulation_is_handled(simulation))
+    if (!simulation_is_draggable(simulation))
         return player_refuse(player, "nothing to push here");
     simulation_obstacle(simulation, 0, (int)command->number, at);
     return take(player, COMMAND_PUSH, command->number, at);
@@ -652,7 +652,7 @@ Status obey_push(Player *player, const Command *command)
 /* A node is put somewhere: an experiment of one's own. */
 Status obey_place(Player *player, const Command *command)
 {
-    if (!simulation_is_handled(player_simulation(player)))
+    if (!simulation_is_draggable(player_simulation(player)))
         return player_refuse(player, "nothing to be placed here");
     for (int p = 0; p < past_panes(&player->past); p++) {
         Simulation *simulation = &player->past.machine[p].simulation;

@@ -101,7 +101,7 @@ static void fill_settings(Player *player)
         Setting *setting = &show->setting[show->settings++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = row->label ? row->label : row->name;
-        setting->letters = row->letters;
+        setting->letters = row->field.letters;
         player_value(row, options, player_simulation(player), setting->value,
                      SHOW_VALUE);
         option_value(row, options, now, sizeof now);
@@ -349,8 +349,8 @@ void player_fill(Player *player)
     show->warning = player->warning;
     show->large = player->large;
     show->lens = before.lens;
-    show->strain =
-        player->strain != (show->pane[0].simulation->scene->strain > 0);
+    show->strain = player->strain !=
+                   (show->pane[0].simulation->scene->strain_colour_max > 0);
     show->bare = player->bare;
     show->text = player->paper.text;
     show->letter = player->window  ? window_letter()

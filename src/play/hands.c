@@ -182,7 +182,7 @@ static Status drag_number(Player *player, const Under *under)
         return STATUS_OK;
     if (row->count > 1)
         return player_pace(player, row, 1); /* which says why not */
-    if (row->pace > 0 || row->kind == OPTION_NAME)
+    if (row->field.pace > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
         paces += 1e-9; /* a value between the round ones */

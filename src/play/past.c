@@ -682,7 +682,7 @@ static bool is_short(const Past *past)
         bool knows =
             machine->stands && (behind == 1 || (behind == 0 && machine->known));
         if (!knows && simulation->run[0].newton && entry->substeps > 0 &&
-            simulation_is_handled(simulation))
+            simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
     }
     return 0 < work && work < SHORT;

@@ -318,7 +318,7 @@ Status player_create(const Options *options, int count, char *const *words,
     if (!status && player->asks && options->page)
         status = player_open_page(player);
     else if (!status && player->asks &&
-             simulation_is_handled(player_simulation(player)))
+             simulation_is_draggable(player_simulation(player)))
         player_note(player,
                     "pull at a %s with the mouse%s; G: scenes; Page "
                     "Down: the guided tour",

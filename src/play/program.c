@@ -163,8 +163,8 @@ static void print_gain(FILE *file, const Simulation *simulation)
 {
     Gain sum = {0};
     for (int r = 0; r < simulation->runs; r++) {
-        sum.steps += simulation->gain[r].steps;
-        sum.energy += simulation->gain[r].energy;
+        sum.steps += simulation->ledger[r].gain.steps;
+        sum.energy += simulation->ledger[r].gain.energy;
     }
     if (sum.steps > 0)
         print(file, "energy gained",
@@ -190,7 +190,7 @@ static void print_summary(FILE *file, const Player *player)
         print_newton(file, simulation);
         if (in_time) {
             print(file, "energy at start", "%.9g J",
-                  simulation->start[0] + 0.0); /* no -0 */
+                  simulation->ledger[0].start + 0.0); /* no -0 */
             print(file, "energy at end", "%.9g J",
                   simulation_energies(simulation, 0).total);
             print_gain(file, simulation);
@@ -320,7 +320,8 @@ static void print_forgotten(const Options *options)
 {
     const Scene *scene = options->scene;
     bool moves = options->ceiling[1] != 0 ||
-                 (scene->own && scene->own(options).motion.phases > 0);
+                 (scene->body.obstacle &&
+                  scene->body.obstacle(options).motion.phases > 0);
     bool springs =
         !options->state_springs && (options->tear > 0 || options->yield > 0);
     if (options->state && springs)

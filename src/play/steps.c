@@ -201,7 +201,7 @@ static void report_rest(Player *player)
                          "not mind, cells on (A) forbids it; %s"
                          "or R begins again"
                        : "at rest; %schange a number, or R begins again",
-                simulation_is_handled(player_simulation(player))
+                simulation_is_draggable(player_simulation(player))
                     ? "pull a node, "
                     : "");
 }
@@ -216,13 +216,13 @@ static void report_gain(Player *player)
     for (int p = 0; p < past_panes(past) && !player->gained; p++) {
         const Simulation *simulation = &past->machine[p].simulation;
         for (int r = 0; r < simulation->runs && !player->gained; r++) {
-            player->gained = simulation->gain[r].steps > 0;
+            player->gained = simulation->ledger[r].gain.steps > 0;
             if (player->gained)
                 player_note(player,
                             "step %ld: the total energy has risen by %.3g J "
                             "without work; a long step of backward Euler can "
                             "do that",
-                            past->step, simulation->gain[r].energy);
+                            past->step, simulation->ledger[r].gain.energy);
         }
     }
 }

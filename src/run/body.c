@@ -64,7 +64,7 @@ Status pins_read(const char *text, const SquareMesh *shape,
 
 SquareMesh body_shape(const Options *options)
 {
-    double aspect = options->scene->aspect;
+    double aspect = options->scene->body.aspect;
     double rows =
         aspect > 0 ? round(options->segments * aspect) : options->segments;
     return square_mesh_shape((int)options->segments, (int)fmax(rows, 1),
@@ -75,7 +75,9 @@ SquareMesh body_shape(const Options *options)
  * one; -1: none does. */
 static int ball_of(const Options *options)
 {
-    return options->scene->own ? options->scene->own(options).node : -1;
+    return options->scene->body.obstacle
+               ? options->scene->body.obstacle(options).node
+               : -1;
 }
 
 /* Masses, springs and rest lengths (slide simulator.py): the mass of all cells
@@ -93,7 +95,7 @@ static Status create_system(const Options *options, System *system)
         system_create(shape.nodes + (ball >= 0), shape.springs, system);
     if (status)
         return status;
-    if (options->scene->moving_pins) {
+    if (options->scene->body.moving_pins) {
         system->pin_v =
             calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
         if (!system->pin_v)
@@ -162,8 +164,8 @@ static int list_obstacles(const Options *options,
                                               true,
                                               {0, ceiling[2]}}};
     }
-    if (options->scene->own)
-        list[count++] = options->scene->own(options);
+    if (options->scene->body.obstacle)
+        list[count++] = options->scene->body.obstacle(options);
     for (int k = 0; k < count; k++)
         memcpy(list[k].given, list[k].o, sizeof list->o);
     return count;
@@ -236,7 +238,7 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
 static Status set_terms(const Options *options, System *system)
 {
     const SquareMesh shape = body_shape(options);
-    double part = options->scene->cell_stiffness;
+    double part = options->scene->body.cell_stiffness;
     double k_c = (part > 0 ? part : 0.5) * options->stiffness;
     Status status = set_obstacles(options, system);
     if (!status && options->self_contact)
@@ -256,7 +258,7 @@ static Status set_terms(const Options *options, System *system)
 /* Runs of the scene, each with a body of its own. */
 static int runs_of(const Options *options)
 {
-    return options->scene->runs > 0 ? options->scene->runs : 1;
+    return options->scene->body.runs > 0 ? options->scene->body.runs : 1;
 }
 
 /* Where the body of a run begins, x and v [2 nodes] out: in the last step of a
@@ -287,7 +289,8 @@ static Status place_body(const Options *options, int run, double *x, double *v,
         memcpy(v + 2 * i, start + 3, sizeof rest);
     }
     if (ball >= 0) {
-        memcpy(x + 2 * ball, options->scene->own(options).o, 2 * sizeof *x);
+        memcpy(x + 2 * ball, options->scene->body.obstacle(options).o,
+               2 * sizeof *x);
         v[2 * ball] = v[2 * ball + 1] = 0;
     }
     return STATUS_OK;
@@ -298,11 +301,11 @@ static Options options_of_run(const Simulation *simulation, int run,
                               const Options *options)
 {
     Options own = *options;
-    if (simulation->grip[run] > 0)
-        own.friction *= simulation->grip[run];
-    own.at[1] += simulation->lift[run];
+    if (simulation->variant[run].friction_factor > 0)
+        own.friction *= simulation->variant[run].friction_factor;
+    own.at[1] += simulation->variant[run].lift;
     for (int i = 0; i < own.grounds; i++)
-        own.ground[i][3] += simulation->lift[run];
+        own.ground[i][3] += simulation->variant[run].lift;
     return own;
 }
 
@@ -368,7 +371,7 @@ const char *body_needs_end_of_step(const Options *options)
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->term && row->term->end_of_step && option_is_on(row, options))
             return row->term->name;
-    return options->scene->moving_pins ? "moving pins" : NULL;
+    return options->scene->body.moving_pins ? "moving pins" : NULL;
 }
 
 /* Whether no node is on or in an obstacle, no cell or triangle turned over.

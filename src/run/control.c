@@ -70,7 +70,7 @@ bool control_holds(const Control *control)
 static double lift_of(const Simulation *simulation, int run,
                       const Obstacle *obstacle)
 {
-    return obstacle->kind == OBSTACLE_WALL ? simulation->lift[run] : 0;
+    return obstacle->kind == OBSTACLE_WALL ? simulation->variant[run].lift : 0;
 }
 
 void simulation_obstacle(const Simulation *simulation, int run, int number,
@@ -126,7 +126,7 @@ static void dissipated_so_far(const Simulation *simulation, double *out)
 static void book_change(Simulation *simulation, const double *had)
 {
     for (int r = 0; r < simulation->runs; r++)
-        simulation->work[r] +=
+        simulation->ledger[r].work +=
             had[r] - simulation_energies(simulation, r).dissipated;
 }
 
@@ -148,7 +148,8 @@ static Status change_run(Simulation *simulation, int r, const Options *before)
         run->moved = old.moved;
         run->work = old.work;
         if (old.newton)
-            newton_counters_add(&old.newton->counters, &simulation->counted);
+            newton_counters_add(&old.newton->counters,
+                                &simulation->old_counters);
         time_integrator_free(&old);
         return status;
     }

@@ -101,7 +101,7 @@ void exhibit_flip(Simulation *simulation, int number)
             if (exhibit_kind(simulation, s) == number)
                 system->k[s] = k;
         system_changed(system, false);
-        simulation->work[0] +=
+        simulation->ledger[0].work +=
             simulation_energies(simulation, 0).total - before;
         return;
     }

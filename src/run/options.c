@@ -99,7 +99,7 @@ REASON(nothing_flows, options->yield > 0,
 #define AGAIN                 .effect = EFFECT_AGAIN
 #define TERM(kind)            .term = &(kind)
 #define IDLE(why)             .idle = why
-#define ROW(n, longest, adds) .place = n, .letters = longest, .pace = adds
+#define ROW(n, longest, adds) .field = {n, longest, adds}
 
 /* No range lets a product of two numbers become infinite, or lose digits. */
 const OptionRow option_rows[] = {
@@ -357,9 +357,10 @@ int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST])
     int count = 0;
     for (int place = 1; place < OPTIONS_MOST; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
-            if (row->place == place && (row->needs & options->scene->needs) &&
+            if (row->field.place == place &&
+                (row->needs & options->scene->needs) &&
                 !(row->idle && row->idle(options)) &&
-                (row->kind == OPTION_NAME || row->pace > 0 ||
+                (row->kind == OPTION_NAME || row->field.pace > 0 ||
                  options->number[row->slot] > 0))
                 found[count++] = row;
     return count;
@@ -378,15 +379,15 @@ double option_paced(const OptionRow *row, const Options *options, double paces)
     static const double FIRST = 0.01; /* what goes by factors, up from 0 */
     double value = options->number[row->slot];
     char text[32];
-    if (row->pace == 0 && !(value > 0) && row->kind != OPTION_NAME)
+    if (row->field.pace == 0 && !(value > 0) && row->kind != OPTION_NAME)
         return paces > 0 ? fmax(row->low, FIRST) : value;
     if (row->kind == OPTION_NAME) {
         int count = names_count(row->names);
         int on = (int)rint(paces), to = (int)fmax(value, 0) + on;
         return on == 0 ? value : (to % count + count) % count;
     }
-    if (row->pace > 0) {
-        value = (rint(value / row->pace) + rint(paces)) * row->pace;
+    if (row->field.pace > 0) {
+        value = (rint(value / row->field.pace) + rint(paces)) * row->field.pace;
     } else if (paces != rint(paces)) {
         value *= pow(10, paces / 6);
     } else { /* from a value between two round ones to a round one */

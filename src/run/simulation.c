@@ -52,7 +52,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
         if ((unsigned)options->flips >> i & 1)
             exhibit_flip(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
-        simulation->start[r] = /* dissipation is counted from here on */
+        simulation->ledger[r].start = /* dissipation is counted from here on */
             -simulation_energies(simulation, r).dissipated;
     return status;
 }
@@ -126,8 +126,8 @@ static void book_gain(Simulation *simulation)
     bool backward_euler = simulation->run[run].method->at_end;
     if (!backward_euler || !(gained > 1e-9 * size))
         return;
-    simulation->gain[run].steps++;
-    simulation->gain[run].energy += gained;
+    simulation->ledger[run].gain.steps++;
+    simulation->ledger[run].gain.energy += gained;
 }
 
 /* Run by run; the last status that is not OK counts. */
@@ -180,7 +180,7 @@ double simulation_time(const Simulation *simulation)
     return simulation->run[0].clock.now;
 }
 
-bool simulation_is_handled(const Simulation *simulation)
+bool simulation_is_draggable(const Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     return (scene->needs & NEEDS_TIME) && !scene->step && !scene->grips;
@@ -215,7 +215,8 @@ Energies simulation_energies(const Simulation *simulation, int run)
     const double *x = integrator->x;
     Energies energies = {.kinetic = system_kinetic(system, integrator->v),
                          .gravity = system_gravity_potential(system, x),
-                         .work = simulation->work[run] + integrator->work};
+                         .work =
+                             simulation->ledger[run].work + integrator->work};
     double lost = 0;
     energies.total = energies.kinetic + energies.gravity;
     book(&energies, "total", 0);
@@ -238,7 +239,7 @@ Energies simulation_energies(const Simulation *simulation, int run)
     }
     energies.row[0].value = energies.total;
     energies.dissipated =
-        simulation->start[run] + energies.work - energies.total - lost;
+        simulation->ledger[run].start + energies.work - energies.total - lost;
     book(&energies, "work", energies.work);
     book(&energies, "dissipated", energies.dissipated);
     return energies;
@@ -297,7 +298,7 @@ bool simulation_rests(const Simulation *simulation)
 
 NewtonCounters simulation_counters(const Simulation *simulation)
 {
-    NewtonCounters sum = simulation->counted;
+    NewtonCounters sum = simulation->old_counters;
     for (int i = 0; i < simulation->runs; i++)
         if (simulation->run[i].newton)
             newton_counters_add(&simulation->run[i].newton->counters, &sum);

@@ -73,8 +73,7 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
 {
     PASS(simulation->steps);
     PASS(simulation->unconverged);
-    PASS(simulation->work);
-    PASS(simulation->gain);
+    PASS(simulation->ledger);
     PASS(simulation->reasons);
     PASS(simulation->status);
     PASS(simulation->done);

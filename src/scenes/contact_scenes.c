@@ -12,8 +12,8 @@ Status create_slope(Simulation *simulation)
     Status status = STATUS_OK;
     simulation->runs = SIMULATION_MAX_RUNS;
     for (int run = 0; run < SIMULATION_MAX_RUNS && !status; run++) {
-        simulation->grip[run] = part[run];
-        simulation->lift[run] =
+        simulation->variant[run].friction_factor = part[run];
+        simulation->variant[run].lift =
             1.3 * simulation->options.side / 0.5 * (1 - run);
         status = body_create(simulation, run);
     }

@@ -1,24 +1,23 @@
-/* contact_scenes.h - what the command line has no words for: what moves, what
- * is cut.
+/* contact_scenes.h - scenes of the square with moving walls, moving pins or cut
+ * springs, for which there is no option.
  */
 #ifndef ELASTO_CONTACT_SCENES_H
 #define ELASTO_CONTACT_SCENES_H
 
 #include "run/body.h"
 
-
-/* Three blocks on slopes; friction, which the option gives for the second
- * number below as what just holds, is 0.5, 0.9 and 1.1 times that. */
+/* Three blocks on slopes, with 0.5, 0.9 and 1.1 times the friction of the
+ * options, which just holds a block. */
 Status create_slope(Simulation *simulation);
 
 /* A ceiling comes down on the square and goes up again. */
 Obstacle squeeze_ceiling(const Options *options);
 Status create_squeeze(Simulation *simulation);
 
-/* Both sides are drawn apart; a slit in the middle opens and runs. */
+/* Two sides are pulled apart; a slit in the middle opens and runs. */
 Status create_tear(Simulation *simulation);
 
-/* A beam with a notch lies on two balls, and a heavy third falls on it. */
+/* A beam with a notch lies on two balls; a heavy third ball falls on it. */
 Obstacle bend_ball(const Options *options);
 Status create_bend(Simulation *simulation);
 

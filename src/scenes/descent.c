@@ -363,15 +363,15 @@ static void dial_minimise(const Simulation *simulation, double h,
  * 0 is put to the minimiser for the present h. */
 void dial_restart(Simulation *simulation)
 {
-    Walk *walk = &simulation->exhibit.walk;
+    DialCurve *dial = &simulation->exhibit.dial;
     double point[2], h = simulation->options.timestep;
     memcpy(point, simulation->exhibit.target, sizeof point);
     memcpy(simulation->descent.point, point, sizeof point);
-    for (int i = 0; i < WALK_POINTS; i++) {
-        walk->h[i] = DIAL_FIRST * pow(10, i / DIAL_PER_TEN);
-        dial_minimise(simulation, walk->h[i], point);
-        memcpy(walk->point[i], point, sizeof point);
-        if (walk->h[i] <= h)
+    for (int i = 0; i < DIAL_POINTS; i++) {
+        dial->h[i] = DIAL_FIRST * pow(10, i / DIAL_PER_TEN);
+        dial_minimise(simulation, dial->h[i], point);
+        memcpy(dial->point[i], point, sizeof point);
+        if (dial->h[i] <= h)
             memcpy(simulation->descent.point, point, sizeof point);
     }
     dial_minimise(simulation, h, simulation->descent.point);

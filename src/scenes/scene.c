@@ -51,7 +51,7 @@ const Scene scenes[] = {
           "--velocity 0.9,-1 --friction 0.3 --ground 0,1,0,-0.5 "
           "--ground 1,0,-1.1,0 --ground -1,0,1.1,0",
      create_square, .settles = true, .frame = {-1.25, -0.65, 1.25, 1.45},
-     .strain = 0.1},
+     .strain_colour_max = 0.1},
     {"slope", "Friction: three blocks",
      "three blocks, each with a friction of its own", SQUARE,
      FALL "--segments 6 --stiffness 5e4 --timestep 0.01 "
@@ -59,14 +59,14 @@ const Scene scenes[] = {
           "--at -0.08636008618973134,0.2372723867484419 "
           "--friction 0.36397023426620234 "
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
-     create_slope, .runs = SIMULATION_MAX_RUNS,
+     create_slope, .body.runs = SIMULATION_MAX_RUNS,
      .frame = {-2.3, -2.75, 0.9, 2.0}},
     {"squeeze", "Contact: pressed flat",
      "a ceiling comes down and lets go: all of it returns", SQUARE,
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
           "--ground 0,1,0,-0.51",
-     create_squeeze, .frame = {-0.9, -0.7, 0.9, 0.7}, .strain = 0.5,
-     .own = squeeze_ceiling},
+     create_squeeze, .frame = {-0.9, -0.7, 0.9, 0.7}, .strain_colour_max = 0.5,
+     .body.obstacle = squeeze_ceiling},
     {"return", "Solids that never turn over",
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
@@ -83,7 +83,7 @@ const Scene scenes[] = {
      "a block slides on another one, and stops", SQUARE,
      SOLIDS "--segments 12 --young 4e5 --friction 0.2 --barrier 0.02,1e5 "
             "--body 0,-0.125 --body -0.15,0.1448,0,1,0",
-     create_square, .frame = {-0.75, -0.4, 0.75, 0.5}, .aspect = 0.25,
+     create_square, .frame = {-0.75, -0.4, 0.75, 0.5}, .body.aspect = 0.25,
      .pin = "all:1"},
     {"gap", "Squeezed through a gap",
      "a soft square falls through a gap narrower than itself", SQUARE,
@@ -101,16 +101,18 @@ const Scene scenes[] = {
      "pulled apart, springs break: a crack runs from a slit", SQUARE,
      FALL "--segments 24 --timestep 0.002 --gravity 0 --tear 0.12 "
           "--self-contact on",
-     create_tear, .frame = {-0.78, -0.65, 0.78, 0.65}, .strain = 0.05,
-     .pin = "left,right", .moving_pins = true, .cell_stiffness = 0.3},
+     create_tear, .frame = {-0.78, -0.65, 0.78, 0.65},
+     .strain_colour_max = 0.05, .pin = "left,right", .body.moving_pins = true,
+     .body.cell_stiffness = 0.3},
     {"bend", "Fracture: a beam breaks",
      "struck from above it cracks from below, at a notch", SQUARE,
      FALL "--segments 32 --stiffness 2e5 --timestep 0.002 --side 2 "
           "--tear 0.1 --friction 0.3 --barrier 0.008,8e5 --self-contact on "
           "--ball -0.8,-0.3325,0.14 --ball 0.8,-0.3325,0.14 "
           "--ground 0,1,0,-1",
-     create_bend, .frame = {-1.25, -1.1, 1.25, 0.75}, .strain = 0.05,
-     .aspect = 0.1875, .cell_stiffness = 0.3, .own = bend_ball},
+     create_bend, .frame = {-1.25, -1.1, 1.25, 0.75}, .strain_colour_max = 0.05,
+     .body.aspect = 0.1875, .body.cell_stiffness = 0.3,
+     .body.obstacle = bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
      PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
      /* no chaos; Newton's error is below that of every time step */
@@ -160,7 +162,7 @@ const Scene *scene_find(const char *text)
 
 void scene_predict(Simulation *simulation, double x, double y)
 {
-    const Walk *walk = &simulation->exhibit.walk;
+    const DialCurve *curve = &simulation->exhibit.dial;
     const double *p = simulation->descent.direction;
     double at[2], came[2];
     int count = simulation_point(simulation, at);
@@ -173,7 +175,7 @@ void scene_predict(Simulation *simulation, double x, double y)
         mass_next_step(simulation, 0, &step);
     for (int k = 0; k < 2; k++)
         came[k] = time   ? step.new_x[k]
-                  : dial ? walk->point[WALK_POINTS - 1][k]
+                  : dial ? curve->point[DIAL_POINTS - 1][k]
                          : at[k] + p[k];
     simulation->prediction = (Prediction){
         .made = true,

@@ -496,13 +496,14 @@ TEST(energy_from_nothing_is_counted)
             gained += now > before * (1 + 1e-9) ? now - before : 0;
             before = now;
         }
-        CHECK(scene->gain[0].steps == steps && (steps > 0) == rows[i].gains);
-        CHECK_NEAR(scene->gain[0].energy, gained, 1e-9 * gained);
+        CHECK(scene->ledger[0].gain.steps == steps &&
+              (steps > 0) == rows[i].gains);
+        CHECK_NEAR(scene->ledger[0].gain.energy, gained, 1e-9 * gained);
     }
-    CHECK(make_steps(simulate("square"), 50)->gain[0].steps == 0);
+    CHECK(make_steps(simulate("square"), 50)->ledger[0].gain.steps == 0);
     CHECK(make_steps(simulate("square --integrator midpoint"), 50)
-              ->gain[0]
-              .steps == 0);
+              ->ledger[0]
+              .gain.steps == 0);
 }
 
 /* A mass that a wall throws, catches and draws down with it, in a potential

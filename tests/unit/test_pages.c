@@ -549,15 +549,15 @@ TEST(claim_parts)
 TEST(claim_dial)
 {
     Simulation *simulation = open_page("dial", "");
-    const Walk *walk = &simulation->exhibit.walk;
+    const DialCurve *dial = &simulation->exhibit.dial;
     const double *target = simulation->exhibit.target;
-    CHECK_NEAR(walk->h[0], 1e-3, 1e-15);
+    CHECK_NEAR(dial->h[0], 1e-3, 1e-15);
     CHECK_AT_MOST(
-        hypot(walk->point[0][0] - target[0], walk->point[0][1] - target[1]),
+        hypot(dial->point[0][0] - target[0], dial->point[0][1] - target[1]),
         1e-3);
-    CHECK_NEAR(walk->h[WALK_POINTS - 1], 10, 1e-12);
-    CHECK_AT_MOST(hypot(walk->point[WALK_POINTS - 1][0],
-                        walk->point[WALK_POINTS - 1][1] - sqrt(1.25)),
+    CHECK_NEAR(dial->h[DIAL_POINTS - 1], 10, 1e-12);
+    CHECK_AT_MOST(hypot(dial->point[DIAL_POINTS - 1][0],
+                        dial->point[DIAL_POINTS - 1][1] - sqrt(1.25)),
                   1e-3);
     for (int bowl = 0; bowl < 2; bowl++) {
         int bends = 0;

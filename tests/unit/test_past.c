@@ -31,7 +31,7 @@ static uint64_t hash_of(const Simulation *simulation, uint64_t hash)
         const Energies ledger = simulation_energies(simulation, r);
         for (int i = 0; i < ledger.rows; i++)
             hash = hash_number(hash, ledger.row[i].value);
-        hash = hash_number(hash, simulation->gain[r].energy);
+        hash = hash_number(hash, simulation->ledger[r].gain.energy);
     }
     return hash;
 }
