@@ -55,12 +55,7 @@ enum {
     QUIET = 16   /* leaves the message of before */
 };
 
-/* What a command does.  Returns as player_obey. */
-struct Player;
-typedef Status Deed(struct Player *player, const Command *command);
-
 typedef struct CommandRow {
-    Deed *deed;
     const char *word; /* in scripts; NULL: not there */
     const char *does; /* for whoever reads or writes one */
     unsigned flags;

@@ -54,7 +54,6 @@ typedef struct Mouse {
     bool moved;      /* it is more than a click */
     double grip[2];  /* m, from the mouse to the point that it moves */
     bool pins;       /* the node is pinned again when it is let go */
-    bool leaves;     /* it is, as soon as a step was made with where it is */
     bool turns;      /* the last input was the wheel's */
     int gesture;     /* the last key, click or turn of the wheel */
     Options options; /* at its beginning */
@@ -67,6 +66,20 @@ typedef struct Side {
     char ghost_label[256]; /* which one, and what it was */
     char label[64];        /* what is different here */
 } Side;
+
+enum { QUEUE_MOST = 16 };
+
+/* Commands that wait until the present one is obeyed and no step is under way:
+ * those that it is made of, and those of a mouse that moves meanwhile. */
+typedef struct Queue {
+    Command command[QUEUE_MOST];
+    int count;
+    bool of_page;        /* a page's own, as it opens */
+    const Control *pins; /* before a restart, to be set after the page's
+                            commands; or NULL */
+    bool plays;          /* the run goes on after them */
+    char note[SHOW_TEXT];
+} Queue;
 
 typedef struct Player {
     Options given[OPTIONS_MAX_PANES]; /* of the command line */
@@ -96,13 +109,12 @@ typedef struct Player {
     int fine; /* one on is: 0 a step, 1 an update, 2 a line */
     Then then;
     Station
-        retaken;   /* the place in a step that is taken again; round -1: none */
-    bool holds;    /* the hand has not let go since it took a node */
-    long pulled;   /* the step at which it went where it is */
-    Command later; /* what a drag does as soon as the step is there that is
-                      made */
-    bool warned;   /* it has stopped because a step did not converge */
-    bool gained;   /* whether a rise of the total energy was reported */
+        retaken; /* the place in a step that is taken again; round -1: none */
+    bool holds;  /* the hand has not let go since it took a node */
+    long pulled; /* the step at which it went where it is */
+    Queue queue;
+    bool warned; /* it has stopped because a step did not converge */
+    bool gained; /* whether a rise of the total energy was reported */
 
     int gesture;    /* what is done now is undone at once: its number, */
     int gestures;   /* how many there were, */
@@ -169,16 +181,6 @@ Status player_input(Player *player, const Input *input);
 /* Draws, shows and records the state, if anything is drawn. */
 Status player_draw(Player *player);
 
-/* The paper, in the size that it has now; NULL: nothing is drawn, or there is
- * not enough memory. */
-Paper *player_paper(Player *player);
-
-/* The frame on any paper, which nobody sees. */
-void player_paint(Player *player, Paper *paper);
-
-/* One card of that frame, over all of a paper of its own. */
-void player_paint_card(Player *player, Paper *paper, int card);
-
 /* Until the window is closed, or to the end. */
 Status player_run(Player *player);
 
@@ -194,9 +196,6 @@ uint64_t player_hash(const Player *player);
 
 /* The present options of all panes.  Returns how many. */
 int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
-
-/* What the page does when it opens: its own commands. */
-Status player_open_page(Player *player);
 
 /* Finishes the files and frees all but the numbers that the summary needs.
  *   status  how the run ended; a failure leaves its files as NAME.part

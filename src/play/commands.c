@@ -11,10 +11,11 @@
 #include <string.h>
 
 #include "play/output.h"
-#include "play/playing.h"
+#include "run/one_line.h"
+#include "lesson/command_line.h"
 
 const CommandRow command_rows[COMMAND_KINDS] = {
-#define ROW(kind, ...) [COMMAND_##kind] = {__VA_ARGS__},
+#define ROW(kind, deed, ...) [COMMAND_##kind] = {__VA_ARGS__},
 #include "play/command_rows.def"
 #undef ROW
 };

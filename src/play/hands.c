@@ -3,7 +3,6 @@
  * What is under the mouse is a question to the layout and to the pictures; what
  * is done about it is a command, as a script could say it.
  */
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,20 +66,27 @@ static Status ask(Player *player, CommandKind kind, long number)
     return ask_at(player, kind, number, (const double[2]){0, 0});
 }
 
-/* ---- the keyboard -------------------------------------------------------- */
-
-/* Whether a list is open whose lines have numbers. */
-static bool lists(const Player *player)
+static Status ask_set(Player *player, const OptionRow *row, double value)
 {
-    return player->column == COLUMN_PAGES || player->column == COLUMN_OPTIONS ||
-           player->sheet;
+    return ask_at(player, COMMAND_SET, row - option_rows,
+                  (const double[2]){value, 0});
 }
+
+/* A number goes so many paces up. */
+static Status change_pace(Player *player, const OptionRow *row, int paces)
+{
+    double value;
+    Status status = player_paced(player, row, paces, &value);
+    return status ? status : ask_set(player, row, value);
+}
+
+/* ---- the keyboard -------------------------------------------------------- */
 
 /* Who listens to the keys. */
 static Keyboard keyboard_now(const Player *player)
 {
     bool number = player->lit;
-    bool list = lists(player);
+    bool list = player_lists(player);
     bool asks = player_veils(player);
     return player->typing && (number || list || asks) ? AT_FIELD
            : player->sheet                            ? AT_SHEET
@@ -88,41 +94,6 @@ static Keyboard keyboard_now(const Player *player)
            : list                                     ? AT_LIST
            : asks                                     ? AT_QUESTION
                                                       : AT_RUN;
-}
-
-void player_deselect(Player *player)
-{
-    player->lit = NULL;
-    player->typing = false;
-    player->typed[0] = '\0';
-}
-
-/* One letter more or less.  The first one opens the field. */
-Status obey_type(Player *player, const Command *command)
-{
-    char *typed = player->typed;
-    bool list = lists(player), shift = strncmp(command->text, "Shift+", 6) == 0;
-    const char *key = command->text + (shift ? 6 : 0);
-    if (!player->typing)
-        typed[0] = '\0';
-    player->typing = true;
-    size_t length = strlen(typed);
-    if (strcmp(key, "Backspace") == 0)
-        typed[length > 0 ? length - 1 : 0] = '\0';
-    else if (strcmp(key, "Space") == 0)
-        append(typed, sizeof player->typed, " ");
-    else if (!key[1])
-        append(typed, sizeof player->typed, "%c",
-               shift ? key[0] : tolower(key[0]));
-    if (player->lit)
-        player_note(player, "a number is typed: Enter sets it, Esc leaves it");
-    else
-        player_note(player, "%s %s_: Enter %s it, Esc leaves it",
-                    !list                              ? "your answer"
-                    : player->column == COLUMN_OPTIONS ? "number"
-                                                       : "page",
-                    typed, list ? "opens" : "checks");
-    return STATUS_OK;
 }
 
 /* A line of the list of pages or of numbers, as it was typed or hit. */
@@ -143,12 +114,12 @@ static Status open_line(Player *player, const char *line)
 
 /* The page is opened, the answer is checked, or the number is set; what cannot
  * be read leaves the field as it is. */
-Status obey_enter(Player *player, const Command *command)
+static Status enter(Player *player)
 {
     const OptionRow *row = player->lit;
     Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
-    if (!row && lists(player)) {
+    if (!row && player_lists(player)) {
         status = open_line(player, player->typed);
         player->typing = player->typing && status;
         return status;
@@ -159,7 +130,9 @@ Status obey_enter(Player *player, const Command *command)
             memcpy(made.text, player->typed, sizeof player->typed);
         status = player_obey(player, &made);
     } else {
-        status = player_unveil(player, player->typed);
+        status = player_reveal(player, player->typed);
+        if (!status)
+            status = player_obey_waiting(player, false);
     }
     if (!status)
         player_deselect(player);
@@ -181,16 +154,15 @@ static Status drag_number(Player *player, const Under *under)
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
-        return player_pace(player, row, 1); /* which says why not */
+        return change_pace(player, row, 1); /* which says why not */
     if (row->field.pace > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
         paces += 1e-9; /* a value between the round ones */
     if (!edge)
         wanted = option_paced(row, &mouse->options, paces);
-    return now.number[row->slot] == wanted
-               ? STATUS_OK
-               : player_ask_set(player, row, wanted);
+    return now.number[row->slot] == wanted ? STATUS_OK
+                                           : ask_set(player, row, wanted);
 }
 
 /* The square with the cell's numbers, from its start: commands that a script
@@ -208,8 +180,7 @@ static Status load_cell(Player *player, long cell)
         {"stiffness", envelope_stiffness((int)(cell / ENVELOPE_COLUMNS))}};
     Status status = player_obey_lines(player, "scene square");
     for (size_t i = 0; i < sizeof number / sizeof *number && !status; i++)
-        status = player_ask_set(player, option_find(number[i].name),
-                                number[i].value);
+        status = ask_set(player, option_find(number[i].name), number[i].value);
     if (!status)
         status = player_obey_lines(player, "pause;restart");
     player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
@@ -386,21 +357,6 @@ static Status hover(Player *player)
                : STATUS_OK;
 }
 
-void player_look_again(Player *player)
-{
-    Show *show = &player->show;
-    const Mouse *mouse = &player->mouse;
-    const Canvas *canvas = &player->paper.canvas;
-    PickKind kind = show->hover.kind;
-    bool body = kind == PICK_NODE || kind == PICK_SPRING ||
-                kind == PICK_OBSTACLE || kind == PICK_EDGE;
-    if (!body || !canvas->pixels || !mouse->placed || mouse->drag ||
-        show->over.zone != ZONE_STAGE)
-        return;
-    Layout layout = show_layout(show, canvas->width, canvas->height);
-    show->hover = show_pick(show, &layout, mouse->x, mouse->y);
-}
-
 static Status number_pressed(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->mouse;
@@ -492,30 +448,31 @@ static Status pressed(Player *player, const Input *input)
 
 /* A click on a name takes the next one; a click on a node only says what drag
  * and right click do. */
-Status player_release(Player *player)
+static Status release(Player *player)
 {
     Mouse *mouse = &player->mouse;
     const Simulation *simulation = player_simulation(player);
     CommandKind drag = mouse->drag;
     int node = mouse->index;
     mouse->drag = COMMAND_NONE;
-    mouse->leaves = false;
     player->show.held.on = false;
     if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,
                     simulation->system.pinned[node] ? "frees" : "pins");
-    if (drag == COMMAND_OBSTACLE && player->holds)
-        return ask(player, COMMAND_RELEASE, 0);
-    if (drag == COMMAND_GRAB && player->holds) {
-        Status status = ask(player, COMMAND_RELEASE, 0);
-        return !status && mouse->pins ? ask(player, COMMAND_PIN, node) : status;
+    if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) && player->holds) {
+        player_emit(player, &(Command){.kind = COMMAND_RELEASE, .joins = true});
+        if (drag == COMMAND_GRAB && mouse->pins)
+            player_emit(
+                player,
+                &(Command){.kind = COMMAND_PIN, .number = node, .joins = true});
+        return player_obey_waiting(player, false);
     }
     if (drag == COMMAND_SET && mouse->moved)
         player_deselect(player); /* a drag sets it, a click waits for keys */
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
         player->lit && player->lit->kind == OPTION_NAME)
-        return player_pace(player, player->lit, 1);
+        return change_pace(player, player->lit, 1);
     return STATUS_OK;
 }
 
@@ -523,7 +480,7 @@ static Status wheeled(Player *player, double amount)
 {
     Under under = look(player);
     if (under.hit.zone == ZONE_SETTING && under.hit.index < player->numbers)
-        return player_pace(player, player->number[under.hit.index],
+        return change_pace(player, player->number[under.hit.index],
                            amount > 0 ? 1 : -1);
     if (under.hit.zone == ZONE_TIME)
         return ask(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
@@ -546,16 +503,10 @@ static Status mouse_used(Player *player, const Input *input)
     mouse->placed = true;
     if (input->kind == INPUT_PRESS)
         return pressed(player, input);
-    if (input->kind == INPUT_RELEASE) {
-        bool pulls =
-            mouse->drag == COMMAND_GRAB || mouse->drag == COMMAND_OBSTACLE;
-        mouse->leaves = player->holds && pulls && player_pulls(player);
-        return mouse->leaves ? STATUS_OK : player_release(player);
-    }
+    if (input->kind == INPUT_RELEASE)
+        return release(player);
     if (input->kind == INPUT_WHEEL)
         return wheeled(player, input->amount);
-    if (mouse->leaves)
-        return player_pulls(player) ? STATUS_OK : player_release(player);
     if (mouse->drag != COMMAND_NONE)
         return follow(player);
     return rests ? STATUS_OK : hover(player); /* the window came to the mouse */
@@ -567,15 +518,18 @@ Status player_input(Player *player, const Input *input)
     Mouse *mouse = &player->mouse;
     Command command;
     bool wheel = input->kind == INPUT_WHEEL;
+    bool press = input->kind == INPUT_PRESS;
     Status status = STATUS_OK;
     player->gesture = mouse->gesture;
-    if (input->kind == INPUT_PRESS && mouse->drag != COMMAND_NONE)
-        status = player_release(player); /* by another button */
+    if (press && mouse->drag != COMMAND_NONE)
+        status = release(player); /* by another button */
+    if (!status)
+        status = player_obey_waiting(player, press && player->holds);
     if (status)
         return status;
     bool key = input->kind == INPUT_KEY && !input->repeats &&
                mouse->drag == COMMAND_NONE;
-    if (input->kind == INPUT_PRESS || key || (wheel && !mouse->turns))
+    if (press || key || (wheel && !mouse->turns))
         mouse->gesture = ++player->gestures;
     mouse->turns = wheel;
     player->gesture = mouse->gesture;
@@ -584,7 +538,10 @@ Status player_input(Player *player, const Input *input)
         command =
             command_from_key(input->key, input->repeats, keyboard_now(player));
         command.joins = true;
-        return command.kind ? player_obey(player, &command) : STATUS_OK;
+        if (command.kind)
+            status = player_obey(player, &command);
+        return !status && command.kind == COMMAND_ENTER ? enter(player)
+                                                        : status;
     case INPUT_CLOSE:
         return ask(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:

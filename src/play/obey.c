@@ -1,41 +1,20 @@
 /* obey.c - from a command to its deed, and the journal of what was done. */
 #include <limits.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "picture/picture.h"
 #include "play/playing.h"
+#include "lesson/pages.h"
 #include "run/scene.h"
 #include "scenes/small_scenes.h"
 
-Status player_tell(Player *player, Status status)
-{
-    if (status != STATUS_INVALID_INPUT)
-        return status;
-    player_note(player, "%s", player->message);
-    player->message[0] = '\0';
-    return STATUS_OK;
-}
-
-Status player_ask_set(Player *player, const OptionRow *row, double value)
-{
-    const Command command = {.kind = COMMAND_SET,
-                             .number = row - option_rows,
-                             .x = value,
-                             .joins = true};
-    return player_obey(player, &command);
-}
-
-void player_note(Player *player, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(player->note, sizeof player->note, format, arguments);
-    va_end(arguments);
-    player->warning = player->explains = false;
-    player->changed = true;
-}
+static Deed *const deeds[COMMAND_KINDS] = {
+#define ROW(kind, deed, ...) [COMMAND_##kind] = deed,
+#include "play/command_rows.def"
+#undef ROW
+};
 
 /* ---- the journal --------------------------------------------------------- */
 
@@ -122,31 +101,79 @@ static bool unveils(Player *player, const Command *command, Status *status)
     if (!player_veils(player) ||
         (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
         return false;
-    *status = player_unveil(player, NULL);
+    *status = player_reveal(player, NULL);
     return true;
+}
+
+/* Obeys the commands that wait, until one of them has to wait on: for the end
+ * of a step, or a hand that lets go for a step with where it is.  `now`: none
+ * waits any longer. */
+static Status obey_queue(Player *player, bool now)
+{
+    Queue queue = player->queue;
+    const bool opens = player->opens;
+    Status status = STATUS_OK;
+    int i = 0;
+    player->queue = (Queue){.count = 0};
+    for (; i < queue.count && !status; i++) {
+        const Command *command = &queue.command[i];
+        bool pulls = command->kind == COMMAND_RELEASE && player_pulls(player);
+        if (!now && (player->past.works || pulls))
+            break;
+        player->opens = opens || queue.of_page;
+        status = player_obey(player, command);
+        player->opens = opens;
+    }
+    if (!status && i == queue.count) {
+        status = player_restore_pins(player, queue.pins);
+        if (queue.plays)
+            player->mode = MODE_RUN;
+        if (queue.note[0])
+            player_note(player, "%s", queue.note);
+        return status;
+    }
+    if (status) {
+        control_drop(queue.pins);
+        return status;
+    }
+    queue.count -= i;
+    memmove(queue.command, queue.command + i,
+            (size_t)queue.count * sizeof *queue.command);
+    player->queue = queue;
+    return STATUS_OK;
+}
+
+Status player_obey_waiting(Player *player, bool now)
+{
+    return player_tell(player, obey_queue(player, now));
+}
+
+Status player_obey_page(Player *player)
+{
+    Status status = player_emit_page(player);
+    return status ? status : obey_queue(player, false);
+}
+
+Status player_obey_lines(Player *player, const char *lines)
+{
+    Status status = player_emit_lines(player, lines);
+    return status ? status : obey_queue(player, false);
 }
 
 /* The step that is made is not wanted any more; what a drag does is not to be
  * done behind it, but now. */
 static Status give_up(Player *player)
 {
-    const Command later = player->later;
     int gesture = player->gesture;
-    bool leaves = player->mouse.leaves;
-    Status status = STATUS_OK;
     past_aim(&player->past, player->past.step, false);
     player->then = THEN_NOTHING;
-    player->later.kind = COMMAND_NONE;
-    player->mouse.leaves = false;
-    if (later.kind)
-        status = player_tell(player, player_obey(player, &later));
-    if (!status && leaves)
-        status = player_tell(player, player_release(player));
+    Status status = player_obey_waiting(player, true);
     player->gesture = gesture;
     return status;
 }
 
-Status player_obey(Player *player, const Command *asked)
+/* Does what one command asks for; what it is made of waits in the queue. */
+static Status obey_one(Player *player, const Command *asked)
 {
     Past *past = &player->past;
     Command command = meant_by(player, asked);
@@ -165,7 +192,7 @@ Status player_obey(Player *player, const Command *asked)
         return STATUS_OK; /* it is on its way */
     if (past->making && flags & LATEST &&
         (player->mouse.drag || command.kind == COMMAND_DRAG)) {
-        player->later = command; /* a mouse that moves holds up no step */
+        player_emit(player, &command); /* a mouse holds up no step */
         return STATUS_OK;
     }
     Status status = STATUS_OK;
@@ -184,7 +211,7 @@ Status player_obey(Player *player, const Command *asked)
     if (noted && script_add(&player->journal, step, &command, player->gesture))
         return STATUS_OUT_OF_MEMORY;
     if (!status)
-        status = row->deed(player, &command);
+        status = deeds[command.kind](player, &command);
     if (past->works && !(flags & SCREEN)) {
         Status shown = player_work(player);
         status = status ? status : shown;
@@ -198,4 +225,24 @@ Status player_obey(Player *player, const Command *asked)
         status == STATUS_INVALID_INPUT)
         player->journal.count = at;
     return player_bear(player, status);
+}
+
+Status player_obey(Player *player, const Command *command)
+{
+    Status status = obey_one(player, command);
+    return status ? status : obey_queue(player, false);
+}
+
+/* ---- on ------------------------------------------------------------------ */
+
+Status player_continue(Player *player)
+{
+    Status status = player_work(player);
+    return status ? status : player_obey_waiting(player, false);
+}
+
+Status player_step(Player *player)
+{
+    Status status = player_show(player, player->past.step + 1, THEN_NOTHING);
+    return status ? status : player_continue(player);
 }

@@ -20,108 +20,6 @@ enum {
 
 static const double EARLY = 0.002; /* s, how early a frame may come */
 
-/* ---- what is asked often ------------------------------------------------- */
-
-const Machine *player_machine(const Player *player)
-{
-    return &player->past.machine[player->active];
-}
-
-const Simulation *player_simulation(const Player *player)
-{
-    return &player_machine(player)->simulation;
-}
-
-const Options *player_settings(const Player *player)
-{
-    return &past_control(&player->past, player->active)->options;
-}
-
-Options player_numbers(const Player *player)
-{
-    Options options = *player_settings(player);
-    options.timestep = player_simulation(player)->options.timestep;
-    return options;
-}
-
-bool player_stands(const Player *player)
-{
-    return player->mode >= MODE_PAUSE;
-}
-
-uint64_t player_hash(const Player *player)
-{
-    uint64_t hash = STATE_HASH_SEED;
-    for (int i = 0; i < past_panes(&player->past); i++)
-        hash = state_hash(&player->past.machine[i].simulation, hash);
-    return hash;
-}
-
-bool player_ended(const Player *player)
-{
-    const Options *options = &player->given[0];
-    const Simulation *simulation = &player->past.machine[0].simulation;
-    bool counted = options->steps >= 0;
-    if (player->quit || *player->stop)
-        return true;
-    if (!script_is_over(&player->script) || player->past.works)
-        return false;
-    return (counted && player->past.step >= options->steps) ||
-           ((!player->window || counted) && simulation->done) ||
-           (!player->window && player_stands(player));
-}
-
-/* ---- drawing ------------------------------------------------------------- */
-
-Paper *player_paper(Player *player)
-{
-    static bool told;
-    const char *font = getenv("ELASTO_FONT"); /* empty: no words, please */
-    Paper *paper = &player->paper;
-    const Canvas *canvas = &paper->canvas;
-    int size[2] = {player->size[0], player->size[1]};
-    if (!player->draws)
-        return NULL;
-    if (size[0] == 0)
-        window_size(size);
-    for (int i = 0; i < 2; i++)
-        size[i] = (int)fmin(fmax(size[i], 1), CANVAS_MAX_SIZE);
-    if (canvas->pixels && canvas->width == size[0] && canvas->height == size[1])
-        return paper;
-    paper_free(paper);
-    if (paper_create(size[0], size[1], paper)) {
-        paper_free(paper);
-        return NULL;
-    }
-    player->show.text = paper->text;
-    if (!paper->text && !told && (!font || font[0])) {
-        fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
-                        "no words (ELASTO_FONT=FILE.ttf names another font)\n");
-        told = true; /* pictures without words are pictures, too */
-    }
-    return paper;
-}
-
-void player_paint(Player *player, Paper *paper)
-{
-    do {
-        player_fill(player);
-        if (player->blank)
-            canvas_clear(&paper->canvas, 0xff000000u);
-        else
-            show_draw(paper, &player->show);
-    } while (past_drawn(&player->past));
-}
-
-void player_paint_card(Player *player, Paper *paper, int card)
-{
-    show_draw_card(paper, &player->show, card);
-    while (past_drawn(&player->past)) { /* what it draws is known only now */
-        player_fill(player);
-        show_draw_card(paper, &player->show, card);
-    }
-}
-
 Status player_draw(Player *player)
 {
     player->changed = false;
@@ -147,6 +45,20 @@ Status player_draw(Player *player)
 }
 
 /* ---- the loop ------------------------------------------------------------ */
+
+bool player_ended(const Player *player)
+{
+    const Options *options = &player->given[0];
+    const Simulation *simulation = &player->past.machine[0].simulation;
+    bool counted = options->steps >= 0;
+    if (player->quit || *player->stop)
+        return true;
+    if (!script_is_over(&player->script) || player->past.works)
+        return false;
+    return (counted && player->past.step >= options->steps) ||
+           ((!player->window || counted) && simulation->done) ||
+           (!player->window && player_stands(player));
+}
 
 /* All lines of the script that are due. */
 static Status obey_script(Player *player)
@@ -186,7 +98,7 @@ static Status step_frame(Player *player)
             break;
         if (player_stands(player) && !past->works)
             break;
-        status = past->works ? player_work(player) : player_step(player);
+        status = past->works ? player_continue(player) : player_step(player);
         if (past->works)
             break;
         if (!status)
@@ -316,7 +228,7 @@ Status player_create(const Options *options, int count, char *const *words,
         status = script_add(&player->journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
     if (!status && player->asks && options->page)
-        status = player_open_page(player);
+        status = player_obey_page(player);
     else if (!status && player->asks &&
              simulation_is_draggable(player_simulation(player)))
         player_note(player,
@@ -356,6 +268,7 @@ void player_free(Player *player)
     past_free(&player->past);
     player_leave_step(player);
     player_close_sheet(player);
+    control_drop(player->queue.pins);
     script_free(&player->script);
     script_free(&player->journal);
 }

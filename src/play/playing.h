@@ -1,4 +1,6 @@
-/* playing.h - what the sources of the player share. */
+/* playing.h - what the sources of the player share, by file, from below: a file
+ * calls only those before it.
+ */
 #ifndef ELASTO_PLAYING_H
 #define ELASTO_PLAYING_H
 
@@ -12,11 +14,55 @@
 /* s, of a frame in which steps are made; then inputs are looked at. */
 static const double SLICE = 0.05;
 
-/* ---- obey.c: commands and their deeds ------------------------------------ */
+/* ---- session.c ----------------------------------------------------------- */
 
-#define ROW(kind, deed, ...) Deed deed;
-#include "play/command_rows.def"
-#undef ROW
+/* Machine, simulation and options of the active pane. */
+const Machine *player_machine(const Player *player);
+const Simulation *player_simulation(const Player *player);
+const Options *player_settings(const Player *player);
+
+/* Options of the active pane with the time step of its simulation, which a
+ * scene may change by itself. */
+Options player_numbers(const Player *player);
+
+/* The options of a scene or, where it has one, of a page: those of the command
+ * line where it was called for, else its own.  count out: of panes. */
+Status player_own_options(Player *player, const char *scene,
+                          const LecturePage *page, Options *options,
+                          int *count);
+
+/* Whether the panes have different values of this option. */
+bool player_compares(const Player *player, const OptionRow *row);
+
+/* Whether no step is made by itself. */
+bool player_stands(const Player *player);
+
+/* Whether a single factor takes longer than a slice. */
+bool player_is_slow(const Player *player);
+
+/* Whether no step was made yet with where the hand is, and one will be. */
+bool player_pulls(const Player *player);
+
+/* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, or the scene where
+ * somebody attends, else one step a frame through time, and iterations one at a
+ * time. */
+int player_first_speed(const Player *player, const Options *options);
+
+/* Whether the page in the window waits for a guess. */
+bool player_veils(const Player *player);
+
+/* Whether a list is open whose lines have numbers. */
+bool player_lists(const Player *player);
+
+/* Without a number that is lit or typed. */
+void player_deselect(Player *player);
+
+/* A value as the row of numbers shows it. */
+void player_value(const OptionRow *row, const Options *options,
+                  const Simulation *simulation, char *text, size_t size);
+
+/* A line below the picture. */
+void player_note(Player *player, const char *format, ...);
 
 /* Says why a command makes no sense here: a format, and what it needs.  Returns
  * INVALID_INPUT. */
@@ -26,25 +72,18 @@ static const double SLICE = 0.05;
 /* INVALID_INPUT becomes a line below the picture; returns any other status. */
 Status player_tell(Player *player, Status status);
 
-/* Sets an option, which belongs to the command that is obeyed, or to what the
- * hand does: they are undone at once. */
-Status player_ask_set(Player *player, const OptionRow *row, double value);
+/* Somebody has asked for a pause. */
+void player_stop(Player *player);
 
-/* A line below the picture. */
-void player_note(Player *player, const char *format, ...);
+/* Where somebody attends, a step that failed is only shown.  Returns OK, or the
+ * status of what ends the run. */
+Status player_bear(Player *player, Status status);
 
-/* ---- what is asked often ------------------------------------------------- */
-
-/* The pane whose numbers are shown: its machine, its simulation, its options;
- * and those with the numbers as they are, for a scene may change its time step
- * by itself. */
-const Machine *player_machine(const Player *player);
-const Simulation *player_simulation(const Player *player);
-const Options *player_settings(const Player *player);
-Options player_numbers(const Player *player);
-
-/* Whether no step is made by itself. */
-bool player_stands(const Player *player);
+/* Commands for the queue: one; an option, undone together with the present
+ * command; several with a ; between them, alike, NULL: none. */
+void player_emit(Player *player, const Command *command);
+void player_emit_set(Player *player, const OptionRow *row, double value);
+Status player_emit_lines(Player *player, const char *lines);
 
 /* ---- steps.c ------------------------------------------------------------- */
 
@@ -61,12 +100,6 @@ Status player_change(Player *player, const Command *change, int from, int to,
  * frame is over. */
 Status player_work(Player *player);
 
-/* Whether no step was made yet with where the hand is, and one will be. */
-bool player_pulls(const Player *player);
-
-/* Whether a single factor takes longer than a slice. */
-bool player_is_slow(const Player *player);
-
 /* Wants a step shown, the newest one or one before it, or the next new one.
  * player_work follows, after a deed by itself. */
 Status player_show(Player *player, long step, Then then);
@@ -76,55 +109,44 @@ Status player_show(Player *player, long step, Then then);
  */
 Status player_retake(Player *player, const Command *change, int from, int to);
 
-/* Somebody has asked for a pause. */
-void player_stop(Player *player);
-
 /* What goes whenever another step is shown. */
 void player_leave_step(Player *player);
-
-/* Where somebody attends, a step that failed is only shown.  Returns OK, or the
- * status of what ends the run. */
-Status player_bear(Player *player, Status status);
 
 /* What tables still lack of the past that is shown. */
 Status player_write_rest(Player *player);
 
-/* ---- change.c ------------------------------------------------------------ */
+/* ---- start.c ------------------------------------------------------------- */
 
-/* The options of a scene or, where it has one, of a page: those of the command
- * line where it was called for, else its own.  count out: of panes. */
-Status player_own_options(Player *player, const char *scene,
-                          const LecturePage *page, Options *options,
-                          int *count);
+/* New runs with the present pins.  Where a page begins again its commands go
+ * into the queue. */
+Status player_begin_again(Player *player, const Options *options, int panes,
+                          const Command *edit);
 
-/* Whether the page in the window waits for a guess; what it asks for is shown
- * from now on, beside the number that was typed, or NULL. */
-bool player_veils(const Player *player);
-Status player_unveil(Player *player, const char *typed);
+/* The pins that were there before new runs were begun; drops that control. */
+Status player_restore_pins(Player *player, const Control *before);
 
-/* Commands with a ; between them, which are undone at once; NULL: none. */
-Status player_obey_lines(Player *player, const char *lines);
+/* What the page does when it opens goes into the queue. */
+Status player_emit_page(Player *player);
 
-/* Whether the panes have different values of this option. */
-bool player_compares(const Player *player, const OptionRow *row);
+/* What a page asks for is shown from now on, beside the number that was typed,
+ * or NULL; the page's commands for that go into the queue. */
+Status player_reveal(Player *player, const char *typed);
+
+/* ---- numbers.c ----------------------------------------------------------- */
 
 /* The numbers of the row, those of the table and those that were added; or all
  * that the scene has.  Returns how many. */
 int player_row(const Player *player, bool all,
                const OptionRow *found[OPTIONS_MOST]);
 
-/* The number goes so many paces up. */
-Status player_pace(Player *player, const OptionRow *row, int paces);
-
 /* Why a number has no meaning now; NULL: it has one. */
 const char *player_idle(const Player *player, const OptionRow *row);
 
-/* ---- screen.c ------------------------------------------------------------ */
+/* The number so many paces up, into value. */
+Status player_paced(Player *player, const OptionRow *row, int paces,
+                    double *value);
 
-/* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, or the scene where
- * somebody attends, else one step a frame through time, and iterations one at a
- * time. */
-int player_first_speed(const Player *player, const Options *options);
+/* ---- panes.c, bodies.c have deeds alone; sheet.c ------------------------- */
 
 /* The scenes on the sheet go on for a slice of time, where it is open. */
 void player_live(Player *player);
@@ -133,27 +155,42 @@ void player_live(Player *player);
 void player_fill_sheet(Player *player);
 void player_close_sheet(Player *player);
 
-/* ---- hands.c ------------------------------------------------------------- */
-
-/* Without a number that is lit or typed. */
-void player_deselect(Player *player);
-
-/* What is under a mouse that rests, in the Show as it is filled now. */
-void player_look_again(Player *player);
-
-/* What the mouse holds it lets go. */
-Status player_release(Player *player);
-
-/* ---- fill.c -------------------------------------------------------------- */
+/* ---- frame.c ------------------------------------------------------------- */
 
 /* Fills player->show. */
 void player_fill(Player *player);
 
-/* A value as the row of numbers shows it. */
-void player_value(const OptionRow *row, const Options *options,
-                  const Simulation *simulation, char *text, size_t size);
-
 /* What is different in each pane, as its label. */
 void player_label_panes(Player *player);
+
+/* The paper, in the size that it has now; NULL: nothing is drawn, or there is
+ * not enough memory. */
+Paper *player_paper(Player *player);
+
+/* The frame on any paper, which nobody sees. */
+void player_paint(Player *player, Paper *paper);
+
+/* One card of that frame, over all of a paper of its own. */
+void player_paint_card(Player *player, Paper *paper, int card);
+
+/* ---- screen.c, keepsakes.c; obey.c --------------------------------------- */
+
+/* What a command does.  Returns as player_obey. */
+typedef Status Deed(Player *player, const Command *command);
+
+#define ROW(kind, deed, ...) Deed deed;
+#include "play/command_rows.def"
+#undef ROW
+
+/* What the page does when it opens; commands with a ; between them, which are
+ * undone at once, NULL: none. */
+Status player_obey_page(Player *player);
+Status player_obey_lines(Player *player, const char *lines);
+
+/* The commands that have waited until now; now: those that wait on, too. */
+Status player_obey_waiting(Player *player, bool now);
+
+/* Work that is under way, and then what has waited for its end. */
+Status player_continue(Player *player);
 
 #endif

@@ -256,26 +256,6 @@ int program_end(Player *player, Status status)
     return code;
 }
 
-int player_next_word(const Player *player, int i)
-{
-    char *const *words = player->words;
-    const OptionRow *first = option_find("steps");
-    for (; words && words[0] && words[i]; i++) {
-        char name[32];
-        size_t length = strcspn(words[i], "=");
-        snprintf(name, sizeof name, "%.*s", (int)length, words[i]);
-        const OptionRow *row =
-            strncmp(name, "--", 2) == 0 ? option_find(name + 2) : NULL;
-        if (!row || row < first || row == option_find("lecture") ||
-            row == option_find("headless"))
-            return i;
-        if (row->kind != OPTION_SWITCH && words[i][length] == '\0' &&
-            words[i + 1])
-            i++; /* its value is the next word */
-    }
-    return 0;
-}
-
 /* Whether two names are those of one file or folder; a device may be named
  * twice. */
 static bool is_one_file(const char *a, const char *b)

@@ -14,8 +14,6 @@
 #include "play/playing.h"
 #include "run/scene.h"
 
-enum { SLOW_NODES = 50000 };
-
 /* ---- tables -------------------------------------------------------------- */
 
 /* What Newton told of the step that the machines have just made, or could not
@@ -114,6 +112,13 @@ void player_leave_step(Player *player)
     }
 }
 
+/* The hand holds nothing any more, and nothing waits to be let go. */
+static void forget_hand(Player *player)
+{
+    player->holds = false;
+    player->queue.count = 0;
+}
+
 /* Another scene has a camera and cards of its own, and so has another page. */
 static void enter_scene(Player *player)
 {
@@ -167,7 +172,8 @@ Status player_begin(Player *player, const Options *options, int count,
     player_leave_step(player);
     player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
     player->sampled = -1;
-    player->warned = player->gained = player->holds = false;
+    player->warned = player->gained = false;
+    forget_hand(player);
     follow(player);
     return record_step(player);
 }
@@ -385,17 +391,6 @@ Status player_retake(Player *player, const Command *change, int from, int to)
 
 /* ---- what happens as a step is shown ------------------------------------- */
 
-Status player_bear(Player *player, Status status)
-{
-    bool fatal = status == STATUS_OUT_OF_MEMORY ||
-                 status == STATUS_INVALID_INPUT ||
-                 status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
-    if (!status || fatal || !player->attended || player->given[0].steps >= 0)
-        return status;
-    player_stop(player);
-    return STATUS_OK;
-}
-
 /* The work has come to its end; made: of a new step. */
 static Status step_shown(Player *player, Status status, long before, bool made)
 {
@@ -431,19 +426,6 @@ static Status step_shown(Player *player, Status status, long before, bool made)
     return status;
 }
 
-bool player_is_slow(const Player *player)
-{
-    const Simulation *simulation = player_simulation(player);
-    return simulation->options.solver == SOLVER_NEWTON &&
-           simulation->system.nodes > SLOW_NODES;
-}
-
-bool player_pulls(const Player *player)
-{
-    return player->past.making ||
-           (!player_stands(player) && player->past.step <= player->pulled);
-}
-
 Status player_work(Player *player)
 {
     Past *past = &player->past;
@@ -465,17 +447,9 @@ Status player_work(Player *player)
             break;
     }
     player->changed = true;
-    if (past->works)
-        return STATUS_OK;
-    const Command later = player->later;
-    Status status = STATUS_OK;
-    player->began = 0;
-    player->later.kind = COMMAND_NONE;
-    if (later.kind)
-        status = player_tell(player, player_obey(player, &later));
-    if (!status && player->mouse.leaves && !player_pulls(player))
-        status = player_tell(player, player_release(player));
-    return status;
+    if (!past->works)
+        player->began = 0;
+    return STATUS_OK;
 }
 
 /* Lets go of what was held when this step was shown, long ago; that is undone
@@ -497,7 +471,8 @@ Status player_show(Player *player, long step, Then then)
     Past *past = &player->past;
     bool known = step <= past_newest(past);
     Status status = known ? STATUS_OK : record_step(player);
-    player->holds = player->holds && !known;
+    if (known)
+        forget_hand(player);
     if (!status && !known)
         status = let_go(player);
     if (status)
@@ -508,19 +483,7 @@ Status player_show(Player *player, long step, Then then)
     return STATUS_OK;
 }
 
-Status player_step(Player *player)
-{
-    Status status = player_show(player, player->past.step + 1, THEN_NOTHING);
-    return status ? status : player_work(player);
-}
-
 /* ---- commands ------------------------------------------------------------ */
-
-void player_stop(Player *player)
-{
-    if (!player_stands(player))
-        player->mode = MODE_PAUSE;
-}
 
 Status obey_pause(Player *player, const Command *command)
 {
@@ -641,7 +604,7 @@ Status obey_undo(Player *player, const Command *command)
                                              : "nothing was undone");
     const Command edit = *made;
     player->mode = MODE_PAUSE;
-    player->holds = false;
+    forget_hand(player);
     player->mouse.gesture = ++player->gestures; /* if a drag goes on */
     follow(player);
     player_leave_step(player);

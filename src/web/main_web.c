@@ -148,8 +148,10 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
 EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 {
     Player *player = &run->player;
-    if (plays && player_veils(player))
-        player_tell(player, player_unveil(player, *guess ? guess : NULL));
+    if (plays && player_veils(player)) {
+        player_tell(player, player_reveal(player, *guess ? guess : NULL));
+        player_obey_waiting(player, false);
+    }
     player->changed = true;
 }
 
@@ -185,7 +187,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
         status = player_create(&options, 1, NULL, &never, player);
     player->draws = true;
     if (!status)
-        status = player_open_page(player);
+        status = player_obey_page(player);
     if (!status)
         status = player_obey_lines(player, row->tell);
     for (int i = 0; i < row->lines && !status; i++)

@@ -510,7 +510,7 @@ static void session_line(const char *line)
     else if (strcmp(verb, "half") == 0)
         begin_step();
     else if (strcmp(verb, "whole") == 0)
-        tell(player_work(&player));
+        tell(player_continue(&player));
     else if (strcmp(verb, "asks") == 0)
         player.asks = player.changed = true;
     else if (strcmp(verb, "replays") == 0)

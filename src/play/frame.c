@@ -1,6 +1,9 @@
-/* fill.c - what the player knows, as the Show that the pictures read. */
+/* frame.c - what the player knows, as the Show that the pictures read; and the
+ * paper on which they are drawn.
+ */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -62,29 +65,6 @@ static void fill_help(Show *show)
 
 /* ---- the row of numbers -------------------------------------------------- */
 
-void player_value(const OptionRow *row, const Options *options,
-                  const Simulation *simulation, char *text, size_t size)
-{
-    char value[COMMAND_TEXT_SIZE], unit[16];
-    option_unit(row, unit, sizeof unit);
-    if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
-        unit[0] = '\0'; /* of a gradient */
-    option_value(row, options, value, sizeof value);
-    if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
-        simulation->run[0].method != simulation->run[1].method)
-        snprintf(text, size, "three Eulers");
-    else if (row->slot == OPTION_SLOT(integrator))
-        snprintf(text, size, "%s",
-                 integrator_methods[(int)fmax(options->integrator, 0)].label);
-    else if (strcmp(row->name, "solver") == 0 && simulation->steps > 0 &&
-             simulation->run[0].newton &&
-             simulation->run[0].newton->working != options->solver)
-        snprintf(text, size, "%.12s: %s", value, /* who has made the step */
-                 solver_name(simulation->run[0].newton->working));
-    else
-        snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
-}
-
 /* The row of numbers, and what a sentence can say of the one under the mouse,
  * or of that which is lit. */
 static void fill_settings(Player *player)
@@ -144,6 +124,8 @@ static void fill_options(Player *player)
         row->grey = idle != NULL;
     }
 }
+
+/* ---- the chips ----------------------------------------------------------- */
 
 /* The chip of a command: its first key, and what that does now: word number
  * `word` of those of its row. */
@@ -319,6 +301,21 @@ static void fill_time(Player *player)
              player_machine(player)->outcome.updates);
 }
 
+void player_look_again(Player *player)
+{
+    Show *show = &player->show;
+    const Mouse *mouse = &player->mouse;
+    const Canvas *canvas = &player->paper.canvas;
+    PickKind kind = show->hover.kind;
+    bool body = kind == PICK_NODE || kind == PICK_SPRING ||
+                kind == PICK_OBSTACLE || kind == PICK_EDGE;
+    if (!body || !canvas->pixels || !mouse->placed || mouse->drag ||
+        show->over.zone != ZONE_STAGE)
+        return;
+    Layout layout = show_layout(show, canvas->width, canvas->height);
+    show->hover = show_pick(show, &layout, mouse->x, mouse->y);
+}
+
 void player_fill(Player *player)
 {
     const Control *control = past_control(&player->past, player->active);
@@ -375,4 +372,55 @@ void player_fill(Player *player)
     show_describe(show);
     if (player->explains && explained && !player->typing)
         show->message[0] = '\0';
+}
+
+/* ---- the paper ----------------------------------------------------------- */
+
+Paper *player_paper(Player *player)
+{
+    static bool told;
+    const char *font = getenv("ELASTO_FONT"); /* empty: no words, please */
+    Paper *paper = &player->paper;
+    const Canvas *canvas = &paper->canvas;
+    int size[2] = {player->size[0], player->size[1]};
+    if (!player->draws)
+        return NULL;
+    if (size[0] == 0)
+        window_size(size);
+    for (int i = 0; i < 2; i++)
+        size[i] = (int)fmin(fmax(size[i], 1), CANVAS_MAX_SIZE);
+    if (canvas->pixels && canvas->width == size[0] && canvas->height == size[1])
+        return paper;
+    paper_free(paper);
+    if (paper_create(size[0], size[1], paper)) {
+        paper_free(paper);
+        return NULL;
+    }
+    player->show.text = paper->text;
+    if (!paper->text && !told && (!font || font[0])) {
+        fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
+                        "no words (ELASTO_FONT=FILE.ttf names another font)\n");
+        told = true; /* pictures without words are pictures, too */
+    }
+    return paper;
+}
+
+void player_paint(Player *player, Paper *paper)
+{
+    do {
+        player_fill(player);
+        if (player->blank)
+            canvas_clear(&paper->canvas, 0xff000000u);
+        else
+            show_draw(paper, &player->show);
+    } while (past_drawn(&player->past));
+}
+
+void player_paint_card(Player *player, Paper *paper, int card)
+{
+    show_draw_card(paper, &player->show, card);
+    while (past_drawn(&player->past)) { /* what it draws is known only now */
+        player_fill(player);
+        show_draw_card(paper, &player->show, card);
+    }
 }

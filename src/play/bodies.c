@@ -1,0 +1,123 @@
+/* bodies.c - what a hand does to bodies: pins, pulls, pushes, places, drags. */
+#include "play/playing.h"
+#include "run/scene.h"
+#include "scenes/small_scenes.h"
+
+/* In all panes. */
+static Status change_all(Player *player, const Command *change)
+{
+    return player_change(player, change, 0, past_panes(&player->past), false);
+}
+
+/* Pins a node, or sets it free. */
+Status obey_pin(Player *player, const Command *command)
+{
+    long node = command->number;
+    const Simulation *simulation = player_simulation(player);
+    if (!(simulation->scene->needs & NEEDS_MESH) || simulation->scene->step)
+        return player_refuse(player, "only nodes of a square can be pinned");
+    bool pinned = simulation->system.pinned[node];
+    Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
+    Status status = change_all(player, &change);
+    if (!status)
+        player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
+    return status;
+}
+
+/* The hand takes a node, or a ground or a ball, where it is. */
+static Status take(Player *player, CommandKind kind, long number,
+                   const double at[2])
+{
+    const Command change = {
+        .kind = kind, .number = number, .x = at[0], .y = at[1]};
+    Status status = change_all(player, &change);
+    player->holds = player->holds || !status;
+    if (!status && player_stands(player))
+        player_note(player,
+                    "paused: the hand %s as soon as time goes on (Space, N)",
+                    kind == COMMAND_GRAB ? "pulls" : "pushes");
+    return status;
+}
+
+Status obey_grab(Player *player, const Command *command)
+{
+    const Simulation *simulation = player_simulation(player);
+    if (!simulation_is_draggable(simulation))
+        return player_refuse(player, "nothing to take hold of here");
+    return take(player, COMMAND_GRAB, command->number,
+                simulation->run[0].x + 2 * command->number);
+}
+
+Status obey_push(Player *player, const Command *command)
+{
+    const Simulation *simulation = player_simulation(player);
+    double at[2];
+    if (!simulation_is_draggable(simulation))
+        return player_refuse(player, "nothing to push here");
+    simulation_obstacle(simulation, 0, (int)command->number, at);
+    return take(player, COMMAND_PUSH, command->number, at);
+}
+
+/* A node is put somewhere: an experiment of one's own. */
+Status obey_place(Player *player, const Command *command)
+{
+    if (!simulation_is_draggable(player_simulation(player)))
+        return player_refuse(player, "nothing to be placed here");
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        Simulation *simulation = &player->past.machine[p].simulation;
+        if (simulation_place(simulation, (int)command->number, command->x,
+                             command->y, false))
+            return player_refuse(player,
+                                 "no room for it there: an obstacle, a "
+                                 "body, or a cell that would turn over");
+    }
+    return change_all(player, command);
+}
+
+/* A ground or a ball goes where the bodies leave room. */
+Status obey_obstacle(Player *player, const Command *command)
+{
+    Options moved = *player_settings(player);
+    double *at = obstacle_at(&moved, (int)command->number);
+    at[0] = command->x;
+    at[1] = command->y;
+    Status status = STATUS_OK;
+    for (int p = 0; p < past_panes(&player->past) && !status; p++)
+        status =
+            simulation_has_room(&player->past.machine[p].simulation, &moved,
+                                player->message, sizeof player->message);
+    return status ? status : change_all(player, command);
+}
+
+/* The hand pulls or pushes, or lets go. */
+Status obey_drag(Player *player, const Command *command)
+{
+    if (!control_holds(past_control(&player->past, player->active)))
+        return player_refuse(player, "the hand holds nothing");
+    player->holds = command->kind == COMMAND_DRAG;
+    player->pulled = player->past.step;
+    return change_all(player, command);
+}
+
+/* A point or a switch of the scene; a minimisation begins anew with a point, at
+ * step 0. */
+Status obey_handle(Player *player, const Command *command)
+{
+    Past *past = &player->past;
+    const Simulation *simulation = player_simulation(player);
+    Status status = STATUS_OK;
+    unsigned needs = simulation->scene->needs;
+    long step = past->step;
+    int now = past->now;
+    if (command->kind == COMMAND_HANDLE && (needs & NEEDS_START) &&
+        !(needs & NEEDS_TIME)) {
+        player_stop(player);
+        status = player_show(player, 0, THEN_NOTHING);
+        status = status ? status : player_work(player);
+    }
+    if (!status)
+        status = change_all(player, command);
+    if (past->now > now)
+        past->branch[now].shown = step; /* where undo leads back to */
+    return status;
+}

@@ -1,0 +1,177 @@
+/* keepsakes.c - what is kept of a session, where nothing is overwritten:
+ * pictures, films, the way to a state.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "picture/picture.h"
+#include "play/playing.h"
+#include "run/scene.h"
+
+enum { NOTE_LINE = 100 }; /* letters of a command line that a note has */
+
+/* elasto_SCENE_000012.png, or the first of ..._2.png, ... that is free. */
+static void free_name(const Player *player, const char *end, char *name,
+                      size_t size)
+{
+    char number[16] = "";
+    for (int i = 2; i < 100000; i++) {
+        snprintf(name, size, "elasto_%s_%06ld%s%s", player->scene->name,
+                 player->past.step, number, end);
+        if (access(name, F_OK) != 0)
+            return;
+        snprintf(number, sizeof number, "_%d", i);
+    }
+}
+
+/* The frame as it is, in the present folder. */
+Status obey_shot(Player *player, const Command *command)
+{
+    char name[80];
+    const bool draws = player->draws;
+    player->draws = true;
+    Paper *paper = player_paper(player);
+    Status status = paper ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    player->draws = draws;
+    free_name(player, ".png", name, sizeof name);
+    if (paper) {
+        player_paint(player, paper);
+        status = png_file_write(name, NULL, &paper->canvas);
+    }
+    if (status)
+        player_note(player, "not saved: %s", output_reason(status));
+    else
+        player_note(player, "saved %s", name);
+    return STATUS_OK;
+}
+
+/* Begins a film of all that is drawn, or ends it. */
+Status obey_film(Player *player, const Command *command)
+{
+    char name[80], told[OUTPUT_TOLD] = "";
+    Film *film = &player->recording.film;
+    bool ends = film_runs(film);
+    if (!player->draws)
+        return player_refuse(player, "nothing is drawn that could be filmed");
+    free_name(player, ".mp4", name, sizeof name);
+    film->output.told = told;
+    Status status =
+        ends ? film_close(film, KEEP_WHOLE) : film_open(name, told, film);
+    film->output.told = player->recording.message;
+    player->sampled = -1; /* the present frame is the first, or drawn again */
+    if (status)
+        player_note(player, "no film: %s", told);
+    else if (ends)
+        player_note(player, "film ends: %ld frames, in %s", film->frames,
+                    film->output.name);
+    else
+        player_note(player, "filming %s", name);
+    return STATUS_OK;
+}
+
+int player_next_word(const Player *player, int i)
+{
+    char *const *words = player->words;
+    const OptionRow *first = option_find("steps");
+    for (; words && words[0] && words[i]; i++) {
+        char name[32];
+        size_t length = strcspn(words[i], "=");
+        snprintf(name, sizeof name, "%.*s", (int)length, words[i]);
+        const OptionRow *row =
+            strncmp(name, "--", 2) == 0 ? option_find(name + 2) : NULL;
+        if (!row || row < first || row == option_find("lecture") ||
+            row == option_find("headless"))
+            return i;
+        if (row->kind != OPTION_SWITCH && words[i][length] == '\0' &&
+            words[i + 1])
+            i++; /* its value is the next word */
+    }
+    return 0;
+}
+
+/* A word as a shell takes it: as it is, in quotes or, where it has what no
+ * terminal should see, as bash, zsh and ksh write that. */
+static void put_word(FILE *file, const char *word)
+{
+    static const char plain[] = "%+,-./0123456789:=@_"
+                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                "abcdefghijklmnopqrstuvwxyz";
+    bool bare = word[0] && word[strspn(word, plain)] == '\0';
+    bool clean = is_one_line(word);
+    fputs(bare ? " " : clean ? " '" : " $'", file);
+    for (; *word; word++)
+        if (clean && *word == '\'')
+            fputs("'\\''", file);
+        else if (clean || strchr(plain, *word))
+            fputc(*word, file);
+        else
+            fprintf(file, "\\%03o", (unsigned)(unsigned char)*word);
+    fputs(bare ? "" : "'", file);
+}
+
+/* The command line that leads to the present step, by a script where commands
+ * have led to it (else NULL).  NULL: not enough memory; free it. */
+static char *make_line(const Player *player, const char *script)
+{
+    char *line = NULL;
+    size_t size;
+    FILE *file = open_memstream(&line, &size);
+    if (!file)
+        return NULL;
+    fputs("elasto", file);
+    for (int i = 0; (i = player_next_word(player, i + 1));)
+        put_word(file, player->words[i]);
+    if (script)
+        fprintf(file, " --script %s", script);
+    else
+        fprintf(file, " --steps %ld", player->past.step);
+    if (fclose(file) == 0)
+        return line;
+    free(line);
+    return NULL;
+}
+
+/* The journal as a script under this name, which begins with the line that
+ * plays it, and ends with a pause. */
+static Status write_journal(Player *player, const char *name, const char *line)
+{
+    const Command pause = {.kind = COMMAND_PAUSE};
+    Script *journal = &player->journal;
+    size_t count = journal->count;
+    Status status = STATUS_OK;
+    if (!player_stands(player))
+        status = script_add(journal, player->past.step, &pause, 0);
+    if (!status)
+        status = script_write(name, line, journal);
+    journal->count = count;
+    return status;
+}
+
+/* The hash of the state and the line that leads to it, whole on the terminal;
+ * where commands have led here they are written down as a script, which leads
+ * here again and stays. */
+Status obey_hash(Player *player, const Command *command)
+{
+    char name[80], hash[64];
+    bool commands = player->journal.count > 0;
+    free_name(player, ".script", name, sizeof name);
+    char *line = make_line(player, commands ? name : NULL);
+    Status status = line ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    if (!status && commands)
+        status = write_journal(player, name, line);
+    snprintf(hash, sizeof hash, "state %016llx at step %ld",
+             (unsigned long long)player_hash(player), player->past.step);
+    if (status) {
+        player_note(player, "%s: no script: %s", hash, output_reason(status));
+    } else {
+        const char *where = commands ? name : "the terminal";
+        bool fits = strlen(line) <= NOTE_LINE;
+        player_note(player, "%s: %s%s", hash, fits ? "" : "its line is in ",
+                    fits ? line : where);
+        fprintf(stderr, "%s: %s\n", hash, line);
+    }
+    free(line);
+    return STATUS_OK;
+}

@@ -1,0 +1,239 @@
+/* numbers.c - the numbers of the run: which are in the row, how they are set,
+ * lit and typed.
+ */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "play/playing.h"
+#include "run/scene.h"
+
+/* ---- the row ------------------------------------------------------------- */
+
+/* The option that a command is about, or NULL. */
+static const OptionRow *row_of(const Command *command)
+{
+    return command->number < 0 ? NULL : &option_rows[command->number];
+}
+
+/* Whether it is one that the scene can make use of. */
+static bool is_number(const Player *player, const OptionRow *row)
+{
+    return (row->needs & player_settings(player)->scene->needs) &&
+           row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
+}
+
+int player_row(const Player *player, bool all,
+               const OptionRow *found[OPTIONS_MOST])
+{
+    const Options options = player_numbers(player);
+    int own = all ? 0 : options_row(&options, found), count = own;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        bool more = all || player->added >> (row - option_rows) & 1;
+        more = more && is_number(player, row);
+        for (int i = 0; i < own; i++)
+            more = more && found[i] != row;
+        if (more)
+            found[count++] = row;
+    }
+    return all || count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
+}
+
+const char *player_idle(const Player *player, const OptionRow *row)
+{
+    const Simulation *simulation = player_simulation(player);
+    bool minimises = simulation->scene->step;
+    int slot = row->slot;
+    for (int p = 0; p < past_panes(&player->past); p++)
+        minimises =
+            minimises || player->past.machine[p].simulation.run[0].newton;
+    if (slot == OPTION_SLOT(projection) &&
+        !simulation_has_projection(simulation))
+        return "nothing to project here";
+    if (slot == OPTION_SLOT(line_search) &&
+        !simulation_has_line_search(simulation))
+        return "no line search here";
+    if ((slot == OPTION_SLOT(tolerance) || slot == OPTION_SLOT(solver)) &&
+        !minimises)
+        return "explicit methods minimise nothing";
+    return row->idle ? row->idle(player_settings(player)) : NULL;
+}
+
+/* The row of numbers has this one, too, and it is lit. */
+Status obey_add(Player *player, const Command *command)
+{
+    const OptionRow *row = row_of(command);
+    if (!row || !is_number(player, row))
+        return player_refuse(player, "this scene has no such number");
+    const char *idle = player_idle(player, row);
+    if (idle)
+        return player_refuse(player, "%s: %s", row->name, idle);
+    player->added |= (uint64_t)1 << (row - option_rows);
+    player->column = COLUMN_CARDS;
+    player_deselect(player);
+    player->lit = row;
+    player_note(player, "%s: %s; type a value and Enter", row->name, row->help);
+    return STATUS_OK;
+}
+
+/* The next number, and after the last one none. */
+Status obey_select(Player *player, const Command *command)
+{
+    const OptionRow *number[OPTIONS_MOST];
+    int next = 0, count = player_row(player, false, number);
+    for (int i = 0; i < count; i++)
+        next = number[i] == player->lit ? i + 1 : next;
+    player_deselect(player);
+    player->lit = next < count ? number[next] : NULL;
+    return STATUS_OK;
+}
+
+/* One letter more or less.  The first one opens the field. */
+Status obey_type(Player *player, const Command *command)
+{
+    char *typed = player->typed;
+    bool list = player_lists(player),
+         shift = strncmp(command->text, "Shift+", 6) == 0;
+    const char *key = command->text + (shift ? 6 : 0);
+    if (!player->typing)
+        typed[0] = '\0';
+    player->typing = true;
+    size_t length = strlen(typed);
+    if (strcmp(key, "Backspace") == 0)
+        typed[length > 0 ? length - 1 : 0] = '\0';
+    else if (strcmp(key, "Space") == 0)
+        append(typed, sizeof player->typed, " ");
+    else if (!key[1])
+        append(typed, sizeof player->typed, "%c",
+               shift ? key[0] : tolower(key[0]));
+    if (player->lit)
+        player_note(player, "a number is typed: Enter sets it, Esc leaves it");
+    else
+        player_note(player, "%s %s_: Enter %s it, Esc leaves it",
+                    !list                              ? "your answer"
+                    : player->column == COLUMN_OPTIONS ? "number"
+                                                       : "page",
+                    typed, list ? "opens" : "checks");
+    return STATUS_OK;
+}
+
+/* ---- values -------------------------------------------------------------- */
+
+/* The value of a command into the options of a pane. */
+static Status put_value(Player *player, int pane, const Command *command,
+                        Options *options)
+{
+    const OptionRow *row = &option_rows[command->number];
+    Status status = command->text[0]
+                        ? options_set(options, row->name, command->text,
+                                      player->message, sizeof player->message)
+                        : options_put(options, row, command->x, player->message,
+                                      sizeof player->message);
+    if (!status && row->slot == OPTION_SLOT(integrator) &&
+        integrator_method_refuses(options_method(options),
+                                  &player_simulation(player)->system))
+        return player_refuse(player, "a term of this scene refuses it");
+    return status || !row->times
+               ? status
+               : simulation_has_room(&player->past.machine[pane].simulation,
+                                     options, player->message,
+                                     sizeof player->message);
+}
+
+/* An option while the run goes on, or from the start where it cannot change any
+ * more: in the active pane where they are compared by it or a page opens, else
+ * in all. */
+Status obey_set(Player *player, const Command *command)
+{
+    const OptionRow *row = row_of(command);
+    const Simulation *simulation = player_simulation(player);
+    Options options[OPTIONS_MAX_PANES];
+    if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE)
+        return player_refuse(player, "there is no option '%s' with a value",
+                             row ? row->name : command->text);
+    const char *idle = player_idle(player, row);
+    if (idle)
+        return player_refuse(player, "%s", idle);
+    bool one = player->opens || player_compares(player, row);
+    int from = one ? player->active : 0;
+    int to = one ? player->active + 1 : past_panes(&player->past);
+    player_options(player, options);
+    double old = options[player->active].number[row->slot];
+    Status status = STATUS_OK;
+    for (int p = from; p < to && !status; p++)
+        status = put_value(player, p, command, &options[p]);
+    if (status)
+        return status;
+    Command change = *command;
+    change.x = options[player->active].number[row->slot];
+    bool again =
+        (!past_is_given(&player->past) || player_machine(player)->failed) &&
+        (row->effect == EFFECT_AGAIN ||
+         (player_settings(player)->law && player->past.step > 0 &&
+          player_stands(player)) ||
+         (player->fine > 0 && player->side[player->active].place >= 0));
+    if (simulation_effect(simulation, row) == EFFECT_START)
+        return player_begin_again(player, options, past_panes(&player->past),
+                                  command);
+    if (again && change.x != old)
+        return player_retake(player, &change, from, to);
+    return player_change(player, &change, from, to, false);
+}
+
+Status player_paced(Player *player, const OptionRow *row, int paces,
+                    double *value)
+{
+    const Options now = player_numbers(player);
+    if (row->count > 1)
+        return player_refuse(player, "several numbers: type them");
+    *value = option_paced(row, &now, paces);
+    return STATUS_OK;
+}
+
+/* The lit number, or else the first one, a pace up or down. */
+Status obey_raise(Player *player, const Command *command)
+{
+    const OptionRow *number[OPTIONS_MOST];
+    if (player_row(player, false, number) == 0)
+        return player_refuse(player, "there is no number to change here");
+    player->lit = player->lit ? player->lit : number[0];
+    double value;
+    int paces = command->kind == COMMAND_RAISE ? 1 : -1;
+    Status status = player_paced(player, player->lit, paces, &value);
+    if (!status)
+        player_emit_set(player, player->lit, value);
+    return status;
+}
+
+/* The value of the page, or of the command line, or of the scene by itself. */
+Status obey_default(Player *player, const Command *command)
+{
+    const OptionRow *row = row_of(command);
+    const Options *now = &past_start(&player->past, 0)->options;
+    Options options[OPTIONS_MAX_PANES];
+    int count;
+    if (!row || !row->label)
+        return player_refuse(player, "there is no such number");
+    Status status = player_own_options(player, now->scene->name, now->page,
+                                       options, &count);
+    if (!status)
+        player_emit_set(player, row, options->number[row->slot]);
+    return status;
+}
+
+/* Off, or on again as the command line has it; where there is something to
+ * switch. */
+Status obey_switch(Player *player, const Command *command)
+{
+    bool search = command->kind == COMMAND_SEARCH;
+    const OptionRow *row = option_find(search ? "line-search" : "projection");
+    double off = search ? LINE_SEARCH_NONE : PROJECTION_NONE;
+    double on = player->given[0].number[row->slot];
+    if (on == off)
+        on = search ? LINE_SEARCH_BACKTRACK : PROJECTION_CLAMP;
+    bool was_off = player_settings(player)->number[row->slot] == off;
+    player_emit_set(player, row, was_off ? on : off);
+    return STATUS_OK;
+}

@@ -1,0 +1,76 @@
+/* panes.c - the integrator of a pane, and runs side by side. */
+#include <stdio.h>
+
+#include "play/playing.h"
+#include "run/scene.h"
+
+/* The next method of the table for this pane: key M reaches it, all terms allow
+ * it, and no pane has it.  NULL: refused. */
+static const IntegratorMethod *find_method(Player *player, int pane)
+{
+    const Simulation *simulation = &player->past.machine[pane].simulation;
+    const IntegratorMethod *own = simulation->run[0].method, *next = own;
+    bool time = simulation->scene->needs & NEEDS_TIME, taken;
+    do {
+        next = next[1].name ? next + 1 : &integrator_methods[0];
+        taken = next->by_name ||
+                integrator_method_refuses(next, &simulation->system);
+        for (int p = 0; p < past_panes(&player->past); p++)
+            taken = taken ||
+                    player->past.machine[p].simulation.run[0].method == next;
+    } while (next != own && taken);
+    if (simulation->runs > 1)
+        next = &integrator_methods[0];
+    if (time && next != own)
+        return next;
+    player_refuse(player,
+                  time ? "key M has no other method for this scene"
+                       : "no time passes here: there is no other method");
+    return NULL;
+}
+
+Status obey_method(Player *player, const Command *command)
+{
+    const IntegratorMethod *next = find_method(player, player->active);
+    if (!next)
+        return STATUS_INVALID_INPUT;
+    player_emit_set(player, option_find("integrator"),
+                    (double)(next - integrator_methods));
+    return STATUS_OK;
+}
+
+/* The same run with the next method beside the last one; a page says itself
+ * what is another there. */
+Status obey_add_pane(Player *player, const Command *command)
+{
+    int panes = past_panes(&player->past);
+    const TimeIntegrator *run = player_simulation(player)->run;
+    if (panes >= OPTIONS_MAX_DRAWN)
+        return player_refuse(player, "six are side by side: no room for more");
+    if (player_simulation(player)->runs > 1)
+        return player_refuse(player, "several runs are in this picture "
+                                     "already: nothing goes beside it");
+    const IntegratorMethod *next =
+        player->opens ? run->method : find_method(player, panes - 1);
+    if (!next)
+        return STATUS_INVALID_INPUT;
+    const Command change = {.kind = COMMAND_SET,
+                            .number = option_find("integrator") - option_rows,
+                            .x = (double)(next - integrator_methods)};
+    Status status = player_change(player, command, 0, 0, false);
+    if (!status && !player->opens)
+        status = player_change(player, &change, panes, panes + 1, false);
+    if (status)
+        return status;
+    player->active = panes;
+    player_note(player, "beside it: %s", next->label);
+    return STATUS_OK;
+}
+
+/* The last pane goes. */
+Status obey_end_pane(Player *player, const Command *command)
+{
+    if (past_panes(&player->past) < 2)
+        return player_refuse(player, "there is only one");
+    return player_change(player, command, 0, 0, false);
+}

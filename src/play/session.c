@@ -1,0 +1,244 @@
+/* session.c - what every other file asks of a player: the pane that is shown,
+ * its numbers, what is said below the picture; it calls no command.
+ */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "picture/layout.h"
+#include "play/playing.h"
+#include "lesson/pages.h"
+#include "scenes/scenes.h"
+
+enum {
+    SLOW_NODES = 50000, /* a factor of so many takes longer than a SLICE */
+    WATCHED_SPEED = -5  /* of iterations that are watched one by one */
+};
+
+/* ---- the runs ------------------------------------------------------------ */
+
+const Machine *player_machine(const Player *player)
+{
+    return &player->past.machine[player->active];
+}
+
+const Simulation *player_simulation(const Player *player)
+{
+    return &player_machine(player)->simulation;
+}
+
+const Options *player_settings(const Player *player)
+{
+    return &past_control(&player->past, player->active)->options;
+}
+
+Options player_numbers(const Player *player)
+{
+    Options options = *player_settings(player);
+    options.timestep = player_simulation(player)->options.timestep;
+    return options;
+}
+
+int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
+{
+    const Past *past = &player->past;
+    for (int p = 0; p < past_panes(past); p++) {
+        options[p] = past_control(past, p)->options;
+        options[p].flips = exhibit_flips(&past->machine[p].simulation);
+    }
+    return past_panes(past);
+}
+
+Status player_own_options(Player *player, const char *scene,
+                          const LecturePage *page, Options *options, int *count)
+{
+    const Options *given = &player->given[0];
+    *count = 1;
+    Status status = page ? lecture_options(page, options, player->message,
+                                           sizeof player->message)
+                         : options_of_line(scene, options, player->message,
+                                           sizeof player->message);
+    if (status)
+        return status;
+    options->big = given->big;
+    if (page)
+        return STATUS_OK;
+    options->speed = given->speed;
+    if (options->scene == given->scene && !given->page) {
+        *count = given->panes;
+        memcpy(options, given, (size_t)*count * sizeof *given);
+    }
+    return STATUS_OK;
+}
+
+bool player_compares(const Player *player, const OptionRow *row)
+{
+    const Past *past = &player->past;
+    bool differ = false;
+    for (int i = 1; row->label && i < past_panes(past); i++)
+        differ = differ || past_control(past, i)->options.number[row->slot] !=
+                               past_control(past, 0)->options.number[row->slot];
+    return differ;
+}
+
+bool player_stands(const Player *player)
+{
+    return player->mode >= MODE_PAUSE;
+}
+
+uint64_t player_hash(const Player *player)
+{
+    uint64_t hash = STATE_HASH_SEED;
+    for (int i = 0; i < past_panes(&player->past); i++)
+        hash = state_hash(&player->past.machine[i].simulation, hash);
+    return hash;
+}
+
+bool player_is_slow(const Player *player)
+{
+    const Simulation *simulation = player_simulation(player);
+    return simulation->options.solver == SOLVER_NEWTON &&
+           simulation->system.nodes > SLOW_NODES;
+}
+
+bool player_pulls(const Player *player)
+{
+    return player->past.making ||
+           (!player_stands(player) && player->past.step <= player->pulled);
+}
+
+int player_first_speed(const Player *player, const Options *options)
+{
+    double speed = options->speed;
+    if (speed == 0 && !options->page && player->attended)
+        speed = options->scene->speed;
+    if (speed > 0)
+        return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));
+    return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
+}
+
+/* ---- the window ---------------------------------------------------------- */
+
+bool player_veils(const Player *player)
+{
+    const LecturePage *page = player_settings(player)->page;
+    return page && page->ask && player->told != page && player->asks &&
+           !player->opens;
+}
+
+/* Whether a list is open whose lines have numbers. */
+bool player_lists(const Player *player)
+{
+    return player->column == COLUMN_PAGES || player->column == COLUMN_OPTIONS ||
+           player->sheet;
+}
+
+void player_deselect(Player *player)
+{
+    player->lit = NULL;
+    player->typing = false;
+    player->typed[0] = '\0';
+}
+
+void player_value(const OptionRow *row, const Options *options,
+                  const Simulation *simulation, char *text, size_t size)
+{
+    char value[COMMAND_TEXT_SIZE], unit[16];
+    option_unit(row, unit, sizeof unit);
+    if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
+        unit[0] = '\0'; /* of a gradient */
+    option_value(row, options, value, sizeof value);
+    if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
+        simulation->run[0].method != simulation->run[1].method)
+        snprintf(text, size, "three Eulers");
+    else if (row->slot == OPTION_SLOT(integrator))
+        snprintf(text, size, "%s",
+                 integrator_methods[(int)fmax(options->integrator, 0)].label);
+    else if (strcmp(row->name, "solver") == 0 && simulation->steps > 0 &&
+             simulation->run[0].newton &&
+             simulation->run[0].newton->working != options->solver)
+        snprintf(text, size, "%.12s: %s", value, /* who has made the step */
+                 solver_name(simulation->run[0].newton->working));
+    else
+        snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
+}
+
+/* ---- what is said -------------------------------------------------------- */
+
+void player_note(Player *player, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(player->note, sizeof player->note, format, arguments);
+    va_end(arguments);
+    player->warning = player->explains = false;
+    player->changed = true;
+}
+
+Status player_tell(Player *player, Status status)
+{
+    if (status != STATUS_INVALID_INPUT)
+        return status;
+    player_note(player, "%s", player->message);
+    player->message[0] = '\0';
+    return STATUS_OK;
+}
+
+void player_stop(Player *player)
+{
+    if (!player_stands(player))
+        player->mode = MODE_PAUSE;
+}
+
+Status player_bear(Player *player, Status status)
+{
+    bool fatal = status == STATUS_OUT_OF_MEMORY ||
+                 status == STATUS_INVALID_INPUT ||
+                 status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
+    if (!status || fatal || !player->attended || player->given[0].steps >= 0)
+        return status;
+    player_stop(player);
+    return STATUS_OK;
+}
+
+/* ---- commands that wait -------------------------------------------------- */
+
+/* A command that waits until the present one is obeyed and no step is under
+ * way.  Of the positions of one drag the last one counts. */
+void player_emit(Player *player, const Command *command)
+{
+    Queue *queue = &player->queue;
+    Command *last = &queue->command[queue->count - 1];
+    bool covers = command_rows[command->kind].flags & LATEST;
+    if (queue->count > 0 && covers && last->kind == command->kind &&
+        last->number == command->number)
+        *last = *command;
+    else if (queue->count < QUEUE_MOST)
+        queue->command[queue->count++] = *command;
+}
+
+void player_emit_set(Player *player, const OptionRow *row, double value)
+{
+    player_emit(player, &(Command){.kind = COMMAND_SET,
+                                   .number = row - option_rows,
+                                   .x = value,
+                                   .joins = true});
+}
+
+Status player_emit_lines(Player *player, const char *lines)
+{
+    Status status = STATUS_OK;
+    while (lines && *lines && !status) {
+        char line[COMMAND_TEXT_SIZE];
+        Command command;
+        size_t length = strcspn(lines, ";");
+        snprintf(line, sizeof line, "& %.*s", (int)length, lines);
+        lines += length + (lines[length] == ';');
+        status = command_parse(line, &command, player->message,
+                               sizeof player->message);
+        if (!status)
+            player_emit(player, &command);
+    }
+    return status;
+}

@@ -1,0 +1,134 @@
+/* sheet.c - all scenes at once, as small pictures that live. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "play/playing.h"
+#include "lesson/pages.h"
+#include "scenes/scenes.h"
+
+/* The tour comes first and turns its pages; then a cell for each row of the
+ * table of scenes.  The run waits behind them. */
+enum {
+    LIFE = 240, /* frames until a scene begins again, */
+    SLOW = 24   /* and between two steps where no time passes */
+};
+
+static const double LIVING = 0.008; /* s of a frame */
+
+typedef struct Sheet {
+    int cells, next;       /* whose turn it is */
+    int page;              /* of the tour */
+    int age[LAYOUT_CELLS]; /* frames; 0: it is not made yet */
+    Simulation simulation[LAYOUT_CELLS];
+} Sheet;
+
+void player_close_sheet(Player *player)
+{
+    Sheet *sheet = player->sheet;
+    for (int i = 0; sheet && i < sheet->cells; i++)
+        simulation_free(&sheet->simulation[i]);
+    free(sheet);
+    player->sheet = NULL;
+}
+
+/* All scenes but those by name, or the run again.  The open scene is chosen,
+ * the tour where the sheet does not have it. */
+Status obey_sheet(Player *player, const Command *command)
+{
+    const Options *options = player_settings(player);
+    bool opens = !player->sheet;
+    player_close_sheet(player);
+    player_deselect(player);
+    if (!opens)
+        return STATUS_OK;
+    player->sheet = calloc(1, sizeof *player->sheet);
+    if (!player->sheet)
+        return STATUS_OUT_OF_MEMORY;
+    int cells = 1; /* the first one is the tour's */
+    while (cells < LAYOUT_CELLS && scenes[cells - 1].name &&
+           !scenes[cells - 1].by_name)
+        cells++;
+    player->sheet->cells = cells;
+    player->show.chosen = options->page || options->scene->by_name
+                              ? 0
+                              : (int)(options->scene - scenes) + 1;
+    return STATUS_OK;
+}
+
+/* A scene from its start.  What cannot begin stays a frame without a picture.
+ */
+static void begin_cell(Sheet *sheet, int i)
+{
+    char message[256];
+    Options options;
+    Simulation *simulation = &sheet->simulation[i];
+    const LecturePage *page = &lecture_pages[sheet->page];
+    Status status =
+        i == 0 ? lecture_options(page, &options, message, sizeof message)
+               : options_of_line(scenes[i - 1].name, &options, message,
+                                 sizeof message);
+    simulation_free(simulation);
+    if (i == 0)
+        sheet->page = page[1].name ? sheet->page + 1 : 0;
+    if (!status && simulation_create(&options, NULL, NULL, simulation))
+        simulation_free(simulation);
+}
+
+void player_live(Player *player)
+{
+    Sheet *sheet = player->sheet;
+    double begin = clock_now();
+    if (!sheet)
+        return;
+    for (int i = 0; i < sheet->cells && clock_now() - begin < LIVING; i++) {
+        int cell = sheet->next, age = sheet->age[cell]++;
+        Simulation *simulation = &sheet->simulation[cell];
+        Status status = simulation->status;
+        if (age % LIFE == 0)
+            begin_cell(sheet, cell);
+        else if (simulation->scene && !simulation->done &&
+                 (!status || status_is_unconverged(status)) &&
+                 ((simulation->scene->needs & NEEDS_TIME) || age % SLOW == 0))
+            simulation_step(simulation);
+        sheet->next = (cell + 1) % sheet->cells;
+    }
+    player->changed = true;
+}
+
+void player_fill_sheet(Player *player)
+{
+    const Sheet *sheet = player->sheet;
+    Show *show = &player->show;
+    if (!sheet)
+        return;
+    show->cells = sheet->cells;
+    for (int i = 0; i < sheet->cells; i++) {
+        const Scene *scene = &scenes[i > 0 ? i - 1 : 0];
+        const Simulation *simulation = &sheet->simulation[i];
+        show->cell[i] =
+            (SheetCell){.name = i > 0 ? scene->name : "the guided tour",
+                        .group = i == 1 ? NULL : scene->group,
+                        .simulation = simulation->scene ? simulation : NULL};
+        if (i == show->chosen)
+            snprintf(show->sentence, SHOW_TEXT, "%s: %s", show->cell[i].name,
+                     i > 0 ? scene->sentence : "the lecture, page by page");
+    }
+    show->topic = "Scenes";
+    snprintf(show->method, SHOW_TEXT, "arrows, Enter");
+    snprintf(show->state, SHOW_VALUE, "digits: a page of the tour");
+}
+
+/* The scene that is chosen, by a command that a script can repeat; the page
+ * that is open is behind the sheet. */
+Status obey_open(Player *player, const Command *command)
+{
+    char line[32] = "page-on";
+    int cell = player->show.chosen;
+    bool behind = cell == 0 && player_settings(player)->page;
+    if (cell > 0)
+        snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);
+    player_close_sheet(player);
+    player_deselect(player);
+    return behind ? STATUS_OK : player_emit_lines(player, line);
+}

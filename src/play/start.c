@@ -1,0 +1,269 @@
+/* start.c - new runs from step 0: again, from another start, another scene, a
+ * page of the lecture, a cell of the map.
+ */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mathematics.h"
+#include "picture/plot.h"
+#include "play/playing.h"
+#include "run/body.h"
+#include "lesson/pages.h"
+#include "run/scene.h"
+#include "scenes/small_scenes.h"
+
+/* Another scene, from its start; it keeps the pause, and one that explains
+ * something begins with one. */
+Status obey_scene(Player *player, const Command *command)
+{
+    Options options[OPTIONS_MAX_PANES];
+    int count;
+    bool runs = player->mode >= MODE_END || !player_stands(player);
+    Status status =
+        player_own_options(player, command->text, NULL, options, &count);
+    if (!status)
+        status = player_begin(player, options, count, command);
+    if (status)
+        return status;
+    player_close_sheet(player);
+    bool explains = options->scene->explains && !player->given[0].script;
+    player->mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
+    if (player->column != COLUMN_KEYS)
+        player->column = COLUMN_CARDS;
+    return STATUS_OK;
+}
+
+/* Whether a page has commands when it opens, and the nodes that they name. */
+static bool opens_again(Player *player, const Options *now)
+{
+    Options own;
+    const LecturePage *page = now->page;
+    return page && page->open &&
+           !lecture_options(page, &own, player->message,
+                            sizeof player->message) &&
+           own.segments == now->segments;
+}
+
+/* Whether the page runs once its answer is shown. */
+static bool plays_again(const Player *player, const LecturePage *page)
+{
+    return page && page == player->told && page->tell &&
+           strstr(page->tell, "play");
+}
+
+/* Obstacles that stand where the body begins go back to where they began.
+ * INVALID_INPUT: one was not there then. */
+static Status clear_start(Player *player, int pane, Options *options)
+{
+    Options began = past_start(&player->past, pane)->options;
+    Options kept = *options;
+    int count = (int)(options->grounds + options->balls);
+    Refusal told = {player->message, sizeof player->message};
+    if (!(options->scene->needs & NEEDS_BODY) || !body_check(options, told))
+        return STATUS_OK;
+    if (began.grounds != options->grounds || began.balls != options->balls)
+        return STATUS_INVALID_INPUT;
+    for (int k = 0; k < count; k++)
+        memcpy(obstacle_at(&kept, k), obstacle_at(&began, k), sizeof began.at);
+    for (int k = 0; k < count; k++) {
+        double *at = obstacle_at(&kept, k);
+        memcpy(at, obstacle_at(options, k), sizeof began.at);
+        if (body_check(&kept, told))
+            memcpy(at, obstacle_at(&began, k), sizeof began.at);
+    }
+    *options = kept;
+    return body_check(options, told);
+}
+
+Status player_restore_pins(Player *player, const Control *before)
+{
+    if (!before)
+        return STATUS_OK;
+    const Control *now = past_control(&player->past, 0);
+    bool same = now->options.scene == before->options.scene &&
+                now->options.page == before->options.page &&
+                now->nodes == before->nodes;
+    Status status = STATUS_OK;
+    for (int i = 0; i < before->nodes && same && !status; i++) {
+        const Command pin = {
+            .kind = COMMAND_PIN, .number = i, .x = before->pinned[i]};
+        now = past_control(&player->past, 0);
+        if (now->pinned[i] != before->pinned[i])
+            status = player_change(player, &pin, 0, past_panes(&player->past),
+                                   false);
+    }
+    control_drop(before);
+    return status;
+}
+
+Status player_begin_again(Player *player, const Options *options, int panes,
+                          const Command *edit)
+{
+    const Control *before = control_keep(past_control(&player->past, 0));
+    bool opens = edit->kind == COMMAND_RESTART && opens_again(player, options);
+    Status status = player_begin(player, options, opens ? 1 : panes, edit);
+    player->fine = opens ? 0 : player->fine;
+    if (!status && opens && player->asks) { /* a script has these commands */
+        player->queue.pins = before;
+        return player_emit_page(player);
+    }
+    if (!status)
+        return player_restore_pins(player, before);
+    control_drop(before);
+    return status;
+}
+
+/* From step 0 with the present numbers, pins, balls and grounds, or from
+ * another start; a pause that nobody asked for ends.  A page opens again, and
+ * runs again. */
+Status obey_restart(Player *player, const Command *command)
+{
+    Options options[OPTIONS_MAX_PANES];
+    int panes = player_options(player, options);
+    for (int p = 0; p < panes; p++)
+        if (clear_start(player, p, &options[p]))
+            return STATUS_INVALID_INPUT;
+    bool moves = command->kind == COMMAND_START;
+    if (moves && !(options->scene->needs & NEEDS_START))
+        return player_refuse(player, "this scene has no start to choose");
+    for (int p = 0; p < panes && moves; p++) {
+        options[p].start[0] = command->x;
+        options[p].start[1] = command->y;
+    }
+    if (moves)
+        player->mode = MODE_PAUSE;
+    else if (player->mode >= MODE_END && !options->page &&
+             !options->scene->explains)
+        player->mode = MODE_RUN;
+    if (!moves)
+        player->show.lens = LENS_FITS;
+    player->queue.plays = !moves && plays_again(player, options->page);
+    return player_begin_again(player, options, panes, command);
+}
+
+/* ---- the lecture --------------------------------------------------------- */
+
+Status player_emit_page(Player *player)
+{
+    const LecturePage *page = player_settings(player)->page;
+    player->queue.of_page = true; /* nobody has asked for these steps */
+    return player_emit_lines(player, page ? page->open : NULL);
+}
+
+/* Keeps what became of a guess for the page's card and for the score. */
+static void judge_guess(Player *player, bool right, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(player->verdict, sizeof player->verdict, format, arguments);
+    va_end(arguments);
+    player->guesses++;
+    player->right += right;
+}
+
+/* A guess within two percent is right, as it may be calculated on paper. */
+Status player_reveal(Player *player, const char *typed)
+{
+    const LecturePage *page = player_settings(player)->page;
+    const OptionRow any = {
+        .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
+    double truth = page->answer ? show_number(&player->show, page->answer) : 0;
+    double guess = truth;
+    if (typed && (!option_read(&any, typed, &guess) || !isfinite(guess)))
+        return player_refuse(player, "a number is wanted: 0.25 or 1/4");
+    bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
+    Number number = number_with(truth, 5);
+    player->told = page;
+    player->verdict[0] = '\0';
+    if (typed && !page->answer)
+        snprintf(player->verdict, sizeof player->verdict, "Your answer: %s.",
+                 typed);
+    else if (typed && !isnan(truth))
+        judge_guess(player, right, right ? "%s is right." : "%s? It is %s.",
+                    typed, number.text);
+    if (page->answer && !isnan(truth))
+        snprintf(player->queue.note, SHOW_TEXT, "%s%sit is %s",
+                 typed ? typed : "",
+                 !typed  ? ""
+                 : right ? ": right, "
+                         : ": no, ",
+                 number.text);
+    return player_emit_lines(player, page->tell);
+}
+
+/* The page that is asked for, from its start with its settings: by its name;
+ * the next one or the one before; the one that was left for another scene; or
+ * the first. */
+Status obey_page(Player *player, const Command *command)
+{
+    Options options;
+    int count;
+    const LecturePage *page = player_settings(player)->page;
+    bool on = command->kind == COMMAND_PAGE_ON;
+    if (command->kind == COMMAND_PAGE) {
+        page = lecture_find(command->text);
+        if (!page)
+            return player_refuse(player,
+                                 "there is no page '%s', they are 1 ... %d",
+                                 command->text, lecture_count());
+    } else if (page) {
+        if (on ? !page[1].name : page == lecture_pages)
+            return player_refuse(player, on ? "this is the last page"
+                                            : "this is the first page");
+        page += on ? 1 : -1;
+    } else if (player->left) {
+        page = player->left + (on && player->left[1].name);
+    } else {
+        page = &lecture_pages[0];
+    }
+    Status status = player_own_options(player, "", page, &options, &count);
+    if (status)
+        return status;
+    status = player_begin(player, &options, 1, command);
+    player->speed = player_first_speed(player, &options);
+    player->left = page;
+    player->told = NULL;
+    player->verdict[0] = '\0';
+    player->column = COLUMN_CARDS;
+    player->fine = 0;
+    player_close_sheet(player);
+    if (status || !player->asks)
+        return status;
+    player->mode = MODE_PAUSE;
+    return player_emit_page(player);
+}
+
+/* A guess of where the next step leads; on a page that asks for a click it is
+ * the answer.  A guess is right within a tenth of the way. */
+Status obey_predict(Player *player, const Command *command)
+{
+    double at[2];
+    Simulation *simulation = &player->past.machine[player->active].simulation;
+    if (simulation->done || simulation_point(simulation, at) == 0)
+        return player_refuse(player, "nothing to predict here");
+    player_stop(player);
+    scene_predict(simulation, command->x, command->y);
+    const Prediction *guess = &simulation->prediction;
+    if (!player_veils(player))
+        return STATUS_OK;
+    double way = math_hypot(guess->came[0] - at[0], guess->came[1] - at[1]);
+    bool right = guess->distance <= 0.1 * way;
+    Status status = player_reveal(player, NULL);
+    judge_guess(player, right,
+                right ? "Your click is right." : "Your click is %s off.",
+                number_of(guess->distance).text);
+    return status;
+}
+
+/* ---- the map ------------------------------------------------------------- */
+
+/* Shows a cell of the envelope. */
+Status obey_cell(Player *player, const Command *command)
+{
+    int cell = (int)command->number;
+    return envelope_visit(&player->past.machine[player->active].simulation,
+                          cell % ENVELOPE_COLUMNS, cell / ENVELOPE_COLUMNS);
+}
