@@ -17,7 +17,7 @@ $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o \
 wrap = $(1:%=-Wl,--wrap=%)
 $(B)/tests/unit/test_stress $(B)/tests/unit/test_multigrid \
   $(B)/tests/unit/test_newton: $(STRESS)
-$(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc realloc) \
+$(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc realloc aligned_alloc free) \
   -lsuitesparseconfig
 $(B)/tests/unit/test_show $(B)/tests/unit/test_session: \
   LIBS += $(call wrap,text_draw)

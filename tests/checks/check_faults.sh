@@ -7,7 +7,8 @@
 work_apart
 
 preload=$work/faults.so
-"${CC:-cc}" -std=c11 -D_GNU_SOURCE -O1 -shared -fPIC "$here/faults.c" \
+# shellcheck disable=SC2086 # CC may be two words
+${CC:-cc} -std=c11 -D_GNU_SOURCE -O1 -shared -fPIC "$here/faults.c" \
     -o "$preload" -ldl || exit 1
 
 begin_files() {

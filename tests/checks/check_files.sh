@@ -221,7 +221,8 @@ ends_by() { # SIGNAL: another one; two in a row may become one
 }
 
 if [ -z "${SANITIZE:-}" ]; then
-    "${CC:-cc}" -std=c11 -D_GNU_SOURCE -O1 -shared -fPIC "$here/faults.c" \
+    # shellcheck disable=SC2086 # CC may be two words
+    ${CC:-cc} -std=c11 -D_GNU_SOURCE -O1 -shared -fPIC "$here/faults.c" \
         -o faults.so -ldl
     verdict a_second_signal_ends_at_once "$(second_signal)"
 fi

@@ -1,7 +1,13 @@
 /* Every step and every Newton iteration looked at from outside. */
 #include "model/cells.h"
+#include "model/damping.h"
+#include "model/fracture.h"
+#include "model/friction.h"
 #include "model/mass_spring_energy.h"
+#include "model/neo_hookean.h"
+#include "model/plasticity.h"
 #include "model/pull_energy.h"
+#include "model/self_contact.h"
 #include "stress.h"
 
 #include <float.h>
@@ -458,6 +464,77 @@ static void check_failure(Watch *watch, Status status)
         blame(watch, "not_finite, but nothing is near overflow");
 }
 
+/* Whether nothing but gravity pulls at the bodies as a whole, and backward
+ * Euler makes the step. */
+static bool is_free(const TimeIntegrator *run)
+{
+    static const TermKind *const inner[] = {&mass_spring_energy,
+                                            &neo_hookean_energy,
+                                            &self_contact_energy,
+                                            &cell_energy,
+                                            &plastic_energy,
+                                            &fracture,
+                                            &damping,
+                                            &self_friction_energy};
+    bool free = !run->moves && strcmp(run->method->name, "backward-euler") == 0;
+    for (int i = 0; i < run->system->nodes && run->system->pinned; i++)
+        free = free && !run->system->pinned[i];
+    for (int t = 0; t < run->system->terms; t++) {
+        bool found = false;
+        for (int k = 0; k < 8; k++)
+            found = found || run->system->term[t].kind == inner[k];
+        free = free && found;
+    }
+    return free;
+}
+
+/* How much more a last direction that is as long as the tolerance allows can
+ * turn a body than shift it: by forces that it leaves between the nodes. */
+static double turning_slack(const Watch *watch)
+{
+    const System *system = watch->run->system;
+    const NeoHookean *solid = solid_of(system);
+    double stiff = solid ? solid->mu + solid->lambda : 0, h = watch->run->h;
+    double lightest = INFINITY, l2 = INFINITY;
+    for (int i = 0; i < system->nodes; i++)
+        lightest = fmin(lightest, system->m[i]);
+    for (int s = 0; s < system->springs; s++) {
+        stiff = fmax(stiff, solid ? 0 : system->k[s]);
+        l2 = fmin(l2, system->l2[s]);
+    }
+    return 4 + 32 * h * h * stiff / lightest * watch->tolerance * h / sqrt(l2);
+}
+
+/* What forces between the nodes cannot change: the sum of m (v' - v - h g), and
+ * of its moments about the middle of the new places.  The last direction was
+ * below the tolerance, and they are wrong by no more. */
+static void check_momentum(Watch *watch)
+{
+    const TimeIntegrator *run = watch->run;
+    const double *g = run->system->gravity, *m = run->system->m;
+    Real mass = 0, sum[2] = {0}, middle[2] = {0}, turn = 0, arms = 0, noise = 0;
+    for (int i = 0; i < watch_size(watch); i++) {
+        middle[i % 2] += (Real)m[i / 2] * run->x[i];
+        mass += 0.5L * m[i / 2];
+    }
+    for (int i = 0; i < watch_size(watch); i++) {
+        Real change = (Real)run->v[i] - watch->v[i] - (Real)run->h * g[i % 2];
+        Real arm = run->x[i ^ 1] - middle[1 - i % 2] / mass;
+        sum[i % 2] += m[i / 2] * change;
+        turn += (i % 2 ? 1 : -1) * m[i / 2] * arm * change;
+        arms = fmaxl(arms, fabsl(arm));
+        noise += m[i / 2] * ROUNDINGS * DBL_EPSILON *
+                 (fabs(run->v[i]) + fabs(watch->v[i]) +
+                  (fabs(run->x[i]) + fabs(watch->x[i])) / run->h);
+    }
+    Real limit = mass * watch->tolerance + noise;
+    if (fabsl(sum[0]) + fabsl(sum[1]) > limit)
+        blame(watch, "momentum is off by (%Lg, %Lg) kg m/s, tolerance %Lg",
+              sum[0], sum[1], limit);
+    if (fabsl(turn) > arms * limit * turning_slack(watch))
+        blame(watch, "angular momentum is off by %Lg kg m^2/s", turn);
+}
+
 /* The state after a step that was made. */
 static void check_state(Watch *watch)
 {
@@ -470,6 +547,8 @@ static void check_state(Watch *watch)
             blame(watch, "a pinned node moved");
     }
     check_walls(watch, run->x);
+    if (watch->status == STATUS_OK && is_free(run))
+        check_momentum(watch);
     if (watch->springs && run->newton && /* else flow and breaks change E */
         run->newton->settings.search != LINE_SEARCH_NONE)
         watch_descent(watch, run->newton->at.u, "as the step ends");

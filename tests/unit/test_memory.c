@@ -1,6 +1,6 @@
 /* Every allocation of ours and of CHOLMOD's fails once, and then for good:
- * OUT_OF_MEMORY, nothing leaks, nothing crashes.  Linked with
- * -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc.
+ * OUT_OF_MEMORY, every block is freed, nothing crashes.  ../tests.mk wraps the
+ * functions.
  */
 #include "test.h"
 
@@ -9,10 +9,14 @@
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *old, size_t size);
+void *__real_aligned_alloc(size_t page, size_t size);
+void __real_free(void *block);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
+void __wrap_free(void *block);
 
 static long allocations;        /* so far */
+static long held;               /* blocks that were not freed */
 static long first_failure = -1; /* the one that fails; -1: none */
 static bool for_good;           /* and all after it */
 
@@ -23,19 +27,38 @@ static bool allocation_fails(void)
            (for_good ? number >= first_failure : number == first_failure);
 }
 
+static void *hold(void *block)
+{
+    held += block != NULL;
+    return block;
+}
+
 void *__wrap_malloc(size_t size)
 {
-    return allocation_fails() ? NULL : __real_malloc(size);
+    return allocation_fails() ? NULL : hold(__real_malloc(size));
 }
 
 void *__wrap_calloc(size_t count, size_t size)
 {
-    return allocation_fails() ? NULL : __real_calloc(count, size);
+    return allocation_fails() ? NULL : hold(__real_calloc(count, size));
+}
+
+void *__wrap_aligned_alloc(size_t page, size_t size)
+{
+    return allocation_fails() ? NULL : hold(__real_aligned_alloc(page, size));
 }
 
 void *__wrap_realloc(void *old, size_t size)
 {
-    return allocation_fails() ? NULL : __real_realloc(old, size);
+    void *new = allocation_fails() ? NULL : __real_realloc(old, size);
+    held += new && !old;
+    return new;
+}
+
+void __wrap_free(void *block)
+{
+    held -= block != NULL;
+    __real_free(block);
 }
 
 /* CHOLMOD gets the same ones; how depends on its version. */
@@ -44,9 +67,11 @@ static void share_with_cholmod(void)
 #if SUITESPARSE_MAIN_VERSION >= 7
     SuiteSparse_config_malloc_func_set(__wrap_malloc);
     SuiteSparse_config_calloc_func_set(__wrap_calloc);
+    SuiteSparse_config_free_func_set(__wrap_free);
 #else
     SuiteSparse_config.malloc_func = __wrap_malloc;
     SuiteSparse_config.calloc_func = __wrap_calloc;
+    SuiteSparse_config.free_func = __wrap_free;
 #endif
 }
 
@@ -54,12 +79,13 @@ static void share_with_cholmod(void)
 static Status run_once(const Options *options)
 {
     Simulation simulation;
-    allocations = 0;
+    allocations = held = 0;
     Status status = simulation_create(options, NULL, NULL, &simulation);
     if (!status)
         status = simulation_step(&simulation);
     first_failure = -1;
     simulation_free(&simulation);
+    CHECK(held == 0);
     return status;
 }
 

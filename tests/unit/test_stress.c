@@ -151,6 +151,20 @@ static void fall_through(TimeIntegrator *run)
     run->new_x[1] = -0.7;
 }
 
+static void shift(TimeIntegrator *run)
+{
+    integrator_methods[0].land(run);
+    for (size_t i = 0; i < run->size; i++)
+        run->new_v[i] += 1e-5;
+}
+
+static void turn(TimeIntegrator *run)
+{
+    integrator_methods[0].land(run);
+    for (size_t i = 0; i < run->size; i++)
+        run->new_v[i] += (i % 2 ? 1e-3 : -1e-3) * run->new_x[i ^ 1];
+}
+
 /* A tolerance that grows behind the judge's back. */
 static double tolerance;
 
@@ -180,8 +194,10 @@ TEST(broken_promises_are_noticed)
         {"--segments 2", be_content, be_strict_again, "the residual is"},
         {"--segments 12", be_content, be_strict_again, "the residual is"},
         {"--segments 2 --ground 0,1,0,-0.6", NULL, fall_through, "gap is -0.1"},
+        {"--segments 2", NULL, shift, "momentum"},
+        {"--segments 2 --material neo-hookean", NULL, turn, "angular"},
     };
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 7; i++) {
         Watch watch;
         Tally tally = {0};
         TimeIntegrator *run =
