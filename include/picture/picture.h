@@ -25,6 +25,7 @@ typedef struct Card {
     bool half_on_page; /* the same, but only on a page of the lecture: its words
                           need the room */
     bool closed;       /* at the start */
+    bool along;        /* it draws E along p, which is kept for it */
     bool below;        /* as a page's star it stands below the picture */
     bool lecture;      /* it is nowhere but on pages of the lecture */
     /* What is inside, below the title: a text, all lines that are known; an

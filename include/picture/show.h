@@ -1,5 +1,5 @@
-/* show.h - all that a frame shows, in one struct: filled by whoever plays,
- * read by the pictures and cards.
+/* show.h - all that a frame shows, in one struct: filled before a frame is
+ * drawn, only read by pictures and cards.
  *
  * The same Show and size of the paper give the same pixels.  Pointers are not
  * owned; NULL means "there is none", and what would need it is left out.  A
@@ -146,6 +146,15 @@ typedef struct Held {
     double bounds[4];
 } Held;
 
+/* How the user looks at a frame. */
+typedef struct View {
+    Lens lens;
+    Pick hover; /* what the mouse is over on the stage */
+    Hit over;   /* part of the window that the mouse is over */
+    Held held;
+    int chosen; /* cell of the sheet */
+} View;
+
 /* ---- around the stage --------------------------------------------------- */
 
 /* A number or a choice in the row. */
@@ -227,17 +236,14 @@ typedef struct Show {
     HelpRow help[LAYOUT_ROWS];
 
     /* The sheet of all scenes, where it is open: cells > 0. */
-    int cells, chosen;
+    int cells;
     SheetCell cell[LAYOUT_CELLS];
 
     /* The stage. */
-    Lens lens;
-    Pick hover;                 /* what the mouse is over */
-    Hit over;                   /* and which part of the window */
+    const View *view;
     const struct Control *hand; /* that pulls in the active pane; NULL: none */
-    Held held;
-    bool strain; /* springs coloured by strain */
-    bool bare;   /* the picture of the slide and nothing else */
+    bool strain;                /* springs coloured by strain */
+    bool bare;                  /* the picture of the slide and nothing else */
     struct Text
         *text;     /* what a page's words are measured with; NULL: guessed */
     double letter; /* pixels that an em has at least; 0: the usual ones */
@@ -252,7 +258,8 @@ typedef struct Show {
     int guesses, right;  /* at all pages */
 } Show;
 
-/* Nothing selected, everything fits, one pane that shows the simulation. */
+/* Nothing selected, everything fits, one pane that shows the simulation; view
+ * is a constant. */
 void show_create(const Simulation *simulation, Show *show);
 
 /* The pane whose numbers the cards show. */
@@ -275,8 +282,8 @@ Layout show_layout(const Show *show, int width, int height);
 
 Camera show_camera(const Show *show, const Layout *layout, int pane);
 
-/* The camera holds still from now on. */
-void show_hold(Show *show, const Layout *layout, int pane);
+/* The part of the world that a pane shows now, to be held still. */
+Held show_hold(const Show *show, const Layout *layout, int pane);
 
 /* What is at this pixel of the stage; PICK_NONE elsewhere. */
 Pick show_pick(const Show *show, const Layout *layout, double x, double y);
@@ -304,6 +311,10 @@ void show_describe(Show *show);
 
 /* The number that texts know by this name now; NaN: none. */
 double show_number(Show *show, const char *name);
+
+/* Whether E along p is drawn in a card of this scene or its page: each card is
+ * open as at the start, but for those in `toggled`, bit c for card c. */
+bool show_needs_line(const Simulation *simulation, unsigned toggled);
 
 /* What the history of this scene's picture shows of the state now.  row out;
  * returns how many. */

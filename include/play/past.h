@@ -116,6 +116,8 @@ typedef struct Past {
     long booked;  /* The ledgers of later steps are out of date, alike: a number
                      that changes after a step changes the ledger of it. */
     size_t bytes, limit;
+    int line; /* pane in which E along p is drawn: it is kept of the last update
+                 of each step; -1: none */
     /* Work that is under way, a Newton iteration at a time. */
     bool works;    /* the rest means nothing otherwise */
     long aim;      /* the step that is to be shown */
@@ -168,10 +170,10 @@ Status past_iterate(Past *past);
 /* Iterates to the end of the work, and returns as past_iterate does there. */
 Status past_finish(Past *past);
 
-/* After a picture: where it has asked for E along p, and that was not kept, the
- * step that is shown is made once more, unless one has failed after it.
- * Returns whether it was: a second picture shows it. */
-bool past_drawn(Past *past);
+/* Makes the shown step once more if E along p is drawn at this place of its
+ * rounds, or -1, but was not kept, unless a step has failed after it.
+ * past_iterate follows. */
+void past_complete(Past *past, int place);
 
 /* One gesture down (-1) or up (1), where past_iterate leads.  Returns what was
  * undone or done again; NULL: nothing was. */

@@ -64,8 +64,23 @@ typedef struct Side {
     int place;     /* in the rounds of the step; -1: it shows all of it */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
     char ghost_label[256]; /* which one, and what it was */
-    char label[64];        /* what is different here */
 } Side;
+
+enum { LABEL_SIZE = 64 }; /* bytes */
+
+/* Contents of the last frame: pictures read the Show, which points to the rest;
+ * the mouse finds in it what was drawn. */
+typedef struct Frame {
+    Show show;
+    History history[LAYOUT_PANES];
+    Trace trace[LAYOUT_PANES];
+    char label[LAYOUT_PANES][LABEL_SIZE]; /* what is different in a pane */
+    char chip_key[LAYOUT_CHIPS][SHOW_VALUE];
+    char chip_label[LAYOUT_CHIPS][SHOW_VALUE];
+    CommandKind chip[LAYOUT_CHIPS]; /* what the chips ask for */
+    int numbers;                    /* in the row */
+    const OptionRow *number[OPTIONS_MOST];
+} Frame;
 
 enum { QUEUE_MOST = 16 };
 
@@ -148,11 +163,9 @@ typedef struct Player {
     bool typing;    /* every key belongs into what is typed: */
     char typed[28]; /* for the selected number, or a page of the list */
     CommandKind leaving; /* Escape or Q, which once more ends the program */
-    CommandKind chip[LAYOUT_CHIPS];        /* what the chips ask for */
-    const OptionRow *number[OPTIONS_MOST]; /* what the row has */
-    int numbers;
     Mouse mouse;
-    Show show; /* of the last frame */
+    View view;
+    Frame frame;
 } Player;
 
 /* Sets everything up.  Says on standard error if there is no screen, and then
@@ -190,6 +203,9 @@ Status player_run(Player *player);
 Status player_frame(Player *player);
 int player_wait(const Player *player);
 bool player_ended(const Player *player);
+
+/* What is different in a pane: "h 0.01 s, ended at step 3". */
+void player_label(const Player *player, int pane, char label[LABEL_SIZE]);
 
 /* The hash of the present state of all panes; see state_hash. */
 uint64_t player_hash(const Player *player);

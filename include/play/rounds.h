@@ -32,10 +32,9 @@ typedef struct Round {
     double first;      /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
     bool rough;    /* it is not: */
-    double alpha, change;  /* the one that was taken, and what E did, J s^2 */
-    bool sampled;          /* and these are kept: */
-    double *value;         /* [ROUND_VALUES] J s^2, behind u */
-    struct Rounds *rounds; /* that it is one of */
+    double alpha, change; /* the one that was taken, and what E did, J s^2 */
+    bool sampled;         /* and these are kept: */
+    double *value;        /* [ROUND_VALUES] J s^2, behind u */
 } Round;
 
 /* A place in the listing: which line of which round; in the line search, how
@@ -47,14 +46,13 @@ typedef struct Station {
 } Station;
 
 typedef struct Rounds {
-    Trace start;  /* h and epsilon that the step is made with */
-    int size;     /* 2n; 0: nobody asks for them */
-    Records made; /* record of each round */
-    Round *round; /* [made.count] */
-    int room;     /* rounds that have memory */
-    bool all;     /* E along p is kept of every round */
-    bool last;    /* E along p is kept of the last round: a picture has asked */
-    bool asked;   /* the last picture has asked for what is not kept */
+    Trace start;     /* h and epsilon that the step is made with */
+    int size;        /* 2n; 0: nobody asks for them */
+    Records made;    /* record of each round */
+    Round *round;    /* [made.count] */
+    int room;        /* rounds that have memory */
+    bool all;        /* E along p is kept of every round */
+    bool last;       /* E along p is kept of the last round */
     double *x_tilde; /* [size] m; NULL: not known */
     double *end;     /* [size] m, iterate after the last round; or NULL */
     size_t bytes;
@@ -63,8 +61,15 @@ typedef struct Rounds {
     int places;
 } Rounds;
 
-/* Before a step.  all: it is to be walked through. */
-void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all);
+/* Before a step.
+ *   all   E along p is kept of each round, for a walk through the step
+ *   last  E along p is kept of the last round, which is drawn */
+void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all,
+                  bool last);
+
+/* Whether E along p is not kept of the round at a place, or of the last one for
+ * place -1, and would be if the step was made once more with `all`. */
+bool rounds_lack_line(const Rounds *rounds, int place);
 
 /* After a Newton iteration.  Nothing is kept where memory is missing. */
 void rounds_add(Rounds *rounds, const Newton *newton,

@@ -58,7 +58,7 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
-    const Pick *hover = &card->show->hover;
+    const Pick *hover = &card->show->view->hover;
     unsigned char *block = make_pattern(system, natural, springs);
     Canvas *canvas = &paper->canvas;
     int n = system->nodes;

@@ -70,7 +70,8 @@ BEGIN {
     values["least"] values["needs"] values["weight"] values["around"]
     values["draw"] values["bounds"] values["facts"] values["pick"]
     values["hover"] values["sample"]
-    switches["half"] switches["half_on_page"] switches["closed"] switches["below"]
+    switches["half"] switches["half_on_page"] switches["closed"]
+    switches["along"] switches["below"]
     switches["lecture"] switches["stretched"] switches["own_handles"]
     switches["places"] switches["scale"] switches["indented"]
     print "#include \"picture/cards.h\""

@@ -99,7 +99,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, show->veiled ? "asked" : "told", true);
     fact(facts, "guesses", show->guesses > 0 ? show->guesses : NAN);
     fact(facts, "right", show->right);
-    fact_when(facts, show->held.on ? "held" : "free", true);
+    fact_when(facts, show->view->held.on ? "held" : "free", true);
     if (simulation->done && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* the gradient is 0, too */
         const double *x = descent->point;

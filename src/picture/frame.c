@@ -155,7 +155,7 @@ static void draw_last(Paper *paper, const Layout *layout, const Show *show)
         const Chip *chip = &show->chip[i];
         Box box = layout->chip[i];
         bool all = layout->chips_left_out > 0 && i == layout->chips - 1;
-        bool over = show->over.zone == ZONE_CHIP && show->over.index == i;
+        bool over = show->view->over.zone == ZONE_CHIP && show->view->over.index == i;
         const char *label = all ? "all \u2026" : chip->label;
         int key = paper_width(paper, FACE_BOLD, size, chip->key);
         int width = key + paper_width(paper, FACE_REGULAR, size, label);
@@ -181,7 +181,7 @@ void frame_draw(Paper *paper, const Layout *layout, const Show *show)
     for (int i = 0; i < layout->settings; i++)
         draw_setting(paper, layout->setting[i], &show->setting[i],
                      show->selected == i,
-                     show->over.zone == ZONE_SETTING && show->over.index == i);
+                     show->view->over.zone == ZONE_SETTING && show->view->over.index == i);
     draw_time(paper, layout, show);
     draw_last(paper, layout, show);
 }

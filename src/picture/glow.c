@@ -101,12 +101,13 @@ void glow_draw(Paper *paper, const Show *show)
     Colour colour = 0;
     if (!show->lecture)
         return;
-    if (show->over.zone == ZONE_CARD || show->over.zone == ZONE_STAGE)
-        colour = term_near(&paper->canvas, show->over.at,
+    if (show->view->over.zone == ZONE_CARD ||
+        show->view->over.zone == ZONE_STAGE)
+        colour = term_near(&paper->canvas, show->view->over.at,
                            (int)(AT_MOUSE * paper->em));
-    bool plain = show->hover.kind == PICK_SWITCH &&
+    bool plain = show->view->hover.kind == PICK_SWITCH &&
                  !exhibit_has_kinds(show_pane(show)->simulation);
-    if (plain || (colour == COLOUR_X && show->over.zone == ZONE_STAGE))
+    if (plain || (colour == COLOUR_X && show->view->over.zone == ZONE_STAGE))
         colour = 0; /* all of the square; a switch without a term */
     if (!colour && trace && show_has_card(show, "listing"))
         colour = of_line[trace->line];

@@ -38,13 +38,28 @@ int picture_card(const Picture *picture, const char *name)
 void show_create(const Simulation *simulation, Show *show)
 {
     const Picture *picture = picture_of(simulation->scene);
-    *show = (Show){.panes = 1, .selected = -1, .large = -1};
+    static const View whole = {.lens = {1, {0, 0}}};
+    *show = (Show){.panes = 1, .selected = -1, .large = -1, .view = &whole};
     show->pane[0].simulation = simulation;
-    show->lens = LENS_FITS;
     for (int c = 0; c < picture->count; c++) {
         show->closed |= (unsigned)picture->cards[c]->closed << c;
         show->hidden |= (unsigned)picture->cards[c]->lecture << c;
     }
+}
+
+bool show_needs_line(const Simulation *simulation, unsigned toggled)
+{
+    const Picture *picture = picture_of(simulation->scene);
+    const LecturePage *page = simulation->options.page;
+    for (int c = 0; c < picture->count; c++) {
+        const Card *card = picture->cards[c];
+        bool there =
+            page ? strstr(page->cards, card->name) != NULL : !card->lecture;
+        bool closed = (card->closed && !page) != (toggled >> c & 1);
+        if (card->along && there && !closed)
+            return true;
+    }
+    return false;
 }
 
 /* The box of a pane without what words need of it. */
@@ -82,7 +97,7 @@ static void own_bounds(const Show *show, const Layout *layout, int pane,
 static void find_bounds(const Show *show, const Layout *layout, int pane,
                         double bounds[4])
 {
-    const Held *held = &show->held;
+    const Held *held = &show->view->held;
     int last = show->lecture ? show->panes - 1 : pane;
     double own[4];
     if (held->on && !held->away && (held->pane == pane || held->pane == last)) {
@@ -112,10 +127,11 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
     bool stretched = picture_of(stage.simulation->scene)->stretched;
     Box room = pane_room(show, layout, pane), beside;
     find_bounds(show, layout, pane, bounds);
-    stage.camera = camera_create(room, bounds, stretched, &show->lens);
+    stage.camera = camera_create(room, bounds, stretched, &show->view->lens);
     beside = room; /* of the switches, where it is no smaller there */
     box_cut_off(&beside, EDGE_RIGHT, (int)(SWITCH_WIDE * layout->em));
-    const Camera there = camera_create(beside, bounds, stretched, &show->lens);
+    const Camera there =
+        camera_create(beside, bounds, stretched, &show->view->lens);
     Switch out[SCENE_MAX_SWITCHES];
     if (stage.text && beside.width > 0 &&
         there.scale[0] >= stage.camera.scale[0] &&
@@ -129,11 +145,11 @@ Camera show_camera(const Show *show, const Layout *layout, int pane)
     return show_stage(NULL, show, layout, pane).camera;
 }
 
-void show_hold(Show *show, const Layout *layout, int pane)
+Held show_hold(const Show *show, const Layout *layout, int pane)
 {
     Held held = {.on = true, .pane = pane};
     find_bounds(show, layout, pane, held.bounds);
-    show->held = held;
+    return held;
 }
 
 /* ---- what the mouse can drag and switch, and finds ----------------------- */
@@ -142,7 +158,7 @@ void stage_handles(const Plot *stage)
 {
     double at[SCENE_MAX_HANDLES][2];
     int count = exhibit_handles(stage->simulation, at);
-    const Pick *hover = &stage->show->hover;
+    const Pick *hover = &stage->show->view->hover;
     for (int i = 0; i < count && !stage->show->bare; i++) {
         bool over = hover->kind == PICK_HANDLE && hover->pane == stage->pane &&
                     hover->index == i;
@@ -329,7 +345,7 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
 {
     Plot stage = show_stage(paper, show, layout, pane);
     const Picture *picture = picture_of(stage.simulation->scene);
-    const Pick *hover = &show->hover;
+    const Pick *hover = &show->view->hover;
     Box before = canvas_clip(&paper->canvas, stage.box);
     if (show->lecture && stage.box.height < LEAST_TEXT * paper->em)
         stage.text = false; /* a star has taken its room */
@@ -405,7 +421,8 @@ void show_draw(Paper *paper, const Show *show)
         show_layout(show, paper->canvas.width, paper->canvas.height);
     begin_paper(paper, layout.em, show);
     for (int i = 0; i < layout.cells; i++)
-        draw_cell(paper, layout.cell[i], &show->cell[i], i == show->chosen);
+        draw_cell(paper, layout.cell[i], &show->cell[i],
+                  i == show->view->chosen);
     if (layout.cells > 0) {
         if (!show->document)
             frame_draw(paper, &layout, show);

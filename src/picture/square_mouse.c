@@ -86,7 +86,7 @@ static void draw_note(const Plot *stage, const Facts *facts, const char *text)
                                 line.words) +
                 paper_pixels(paper, 0.2 * size);
     }
-    plot_place(stage, stage->show->hover.point, mouse);
+    plot_place(stage, stage->show->view->hover.point, mouse);
     box->width = (int)wide + 2 * margin;
     box->height = (int)high + 2 * margin;
     box->x += mouse[0] > middle ? 0 : stage->box.width - box->width;
@@ -166,7 +166,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
 void square_hover(Plot *stage)
 {
     const Pane *pane = &stage->show->pane[stage->pane];
-    const Pick *hover = &stage->show->hover;
+    const Pick *hover = &stage->show->view->hover;
     const System *system = &pane->simulation->system;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
         note_node(stage, pane, hover->index);

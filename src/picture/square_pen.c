@@ -60,7 +60,7 @@ SpringPen square_pen(Plot *stage, int run)
                      .contact = contact_of(system),
                      .fixed = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
     double unit = stage->paper->unit;
-    double seen = show->lens.zoom * stage->box.width / stage->camera.scale[0];
+    double seen = show->view->lens.zoom * stage->box.width / stage->camera.scale[0];
     if (seen > FLOWN * mesh->side) /* the rest shape is nothing beside it */
         pen.spacing *= seen / mesh->side;
     for (int i = 0; pen.fixed && i < mesh->nodes; i++) {

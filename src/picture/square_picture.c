@@ -38,9 +38,9 @@ static bool has_frame(const Simulation *simulation)
 }
 
 /* A part of the world: so far, m, from its middle to its sides. */
-typedef struct View {
+typedef struct Extent {
     double middle[2], size[2];
-} View;
+} Extent;
 
 /* Whether the scene has nothing that holds the body or is in its way: then the
  * view follows the body from the start. */
@@ -54,11 +54,11 @@ static bool is_free(const Simulation *simulation)
 
 /* The view of the scene; else the square as it starts, or with the room that a
  * squeezed one needs to spring out and bulge. */
-static View first_view(const Show *show, const Simulation *simulation)
+static Extent first_view(const Show *show, const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     const double *frame = simulation->scene->frame;
-    View view = {{0, 0}, {0, 0}};
+    Extent view = {{0, 0}, {0, 0}};
     double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
@@ -72,9 +72,9 @@ static View first_view(const Show *show, const Simulation *simulation)
 }
 
 /* What the stage shows when the view fits it: more at two sides. */
-static View view_seen(const Plot *stage, const View *view)
+static Extent view_seen(const Plot *stage, const Extent *view)
 {
-    View seen = *view;
+    Extent seen = *view;
     const double box[2] = {stage->box.width, stage->box.height};
     double scale = fmin(box[0] / view->size[0], box[1] / view->size[1]);
     for (int k = 0; k < 2 && scale > 0; k++)
@@ -85,8 +85,8 @@ static View view_seen(const Plot *stage, const View *view)
 /* Widens the view so that it has a point that is not seen and so much around
  * it, m, if that is at most so many times as far from the middle as the sides
  * of the view are. */
-static void widen_view(const View *seen, const double at[2], double around,
-                       double times, View *view)
+static void widen_view(const Extent *seen, const double at[2], double around,
+                       double times, Extent *view)
 {
     bool hidden[2];
     for (int k = 0; k < 2; k++) {
@@ -107,12 +107,12 @@ static void widen_view(const View *seen, const double at[2], double around,
 
 /* Widens the view by the balls and grounds in reach; of a ground as much is
  * seen as a hand needs to take hold of it. */
-static void add_obstacles(const Plot *stage, View *view)
+static void add_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
-    const View seen = view_seen(stage, view);
+    const Extent seen = view_seen(stage, view);
     double air = 0.04 * fmin(view->size[0], view->size[1]);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
@@ -129,7 +129,7 @@ static void add_obstacles(const Plot *stage, View *view)
 /* Moves the view as little as needed so that the middle of the body is in its
  * inner half. */
 static void follow_body(const Simulation *simulation, const double *x,
-                        View *view)
+                        Extent *view)
 {
     int nodes = simulation->system.nodes;
     for (int k = 0; k < 2; k++) {
@@ -144,7 +144,7 @@ static void follow_body(const Simulation *simulation, const double *x,
 
 /* How many times as large the view must be to have all nodes of all runs of a
  * pane.  tall  in/out: the same upwards alone. */
-static double pane_needs(const Pane *pane, const View *view, double *tall)
+static double pane_needs(const Pane *pane, const Extent *view, double *tall)
 {
     const Simulation *simulation = pane->simulation;
     double need = 1;
@@ -169,7 +169,7 @@ void square_bounds(const Plot *stage, double bounds[4])
     const Show *show = stage->show;
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = stage->simulation;
-    View view = first_view(show, simulation);
+    Extent view = first_view(show, simulation);
     double tall = 0, grown = 1, need = pane_needs(pane, &view, &tall);
     if (is_free(simulation) || need > FAR) {
         follow_body(simulation, pane_x(pane), &view);
@@ -243,7 +243,7 @@ static void draw_mouse(const SpringPen *pen)
     const Show *show = stage->show;
     const System *system = pen->system;
     const Control *hand = stage->pane == show->active ? show->hand : NULL;
-    const Pick *hover = &show->hover;
+    const Pick *hover = &show->view->hover;
     bool over = hover->pane == stage->pane;
     bool writes = pen->simulation->options.next == NEXT_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index

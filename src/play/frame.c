@@ -1,6 +1,4 @@
-/* frame.c - what the player knows, as the Show that the pictures read; and the
- * paper on which they are drawn.
- */
+/* frame.c - fills the contents of a frame from the player and draws them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +14,7 @@ static const double SMALL_LETTER = 9; /* pixels, of a surface */
 
 /* ---- the list of keys ---------------------------------------------------- */
 
-/* As people read it: "Right" is an arrow. */
+/* Replaces the name of a key by its sign, "Right" by an arrow. */
 static void pretty_key(char key[SHOW_VALUE])
 {
     static const char *const names[][2] = {
@@ -49,10 +47,10 @@ static void fill_help(Show *show)
         const CommandRow *command = &command_rows[kind];
         if (!command->label)
             continue;
-        if (command->label[0]) /* else it is told with the one before */
+        if (command->label[0]) /* "": the key stands in the row above */
             snprintf((row++)->text, SHOW_TEXT, "%s", command->label);
         for (const char *at = command->keys; *at; at += *at == '|') {
-            char key[SHOW_VALUE], *keys = row[-1].key; /* of "A|B", all */
+            char key[SHOW_VALUE], *keys = row[-1].key;
             int length = (int)strcspn(at, "|");
             snprintf(key, sizeof key, "%.*s", length, at);
             pretty_key(key);
@@ -65,19 +63,19 @@ static void fill_help(Show *show)
 
 /* ---- the row of numbers -------------------------------------------------- */
 
-/* The row of numbers, and what a sentence can say of the one under the mouse,
- * or of that which is lit. */
-static void fill_settings(Player *player)
+/* Fills the row of numbers, and the sentence about the number under the mouse
+ * or the one that is lit. */
+static void fill_settings(const Player *player, Frame *frame)
 {
-    Show *show = &player->show;
+    Show *show = &frame->show;
+    const Hit *mouse = &player->view.over;
     const Options shown = player_numbers(player), *options = &shown;
     const OptionRow *all[OPTIONS_MOST];
     show->selected = -1;
-    player->numbers = player_row(player, false, player->number);
-    bool over =
-        show->over.zone == ZONE_SETTING && show->over.index < player->numbers;
-    for (int i = 0; i < player->numbers; i++) {
-        const OptionRow *row = player->number[i];
+    frame->numbers = player_row(player, false, frame->number);
+    bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->numbers;
+    for (int i = 0; i < frame->numbers; i++) {
+        const OptionRow *row = frame->number[i];
         Setting *setting = &show->setting[show->settings++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = row->label ? row->label : row->name;
@@ -90,7 +88,7 @@ static void fill_settings(Player *player)
         setting->changed = strcmp(now, start) != 0;
         const char *idle = player_idle(player, row);
         setting->off = strcmp(setting->value, "none") == 0 || idle;
-        bool told = over ? i == show->over.index : row == player->lit;
+        bool told = over ? i == mouse->index : row == player->lit;
         if (told && (idle || row->help[0]))
             snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
                      idle ? idle : row->help);
@@ -99,17 +97,16 @@ static void fill_settings(Player *player)
         if (row == player->lit && player->typing)
             snprintf(setting->value, SHOW_VALUE, "%s_", player->typed);
     }
-    if (player_row(player, true, all) > player->numbers)
+    if (player_row(player, true, all) > frame->numbers)
         show->setting[show->settings++] =
             (Setting){"", "+ more", 0, false, false};
 }
 
-/* All numbers of the scene, what they are, and why some have no meaning now. */
-static void fill_options(Player *player)
+/* Lists all numbers of the scene, and why some have no meaning now. */
+static void fill_options(const Player *player, Show *show)
 {
     const OptionRow *all[OPTIONS_MOST];
     const Options options = player_numbers(player);
-    Show *show = &player->show;
     show->help_rows = player_row(player, true, all);
     for (int i = 0; i < show->help_rows; i++) {
         HelpRow *row = &show->help[i];
@@ -127,30 +124,27 @@ static void fill_options(Player *player)
 
 /* ---- the chips ----------------------------------------------------------- */
 
-/* The chip of a command: its first key, and what that does now: word number
- * `word` of those of its row. */
-static void add_chip(Player *player, CommandKind kind, int word, bool lit)
+/* Adds the chip of a command: its first key, and word number `word` of those in
+ * its row, which say what the key does now. */
+static void add_chip(Frame *frame, CommandKind kind, int word, bool lit)
 {
-    static char keys[LAYOUT_CHIPS][SHOW_VALUE],
-        labels[LAYOUT_CHIPS][SHOW_VALUE];
-    Show *show = &player->show;
-    int i = show->chips;
+    int i = frame->show.chips;
     const CommandRow *row = &command_rows[kind];
     const char *label = row->chip;
     if (i >= LAYOUT_CHIPS)
         return;
+    char *key = frame->chip_key[i], *text = frame->chip_label[i];
     for (; word > 0; word--)
         label = strchr(label, '|') + 1;
-    snprintf(labels[i], SHOW_VALUE, "%.*s", (int)strcspn(label, "|"), label);
-    snprintf(keys[i], SHOW_VALUE, "%.*s", (int)strcspn(row->keys, "|"),
-             row->keys);
-    pretty_key(keys[i]);
-    player->chip[i] = kind;
-    show->chip[show->chips++] = (Chip){keys[i], labels[i], lit};
+    snprintf(text, SHOW_VALUE, "%.*s", (int)strcspn(label, "|"), label);
+    snprintf(key, SHOW_VALUE, "%.*s", (int)strcspn(row->keys, "|"), row->keys);
+    pretty_key(key);
+    frame->chip[i] = kind;
+    frame->show.chip[frame->show.chips++] = (Chip){key, text, lit};
 }
 
-/* The keys that matter now. */
-static void fill_chips(Player *player)
+/* Adds chips of the keys that matter now. */
+static void fill_chips(const Player *player, Frame *frame)
 {
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_settings(player);
@@ -160,69 +154,94 @@ static void fill_chips(Player *player)
     bool ended = simulation->done || player->mode > MODE_END;
     bool stands = player_stands(player);
     if (player->sheet) {
-        add_chip(player, COMMAND_PAGE_ON, 0, false);
-        add_chip(player, COMMAND_PAGES, 0, false);
-        add_chip(player, COMMAND_SHEET, 1, false);
+        add_chip(frame, COMMAND_PAGE_ON, 0, false);
+        add_chip(frame, COMMAND_PAGES, 0, false);
+        add_chip(frame, COMMAND_SHEET, 1, false);
         return;
     }
-    add_chip(player, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
+    add_chip(frame, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
     int next = nears ? 4 : newton ? player->fine : time ? 0 : 3;
-    add_chip(player, COMMAND_NEXT, next, false);
-    add_chip(player, COMMAND_BACK, 0, false);
+    add_chip(frame, COMMAND_NEXT, next, false);
+    add_chip(frame, COMMAND_BACK, 0, false);
     if (options->page) {
-        add_chip(player, COMMAND_PAGE_ON, 0, ended && options->page[1].name);
-        add_chip(player, COMMAND_CODE, 0, player->column == COLUMN_CODE);
-        add_chip(player, COMMAND_PAGES, 0, player->column == COLUMN_PAGES);
+        add_chip(frame, COMMAND_PAGE_ON, 0, ended && options->page[1].name);
+        add_chip(frame, COMMAND_CODE, 0, player->column == COLUMN_CODE);
+        add_chip(frame, COMMAND_PAGES, 0, player->column == COLUMN_PAGES);
     } else if (player->left) {
-        add_chip(player, COMMAND_PAGE_BACK, 0, true);
+        add_chip(frame, COMMAND_PAGE_BACK, 0, true);
     }
-    add_chip(player, COMMAND_RESTART, 0, ended);
+    add_chip(frame, COMMAND_RESTART, 0, ended);
     if (newton)
-        add_chip(player, COMMAND_FINER, player->fine, false);
+        add_chip(frame, COMMAND_FINER, player->fine, false);
     if (simulation_has_projection(simulation))
-        add_chip(player, COMMAND_PROJECTION,
+        add_chip(frame, COMMAND_PROJECTION,
                  options->projection == PROJECTION_NONE, false);
     if (simulation_has_line_search(simulation))
-        add_chip(player, COMMAND_SEARCH,
+        add_chip(frame, COMMAND_SEARCH,
                  options->line_search == LINE_SEARCH_NONE, false);
     if (time && simulation->runs == 1)
-        add_chip(player, COMMAND_METHOD, 0, false);
+        add_chip(frame, COMMAND_METHOD, 0, false);
     if (player->past.now > 0)
-        add_chip(player, COMMAND_UNDO, 0, false);
-    add_chip(player, COMMAND_SHEET, 0, false);
-    add_chip(player, COMMAND_KEYS, 0, player->column == COLUMN_KEYS);
+        add_chip(frame, COMMAND_UNDO, 0, false);
+    add_chip(frame, COMMAND_SHEET, 0, false);
+    add_chip(frame, COMMAND_KEYS, 0, player->column == COLUMN_KEYS);
 }
 
 /* ---- the picture --------------------------------------------------------- */
 
 _Static_assert((int)OPTIONS_MAX_DRAWN == (int)LAYOUT_PANES, "all are drawn");
 
-/* One picture on the stage. */
-static void fill_pane(Player *player, int p)
+void player_label(const Player *player, int pane, char label[LABEL_SIZE])
+{
+    const Past *past = &player->past;
+    long last = past_ended(past, pane, past->step);
+    const Entry *entry = past_entry(past, pane, last < 0 ? past->step : last);
+    char value[SHOW_VALUE];
+    label[0] = '\0';
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        if (!player_compares(player, row))
+            continue;
+        player_value(row, &entry->control->options,
+                     &past->machine[pane].simulation, value, sizeof value);
+        append(label, LABEL_SIZE, "%s", label[0] ? ", " : "");
+        if (row->slot != OPTION_SLOT(integrator))
+            append(label, LABEL_SIZE, "%s ", row->label);
+        append(label, LABEL_SIZE, "%s", value);
+    }
+    if (last < 0)
+        return;
+    append(label, LABEL_SIZE, "%sended at step %ld", label[0] ? ", " : "",
+           last);
+    long seen = past_last_seen(past, pane, last);
+    if (seen < last)
+        append(label, LABEL_SIZE, " (drawn: %ld)", seen);
+}
+
+/* Fills one picture on the stage. */
+static void fill_pane(const Player *player, int p, Frame *frame)
 {
     const Machine *machine = &player->past.machine[p];
     const Simulation *simulation = &machine->simulation;
-    static History histories[LAYOUT_PANES];
-    static Trace traces[LAYOUT_PANES];
     const Side *side = &player->side[p];
-    Pane *pane = &player->show.pane[p];
-    past_history(&player->past, p, &histories[p]);
+    Pane *pane = &frame->show.pane[p];
+    past_history(&player->past, p, &frame->history[p]);
+    player_label(player, p, frame->label[p]);
     *pane = (Pane){.simulation = simulation,
-                   .history = &histories[p],
+                   .history = &frame->history[p],
                    .ghost = side->ghost,
                    .ghost_label = side->ghost_label,
                    .trouble = machine->outcome.status};
     if (past_panes(&player->past) > 1)
-        pane->label = side->label;
+        pane->label = frame->label[p];
     bool newton =
         simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
     if (machine->known && newton) {
-        pane->x = rounds_trace(&machine->rounds, side->place, &traces[p]);
-        pane->trace = &traces[p];
+        pane->trace = &frame->trace[p];
+        pane->x = rounds_trace(&machine->rounds, side->place, &frame->trace[p]);
     }
 }
 
-/* What the time line tells of a step. */
+/* The bar of a step in the time line. */
 static StepBar bar_of(const void *shown, long step)
 {
     const Player *player = shown;
@@ -231,39 +250,10 @@ static StepBar bar_of(const void *shown, long step)
     return (StepBar){outcome->updates, status_is_unconverged(outcome->status)};
 }
 
-void player_label_panes(Player *player)
-{
-    const Past *past = &player->past;
-    for (int p = 0; p < past_panes(past); p++) {
-        long last = past_ended(past, p, past->step);
-        const Entry *entry = past_entry(past, p, last < 0 ? past->step : last);
-        char *label = player->side[p].label, value[SHOW_VALUE];
-        const size_t size = sizeof player->side[p].label;
-        label[0] = '\0';
-        for (const OptionRow *row = option_rows; row->name; row++) {
-            if (!player_compares(player, row))
-                continue;
-            player_value(row, &entry->control->options,
-                         &past->machine[p].simulation, value, sizeof value);
-            append(label, size, "%s", label[0] ? ", " : "");
-            if (row->slot != OPTION_SLOT(integrator))
-                append(label, size, "%s ", row->label);
-            append(label, size, "%s", value);
-        }
-        if (last < 0)
-            continue;
-        append(label, size, "%sended at step %ld", label[0] ? ", " : "", last);
-        long seen = past_last_seen(past, p, last);
-        if (seen < last)
-            append(label, size, " (drawn: %ld)", seen);
-    }
-}
-
 /* "step 12 of 40   t = 0.24 s   2 steps a frame", and what time does; a long
  * step says so, and how to stop it. */
-static void fill_time(Player *player)
+static void fill_time(const Player *player, Show *show)
 {
-    Show *show = &player->show;
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
     char *text = show->time_text;
@@ -301,64 +291,46 @@ static void fill_time(Player *player)
              player_machine(player)->outcome.updates);
 }
 
-void player_look_again(Player *player)
+/* Fills the contents of the next frame. */
+static void fill_frame(const Player *player, Frame *frame)
 {
-    Show *show = &player->show;
-    const Mouse *mouse = &player->mouse;
-    const Canvas *canvas = &player->paper.canvas;
-    PickKind kind = show->hover.kind;
-    bool body = kind == PICK_NODE || kind == PICK_SPRING ||
-                kind == PICK_OBSTACLE || kind == PICK_EDGE;
-    if (!body || !canvas->pixels || !mouse->placed || mouse->drag ||
-        show->over.zone != ZONE_STAGE)
-        return;
-    Layout layout = show_layout(show, canvas->width, canvas->height);
-    show->hover = show_pick(show, &layout, mouse->x, mouse->y);
-}
-
-void player_fill(Player *player)
-{
-    const Control *control = past_control(&player->past, player->active);
-    Show *show = &player->show;
-    const Show before = *show;
+    const Past *past = &player->past;
+    Show *show = &frame->show;
+    const int active = player->active;
     show_create(player_simulation(player), show);
-    show->panes = past_panes(&player->past);
-    if (show->panes > LAYOUT_PANES) /* of a run that only a script draws */
-        show->panes = LAYOUT_PANES;
-    show->active = player->active < show->panes ? player->active : 0;
-    player_label_panes(player);
-    for (int i = 0; i < show->panes; i++)
-        fill_pane(player, i);
-    show->hover = before.hover;
-    show->over = before.over;
-    show->held = before.held;
-    show->chosen = before.chosen;
-    fill_time(player);
-    fill_settings(player);
-    fill_chips(player);
-    if (control_holds(control) && player->side[player->active].place < 0)
-        show->hand = control;
-    show->bars = player->past.keeps ? past_newest(&player->past) : 0;
-    show->bar = bar_of;
-    show->past = player;
-    show->step = player->past.step;
-    snprintf(show->message, SHOW_TEXT, "%s", player->note);
-    show->warning = player->warning;
-    show->large = player->large;
-    show->lens = before.lens;
-    show->strain = player->strain !=
-                   (show->pane[0].simulation->scene->strain_colour_max > 0);
-    show->bare = player->bare;
+    show->view = &player->view;
     show->text = player->paper.text;
     show->letter = player->window  ? window_letter()
                    : player->draws ? SMALL_LETTER
                                    : 0;
     show->document = player->window && window_has_document();
+    show->panes = past_panes(past);
+    if (show->panes > LAYOUT_PANES) /* of a run that only a script draws */
+        show->panes = LAYOUT_PANES;
+    show->active = active < show->panes ? active : 0;
+    for (int i = 0; i < show->panes; i++)
+        fill_pane(player, i, frame);
+    fill_time(player, show);
+    fill_settings(player, frame);
+    fill_chips(player, frame);
+    const Control *control = past_control(past, active);
+    if (control_holds(control) && player->side[active].place < 0)
+        show->hand = control;
+    show->bars = past->keeps ? past_newest(past) : 0;
+    show->bar = bar_of;
+    show->past = player;
+    show->step = past->step;
+    show->warning = player->warning;
+    show->large = player->large;
+    show->strain = player->strain !=
+                   (show->pane[0].simulation->scene->strain_colour_max > 0);
+    show->bare = player->bare;
     if (player->column == COLUMN_KEYS)
         fill_help(show);
     if (player->column == COLUMN_OPTIONS)
-        fill_options(player);
-    bool explained = show->sentence[0];
+        fill_options(player, show);
+    if (!(player->explains && show->sentence[0] && !player->typing))
+        snprintf(show->message, SHOW_TEXT, "%s", player->note);
     show->veiled = player_veils(player);
     bool judged = show->pane[0].simulation->options.page == player->told &&
                   player->verdict[0];
@@ -367,11 +339,32 @@ void player_fill(Player *player)
     show->right = player->right;
     show_lecture(player->column, player->left, show);
     show->closed ^= player->closed;
-    player_fill_sheet(player);
-    player_look_again(player);
+    if (player->sheet)
+        sheet_fill(player, show);
     show_describe(show);
-    if (player->explains && explained && !player->typing)
-        show->message[0] = '\0';
+}
+
+/* Finds what lies now under a mouse that rests on a body. */
+static void look_again(Player *player)
+{
+    const Show *show = &player->frame.show;
+    const Mouse *mouse = &player->mouse;
+    const Canvas *canvas = &player->paper.canvas;
+    View *view = &player->view;
+    PickKind kind = view->hover.kind;
+    bool body = kind == PICK_NODE || kind == PICK_SPRING ||
+                kind == PICK_OBSTACLE || kind == PICK_EDGE;
+    if (!body || !canvas->pixels || !mouse->placed || mouse->drag ||
+        view->over.zone != ZONE_STAGE)
+        return;
+    Layout layout = show_layout(show, canvas->width, canvas->height);
+    view->hover = show_pick(show, &layout, mouse->x, mouse->y);
+}
+
+void player_fill(Player *player)
+{
+    fill_frame(player, &player->frame);
+    look_again(player);
 }
 
 /* ---- the paper ----------------------------------------------------------- */
@@ -396,7 +389,7 @@ Paper *player_paper(Player *player)
         paper_free(paper);
         return NULL;
     }
-    player->show.text = paper->text;
+    player->frame.show.text = paper->text;
     if (!paper->text && !told && (!font || font[0])) {
         fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
                         "no words (ELASTO_FONT=FILE.ttf names another font)\n");
@@ -407,20 +400,14 @@ Paper *player_paper(Player *player)
 
 void player_paint(Player *player, Paper *paper)
 {
-    do {
-        player_fill(player);
-        if (player->blank)
-            canvas_clear(&paper->canvas, 0xff000000u);
-        else
-            show_draw(paper, &player->show);
-    } while (past_drawn(&player->past));
+    player_fill(player);
+    if (player->blank)
+        canvas_clear(&paper->canvas, 0xff000000u);
+    else
+        show_draw(paper, &player->frame.show);
 }
 
 void player_paint_card(Player *player, Paper *paper, int card)
 {
-    show_draw_card(paper, &player->show, card);
-    while (past_drawn(&player->past)) { /* what it draws is known only now */
-        player_fill(player);
-        show_draw_card(paper, &player->show, card);
-    }
+    show_draw_card(paper, &player->frame.show, card);
 }

@@ -34,21 +34,22 @@ static Under look(Player *player)
 {
     const Mouse *mouse = &player->mouse;
     const Paper *paper = player_paper(player);
-    Show *show = &player->show;
+    const Show *show = &player->frame.show;
+    Held *held = &player->view.held;
     Under under = {.layout = show_layout(show, paper ? paper->canvas.width : 1,
                                          paper ? paper->canvas.height : 1),
                    .pane = player->active};
     under.hit = layout_hit(&under.layout, mouse->x, mouse->y);
-    int pane = show->held.on                  ? show->held.pane
+    int pane = held->on                       ? held->pane
                : under.hit.zone == ZONE_STAGE ? under.hit.index
                                               : under.pane;
     if (pane < past_panes(&player->past)) /* it may have gone meanwhile */
         under.pane = pane;
-    show->held.away = false;
+    held->away = false;
     Camera camera = show_camera(show, &under.layout, under.pane);
     camera_world(&camera, mouse->x, mouse->y, under.at);
     under.pick = show_pick(show, &under.layout, mouse->x, mouse->y);
-    show->held.away = under.hit.zone != ZONE_STAGE;
+    held->away = under.hit.zone != ZONE_STAGE;
     return under;
 }
 
@@ -202,7 +203,8 @@ static Status take(Player *player, const Under *under)
     double point[2];
     bool paused = is_paused(player);
     mouse->index = under->pick.index;
-    show_hold(&player->show, &under->layout, under->pane);
+    player->view.held =
+        show_hold(&player->frame.show, &under->layout, under->pane);
     switch (under->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
@@ -228,7 +230,7 @@ static Status take(Player *player, const Under *under)
         return ask_at(player, COMMAND_START, mouse->index, under->pick.point);
     default:
         if (under->pick.kind != PICK_NODE) /* a spring beside the node */
-            player->show.hover.kind = PICK_NONE;
+            player->view.hover.kind = PICK_NONE;
         mouse->index = under->pick.near;
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
                       : paused         ? COMMAND_PLACE
@@ -319,9 +321,9 @@ static Status follow(Player *player)
         return drag_number(player, &under);
     case COMMAND_GOTO:
         return ask(player, COMMAND_GOTO,
-                   show_step_at(&player->show, &under.layout, mouse->x));
+                   show_step_at(&player->frame.show, &under.layout, mouse->x));
     case COMMAND_PAN:
-        lens_move(&player->show.lens, under.layout.pane[under.pane], dx, dy);
+        lens_move(&player->view.lens, under.layout.pane[under.pane], dx, dy);
         player->changed = true;
         mouse->from[0] = mouse->x;
         mouse->from[1] = mouse->y;
@@ -336,19 +338,19 @@ static Status follow(Player *player)
 /* What is under the mouse, for the picture; a cell of the envelope is run. */
 static Status hover(Player *player)
 {
-    Show *show = &player->show;
+    View *view = &player->view;
     Under under = look(player);
     Pick pick = under.pick;
     bool same =
-        under.hit.zone == show->over.zone &&
-        under.hit.index == show->over.index && pick.kind == show->hover.kind &&
-        pick.index == show->hover.index && pick.pane == show->hover.pane;
-    bool idle = pick.kind == PICK_NONE && !show->lecture; /* whose terms light
-                                                             up */
+        under.hit.zone == view->over.zone &&
+        under.hit.index == view->over.index && pick.kind == view->hover.kind &&
+        pick.index == view->hover.index && pick.pane == view->hover.pane;
+    bool idle = pick.kind == PICK_NONE && !player->frame.show.lecture; /* whose
+                                                             terms light up */
     if (under.hit.zone == ZONE_CELL)
-        show->chosen = under.hit.index;
-    show->over = under.hit;
-    show->hover = pick;
+        view->chosen = under.hit.index;
+    view->over = under.hit;
+    view->hover = pick;
     player->explains = player->explains || !same;
     if (!same || !idle)
         player->changed = true;
@@ -360,9 +362,9 @@ static Status hover(Player *player)
 static Status number_pressed(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->mouse;
-    if (index >= player->numbers) /* the plus behind them */
+    if (index >= player->frame.numbers) /* the plus behind them */
         return ask(player, COMMAND_OPTIONS, 0);
-    player->lit = player->number[index];
+    player->lit = player->frame.number[index];
     player->changed = true;
     if (clicks == 2)
         return ask(player, COMMAND_DEFAULT, player->lit - option_rows);
@@ -383,7 +385,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     player_deselect(player);
     switch (under->hit.zone) {
     case ZONE_CHIP:
-        return ask(player, player->chip[index], 0);
+        return ask(player, player->frame.chip[index], 0);
     case ZONE_CARD_CLOSE:
         return ask(player, COMMAND_CARD, index);
     case ZONE_CARD:
@@ -397,14 +399,14 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     case ZONE_PAGE_CLOSE:
         return ask(player, COMMAND_ESCAPE, 0);
     case ZONE_PAGE: /* a line of a list */
-        index = show_help_row(&player->show, &under->layout, player->mouse.x,
-                              player->mouse.y);
+        index = show_help_row(&player->frame.show, &under->layout,
+                              player->mouse.x, player->mouse.y);
         snprintf(line, sizeof line, "%d", index + 1);
         return keyboard_now(player) == AT_LIST && index >= 0
                    ? open_line(player, line)
                    : STATUS_OK;
     case ZONE_CELL:
-        player->show.chosen = index;
+        player->view.chosen = index;
         return ask(player, COMMAND_OPEN, 0);
     case ZONE_STAGE:
         if (under->pane != player->active)
@@ -455,7 +457,7 @@ static Status release(Player *player)
     CommandKind drag = mouse->drag;
     int node = mouse->index;
     mouse->drag = COMMAND_NONE;
-    player->show.held.on = false;
+    player->view.held.on = false;
     if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,
@@ -479,14 +481,15 @@ static Status release(Player *player)
 static Status wheeled(Player *player, double amount)
 {
     Under under = look(player);
-    if (under.hit.zone == ZONE_SETTING && under.hit.index < player->numbers)
-        return change_pace(player, player->number[under.hit.index],
+    if (under.hit.zone == ZONE_SETTING &&
+        under.hit.index < player->frame.numbers)
+        return change_pace(player, player->frame.number[under.hit.index],
                            amount > 0 ? 1 : -1);
     if (under.hit.zone == ZONE_TIME)
         return ask(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
     if (under.hit.zone != ZONE_STAGE)
         return STATUS_OK;
-    lens_zoom(&player->show.lens, under.layout.pane[under.hit.index],
+    lens_zoom(&player->view.lens, under.layout.pane[under.hit.index],
               player->mouse.x, player->mouse.y, pow(WHEEL_ZOOM, amount));
     player->changed = true;
     return STATUS_OK;
@@ -545,8 +548,8 @@ Status player_input(Player *player, const Input *input)
     case INPUT_CLOSE:
         return ask(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:
-        player->show.hover = (Pick){.kind = PICK_NONE};
-        player->show.over = (Hit){.zone = ZONE_NONE};
+        player->view.hover = (Pick){.kind = PICK_NONE};
+        player->view.over = (Hit){.zone = ZONE_NONE};
         player->changed = true;
         return STATUS_OK;
     case INPUT_REDRAW:

@@ -212,7 +212,9 @@ static Status obey_one(Player *player, const Command *asked)
         return STATUS_OUT_OF_MEMORY;
     if (!status)
         status = deeds[command.kind](player, &command);
-    if (past->works && !(flags & SCREEN)) {
+    bool worked = past->works;
+    player_complete_line(player); /* of another pane, of a card that is open */
+    if (past->works && (!worked || !(flags & SCREEN))) {
         Status shown = player_work(player);
         status = status ? status : shown;
     }

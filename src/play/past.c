@@ -593,7 +593,8 @@ static Status work_on(Past *past, int pane)
     if (to && is_failure(to))
         return end_pane(past, pane, to->outcome.status);
     if (past->keeps)
-        rounds_begin(&machine->rounds, &machine->simulation, past->again);
+        rounds_begin(&machine->rounds, &machine->simulation, past->again,
+                     pane == past->line);
     machine->before = machine->simulation.steps;
     machine->iterating = true;
     return go_on(past, pane, simulation_begin(&machine->simulation));
@@ -705,22 +706,14 @@ void past_aim(Past *past, long step, bool again)
     leave_all(past);
 }
 
-bool past_drawn(Past *past)
+void past_complete(Past *past, int place)
 {
-    bool lacks = false;
-    for (int p = 0; p < past_panes(past); p++) {
-        Rounds *rounds = &past->machine[p].rounds;
-        if (past->works || past->machine[p].failed)
-            return false;
-        lacks = lacks || rounds->asked;
-        rounds->last = rounds->last || rounds->asked;
-        rounds->asked = false;
-    }
-    if (lacks) {
+    bool whole = !past->works && past->line >= 0;
+    for (int p = 0; p < past_panes(past); p++)
+        whole = whole && !past->machine[p].failed;
+    if (whole && past->machine[past->line].known &&
+        rounds_lack_line(&past->machine[past->line].rounds, place))
         past_aim(past, past->step, true);
-        past_finish(past);
-    }
-    return lacks;
 }
 
 /* ---- what is done -------------------------------------------------------- */
@@ -939,7 +932,8 @@ void past_create(bool keeps, bool goes_on, Past *past)
                    .goes_on = goes_on,
                    .same = LONG_MAX,
                    .booked = LONG_MAX,
-                   .limit = PAST_BYTES};
+                   .limit = PAST_BYTES,
+                   .line = -1};
 }
 
 void past_free(Past *past)

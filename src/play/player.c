@@ -251,7 +251,6 @@ Status player_finish(Player *player, Status status)
     if (player->past.branches > 0) {
         Status rest = player_write_rest(player);
         status = status ? status : rest;
-        player_label_panes(player);
     }
     Keep keep = player->written < 0 ? KEEP_NOTHING
                 : status            ? KEEP_PART

@@ -40,6 +40,13 @@ bool player_stands(const Player *player);
 /* Whether a single factor takes longer than a slice. */
 bool player_is_slow(const Player *player);
 
+/* The pane in which E along p is drawn, or -1. */
+int player_line_pane(const Player *player);
+
+/* Keeps E along p from now on where it is drawn; the step that is shown is made
+ * once more where it was not kept. */
+void player_complete_line(Player *player);
+
 /* Whether no step was made yet with where the hand is, and one will be. */
 bool player_pulls(const Player *player);
 
@@ -151,17 +158,14 @@ Status player_paced(Player *player, const OptionRow *row, int paces,
 /* The scenes on the sheet go on for a slice of time, where it is open. */
 void player_live(Player *player);
 
-/* What is drawn of it; it is closed. */
-void player_fill_sheet(Player *player);
+/* What is drawn of the open sheet; the sheet is closed. */
+void sheet_fill(const Player *player, Show *show);
 void player_close_sheet(Player *player);
 
 /* ---- frame.c ------------------------------------------------------------- */
 
-/* Fills player->show. */
+/* Fills player->frame, and finds what is under a mouse that rests. */
 void player_fill(Player *player);
-
-/* What is different in each pane, as its label. */
-void player_label_panes(Player *player);
 
 /* The paper, in the size that it has now; NULL: nothing is drawn, or there is
  * not enough memory. */

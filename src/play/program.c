@@ -182,8 +182,10 @@ static void print_summary(FILE *file, const Player *player)
     for (int p = 0; p < panes; p++) {
         const Simulation *simulation = &player->past.machine[p].simulation;
         bool in_time = simulation->scene->needs & NEEDS_TIME;
+        char label[LABEL_SIZE];
+        player_label(player, p, label);
         if (panes > 1)
-            fprintf(file, "pane %-14d %s\n", p + 1, player->side[p].label);
+            fprintf(file, "pane %-14d %s\n", p + 1, label);
         print(file, "steps", "%ld", simulation->steps);
         if (in_time)
             print(file, "simulated time", "%g s", simulation_time(simulation));

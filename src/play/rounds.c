@@ -49,10 +49,12 @@ void rounds_free(Rounds *rounds)
     *rounds = (Rounds){0};
 }
 
-void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all)
+void rounds_begin(Rounds *rounds, const Simulation *simulation, bool all,
+                  bool last)
 {
     rounds_clear(rounds);
     rounds->all = all;
+    rounds->last = last;
     rounds->start = (Trace){.h = simulation->options.timestep,
                             .tolerance = simulation->options.tolerance,
                             .projected = -1};
@@ -98,9 +100,16 @@ static void keep_line(Rounds *rounds, const Iterate *at)
     round->first = incremental_potential_reach(at);
     round->along = along.smooth;
     round->rough = along.rough;
-    round->rounds = rounds;
-    if (rounds->all || (rounds->last && ended))
+    if (rounds->all || (ended && (rounds->last || record->alpha == 0)))
         sample(round, at);
+}
+
+bool rounds_lack_line(const Rounds *rounds, int place)
+{
+    int last = rounds->made.count - 1;
+    int i = place < 0 ? last : rounds->place[place].round;
+    const Round *round = &rounds->round[i < last ? i : last];
+    return last >= 0 && round->rough && round->x && !round->sampled;
 }
 
 /* The polynomial, or the kept values, joined by straight lines; without them
@@ -112,7 +121,6 @@ static double kept_difference(const void *function, double alpha)
         return quartic_value(&round->along, alpha);
     if (!round->sampled && alpha == round->alpha)
         return round->change;
-    round->rounds->asked = round->rounds->asked || !round->sampled;
     double place = alpha / round->first * ROUND_PARTS;
     if (!round->sampled || !(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;

@@ -116,9 +116,10 @@ Status obey_escape(Player *player, const Command *command)
 Status obey_camera(Player *player, const Command *command)
 {
     const Paper *paper = player_paper(player);
-    Show *show = &player->show;
+    const Show *show = &player->frame.show;
+    Lens *lens = &player->view.lens;
     if (command->kind == COMMAND_FIT)
-        show->lens = LENS_FITS;
+        *lens = LENS_FITS;
     if (command->kind == COMMAND_FIT || !paper)
         return STATUS_OK;
     player_fill(player);
@@ -129,10 +130,10 @@ Status obey_camera(Player *player, const Command *command)
     double at[2] = {command->x, command->y}, pixel[2];
     camera_pixel(&camera, at, pixel);
     if (command->kind == COMMAND_ZOOM)
-        lens_zoom(&show->lens, pane, pixel[0], pixel[1],
+        lens_zoom(lens, pane, pixel[0], pixel[1],
                   fmin(fmax((double)command->number, 1), 1e6) / 100);
     else
-        lens_move(&show->lens, pane, camera.scale[0] * command->x,
+        lens_move(lens, pane, camera.scale[0] * command->x,
                   -camera.scale[1] * command->y);
     return STATUS_OK;
 }
@@ -143,7 +144,7 @@ Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
     player_fill(player);
-    bool closed = player->show.closed >> card & 1;
+    bool closed = player->frame.show.closed >> card & 1;
     if (command->kind == COMMAND_CARD || closed) /* its title opens it */
         player->closed ^= 1u << card;
     else
@@ -155,21 +156,22 @@ Status obey_card(Player *player, const Command *command)
  * its left, or above it and not to its right. */
 Status obey_choose(Player *player, const Command *command)
 {
-    Show *show = &player->show;
+    const Show *show = &player->frame.show;
+    int *chosen = &player->view.chosen;
     const Paper *paper = player_paper(player);
     const char *key = command->text;
     bool up = strcmp(key, "Up") == 0, upright = up || strcmp(key, "Down") == 0;
-    int way = up || strcmp(key, "Left") == 0 ? -1 : 1, i = show->chosen + way;
+    int way = up || strcmp(key, "Left") == 0 ? -1 : 1, i = *chosen + way;
     if (!paper)
         return STATUS_OK;
     player_fill(player);
     Layout layout =
         show_layout(show, paper->canvas.width, paper->canvas.height);
-    const Box *cell = layout.cell, *now = &cell[show->chosen];
+    const Box *cell = layout.cell, *now = &cell[*chosen];
     while (upright && 0 <= i && i < layout.cells &&
            !((cell[i].y - now->y) * way > 0 && (cell[i].x - now->x) * way >= 0))
         i += way;
     if (0 <= i && i < layout.cells)
-        show->chosen = i;
+        *chosen = i;
     return STATUS_OK;
 }

@@ -102,6 +102,20 @@ bool player_is_slow(const Player *player)
            simulation->system.nodes > SLOW_NODES;
 }
 
+int player_line_pane(const Player *player)
+{
+    return player->draws && !player->bare &&
+                   show_needs_line(player_simulation(player), player->closed)
+               ? player->active
+               : -1;
+}
+
+void player_complete_line(Player *player)
+{
+    player->past.line = player_line_pane(player);
+    past_complete(&player->past, player->side[player->active].place);
+}
+
 bool player_pulls(const Player *player)
 {
     return player->past.making ||

@@ -50,7 +50,7 @@ Status obey_sheet(Player *player, const Command *command)
            !scenes[cells - 1].by_name)
         cells++;
     player->sheet->cells = cells;
-    player->show.chosen = options->page || options->scene->by_name
+    player->view.chosen = options->page || options->scene->by_name
                               ? 0
                               : (int)(options->scene - scenes) + 1;
     return STATUS_OK;
@@ -96,12 +96,9 @@ void player_live(Player *player)
     player->changed = true;
 }
 
-void player_fill_sheet(Player *player)
+void sheet_fill(const Player *player, Show *show)
 {
     const Sheet *sheet = player->sheet;
-    Show *show = &player->show;
-    if (!sheet)
-        return;
     show->cells = sheet->cells;
     for (int i = 0; i < sheet->cells; i++) {
         const Scene *scene = &scenes[i > 0 ? i - 1 : 0];
@@ -110,7 +107,7 @@ void player_fill_sheet(Player *player)
             (SheetCell){.name = i > 0 ? scene->name : "the guided tour",
                         .group = i == 1 ? NULL : scene->group,
                         .simulation = simulation->scene ? simulation : NULL};
-        if (i == show->chosen)
+        if (i == player->view.chosen)
             snprintf(show->sentence, SHOW_TEXT, "%s: %s", show->cell[i].name,
                      i > 0 ? scene->sentence : "the lecture, page by page");
     }
@@ -124,7 +121,7 @@ void player_fill_sheet(Player *player)
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";
-    int cell = player->show.chosen;
+    int cell = player->view.chosen;
     bool behind = cell == 0 && player_settings(player)->page;
     if (cell > 0)
         snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);

@@ -139,7 +139,7 @@ Status obey_restart(Player *player, const Command *command)
              !options->scene->explains)
         player->mode = MODE_RUN;
     if (!moves)
-        player->show.lens = LENS_FITS;
+        player->view.lens = LENS_FITS;
     player->queue.plays = !moves && plays_again(player, options->page);
     return player_begin_again(player, options, panes, command);
 }
@@ -170,7 +170,8 @@ Status player_reveal(Player *player, const char *typed)
     const LecturePage *page = player_settings(player)->page;
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
-    double truth = page->answer ? show_number(&player->show, page->answer) : 0;
+    double truth =
+        page->answer ? show_number(&player->frame.show, page->answer) : 0;
     double guess = truth;
     if (typed && (!option_read(&any, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");

@@ -127,11 +127,11 @@ static void enter_scene(Player *player)
     player->scene = options->scene;
     player->page = options->page;
     player->speed = player_first_speed(player, options);
-    player->show.lens = LENS_FITS;
+    player->view.lens = LENS_FITS;
     player->closed = 0;
     player->large = -1;
     player_deselect(player);
-    player->show.hover = (Pick){.kind = PICK_NONE};
+    player->view.hover = (Pick){.kind = PICK_NONE};
     player->mouse.drag = COMMAND_NONE;
     snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
              options->scene->name);
@@ -432,6 +432,7 @@ Status player_work(Player *player)
     double begin = clock_now();
     if (player->began == 0)
         player->began = begin;
+    past->line = player_line_pane(player);
     while (past->works && !player->quit) {
         long before = past->step;
         bool made = past->making;
@@ -440,6 +441,7 @@ Status player_work(Player *player)
             status = step_shown(player, status, before, made);
             if (status)
                 return status;
+            player_complete_line(player);
         }
         player->quit = player->quit || *player->stop;
         bool begins = past->making && !made && player_is_slow(player);

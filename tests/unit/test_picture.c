@@ -334,6 +334,7 @@ static void frame_of(const char *line, int step, Canvas frame[2])
     char whole[160];
     snprintf(whole, sizeof whole, "%s --steps %d", line, step);
     begin(whole);
+    player.draws = true; /* E along p is kept for the picture */
     player.mode = MODE_RUN;
     while (player.past.step < step) {
         Status status = player_step(&player);

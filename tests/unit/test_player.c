@@ -64,7 +64,7 @@ TEST(rest_is_told_where_nothing_moves)
         CHECK(player.mode == MODE_REST);
         CHECK(strncmp(player.note, "at rest", 7) == 0);
         player_fill(&player);
-        CHECK(strcmp(player.show.state, "at rest") == 0);
+        CHECK(strcmp(player.frame.show.state, "at rest") == 0);
         compare_with_plain_run(lines[i]);
         CHECK_AT_MOST(way_that_is_left(), 0.002);
         end();
@@ -134,42 +134,38 @@ static int look_along(double *out, int room)
     return count;
 }
 
-/* E along p is kept of all updates of a step whose lines are walked through;
- * else of none, and of the last one after a picture that asked for it.  Whoever
- * asks for more gets what was kept in the first way. */
-TEST(curves_are_made_for_who_looks)
+/* E along p is kept of all updates of a step whose lines are walked through; of
+ * the last one where it is drawn; else of none.  Where it is drawn later, or an
+ * update before the last is walked to, the step is made once more. */
+TEST(curves_are_kept_where_they_are_drawn)
 {
-    enum { ROOM = 100 };
-    double kept[3][ROOM], last[3];
+    enum { ROOM = 100, WALKED = 0, UNSEEN, DRAWN };
+    double kept[3][ROOM];
     int count[3];
-    for (int way = 0; way < 3; way++) { /* 2: after a picture with a curve */
-        const Rounds *rounds = &machine(0)->rounds;
+    for (int way = WALKED; way <= DRAWN; way++) {
         Trace trace;
         begin("tear --segments 6");
-        for (int step = 0; step < (way == 0 ? 3 : 4); step++) {
+        player.draws = way == DRAWN;
+        for (int step = 0; step < (way == WALKED ? 3 : 4); step++)
             CHECK_OK(obey("step"));
-            CHECK(!past_drawn(&player.past));
-            rounds_trace(rounds, -1, &trace);
-            if (step == 2 && way == 2) {
-                trace.difference(trace.function, 0.625 * trace.first);
-                CHECK(past_drawn(&player.past));
-            }
-        }
-        if (way == 0)
-            obey_all((const char *const[]){"finer", "next", NULL});
-        rounds_trace(rounds, -1, &trace);
-        last[way] = trace.difference(trace.function, 0.625 * trace.first);
-        CHECK(!isnan(last[way]) == (way != 1) && player.past.step == 4);
-        CHECK(past_drawn(&player.past) == (way == 1));
+        CHECK_OK(obey("finer"));
+        if (way == WALKED)
+            CHECK_OK(obey("next"));
+        rounds_trace(&machine(0)->rounds, -1, &trace);
+        double last = trace.difference(trace.function, 0.625 * trace.first);
+        CHECK(isnan(last) == (way == UNSEEN) && player.past.step == 4);
         count[way] = look_along(kept[way], ROOM);
-        CHECK(isnan(kept[way][0]) == (way == 2));
-        CHECK(past_drawn(&player.past) == (way == 2));
-        look_along(kept[way], ROOM);
+        CHECK(isnan(kept[way][0]) == (way != WALKED));
+        player.draws = true;
+        for (int i = 0; i < ROOM && isnan(kept[way][0]); i++) {
+            CHECK_OK(obey("back"));
+            count[way] = look_along(kept[way], ROOM);
+        }
+        CHECK(player.past.step == 4);
         end();
         CHECK(count[way] == count[0]);
         CHECK_SAME_BITS(kept[way], kept[0], count[0]);
     }
-    CHECK(last[2] == last[0]);
 }
 
 static void give_up(int number)

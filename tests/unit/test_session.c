@@ -18,7 +18,7 @@ static char folder[] = "/tmp/elasto-session-XXXXXX";
 static Layout layout_now(void)
 {
     const Canvas *canvas = &player_paper(&player)->canvas;
-    return show_layout(&player.show, canvas->width, canvas->height);
+    return show_layout(&player.frame.show, canvas->width, canvas->height);
 }
 
 static uint64_t hash_box(const Canvas *canvas, Box box)
@@ -35,7 +35,7 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
 static uint64_t shape_shown(void)
 {
     player_fill(&player);
-    const Pane *pane = &player.show.pane[player.show.active];
+    const Pane *pane = &player.frame.show.pane[player.frame.show.active];
     const unsigned char *byte = (const unsigned char *)pane_x(pane);
     size_t size = 2 * sizeof(double) * (size_t)pane->simulation->system.nodes;
     uint64_t hash = STATE_HASH_SEED;
@@ -151,11 +151,11 @@ static void press_letter(char letter)
 static const Setting *number_shown(const char *name, int *place)
 {
     player_fill(&player);
-    for (int i = 0; i < player.show.settings; i++)
-        if (strcmp(player.show.setting[i].name, name) == 0 ||
+    for (int i = 0; i < player.frame.show.settings; i++)
+        if (strcmp(player.frame.show.setting[i].name, name) == 0 ||
             strcmp(name, "first") == 0) {
             *place = i;
-            return &player.show.setting[i];
+            return &player.frame.show.setting[i];
         }
     fail_msg("the row has no %s", name);
     return NULL;
@@ -171,7 +171,7 @@ static void point_into(Box box, bool corner)
 /* Whether the mouse is on this grip. */
 static bool is_grip(const Layout *layout, int grip)
 {
-    Pick pick = show_pick(&player.show, layout, mouse[0], mouse[1]);
+    Pick pick = show_pick(&player.frame.show, layout, mouse[0], mouse[1]);
     return pick.kind == PICK_HANDLE && pick.index == grip;
 }
 
@@ -180,7 +180,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
 {
     const char *of = strstr(place, " of ");
     int i = 0, p = of ? atoi(of + 4) : 0;
-    const Pane *pane = &player.show.pane[p];
+    const Pane *pane = &player.frame.show.pane[p];
     double at[2], grip[SCENE_MAX_HANDLES][2];
     if (sscanf(place, "grip %d", &i) == 1) {
         assert_true(i < exhibit_handles(pane->simulation, grip));
@@ -189,7 +189,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
         memcpy(at, pane_x(pane) + 2 * i, sizeof at);
     else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) != 2)
         return false;
-    Camera camera = show_camera(&player.show, layout, p);
+    Camera camera = show_camera(&player.frame.show, layout, p);
     camera_pixel(&camera, at, mouse);
     if (place[0] == 'g' && !is_grip(layout, i)) /* it is above, on a curve */
         for (mouse[1] = layout->pane[p].y; !is_grip(layout, i); mouse[1]++)
@@ -200,16 +200,16 @@ static bool point_in_pane(const char *place, const Layout *layout)
 /* The chip with this key, or the cell of the sheet with this scene; -1: none */
 static int find_chip(const char *key)
 {
-    int i = player.show.chips - 1;
-    while (i >= 0 && strcmp(player.show.chip[i].key, key) != 0)
+    int i = player.frame.show.chips - 1;
+    while (i >= 0 && strcmp(player.frame.show.chip[i].key, key) != 0)
         i--;
     return i;
 }
 
 static int find_cell(const char *scene)
 {
-    int i = player.show.cells - 1;
-    while (i >= 0 && strcmp(player.show.cell[i].name, scene) != 0)
+    int i = player.frame.show.cells - 1;
+    while (i >= 0 && strcmp(player.frame.show.cell[i].name, scene) != 0)
         i--;
     return i;
 }
@@ -227,7 +227,7 @@ static void point_at(const char *place)
         long step = atol(place + 5);
         mouse[0] = layout.bars.x;
         mouse[1] = layout.time.y + layout.time.height / 2;
-        while (show_step_at(&player.show, &layout, mouse[0]) < step &&
+        while (show_step_at(&player.frame.show, &layout, mouse[0]) < step &&
                mouse[0] < layout.width)
             mouse[0]++;
     } else if (strcmp(place, "strip") == 0) {
@@ -256,7 +256,7 @@ static double scale_now(void)
 {
     player_fill(&player);
     Layout layout = layout_now();
-    return show_camera(&player.show, &layout, 0).scale[0];
+    return show_camera(&player.frame.show, &layout, 0).scale[0];
 }
 
 /* Returns false if this is nothing that a mouse does. */
@@ -436,7 +436,7 @@ static void collect_facts(void)
     static const char *const kinds[] = {"none",     "node",  "spring",
                                         "obstacle", "other", "other",
                                         "other",    "other", "other"};
-    const Show *show = &player.show;
+    const Show *show = &player.frame.show;
     const LecturePage *page = show->lecture;
     const Trace *trace = show->pane[show->active].trace;
     facts[0] = '\0';
@@ -451,7 +451,7 @@ static void collect_facts(void)
     fact("ghost %d", show->pane[show->active].ghost != NULL);
     fact("speed %d", player.speed);
     fact("scene %s", player_simulation(&player)->scene->name);
-    fact("over %s %d", kinds[show->hover.kind], show->hover.index);
+    fact("over %s %d", kinds[show->view->hover.kind], show->view->hover.index);
     double scale = scale_now();
     fact("scale %s", scale < scale_before   ? "smaller"
                      : scale > scale_before ? "larger"
@@ -690,8 +690,8 @@ static uint64_t all_but(int place)
 {
     uint64_t hash = seen("state") + (uint64_t)player.past.step;
     player_fill(&player);
-    for (int i = 0; i < player.show.settings; i++)
-        for (const char *c = player.show.setting[i].value; i != place && *c;
+    for (int i = 0; i < player.frame.show.settings; i++)
+        for (const char *c = player.frame.show.setting[i].value; i != place && *c;
              c++)
             hash = (hash ^ (unsigned char)*c) * 1099511628211u;
     return hash;
@@ -717,7 +717,7 @@ static void random_keys_stay_in_their_field(void **unused)
             session_line("key N N");
         }
         uint64_t before = seen("");
-        int place = random_below(&random, player.numbers);
+        int place = random_below(&random, player.frame.numbers);
         for (int i = 0; i <= place; i++)
             press_key("Tab");
         uint64_t rest = all_but(place);
@@ -729,7 +729,7 @@ static void random_keys_stay_in_their_field(void **unused)
                 press_letter((char)(' ' + random_below(&random, 95)));
             else
                 press_letter("0123456789.,e-/ms"[random_below(&random, 17)]);
-        bool mesh = strcmp(player.show.setting[place].name, "segments") == 0;
+        bool mesh = strcmp(player.frame.show.setting[place].name, "segments") == 0;
         bool enter = !mesh && random_below(&random, 2) == 0;
         if (enter)
             press_key("Return");

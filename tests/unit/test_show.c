@@ -14,6 +14,7 @@
 static Simulation simulation;
 static History history;
 static Show show;
+static View view;
 static Paper paper;
 static Layout layout;
 
@@ -45,6 +46,8 @@ static void stand_up(const char *line, int steps)
         sample();
     }
     show_create(&simulation, &show);
+    view = *show.view;
+    show.view = &view;
     show.pane[0].history = &history;
     show_know(&show);
     set_size(1280, 800);
@@ -141,7 +144,7 @@ TEST(every_size_is_drawn)
                 show.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
                 show.closed = 0;
                 show.pane[0].trouble = STATUS_NOT_FINITE;
-                show.hover = (Pick){.kind = PICK_SPRING, .index = 0};
+                view.hover = (Pick){.kind = PICK_SPRING, .index = 0};
                 if (simulation.runs > 0 && mode > 0) {
                     simulation.run[0].x[0] = NAN;
                     simulation.run[0].x[1] = mode == 1 ? 1e300 : -INFINITY;
@@ -232,7 +235,7 @@ TEST(states_show_what_they_are)
                              .updates = 3,
                              .difference = falling};
         show.pane[0].trace = trace.line ? &trace : NULL;
-        show.hover = (Pick){.kind = states[i].hover, .index = 12};
+        view.hover = (Pick){.kind = states[i].hover, .index = 12};
         draw_without_words();
         int card = states[i].card;
         int count = count_colour(
@@ -327,7 +330,7 @@ TEST(what_flies_far_is_drawn_or_told)
         x[i] = i == 2 * 11 + 1 ? 1e220 : i == 2 * 13 + 1 ? -1e220 : 0;
     draw();
     CHECK(on_stage(COLOUR_X) > 300);
-    show.hover = (Pick){.kind = PICK_SPRING, .index = 0};
+    view.hover = (Pick){.kind = PICK_SPRING, .index = 0};
     draw();
     CHECK(on_stage(COLOUR_NOTE) > 1000);
     for (int part = 0; part < 2; part++) { /* one node, then all of them */
@@ -432,9 +435,9 @@ TEST(the_mouse_finds_nodes_and_springs)
         }
         camera_pixel(&camera, middle, at);
         CHECK(picks(pick_at(middle[0], middle[1], 0, 1), PICK_SPRING, 0));
-        lens_zoom(&show.lens, layout.pane[0], at[0], at[1], 2.5);
+        lens_zoom(&view.lens, layout.pane[0], at[0], at[1], 2.5);
     }
-    show.lens = LENS_FITS;
+    view.lens = LENS_FITS;
     for (int s = 0; s < system->springs; s++) { /* where diagonals cross, too */
         const double *p = x + 2 * system->e[2 * s];
         const double *q = x + 2 * system->e[2 * s + 1];
