@@ -1,5 +1,5 @@
-/* command_line.c - the command line: its values, its words, and what to say
- * where one of them cannot be read; and its help.
+/* command_line.c - reads values and lines of options, says what is wrong with
+ * them, and writes --help.
  */
 #include "lesson/command_line.h"
 
@@ -17,12 +17,12 @@
 
 /* ---- short texts -------------------------------------------------------- */
 
-/* Something short to be printed inside a line. */
+/* A short text, returned by value. */
 typedef struct Text {
     char text[256];
 } Text;
 
-/* "clamp, none" */
+/* The names of a list: "clamp, none". */
 static Text list_text(Names names)
 {
     Text list = {""};
@@ -32,23 +32,24 @@ static Text list_text(Names names)
     return list;
 }
 
-/* Whether two letters are one for somebody who types: large or small, '_' or
- * '-'. */
+/* Whether a letter may be typed for another: in either case, '_' for '-'. */
 static bool alike(char typed, char letter)
 {
     return tolower((unsigned char)typed) == tolower((unsigned char)letter) ||
            (typed == '_' && letter == '-');
 }
 
-enum { NAME_LETTERS = 24 }; /* of a name, and of what is taken for one */
+/* Letters that are compared at most. */
+enum { NAME_LETTERS = 24 };
 
-/* Mistakes that turn the beginning of a name, or all of it, into a text of at
- * most NAME_LETTERS: each a letter too many, too few, another one, or two that
- * changed places (Damerau 1964).  The name may go on: who types "seg" means
- * segments. */
+/* Number of typing mistakes (Damerau 1964) between a text, of at most
+ * NAME_LETTERS, and a name or the beginning of one, so that "seg" fits
+ * segments.  A mistake is a letter too many, too few, another letter, or two
+ * letters exchanged. */
 static int count_mistakes(const char *text, const char *name)
 {
-    int least[NAME_LETTERS + 1][NAME_LETTERS + 1]; /* from j letters to i */
+    /* [i][j]: mistakes between i letters of the text and j of the name */
+    int least[NAME_LETTERS + 1][NAME_LETTERS + 1];
     int rows = (int)strlen(text), columns = (int)strnlen(name, NAME_LETTERS);
     for (int i = 0; i <= rows; i++)
         for (int j = 0; j <= columns; j++) {
@@ -69,8 +70,9 @@ static int count_mistakes(const char *text, const char *name)
     return best;
 }
 
-/* "; did you mean --timestep?"  The name that fewest mistakes lead to, one in
- * three letters at most, two in five; "" where there is none. */
+/* A hint such as "; did you mean --timestep?", with the nearest name of the
+ * table, or "".  A text of 3 to 4 letters may have one mistake, of 5 to 7 two.
+ *   before  in, dashes to write before the name */
 static Text meant(const char *text, const char *before, Names names)
 {
     Text hint = {""};
@@ -89,11 +91,8 @@ static Text meant(const char *text, const char *before, Names names)
     return hint;
 }
 
-/* Of a value that is no option's. */
-#define STANDS_ALONE "; a value stands right behind its option, without blanks"
-
-/* The same for an option: also by its letter in formulas, or its name in
- * lecture.c. */
+/* The hint for an option, which may also be named by its letter in formulas or
+ * by its name in lecture.c. */
 static Text meant_option(const char *text)
 {
     static const char *const others[][2] = {{"h", "timestep"},
@@ -111,7 +110,7 @@ static Text meant_option(const char *text)
                                             {"initial_stretch", "stretch"}};
     Text hint;
     if (isdigit((unsigned char)text[0]))
-        return (Text){STANDS_ALONE};
+        return (Text){"; a value stands right behind its option"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcasecmp(text, others[i][0]) == 0) {
             snprintf(hint.text, sizeof hint.text, "; did you mean --%s?",
@@ -123,33 +122,34 @@ static Text meant_option(const char *text)
 
 /* A word of a line: an option with its value, or the name of a scene. */
 typedef struct Word {
-    const OptionRow *row; /* NULL: a scene */
-    const char *text;
-    const char *list; /* of values, of which the text is one; or NULL */
-    char picked[64];  /* the text, where there is a list */
+    const OptionRow *row; /* option; NULL: the word is a scene */
+    const char *text;     /* value, or name of the scene */
+    const char *list;     /* list of values that has the text, or NULL */
+    char picked[64];      /* the text, if there is a list */
 } Word;
 
 enum { WORDS_MOST = 256 };
 
-/* A line while it is read: into what, who is told what is wrong, its words. */
+/* A line while it is read. */
 typedef struct Line {
-    Options *options;
-    Refusal told;
+    Options *options; /* out */
+    Refusal told;     /* message about the first mistake */
     int words;
     Word word[WORDS_MOST];
 } Line;
 
-/* ---- what went ----------------------------------------------------------- */
+/* ---- removed options ------------------------------------------------------
+ */
 
-/* An option of an earlier version, or one of its values, that is gone. */
+/* An option, or a value of one, that an earlier version had. */
 typedef struct Gone {
     const char *option;
     const char *value;   /* "": the whole option is gone */
-    const char *instead; /* what to use, as the end of a sentence */
+    const char *instead; /* end of the sentence: what to use now */
 } Gone;
 
-/* A row stays for one release: who used the option is told what to use.  Then
- * the row goes, and the last one takes this table along. */
+/* A row stays here for one release, so that users learn what to use; the last
+ * row takes the table with it. */
 static const Gone gone[] = {
     {"vtk", "", "--states and --springs write each step as CSV"},
     {"integrator", "avf",
@@ -162,8 +162,7 @@ static const Gone gone[] = {
     {NULL, NULL, NULL},
 };
 
-/* The row of an option and its value ("": of the option itself); NULL: there is
- * none. */
+/* The row of a removed value, or with "" of a removed option; NULL: no row. */
 static const Gone *find_gone(const char *option, const char *value)
 {
     for (const Gone *row = gone; row->option; row++)
@@ -172,7 +171,7 @@ static const Gone *find_gone(const char *option, const char *value)
     return NULL;
 }
 
-/* How many values a list has, with commas between them. */
+/* Number of values in a list with commas. */
 static int count_parts(const char *list)
 {
     int count = 1;
@@ -183,8 +182,8 @@ static int count_parts(const char *list)
 
 /* ---- values ------------------------------------------------------------- */
 
-/* A decimal number at the beginning of a text, no "inf", "0x1" or blanks;
- * returns what follows it, or NULL. */
+/* Reads a decimal number at the beginning of a text; "inf", "0x1" and leading
+ * blanks are not accepted.  Returns the rest of the text, or NULL. */
 static const char *read_decimal(const char *text, double *number)
 {
     size_t length = strspn(text, "+-.0123456789eE");
@@ -196,8 +195,8 @@ static const char *read_decimal(const char *text, double *number)
     return end;
 }
 
-/* Whether a text is the row's unit, as the table or as the window writes it:
- * "J/m^2", "J/m\u00b2"; an angle has "deg", too. */
+/* Whether a text is the row's unit, written "J/m^2" or "J/m\u00b2"; for angles
+ * also "deg". */
 static bool is_unit(const OptionRow *row, const char *text)
 {
     size_t length = strcspn(row->unit, " ");
@@ -208,13 +207,13 @@ static bool is_unit(const OptionRow *row, const char *text)
            (strcmp(text, "deg") == 0 && strcmp(row->unit, "degrees") == 0);
 }
 
-/* What is meant by "1/60", "140%", "5 ms", as a number in the row's unit; NaN:
- * nobody knows. */
+/* The number in the row's unit that "1/60", "140%" or "5 ms" means; NaN: the
+ * text is no such number. */
 static double number_meant(const OptionRow *row, const char *text)
 {
     static const struct {
         const char *sign;
-        double over; /* parts of the unit */
+        double over; /* how many make one unit */
     } prefixes[] = {{"", 1},    {"k", 1e-3},     {"c", 1e2},     {"m", 1e3},
                     {"u", 1e6}, {"\u00b5", 1e6}, {"\u03bc", 1e6}};
     double number, below = 1;
@@ -237,7 +236,7 @@ static double number_meant(const OptionRow *row, const char *text)
     return NAN;
 }
 
-/* Whether the row's range has this number; of names their places. */
+/* Whether a number is in the row's range; of names it is the index. */
 static bool option_allows(const OptionRow *row, double number)
 {
     if (row->kind == OPTION_NAME)
@@ -246,9 +245,10 @@ static bool option_allows(const OptionRow *row, double number)
            (row->kind != OPTION_WHOLE || number == floor(number));
 }
 
-/* As many numbers as the row has, or fewer if it allows that, each in its
- * range; a single one may have a decimal comma.  number [count] out.  Returns
- * whether they can be read. */
+/* Reads the numbers of a value, each in the row's range.  Fewer numbers are
+ * accepted if the row says so; a single number may have a decimal comma.
+ *   number  [count] out
+ * Returns whether the text could be read. */
 static bool read_numbers(const OptionRow *row, int count, const char *text,
                          double *number)
 {
@@ -287,8 +287,8 @@ bool option_read(const OptionRow *row, const char *text, double *value)
     return i >= 0;
 }
 
-/* "; '0,004' is a list of 2 values, the number 0.004 has a point": what is said
- * of commas where a number is refused. */
+/* A hint about commas in a refused number: "; '0,004' is a list of 2 values,
+ * the number 0.004 has a point". */
 static Text hint_at_comma(const Line *line, const OptionRow *row, int count,
                           const char *text)
 {
@@ -313,16 +313,50 @@ static Text hint_at_comma(const Line *line, const OptionRow *row, int count,
     return hint;
 }
 
-/* "is none of: clamp, none", "is not X,Y, each from -1 to 1, in m" */
+/* The value that other programs and books call `text`: a hint, or "". */
+static Text meant_value(const OptionRow *row, const char *text)
+{
+    static const char *const others[][2] = {
+        {"euler", "backward-euler"},
+        {"implicit-euler", "backward-euler"},
+        {"explicit-euler", "forward-euler"},
+        {"semi-implicit-euler", "symplectic-euler"},
+        {"leapfrog", "verlet"},
+        {"velocity-verlet", "verlet"},
+        {"cholesky", "newton"},
+        {"direct", "newton"},
+        {"armijo", "backtrack"},
+        {"on", "backtrack"},
+        {"off", "none"},
+        {"psd", "clamp"},
+        {"true", "on"},
+        {"yes", "on"},
+        {"false", "off"},
+        {"no", "off"},
+        {"triangles", "neo-hookean"},
+        {"solid", "neo-hookean"},
+        {"rubber", "neo-hookean"}};
+    Text hint = meant(text, "", row->names);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strcasecmp(text, others[i][0]) == 0 &&
+            name_place(row->names, others[i][1]) >= 0)
+            snprintf(hint.text, sizeof hint.text, "; did you mean %s?",
+                     others[i][1]);
+    return hint;
+}
+
+/* Refuses a value: "is none of: clamp, none", "is not X,Y, each from -1 to 1,
+ * in m". */
 static Status refuse_value(const Line *line, const OptionRow *row, int count,
                            const char *text)
 {
     if (row->kind == OPTION_PAGE)
         return refuse(line->told,
-                      "--%s: '%.60s' is none of: the pages from 1 to %d, their "
-                      "names%s",
-                      row->name, text, lecture_count(),
-                      meant(text, "", NAMES_OF(lecture_pages)).text);
+                      "--%s: there is no page '%.60s'%s; pages are 1 to %d, or "
+                      "names: elasto --lecture --list",
+                      row->name, text,
+                      meant(text, "", NAMES_OF(lecture_pages)).text,
+                      lecture_count());
     const Gone *went = find_gone(row->name, text);
     if (went)
         return refuse(line->told, "--%s: '%s' is gone: %s", row->name, text,
@@ -330,7 +364,7 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
     if (row->kind == OPTION_NAME)
         return refuse(line->told, "--%s: '%.60s' is none of: %s%s", row->name,
                       text, list_text(row->names).text,
-                      meant(text, "", row->names).text);
+                      meant_value(row, text).text);
     return refuse(line->told, "--%s: '%.60s' is not %s%s from %g to %g%s%s%s",
                   row->name, text, count > 1 ? row->value : "",
                   count > 1                    ? ", each"
@@ -340,7 +374,8 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
                   hint_at_comma(line, row, count, text).text);
 }
 
-/* A name, or numbers; where a scene is a curve, its start may be x alone. */
+/* Puts the value of an option with a name or numbers into the options.  In
+ * scenes with one coordinate the start may be x alone. */
 static Status apply_numbers(const Line *line, const OptionRow *row,
                             const char *text)
 {
@@ -355,7 +390,8 @@ static Status apply_numbers(const Line *line, const OptionRow *row,
                                  : !read_numbers(row, count, text, number))
         return refuse_value(line, row, count, text);
     if (row->times && *given >= row->times)
-        return refuse(line->told, "--%s: '%.60s' is one too many: at most %d",
+        return refuse(line->told,
+                      "--%s: '%.60s' is one too many; at most %d are possible",
                       row->name, text, row->times);
     if (row->times)
         used = (int)(*given)++;
@@ -364,8 +400,8 @@ static Status apply_numbers(const Line *line, const OptionRow *row,
     return STATUS_OK;
 }
 
-/* How a file's name ends that promises another format than CSV; NULL: it does
- * not. */
+/* The end of a file's name if it stands for another format than CSV, or NULL.
+ */
 static const char *other_format(const char *name)
 {
     static const char *const ends[] = {
@@ -380,24 +416,24 @@ static const char *other_format(const char *name)
     return end ? ends[i] : NULL;
 }
 
-/* The name of a file or of nodes, into its field. */
+/* Puts the name of a file, or of nodes, into the options. */
 static Status apply_text(const Line *line, const OptionRow *row,
                          const char *text)
 {
     const char *other = row->table ? other_format(text) : NULL;
     if (!text[0])
-        return refuse(line->told, "--%s: the name is empty", row->name);
+        return refuse(line->told, "--%s: the value is empty: --%s %s",
+                      row->name, row->name, row->value);
     if (other)
         return refuse(line->told,
-                      "--%s: '%.60s': tables are CSV, and %s promises another "
+                      "--%s: '%.60s': tables are CSV, but %s is another "
                       "format; use .csv",
                       row->name, text, other);
     memcpy((char *)line->options + row->offset, &text, sizeof text);
     return STATUS_OK;
 }
 
-/* What the option is followed by, into its field; nothing for a page is the
- * first. */
+/* Puts the value of an option into the options; no page is the first page. */
 static Status apply(const Line *line, const OptionRow *row, const char *text)
 {
     Options *options = line->options;
@@ -415,13 +451,13 @@ static Status apply(const Line *line, const OptionRow *row, const char *text)
     }
 }
 
-/* Whether the scene has what the row is about. */
+/* Checks that the scene has what the option is about. */
 static Status check_scene(const Line *line, const OptionRow *row)
 {
     const Scene *scene = line->options->scene;
     const char *lacks = row->needs & NEEDS_MESH      ? "square"
                         : row->needs == NEEDS_TIME   ? "time steps"
-                        : row->needs & NEEDS_TIME    ? "time"
+                        : row->needs & NEEDS_TIME    ? "time step to choose"
                         : row->needs & NEEDS_SPRINGS ? "springs"
                         : row->needs & NEEDS_START   ? "start to choose"
                         : row->needs & NEEDS_BODY    ? "body that falls"
@@ -432,7 +468,7 @@ static Status check_scene(const Line *line, const OptionRow *row)
                         scene->name, lacks);
 }
 
-/* What the body has is right with the integrator. */
+/* Checks that the integrator can do what the body asks for. */
 static Status check_integrator(const Line *line)
 {
     const char *end = body_needs_end_of_step(line->options);
@@ -440,8 +476,7 @@ static Status check_integrator(const Line *line)
     return !end || method->at_end
                ? STATUS_OK
                : refuse(line->told,
-                        "--integrator: '%s' has no %s; of all methods only "
-                        "backward-euler has",
+                        "--integrator: '%s' has no %s; only backward-euler has",
                         method->name, end);
 }
 
@@ -461,7 +496,7 @@ Status options_set(Options *options, const char *name, const char *value,
     const Line line = {.options = options, .told = {message, size}};
     const OptionRow *row = option_find(name);
     if (!row || row->kind == OPTION_SWITCH)
-        return refuse(line.told, "there is no option '%.60s' with a value",
+        return refuse(line.told, "there is no option '%.60s' that has a value",
                       name);
     if (check_scene(&line, row) || apply(&line, row, value))
         return STATUS_INVALID_INPUT;
@@ -488,8 +523,17 @@ Status options_put(Options *options, const OptionRow *row, double value,
 
 /* ---- words -------------------------------------------------------------- */
 
-/* The row of "--name", "--name=value", or of a letter: "-h", as some programs
- * have it "-H".  NULL: there is none, and the line says so. */
+/* Refuses a word before its '=', with a hint, or else with where to look. */
+static Status refuse_unknown(const Line *line, const char *what,
+                             const char *word, Text hint, const char *look)
+{
+    int length = (int)fmin(strcspn(word, "="), 60);
+    return refuse(line->told, "%s '%.*s'%s", what, length, word,
+                  hint.text[0] ? hint.text : look);
+}
+
+/* The row of "--name", "--name=value", or of a letter, "-h" or "-H".  NULL: the
+ * word is refused. */
 static const OptionRow *find_option(const Line *line, const char *word)
 {
     char name[64];
@@ -503,8 +547,8 @@ static const OptionRow *find_option(const Line *line, const char *word)
     if (went)
         refuse(line->told, "--%s is gone: %s", name, went->instead);
     else if (!found)
-        refuse(line->told, "no option %.*s; see elasto --help%s",
-               length < 60 ? length : 60, word, meant_option(name).text);
+        refuse_unknown(line, "there is no option", word, meant_option(name),
+                       "; see elasto --help");
     return found;
 }
 
@@ -538,7 +582,7 @@ static Status read_words(int argc, char **argv, Line *line)
     return STATUS_OK;
 }
 
-/* The words of a line of our own, cut at its blanks.
+/* Reads the words of a line without quotes, separated by blanks.
  *   copy  [size] out, the texts of the words */
 static Status split_words(const char *text, char *copy, size_t size, Line *line)
 {
@@ -551,7 +595,7 @@ static Status split_words(const char *text, char *copy, size_t size, Line *line)
     return read_words(argc, argv, line);
 }
 
-/* The last word about an option, or NULL. */
+/* The last word about an option; NULL: the option is not given. */
 static Word *given(Line *line, const OptionRow *row)
 {
     for (int i = line->words - 1; i >= 0; i--)
@@ -560,25 +604,42 @@ static Word *given(Line *line, const OptionRow *row)
     return NULL;
 }
 
-/* A word that is no scene: perhaps it is an option without its dashes or with
- * those that editors make of them, or a part of a value with a blank in it. */
-static Status refuse_scene(const Line *line, const char *text)
+/* A hint if a word behind an option may be a part of its value, as in "4 ms"
+ * and "1, 2": values have no blanks.  "" otherwise. */
+static Text hint_at_blank(const Line *line, const Word *word)
 {
-    Text hint = meant(text, "", NAMES_OF(scenes));
-    if (option_find(text))
-        snprintf(hint.text, sizeof hint.text, "; did you mean --%s?", text);
-    else if (strncmp(text, "\u2013", 2) == 0) /* U+2000 and what follows */
-        hint = (Text){"; an option begins with two signs '-'"};
-    else if (text[strspn(text, "+.")] == '%' ||
-             isdigit((unsigned char)text[strspn(text, "+.")]))
-        hint = (Text){STANDS_ALONE};
-    return refuse(line->told, "there is no scene '%.60s'; see elasto --list%s",
-                  text, hint.text);
+    Text hint = {""};
+    const Word *before = word > line->word ? word - 1 : NULL;
+    if (before && before->row && before->row->kind == OPTION_SWITCH)
+        snprintf(hint.text, sizeof hint.text, "; --%s takes no value",
+                 before->row->name);
+    else if (before && before->row)
+        snprintf(hint.text, sizeof hint.text,
+                 "; a value has no blanks: --%s %s", before->row->name,
+                 before->row->value);
+    return hint;
 }
 
-/* The scene, by its name or its number in the list, or the page, and what
- * cannot be said in one line whatever they are: of two files only one would be
- * written. */
+/* Refuses a word that is no scene.  It may be an option without its dashes, or
+ * with the dashes of an editor, or a part of a value. */
+static Status refuse_scene(const Line *line, const Word *word)
+{
+    const char *text = word->text;
+    char name[64];
+    Text hint = meant(text, "", NAMES_OF(scenes));
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
+    if (option_find(name))
+        snprintf(hint.text, sizeof hint.text, "; did you mean --%s?", text);
+    else if (strncmp(text, "\u2013", 2) == 0) /* U+2000 to U+203F */
+        hint = (Text){"; an option begins with two signs '-'"};
+    else if (!hint.text[0])
+        hint = hint_at_blank(line, word);
+    return refuse_unknown(line, "there is no scene", text, hint,
+                          "; see elasto --list");
+}
+
+/* Finds the scene or the page of a line, and refuses files, scenes or a page
+ * that exclude each other. */
 static Status check_words(Line *line)
 {
     Options *options = line->options;
@@ -587,28 +648,30 @@ static Status check_words(Line *line)
         const OptionRow *row = word->row;
         if (row && row->kind == OPTION_TEXT && last != word)
             return refuse(line->told,
-                          "--%s: '%.60s' and '%.60s': one at a time, please",
+                          "--%s: '%.60s' and '%.60s': only one can be given",
                           row->name, word->text, last->text);
         if (row && row->kind == OPTION_PAGE && apply(line, row, word->text))
             return STATUS_INVALID_INPUT;
         if (!row && options->scene)
-            return refuse(line->told, "'%.60s': one scene at a time, please",
-                          word->text);
+            return refuse(line->told,
+                          "'%.60s': only one scene can be given, and '%s' is "
+                          "one%s",
+                          word->text, options->scene->name,
+                          hint_at_blank(line, word).text);
         if (!row && !(options->scene = scene_find(word->text)))
-            return refuse_scene(line, word->text);
+            return refuse_scene(line, word);
     }
     if (options->scene && options->page)
         return refuse(line->told,
-                      "--lecture: its pages have scenes of their own, '%s' "
-                      "cannot be asked for",
+                      "--lecture: each page has its own scene; leave '%s' out",
                       options->scene->name);
     if (!options->scene)
         options->scene = &scenes[0];
     return STATUS_OK;
 }
 
-/* What the values stand on: the slides' numbers and nothing of the rest; of
- * these, the scene's own, or the page. */
+/* Fills the options with the defaults and with those of the scene or the page.
+ */
 static Status begin_options(Line *line)
 {
     Options *options = line->options;
@@ -623,7 +686,7 @@ static Status begin_options(Line *line)
     Status status = split_words(options->scene->line, copy, sizeof copy, &own);
     for (int i = 0; i < own.words && !status; i++)
         status = apply(&own, own.word[i].row, own.word[i].text);
-    if (!given(line, option_find("body"))) /* they are of the scene's own */
+    if (!given(line, option_find("body"))) /* the pins are of its own body */
         options->pin = options->scene->pin;
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->times && given(line, row))
@@ -631,7 +694,7 @@ static Status begin_options(Line *line)
     return status;
 }
 
-/* Of each list of values the one that this pane has; the last list changes
+/* Picks from each list of values the one of this pane; the last list changes
  * fastest. */
 static Status pick_values(Line *line, int pane)
 {
@@ -651,8 +714,8 @@ static Status pick_values(Line *line, int pane)
             return refuse(line->told,
                           "--%s: '%.60s' makes more than %d side by side%s",
                           row->name, text, most,
-                          drawn ? "; --headless, where nothing is drawn, takes "
-                                  "more"
+                          drawn ? "; with --headless, where nothing is drawn, "
+                                  "64 are possible"
                                 : "");
         word->list = text;
         for (int k = pane % count; k > 0; k--)
@@ -665,7 +728,7 @@ static Status pick_values(Line *line, int pane)
     return STATUS_OK;
 }
 
-/* Each part of a list of nodes is a node or names some. */
+/* Checks the nodes of --pin. */
 static Status check_pins(const Line *line, const SquareMesh *shape)
 {
     char part[64];
@@ -673,18 +736,22 @@ static Status check_pins(const Line *line, const SquareMesh *shape)
     for (size_t length; at; at = at[length] ? at + length + 1 : NULL) {
         length = strcspn(at, ",");
         snprintf(part, sizeof part, "%.*s", (int)length, at);
+        const char *colon = strchr(part, ':');
         if (pins_read(part, shape, NULL))
-            return refuse(
-                line->told,
-                "--pin: '%s' is no node from 0 to %d, and none of: " PINS_WORDS,
-                part, shape->nodes - 1);
+            return refuse(line->told,
+                          "--pin: '%s' is no node from 0 to %d, and none "
+                          "of: " PINS_WORDS "%s",
+                          part, shape->nodes - 1,
+                          colon && atoi(colon + 1) > shape->bodies
+                              ? "; there are not so many bodies"
+                              : "");
     }
     return STATUS_OK;
 }
 
-/* What depends on several options: which nodes there are to be pinned, what
- * says something about what is not there, the projection, unless it was chosen,
- * and where the body begins. */
+/* Checks what depends on several options: pins, options without effect, and
+ * whether the body can start; chooses self-contact, cells and projection where
+ * they are not given. */
 static Status check_body(Line *line)
 {
     Options *options = line->options;
@@ -704,12 +771,12 @@ static Status check_body(Line *line)
     if (check_integrator(line))
         return STATUS_INVALID_INPUT;
     if (options->material != 0)
-        options->cells = 0; /* triangles keep their sides anyway */
+        options->cells = 0; /* triangles do not turn over anyway */
     if (options->material != 0 &&
         (options->yield > 0 || options->tear > 0 || options->damping > 0))
         return refuse(line->told,
                       "--material: the scene '%s' is about springs; triangles "
-                      "do not flow or tear, and are not damped",
+                      "do not yield or tear, and have no damping",
                       options->scene->name);
     if ((options->cells || options->material != 0 || options->self_contact) &&
         !given(line, option_find("projection")))
@@ -717,8 +784,8 @@ static Status check_body(Line *line)
     return body_check(options, line->told);
 }
 
-/* Without a window, and without a script that could change something later,
- * what would have no effect is refused. */
+/* Refuses options without effect if there is neither a window nor a script that
+ * could change something later. */
 static Status check_headless(Line *line)
 {
     static const char *const minimising[] = {"tolerance", "solver",
@@ -729,13 +796,13 @@ static Status check_headless(Line *line)
     bool explicit = chosen && !chosen->list && !method->implicit;
     if (options->headless && options->fullscreen)
         return refuse(line->told, "--fullscreen: with --headless there is no "
-                                  "window");
+                                  "window; leave one of them out");
     if (!options->headless || options->script)
         return STATUS_OK;
     if (options->paused)
         return refuse(line->told,
-                      "--paused: with --headless nobody could go on, and no "
-                      "step would be made; --steps 0 is the start alone");
+                      "--paused: with --headless no key can end the pause; "
+                      "--steps 0 gives the start alone");
     if (options->speed > 1)
         return refuse(line->told, "--speed: with --headless each step is a "
                                   "frame; below 1 a film is slower");
@@ -745,13 +812,13 @@ static Status check_headless(Line *line)
     for (int i = 0; explicit && minimising[i]; i++)
         if (given(line, option_find(minimising[i])))
             return refuse(line->told,
-                          "--%s: '%s' minimises nothing, of all methods only "
-                          "implicit ones do",
+                          "--%s: '%s' minimises nothing; choose an implicit "
+                          "--integrator such as backward-euler",
                           minimising[i], method->name);
     return STATUS_OK;
 }
 
-/* The words that were read, into the options. */
+/* Puts the words of a line into the options of a pane. */
 static Status apply_words(Line *line, int pane)
 {
     *line->options = (Options){.panes = 1};
@@ -761,7 +828,8 @@ static Status apply_words(Line *line, int pane)
         const OptionRow *row = line->word[i].row;
         if (row && line->options->page && row->needs)
             return refuse(line->told,
-                          "--%s: the lecture's pages say that themselves",
+                          "--%s: a page of --lecture has its own value; change "
+                          "it in the window, or leave --lecture out",
                           row->name);
         if (row &&
             (check_scene(line, row) || apply(line, row, line->word[i].text)))
@@ -832,11 +900,15 @@ Status lecture_options(const LecturePage *page, Options *options, char *message,
 
 enum { HELP_COLUMNS = 80, HELP_INDENT = 21 };
 
-/* A line that begins with `start`; words stand from the column of the texts on,
- * in more lines where they do not fit. */
+/* Prints `start`, and `words` in the column of descriptions, in more lines if
+ * they do not fit. */
 static void help_line(FILE *help, const char *start, const char *words)
 {
     int column = fprintf(help, "%s", start);
+    if (column > HELP_INDENT && *words) {
+        fputc('\n', help);
+        column = 0;
+    }
     for (words += strspn(words, " "); *words; words += strspn(words, " ")) {
         int length = (int)strcspn(words, " ");
         if (column + 1 + length > HELP_COLUMNS) {
@@ -850,8 +922,8 @@ static void help_line(FILE *help, const char *start, const char *words)
     fputc('\n', help);
 }
 
-/* The scenes with their numbers, a line each; of an option its name, what it
- * is, unit, names or range, default. */
+/* A line for each scene with its number; for each option its description, unit,
+ * names or range, and default. */
 void options_help(FILE *help)
 {
     fprintf(help, "usage: elasto [SCENE] [options]; SCENE is a name or a "
@@ -875,6 +947,9 @@ void options_help(FILE *help)
         if (row->kind == OPTION_WHOLE && row->high <= 4096)
             snprintf(range.text, sizeof range.text, "%g ... %g", row->low,
                      row->high);
+        if (named && row->standard >= 0)
+            snprintf(standard.text, sizeof standard.text, "[%s]",
+                     name_at(row->names, (int)row->standard));
         if (row->high > row->low && !row->count && row->standard >= row->low)
             snprintf(standard.text, sizeof standard.text, "[%g]",
                      row->standard);

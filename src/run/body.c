@@ -374,12 +374,50 @@ const char *body_needs_end_of_step(const Options *options)
     return options->scene->body.moving_pins ? "moving pins" : NULL;
 }
 
-/* Whether no node is on or in an obstacle, no cell or triangle turned over.
+/* Names an obstacle for a message: "the ball", or "ball 2" if there are
+ * several. number  of the obstacle: grounds, balls, the ceiling, that of the
+ * scene */
+static void name_obstacle(const Options *options, int number, char *name,
+                          size_t size)
+{
+    int ball = number - (int)options->grounds;
+    bool of_scene = ball > options->balls ||
+                    (ball == options->balls && options->ceiling[1] == 0);
+    double alike = ball < 0                ? options->grounds
+                   : ball < options->balls ? options->balls
+                                           : 1;
+    const char *kind = ball < 0                            ? "ground"
+                       : ball < options->balls             ? "ball"
+                       : of_scene && ball_of(options) >= 0 ? "falling ball"
+                                                           : "ceiling";
+    if (alike > 1)
+        snprintf(name, size, "%s %d", kind, (ball < 0 ? number : ball) + 1);
+    else
+        snprintf(name, size, "the %s", kind);
+}
+
+/* Refuses an obstacle whose gap to a body, m, is not above 0; NaN: a ball
+ * inside the body. */
+static Status refuse_place(const Options *options, int number, double gap,
+                           Refusal told)
+{
+    bool square = options->bodies <= 1 && options->scene->body.aspect == 0;
+    const char *body = square ? "the square" : "a body";
+    char name[32];
+    name_obstacle(options, number, name, sizeof name);
+    if (gap < 0)
+        return refuse(told, "%s would overlap %s by %.3g m; move one of them",
+                      name, body, -gap);
+    return refuse(told, "%s would %s %s; move one of them", name,
+                  gap == 0 ? "touch" : "be inside", body);
+}
+
+/* Checks that no node touches an obstacle and no cell is turned over.
  *   x      [2n] m
- *   apart  m, gap that nodes have at least to the obstacle `number`; to all
- *          others it must be above 0 */
-static Status check_places(const System *system, const double *x, double apart,
-                           int number, Refusal told)
+ *   apart  m, smallest gap to the obstacle `number`; to others it is 0 */
+static Status check_places(const Options *options, const System *system,
+                           const double *x, double apart, int number,
+                           Refusal told)
 {
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
     for (int t = 0; t < system->terms; t++) {
@@ -393,58 +431,64 @@ static Status check_places(const System *system, const double *x, double apart,
             if (element->s > (own ? apart : 0))
                 continue;
             return kind == &contact_energy
-                       ? refuse(told,
-                                "obstacle %d: node %d would begin at a "
-                                "distance of %g m; it must be above 0",
-                                element->from, element->node[0], element->s)
+                       ? refuse_place(options, element->from, element->s, told)
                        : refuse(told,
-                                "at node %d a cell begins turned over (%.3g of "
-                                "its area); it must not",
+                                "the cell at node %d would be turned over at "
+                                "the start: its area would be %.3g of that at "
+                                "rest; choose another --stretch",
                                 element->node[0], element->s);
         }
     }
     return STATUS_OK;
 }
 
-/* Grounds, balls and a ceiling that are some. */
+/* Checks that the obstacles of the options make sense. */
 static Status check_numbers(const Options *options, Refusal told)
 {
     const double *ceiling = options->ceiling;
     for (int i = 0; i < options->grounds; i++)
         if (options->ground[i][0] == 0 && options->ground[i][1] == 0)
-            return refuse(told, "--ground: its normal NX,NY is 0,0");
+            return refuse(told, "--ground: the normal NX,NY is 0,0; 0,1 points "
+                                "upwards");
     if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2])))
-        return refuse(told, "--ceiling: V is %g; it must be below 0",
+        return refuse(told,
+                      "--ceiling: V is %g; the ceiling moves down, so V must "
+                      "be below 0",
                       ceiling[1]);
     if (ceiling[2] > ceiling[0])
-        return refuse(told, "--ceiling: STOP is %g; it must not be above Y",
+        return refuse(told,
+                      "--ceiling: STOP is %g; the ceiling moves down, so STOP "
+                      "must be at most Y",
                       ceiling[2]);
     for (int i = 0; i < options->balls; i++)
         if (!(options->ball[i][2] > 0))
-            return refuse(told, "--ball: R is %g; it must be above 0",
+            return refuse(told,
+                          "--ball: the radius R is %g; it must be above 0",
                           options->ball[i][2]);
     return STATUS_OK;
 }
 
-/* Which side of the line from a to b p is on: twice the area of abp. */
+/* Twice the signed area of the triangle a b p: positive if p is left of the
+ * line from a to b. */
 static double side_of(const double *a, const double *b, const double *p)
 {
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-/* No ball begins inside of a cell: contact sees nodes alone, and a small ball
- * may have none near it. */
+/* Checks that no ball is inside a cell.  Contact looks at nodes only, and a
+ * small ball may have none near it. */
 static Status check_balls(const Options *options, const SquareMesh *mesh,
                           const double *x, Refusal told)
 {
     for (int k = 0; k < options->balls; k++)
         if (square_mesh_cell_at(mesh, x, options->ball[k], 0, mesh->cells) >= 0)
-            return refuse(told, "ball %d would be inside of a cell", k);
+            return refuse_place(options, (int)options->grounds + k, NAN, told);
     return STATUS_OK;
 }
 
-/* Whether the obstacles of these options leave room for the bodies, and the
- * obstacle `number` so many parts of the barrier's width. */
+/* Checks that the obstacles of these options overlap no body where it is now.
+ *   apart  smallest gap to the obstacle `number`, as a part of the barrier's
+ *          width; to others it is 0 */
 static Status check_room(const Simulation *simulation, const Options *options,
                          double apart, int number, Refusal told)
 {
@@ -459,7 +503,7 @@ static Status check_room(const Simulation *simulation, const Options *options,
             contact.ball = count - 1;
         system.terms = 1;
         system.term[0] = (Term){&contact_energy, &contact};
-        status = check_places(&system, simulation->run[run].x,
+        status = check_places(&its, &system, simulation->run[run].x,
                               apart * contact.barrier.d_hat, number, told);
     }
     return status ? status
@@ -477,7 +521,7 @@ double simulation_way(const Simulation *simulation, const Options *options,
                       int number, const double to[2])
 {
     enum { HALVINGS = 20 };
-    static const double APART = 0.999; /* no force yet */
+    static const double APART = 0.999; /* just inside the barrier's width */
     Options moved = *options;
     double *at = obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
@@ -494,12 +538,12 @@ double simulation_way(const Simulation *simulation, const Options *options,
     return free;
 }
 
-/* Whether two edges have a point in common. */
+/* Whether two edges have a common point. */
 static bool edges_cross(const double *x, const int one[2], const int other[2])
 {
     const double *a = x + 2 * one[0], *b = x + 2 * one[1];
     const double *c = x + 2 * other[0], *d = x + 2 * other[1];
-    for (int k = 0; k < 2; k++) /* along one line, or far */
+    for (int k = 0; k < 2; k++) /* bounding boxes apart */
         if (fmax(a[k], b[k]) < fmin(c[k], d[k]) ||
             fmax(c[k], d[k]) < fmin(a[k], b[k]))
             return false;
@@ -507,8 +551,8 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
            side_of(c, d, a) * side_of(c, d, b) <= 0;
 }
 
-/* No body begins inside of another one: outlines do not cross, so one node
- * tells. */
+/* Checks that no body is inside another one.  The outlines do not cross, so one
+ * node of each body is enough. */
 static Status check_inside(const Options *options, const SquareMesh *shape,
                            const double *x, Refusal told)
 {
@@ -520,13 +564,13 @@ static Status check_inside(const Options *options, const SquareMesh *shape,
                 square_mesh_cell_at(shape, x, x + 2 * inner * nodes,
                                     outer * cells, (outer + 1) * cells) >= 0)
                 return refuse(told,
-                              "--body: body %d would begin inside of body %d; "
-                              "move one, or --self-contact off",
+                              "--body: body %d would be inside body %d; move "
+                              "one of them, or --self-contact off",
                               inner + 1, outer + 1);
     return STATUS_OK;
 }
 
-/* No outline begins across another or itself. */
+/* Checks that the outlines of bodies do not cross each other or themselves. */
 static Status check_overlap(const Options *options, const double *x,
                             Refusal told)
 {
@@ -537,13 +581,19 @@ static Status check_overlap(const Options *options, const double *x,
         for (int l = 0; l < k; l++) {
             square_mesh_outline(&shape, l, other);
             bool neighbours = other[1] == edge[0] || other[0] == edge[1];
-            if (!neighbours && edges_cross(x, edge, other))
-                return refuse(told,
-                              "%s: at the start the edge of nodes %d, %d would "
-                              "cross that of nodes %d, %d; move one, or "
-                              "--self-contact off",
-                              options->bodies > 0 ? "--body" : "--self-contact",
-                              other[0], other[1], edge[0], edge[1]);
+            if (neighbours || !edges_cross(x, edge, other))
+                continue;
+            int a = square_mesh_body(&shape, &other[0]) + 1;
+            int b = square_mesh_body(&shape, &edge[0]) + 1;
+            return a == b ? refuse(told,
+                                   "--self-contact: body %d would cross itself "
+                                   "at the start; --self-contact off allows it",
+                                   a)
+                          : refuse(told,
+                                   "--body: bodies %d and %d would overlap at "
+                                   "the start; move one of them, or "
+                                   "--self-contact off",
+                                   a, b);
         }
     }
     return check_inside(options, &shape, x, told);
@@ -563,7 +613,7 @@ Status body_check(const Options *options, Refusal told)
     if (!status)
         status = check_overlap(options, x, told);
     if (!status)
-        status = check_places(&system, x, 0, -1, told);
+        status = check_places(options, &system, x, 0, -1, told);
     if (!status) {
         const SquareMesh shape = body_shape(options);
         status = check_balls(options, &shape, x, told);

@@ -40,7 +40,7 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|--frames and --states are one file|--frames d --states d/
 2|^elasto: --vtk is gone: --states .* CSV$|--vtk n
 2|--states: 'n.npz': tables are CSV|--headless --states n.npz
-2|--state: 'k.csv.gz': tables are CSV, and .gz|--headless --state k.csv.gz
+2|--state: 'k.csv.gz': tables are CSV, but .gz|--headless --state k.csv.gz
 2|.mp4, .webm, .gif or .apng|--headless --film n.avi
 2|does not end|--headless --film n.avi --timestep 0.004,0.01
 1|Is a directory|--headless --states d

@@ -137,14 +137,14 @@ verdict other_tables_are_refused "$(
     refused '' 'last step has 50 nodes, the body 25'
     run --steps 2 --states table
     refused '--segments 5' 'last step has 25 nodes, the body 36'
-    refused '--ground 0,1,0,0' 'would begin at a distance of'
+    refused '--ground 0,1,0,0' 'the ground would overlap the square'
     refused '--states table' 'are one file'
     refused 'circle' 'circle'
     refused '--state-step 3' 'step 3 is not in it'
     sed 's/^2,\(.*\),[^,]*$/2,\1,nan/' table >other && mv other table
     refused '' "line 52: vy is 'nan', not a number"
     run --stretch -1 --steps 1 --states table
-    refused '--cells on' 'a cell begins turned over'
+    refused '--cells on' 'would be turned over'
 )"
 
 # The same numbers as other programs write them: the table is read.  Its way
