@@ -176,7 +176,7 @@ verdict focus_ends_a_drag "$(focus_ends_a_drag)"
 
 # On a small screen the window has room for its frame.
 the_window_fits() {
-    for screen_size in 1280x800 1366x768; do
+    for screen_size in 1280x800 1366x768 800x600; do
         new_screen small "$screen_size" || echo "no screen of $screen_size"
         DISPLAY=:$(cat small) "$elasto" hang --quiet --paused 2>error &
         pid=$!

@@ -6,6 +6,7 @@
 
 #include <ctype.h>
 #include <glob.h>
+#include <math.h>
 
 enum { SIDE = 900, MARKS = 16 };
 
@@ -393,18 +394,22 @@ static const char *text_or(const char *text)
     return text && text[0] ? text : "<nothing>";
 }
 
-/* Whether all nodes of a pane are in its part of the window. */
+/* Whether all nodes of a pane are in its part of the window, and more than a
+ * dot. */
 static bool pane_has_all(const Show *show, const Layout *layout, int p)
 {
     const Pane *pane = &show->pane[p];
+    const Box *box = &layout->pane[p];
     Camera camera = show_camera(show, layout, p);
-    double at[2];
+    double at[2], first[2], far = 0;
+    camera_pixel(&camera, pane_x(pane), first);
     for (int i = 0; i < pane->simulation->system.nodes; i++) {
         camera_pixel(&camera, pane_x(pane) + 2 * i, at);
-        if (!box_contains(layout->pane[p], at[0], at[1]))
+        if (!box_contains(*box, at[0], at[1]))
             return false;
+        far = fmax(far, hypot(at[0] - first[0], at[1] - first[1]));
     }
-    return true;
+    return far > 0.05 * box->width;
 }
 
 /* Of a part of the window, the parts that it has several of. */
@@ -543,8 +548,7 @@ static char session_text[1 << 16];
 static int read_sessions(void)
 {
     int count = 0, used = 0;
-    FILE *file =
-        fopen("tests/data/sessions.txt", "r");
+    FILE *file = fopen("tests/data/sessions.txt", "r");
     assert_non_null(file);
     size_t size = fread(session_text, 1, sizeof session_text, file);
     assert_true(size < sizeof session_text);

@@ -614,6 +614,16 @@ TEST(maps_have_levels_and_pulls)
     }
     double middle[2];
     draw_without_words();
+    for (int k = 0; k < 3; k++) { /* so is the contour itself */
+        double at[2], far = sqrt(2 * levels[k]);
+        int darkest = -9;
+        plot_place(&stage, (double[]){target[0] - far, target[1]}, at);
+        for (int i = -9; i < 9; i++)
+            if ((pixel((int)at[0] + i, (int)at[1]) & 255) <
+                (pixel((int)at[0] + darkest, (int)at[1]) & 255))
+                darkest = i;
+        CHECK_AT_MOST(abs(darkest), 1);
+    }
     plot_place(&stage, (double[]){0.4, 0.6}, middle);
     CHECK(count_colour((Box){(int)middle[0] - 3, (int)middle[1] - 3, 7, 7},
                        COLOUR_X_TILDE) > 3);
