@@ -78,7 +78,7 @@ verdict each_mistake_is_named "$(
         esac
     done <expected
 )"
-verdict what_is_no_c_is_told "$(
+verdict homework_that_does_not_compile_is_reported "$(
     check no.c >said && echo 'it passes'
     grep -q '^no.c: it does not compile: line 1' said || cat said
     check none.c | grep -q '^none.c: there is no such file$' || check none.c

@@ -29,7 +29,7 @@ refusals() {
 }
 mkdir refused
 cd refused || exit 1
-verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
+verdict refused_lines_change_no_file "$(refusals <<END
 1|too large.*fewer --segments|--segments 3000 --body 0,0 --body 2,0
 2|line 1.*'jump'.*--help commands$|--headless --script jump
 2|line 1.*'box' is gone: place|--headless --script box
@@ -103,7 +103,7 @@ verdict summaries_have_what_was_done_in_each_pane "$(
 )"
 
 if [ -c /dev/full ]; then
-    verdict a_full_output_is_told "$(
+    verdict a_full_output_is_reported "$(
         for arguments in --help --version --list '--headless --steps 1'; do
             # shellcheck disable=SC2086
             "$elasto" $arguments >/dev/full 2>error
@@ -144,7 +144,7 @@ verdict frames_of_an_earlier_run_are_named "$(
     frames 4 ''
     rm -r fr
 )"
-verdict a_reader_that_leaves_is_told_nothing "$(
+verdict a_reader_that_leaves_gets_no_message "$(
     for arguments in --help --list '--help commands' '--headless --steps 5' \
         '--headless --states -'; do
         # shellcheck disable=SC2086

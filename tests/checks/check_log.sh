@@ -39,7 +39,7 @@ ends() {
     [ "$code" -eq $expected ] || echo "$*: exit $code"
 }
 
-verdict every_end_is_told "$(
+verdict the_log_says_how_each_step_ended "$(
     ends 1 --steps 40
     ends 1 --steps 20 --tolerance 1e-30
     ends 1 --steps 20 --tolerance 1e-14 --stretch 1
@@ -49,7 +49,7 @@ verdict every_end_is_told "$(
     ends 1 --steps 30 --solver multigrid --tolerance 1e-30
     ends 1 --steps 20 --integrator midpoint --tolerance 1e-12 --timestep 1
 )"
-verdict ends_that_did_not_converge_are_told "$(
+verdict steps_that_did_not_converge_are_reported "$(
     ends 1 --steps 10 --projection none --timestep 0.02 --stretch 0.5
     ends 1 --steps 10 --line-search none --timestep 0.05 --stretch 0.3
     ends 1 --steps 10 --line-search none --projection none --timestep 0.05 \
@@ -71,14 +71,14 @@ told() { # REASON LINE
     grep -c ",$reason," log | cmp -s - summed ||
         echo "$*: $reason $(cat summed), in the log $(grep -c ",$reason," log)"
 }
-verdict what_is_blocked_is_told "$(
+verdict blocked_steps_are_reported "$(
     told blocked squeeze --segments 4 --pin top --steps 30
     told blocked tear --segments 4 --ground 1,0,-0.52,0 --timestep 0.01 \
         --steps 30
     told blocked return --segments 4 --body 0,0 --body 0,1.1 \
         --ground 0,1,0,-0.6 --ceiling 1.7,-50,-5 --steps 8
 )"
-verdict energy_from_nothing_is_told "$(
+verdict energy_from_nothing_is_reported "$(
     set -- --headless --segments 6 --self-contact on --material neo-hookean \
         --body 0,0,0,8,0 --body 1.2,0.1,3,-8,0 --steps 5
     "$elasto" "$@" --timestep 0.1 |
@@ -86,7 +86,7 @@ verdict energy_from_nothing_is_told "$(
         echo 'not in the summary'
     "$elasto" "$@" --timestep 0.002 | grep gained
 )"
-verdict a_start_that_is_the_minimum_is_told "$(
+verdict a_start_that_is_the_minimum_is_reported "$(
     ends 1 --steps 5 --stretch 1
     [ "$(grep -c ,ok, log)" -eq 5 ] && [ "$(wc -l <log)" -eq 6 ] ||
         echo 'a step at rest is not told, or not one update'
@@ -104,7 +104,7 @@ kinds() {
         END { if (!at || !rows || bad)
                   print line ": " bad + 0 " of " rows + 0 " rows" }' log
 }
-verdict kinds_of_residuals_are_told "$(
+verdict the_log_says_the_kind_of_each_residual "$(
     # one that a factor of its own Hessian gives, and one that an older does
     kinds value '$9 == 1' --segments 4
     kinds estimate '$9 == 0' --segments 4

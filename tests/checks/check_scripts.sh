@@ -84,7 +84,7 @@ refusals() {
     [ "$(grep -c '^script: step [01]: ' error)" = 3 ] || cat error
     [ "$(tail -n 1 states | cut -d, -f1)" = 2 ] || echo 'the rest is not done'
 }
-verdict nonsense_is_told "$(refusals)"
+verdict invalid_script_lines_are_reported "$(refusals)"
 
 # Beyond the newest step there is none; and nobody waits for ever.
 ends_of_runs() {

@@ -252,8 +252,8 @@ sub try_fault {
 }
 
 my ($how, $seed, $count, @rooms) = (@ARGV, '');
-my @faults = $how eq '--random' ? () : listed('tests/data/mutants.txt', $how =~ s/^--check$//r);
-exit 0 if $how eq '--check';
+my @faults = $how eq '--random' ? () : listed('tests/data/mutants.txt', $how =~ s/^(?:--)?check$//r);
+exit 0 if $how =~ /^(?:--)?check$/;
 die "no fault contains '$how'\n" unless @faults || $how eq '--random';
 
 my $tree = abs_path('.') . "/build/mutants.$$";

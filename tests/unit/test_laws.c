@@ -146,7 +146,7 @@ TEST(a_hand_pushes_with_a_bounded_speed)
 /* A pinned mass stops the wall at 0.3 of the barrier's width before it, and a
  * second wall behind a free mass does, where the hand is too weak: there each
  * gap is about a tenth of that width.  No step is called blocked. */
-TEST(what_cannot_give_way_stops_a_hand)
+TEST(a_fixed_body_stops_the_hand)
 {
     const double still[2] = {0, 0}, right[2] = {1, 0}, left[2] = {-1, 0};
     point_on_wall(right, 0, 0, 0);
@@ -352,7 +352,7 @@ TEST(the_ledger_adds_up)
 }
 
 /* As the steps get shorter all that is lost is lost by damping. */
-TEST(damping_takes_what_is_lost)
+TEST(damping_books_the_energy_that_it_takes)
 {
     double share[2];
     for (int fine = 0; fine < 2; fine++) {
@@ -537,7 +537,7 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
 
 /* Without a line search updates of contact may go round in circles: such a step
  * ends after some hundreds, with its reason. */
-TEST(circles_without_a_line_search_end)
+TEST(cycles_without_a_line_search_end)
 {
     static const char *const lines[] = {
         "drop --segments 6 --stiffness 8.29e4 --timestep 0.0192 --tolerance "
@@ -609,7 +609,7 @@ static Simulation *moving_square(const Way *way, int steps)
 /* It falls, too.  Halving h divides the error by 2^order: two halvings, from
  * steps so small that the next term of the error changes the slope by less than
  * 0.05. */
-TEST(orders_are_as_in_the_table)
+TEST(methods_have_the_order_of_their_table)
 {
     enum { FINEST = 16384 };
     const Way verlet = {integrator_method("verlet"), SOLVER_NEWTON};

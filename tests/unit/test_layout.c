@@ -102,7 +102,7 @@ TEST(zones_tile_every_size)
 }
 
 /* What a lecture's screen must have, and what a stamp must not. */
-TEST(sizes_fold)
+TEST(small_windows_leave_parts_out)
 {
     show_all();
     for (int s = 0; s < 4; s++) {
@@ -136,7 +136,7 @@ static bool hits(const Layout *layout, double x, double y, Zone zone, int index)
 
 /* Every box is hit at its middle and its first and last pixels, and not beside
  * them (a card's upper right corner closes it). */
-TEST(hits_are_what_is_there)
+TEST(a_click_hits_the_part_that_is_drawn_there)
 {
     show_all();
     show.panes = 5;
@@ -200,7 +200,7 @@ TEST(cards_share_the_column)
 }
 
 /* There and back; zooming keeps the point under the mouse. */
-TEST(lenses_keep_the_point)
+TEST(zoom_keeps_the_point_under_the_mouse)
 {
     const Box box = {100, 50, 700, 500};
     const double bounds[4] = {-1, -2, 3, 2};
@@ -261,7 +261,7 @@ static int ink(int shift, int from, int to)
 
 /* Mathematics adds what it should: scripts are small, marks take no room,
  * braces that mean nothing stay. */
-TEST(markup_is_set)
+TEST(markup_has_its_widths)
 {
     static const struct {
         const char *markup;
@@ -285,7 +285,7 @@ TEST(markup_is_set)
 
 /* What formulas measure, in ems of letters 20 pixels high: a part that stands
  * above another one makes no width, brackets, rules and rows do. */
-TEST(formulas_are_set)
+TEST(formulas_have_their_sizes)
 {
     static const struct {
         const char *markup, *other; /* at least so much wider, and higher */
@@ -340,7 +340,7 @@ TEST(parts_of_formulas_stand_apart)
 }
 
 /* Braces of the markup are no facts. */
-TEST(braces_are_told_apart)
+TEST(braces_of_markup_are_no_values)
 {
     const char *line = "{a}^{b}_{c}frac{d over {e}}matrix{f}#p{g}{x}# {h}";
     const char *facts = "aeh";
@@ -402,7 +402,7 @@ TEST(texts_are_clipped)
 }
 
 /* Without a font nothing is drawn, and everything has a width. */
-TEST(no_font_is_no_failure)
+TEST(without_a_font_nothing_fails)
 {
     const char *was = getenv("ELASTO_FONT");
     char *kept = was ? strdup(was) : NULL;

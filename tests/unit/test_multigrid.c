@@ -323,7 +323,7 @@ static bool count_factored(void *user, const NewtonRecord *record)
 /* What counters say of ten steps: Algorithm 3 has a factor for each direction,
  * multigrid none at all; tiles are for steps that are not over after some
  * directions of the whole square, where it buckles. */
-TEST(counters_tell_what_was_done)
+TEST(counters_count_what_was_done)
 {
     static const struct {
         const char *line;

@@ -134,7 +134,7 @@ TEST(a_maximum_is_counted_without_projection)
  * which is pulled across.  h = 1: the Hessian's entry across is 1 - 3/2 k, and
  * where it is next to 0, a direction 1e38 m long is downhill, but only for
  * steps below 2^-64.  Projected, the lever swings out. */
-TEST(levers_swing_or_say_why_not)
+TEST(nearly_singular_steps_end_or_say_why_not)
 {
     static const struct {
         double k, pull;

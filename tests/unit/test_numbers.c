@@ -119,7 +119,7 @@ static void play(const char *name)
     end();
 }
 
-TEST(numbers_of_scenes)
+TEST(scenes_show_the_numbers_of_trace_and_ledger)
 {
     for (const Scene *scene = scenes; scene->name; scene++) {
         if (scene->picture != PICTURE_SQUARE)
@@ -129,7 +129,7 @@ TEST(numbers_of_scenes)
     }
 }
 
-TEST(numbers_of_pages)
+TEST(pages_show_the_numbers_of_trace_and_ledger)
 {
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         char command[64];
@@ -143,7 +143,7 @@ TEST(numbers_of_pages)
 }
 
 /* Later, with other methods, and by hand. */
-TEST(numbers_of_long_runs)
+TEST(long_runs_show_the_numbers_of_trace_and_ledger)
 {
     static const struct {
         const char *line;

@@ -135,7 +135,7 @@ TEST(values_are_read)
 }
 
 /* Each line of tests/data/lines.txt, in all of its panes. */
-TEST(lines_are_taken_or_answered)
+TEST(command_lines_are_accepted_or_explained)
 {
     char row[512], message[512];
     int count = 0;
@@ -165,7 +165,7 @@ TEST(lines_are_taken_or_answered)
 
 /* A number means the same on the command line and in the window: in the
  * option's own unit, the same bits. */
-TEST(numbers_are_worked_out)
+TEST(fractions_and_units_are_evaluated)
 {
     static const char *const rows[][3] = {
         {"timestep", "1/60", "0.016666666666666666"},

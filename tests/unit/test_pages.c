@@ -1334,4 +1334,27 @@ TEST(pages_are_read_from_the_back_row)
     CHECK(show_layout(&show, 1280, 800).em > 800 / 40);
 }
 
+/* Nor is a word outside its place in any scene, in windows of several sizes. */
+TEST(scenes_keep_their_words_in_place)
+{
+    static const int sizes[][2] = {{900, 900}, {800, 600}, {1280, 800}};
+    for (int i = 0; scenes[i].name; i++) {
+        Simulation *simulation = simulate("%s", scenes[i].name);
+        for (int s = 0; s < 3; s++) {
+            Paper paper;
+            Show show;
+            CHECK_OK(paper_create(sizes[s][0], sizes[s][1], &paper));
+            show_create(simulation, &show);
+            show_describe(&show);
+            memset(&seen, 0, sizeof seen);
+            show_draw(&paper, &show);
+            paper_free(&paper);
+            if (seen.cut > 0)
+                fail_msg("%s at %d x %d: %d words cut", scenes[i].name,
+                         sizes[s][0], sizes[s][1], seen.cut);
+        }
+        free_all_begun();
+    }
+}
+
 TESTS(NULL, NULL)

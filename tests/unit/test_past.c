@@ -424,7 +424,7 @@ static void play_at_random(const char *line, uint64_t seed, size_t states)
 
 /* Steps, changes of all kinds, undo, work that is given up, with plenty of
  * memory or little: each step as each branch has it is always the same. */
-TEST(anything_in_any_order)
+TEST(commands_in_any_order_lead_to_the_same_states)
 {
     static const char *const some[] = {
         "square --segments 2", "drop --segments 2",

@@ -46,7 +46,7 @@ static void compare_with_plain_run(const char *line)
 /* "At rest" is said of a body that stays where it is, however well its way is
  * computed from there, whatever the time step and the tolerance; and of none at
  * a turning point or in slow motion. */
-TEST(rest_is_told_where_nothing_moves)
+TEST(rest_is_reported_where_nothing_moves)
 {
 #define STANDS "square --stretch 1 --gravity 9.81 --ground 0,1,0,-0.6 "
     static const char *const lines[] = {

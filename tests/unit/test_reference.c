@@ -245,8 +245,8 @@ TEST(lecture_goes_the_slides_way)
     }
 }
 
-/* step_forward in the slide's order: x is updated, then p is tested.  Where p is
- * so short that rounding of E hides what it gains, all of it is used. */
+/* step_forward in the slide's order: x is updated, then p is tested.  Where p
+ * is so short that rounding of E hides what it gains, all of it is used. */
 static void update_then_test(Solid *solid, double h, double tol, int step,
                              Updates *updates)
 {
@@ -298,7 +298,8 @@ static void check_same_updates(const Updates *got, const Updates *expected,
             continue;
         }
         CHECK(got->row[i].alpha == expected->row[k].alpha);
-        CHECK_NEAR(got->row[i].residual, residual, 0.02 * residual + 1e-3 * tolerance);
+        CHECK_NEAR(got->row[i].residual, residual,
+                   0.02 * residual + 1e-3 * tolerance);
         i++;
     }
     CHECK(i == got->count && i > 10);
@@ -319,16 +320,18 @@ TEST(the_program_is_lecture_turned_round)
             const Options *options = &scene->options;
             const TimeIntegrator *run = &scene->run[0];
             double h = options->timestep;
-            Solid solid = square(1, options->segments, 1000, options->stiffness);
+            Solid solid =
+                square(1, options->segments, 1000, options->stiffness);
             for (int k = 0; k < solid.nodes; k++)
                 solid.x[k].x *= options->stretch;
             for (int step = 1; step <= 15; step++) {
                 make_steps(scene, 1);
                 update_then_test(&solid, h,
-                                 tight && h > 0.05 ? 1e-7 : options->tolerance, step,
-                                 &expected);
+                                 tight && h > 0.05 ? 1e-7 : options->tolerance,
+                                 step, &expected);
                 for (int k = 0; k < 2 * solid.nodes; k++)
-                    CHECK_NEAR(run->x[k], (&solid.x->x)[k], tight ? 1e-8 : 1e-5);
+                    CHECK_NEAR(run->x[k], (&solid.x->x)[k],
+                               tight ? 1e-8 : 1e-5);
             }
             if (!tight)
                 check_same_updates(&got, &expected, options->tolerance,

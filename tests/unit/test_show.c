@@ -315,7 +315,7 @@ TEST(bars_are_steps)
 
 /* However far nodes fly, the view goes with them as long as there are numbers;
  * beyond them words say why nothing is seen. */
-TEST(what_flies_far_is_drawn_or_told)
+TEST(what_flies_far_is_drawn_or_reported)
 {
     stand_up("square", 0);
     double *x = simulation.run[0].x;
@@ -498,7 +498,7 @@ static bool is_drawn(const char *text)
 
 /* Two of the slopes let the body slide, the third holds it; arrows of forces
  * end at their nodes, so that they come out of the slope. */
-TEST(contacts_slide_or_hold)
+TEST(contacts_are_drawn_sliding_or_holding)
 {
     stand_up("slope", 60);
     draw(); /* the paper has the size of its letters */
@@ -575,6 +575,12 @@ TEST(energies_before_an_explosion_are_seen)
           total > 1e3);
     CHECK(energies_value(&simulation, &history, 0, now + 0.1) == 1e298);
     CHECK(isnan(energies_value(&simulation, &history, 0, -1)));
+    for (int i = 1; i < 9; i++) { /* whatever its size is */
+        char line[40];
+        snprintf(line, sizeof line, "square --stretch 1.%d", i);
+        stand_up(line, 0);
+        CHECK_AT_MOST(history.value[0][0], energies_axis(&show, &last).high);
+    }
     stand_up("square --timestep 0.008 --integrator symplectic-euler", 11);
     now = simulation_time(&simulation); /* x is finite, E is not */
     CHECK(isinf(energies_value(&simulation, &history, 0, now)));

@@ -125,7 +125,7 @@ static const struct {
      VERDICT_REPORTED},
 };
 
-TEST(what_was_wrong_once_is_right)
+TEST(faults_of_the_past_stay_away)
 {
     for (size_t i = 0; i < sizeof once_wrong / sizeof *once_wrong; i++) {
         Tally tally = {0};
