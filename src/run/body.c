@@ -1,4 +1,6 @@
-/* body.c - bodies and obstacles as the options describe them. */
+/* body.c - creates bodies, obstacles and energy terms from the options, and
+ * checks that they can start.
+ */
 #include "run/body.h"
 
 #include <math.h>
@@ -16,11 +18,11 @@
 
 /* ---- pins --------------------------------------------------------------- */
 
-/* The nodes that are on this side, 0: anywhere, and, where `or` is not 0, on
- * one of those. */
+/* A word of --pin and the nodes that it names. */
 static const struct PinWord {
     const char *word;
-    int side, or ;
+    int side;  /* the node is on this side; 0: anywhere */
+    int other; /* the node is also on one of these sides; 0: anywhere */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -33,7 +35,7 @@ Status pins_read(const char *text, const SquareMesh *shape,
                  unsigned char *pinned)
 {
     for (;; text++) {
-        char name[16] = "", digits[10] = ""; /* a word, of body 2: "top:2"; 7 */
+        char name[16] = "", digits[10] = ""; /* "top" and "2" of "top:2" */
         int end = 0;
         const struct PinWord *word = pin_words;
         if (!sscanf(text, "%15[a-z-]%n:%9[0-9]%n", name, &end, digits, &end))
@@ -51,7 +53,7 @@ Status pins_read(const char *text, const SquareMesh *shape,
             bool here =
                 !digits[0] || square_mesh_body(shape, &own) + 1 == number;
             pinned[i] |= name[0] ? here && (sides & word->side) == word->side &&
-                                       (!word->or || (sides & word->or))
+                                       (!word->other || (sides & word->other))
                                  : i == number;
         }
         text += end;
@@ -71,22 +73,21 @@ SquareMesh body_shape(const Options *options)
                              options->side, (int)fmax(options->bodies, 1));
 }
 
-/* The node that is the centre of a ball which comes with the scene, the last
- * one; -1: none does. */
-static int ball_of(const Options *options)
+/* Last node if it is the centre of a ball of the scene, else -1. */
+static int scene_ball_node(const Options *options)
 {
     return options->scene->body.obstacle
                ? options->scene->body.obstacle(options).node
                : -1;
 }
 
-/* Masses, springs and rest lengths (slide simulator.py): the mass of all cells
- * shared out evenly over the nodes, a ball has that of one; l2 = |d|^2 in the
- * rest positions.  Gravity and pins. */
+/* Creates masses, springs, gravity and pins (slide simulator.py).  Each node
+ * has an equal part of the body's mass, and a ball of the scene as much as a
+ * node; l2 = |d|^2 in the rest positions. */
 static Status create_system(const Options *options, System *system)
 {
     const SquareMesh shape = body_shape(options);
-    int nodes = shape.nodes / shape.bodies, ball = ball_of(options);
+    int nodes = shape.nodes / shape.bodies, ball = scene_ball_node(options);
     bool square = shape.rows == shape.segments;
     if ((double)shape.segments * shape.rows * shape.bodies >
         SQUARE_MESH_MAX_CELLS)
@@ -124,10 +125,10 @@ static Status create_system(const Options *options, System *system)
 
 _Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS + 2 <=
                    CONTACT_MAX_OBSTACLES,
-               "there is room for the ceiling and the scene's own");
+               "the ceiling and the scene's obstacle fit in");
 
-/* The obstacles of the options, normals made units, and after them the scene's
- * own; returns how many. */
+/* Lists the obstacles of the options, with unit normals, and then that of the
+ * scene.  Returns how many. */
 static int list_obstacles(const Options *options,
                           Obstacle list[CONTACT_MAX_OBSTACLES])
 {
@@ -152,7 +153,7 @@ static int list_obstacles(const Options *options,
     }
     if (options->ceiling[1] != 0) {
         const double *ceiling = options->ceiling;
-        /* Where something blocks it, it gives up after the time of its way. */
+        /* A blocked ceiling stops after the time that its way takes. */
         double way = (ceiling[2] - ceiling[0]) / ceiling[1];
         list[count++] = (Obstacle){.kind = OBSTACLE_WALL,
                                    .n = {0, -1},
@@ -171,16 +172,16 @@ static int list_obstacles(const Options *options,
     return count;
 }
 
-/* Whether the options still give an obstacle the place that they gave it before
- * a hand moved it. */
+/* Whether the options give an obstacle the same place as before, so that it
+ * stays where the mouse has moved it. */
 static bool is_given_again(const Obstacle *had, const Obstacle *now)
 {
     return had->kind == now->kind && had->given[0] == now->given[0] &&
            had->given[1] == now->given[1];
 }
 
-/* kappa = 4 k and d_hat = side/100 unless they were chosen; a node stands for
- * one segment of the boundary. */
+/* The barrier of the options; by default kappa = 4 k and d_hat = side/100.  A
+ * node counts for one segment of the boundary. */
 static Barrier barrier_of(const Options *options)
 {
     double d_hat = options->barrier[0], kappa = options->barrier[1];
@@ -192,9 +193,9 @@ static Barrier barrier_of(const Options *options)
     return (Barrier){d_hat, 0.5 * area * d_hat * kappa};
 }
 
-/* Contact and friction.  A ceiling and the scene's own obstacle, the last ones,
- * are where they have come to.  Each other obstacle is where a hand has moved
- * it to, unless the options give it another place. */
+/* Sets contact and friction.  The ceiling and the scene's obstacle, which are
+ * the last ones, stay where they have moved.  Another obstacle stays where the
+ * mouse has moved it, unless the options give it a new place. */
 static Status set_obstacles(const Options *options, System *system)
 {
     const Barrier barrier = barrier_of(options);
@@ -215,9 +216,9 @@ static Status set_obstacles(const Options *options, System *system)
                                  options->slip_speed);
 }
 
-/* Contact between bodies, and its friction.  An edge must be longer than the
- * barrier is wide, or it repels its neighbours at rest: a quarter of it is the
- * most. */
+/* Sets contact between bodies and its friction.  The barrier is at most a
+ * quarter of an edge wide: a wider one would repel neighbouring edges at rest.
+ */
 static Status set_self_contact(const Options *options, const SquareMesh *mesh,
                                System *system)
 {
@@ -233,8 +234,9 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
                                  options->slip_speed);
 }
 
-/* Adds the terms that the options ask for, and gives those that are there
- * already their numbers: those of several options here, of one its row does. */
+/* Adds the terms of the options, or gives present terms their numbers.  Terms
+ * with several options are set here; the others by the rows of their options.
+ */
 static Status set_terms(const Options *options, System *system)
 {
     const SquareMesh shape = body_shape(options);
@@ -255,15 +257,16 @@ static Status set_terms(const Options *options, System *system)
     return status;
 }
 
-/* Runs of the scene, each with a body of its own. */
-static int runs_of(const Options *options)
+/* Number of runs of the scene with a body of their own. */
+static int count_runs(const Options *options)
 {
     return options->scene->body.runs > 0 ? options->scene->body.runs : 1;
 }
 
-/* Where the body of a run begins, x and v [2 nodes] out: in the last step of a
- * table, or stretched, turned and moved as the options say, 0 degrees leave
- * every bit; and the scene's ball where it is. */
+/* Computes the start of a run: a step of a table, or the rest shape stretched,
+ * turned and moved as in the options; a turn of 0 degrees changes no bit.  The
+ * scene's ball starts where the scene has it.
+ *   x, v  [2 nodes] out, m, m/s */
 static Status place_body(const Options *options, int run, double *x, double *v,
                          Refusal told)
 {
@@ -271,11 +274,11 @@ static Status place_body(const Options *options, int run, double *x, double *v,
     const double *at = options->at, *speed = options->velocity;
     const double only[BODY_NUMBERS] = {
         at[0], at[1], options->turn, speed[0], speed[1], options->stretch, 1};
-    int ball = ball_of(options);
+    int ball = scene_ball_node(options);
     if (options->state)
         return start_table_read(options->state, options->state_step,
                                 shape.nodes + (ball >= 0), run,
-                                runs_of(options), x, v, told);
+                                count_runs(options), x, v, told);
     for (int i = 0; i < shape.nodes; i++) {
         double rest[2];
         int node = i, body = square_mesh_body(&shape, &node);
@@ -296,7 +299,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
     return STATUS_OK;
 }
 
-/* What the options say of one run. */
+/* The options of one run, changed by its variant. */
 static Options options_of_run(const Simulation *simulation, int run,
                               const Options *options)
 {
@@ -309,10 +312,11 @@ static Options options_of_run(const Simulation *simulation, int run,
     return own;
 }
 
-/* The system of these options, with all terms, free it in any case; and where
- * it begins, x and v behind each other, NULL after a failure. */
-static Status build(const Options *options, int run, System *system, double **x,
-                    Refusal told)
+/* Creates the system of the options with all its terms, and its start.
+ *   system  out; free it in any case
+ *   x       out, [2 nodes] m, followed by v [2 nodes] m/s; NULL: no memory */
+static Status build_body(const Options *options, int run, System *system,
+                         double **x, Refusal told)
 {
     Status status = create_system(options, system);
     size_t size = 2 * (size_t)system->nodes;
@@ -324,18 +328,18 @@ static Status build(const Options *options, int run, System *system, double **x,
     status = place_body(options, run, *x, *x + size, told);
     return status || !options->state_springs
                ? status
-               : start_springs_read(options, run, runs_of(options), system,
+               : start_springs_read(options, run, count_runs(options), system,
                                     told);
 }
 
-/* What is pinned does not move. */
+/* Pinned nodes start with velocity 0. */
 Status body_create(Simulation *simulation, int run)
 {
     const Options options =
         options_of_run(simulation, run, &simulation->options);
     System *system = run ? &simulation->more[run] : &simulation->system;
     double *x;
-    Status status = build(&options, run, system, &x, (Refusal){0});
+    Status status = build_body(&options, run, system, &x, (Refusal){0});
     simulation->mesh = body_shape(&options);
     if (!status) {
         double *v = x + 2 * (size_t)system->nodes;
@@ -386,10 +390,11 @@ static void name_obstacle(const Options *options, int number, char *name,
     double alike = ball < 0                ? options->grounds
                    : ball < options->balls ? options->balls
                                            : 1;
-    const char *kind = ball < 0                            ? "ground"
-                       : ball < options->balls             ? "ball"
-                       : of_scene && ball_of(options) >= 0 ? "falling ball"
-                                                           : "ceiling";
+    const char *kind = ball < 0                ? "ground"
+                       : ball < options->balls ? "ball"
+                       : of_scene && scene_ball_node(options) >= 0
+                           ? "falling ball"
+                           : "ceiling";
     if (alike > 1)
         snprintf(name, size, "%s %d", kind, (ball < 0 ? number : ball) + 1);
     else
@@ -609,7 +614,7 @@ Status body_check(const Options *options, Refusal told)
         return status;
     System system = {0};
     double *x = NULL;
-    status = build(options, 0, &system, &x, told);
+    status = build_body(options, 0, &system, &x, told);
     if (!status)
         status = check_overlap(options, x, told);
     if (!status)

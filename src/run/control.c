@@ -1,5 +1,5 @@
-/* control.c - what a user decides about a run: options, pins, the hand; and
- * its use on a simulation.
+/* control.c - makes controls (options, pins, what the mouse holds) and applies
+ * them to a simulation.
  */
 #include "run/control.h"
 
@@ -65,8 +65,8 @@ bool control_holds(const Control *control)
     return control->hand >= 0 || control->push >= 0;
 }
 
-/* m, how much higher a run has an obstacle than the options say: grounds go
- * with their run. */
+/* m, how much higher a run has an obstacle than the options say; only grounds
+ * differ between runs. */
 static double lift_of(const Simulation *simulation, int run,
                       const Obstacle *obstacle)
 {
@@ -85,7 +85,7 @@ void simulation_obstacle(const Simulation *simulation, int run, int number,
 void control_keep_place(Control *control, int number,
                         const Simulation *simulation)
 {
-    static const double SAME = 1e-9; /* sides */
+    static const double SAME = 1e-9; /* of a side: the places are the same */
     double *at = obstacle_at(&control->options, number), place[2], other[2];
     simulation_obstacle(simulation, 0, number, place);
     for (int r = 1; r < simulation->runs; r++) {
@@ -111,18 +111,19 @@ void control_drop(const Control *control)
         free(own);
 }
 
-/* ---- what a run makes of it ---------------------------------------------- */
+/* ---- applying a control ---------------------------------------------------
+ */
 
-/* J, of each run: out [runs]. */
+/* Energy that each run has dissipated so far, J: out [runs]. */
 static void dissipated_so_far(const Simulation *simulation, double *out)
 {
     for (int r = 0; r < simulation->runs; r++)
         out[r] = simulation_energies(simulation, r).dissipated;
 }
 
-/* What another stiffness or a pin has done to the energy is the work of whoever
- * set it: nothing else in the ledger jumps.  had [runs] J, dissipated before.
- */
+/* Books the energy that a changed stiffness or pin has added as work, so that
+ * no other number of the ledger jumps. had  [runs] J, dissipated before the
+ * change */
 static void book_change(Simulation *simulation, const double *had)
 {
     for (int r = 0; r < simulation->runs; r++)
@@ -130,8 +131,8 @@ static void book_change(Simulation *simulation, const double *had)
             had[r] - simulation_energies(simulation, r).dissipated;
 }
 
-/* What the options say, to what goes by them in a run, which may go on with
- * another method. */
+/* Gives a run the changed options; with another integrator the run goes on in a
+ * new one. */
 static Status change_run(Simulation *simulation, int r, const Options *before)
 {
     const Options *options = &simulation->options;
@@ -184,11 +185,11 @@ static void stop_node(TimeIntegrator *run, int node)
     run->memory_h = 0;
 }
 
-/* Far stiffer than a spring, so that the node goes to the mouse, and the
- * springs give way.  Triangles have a stiffness of their own. */
+/* Pulls the node of the control to the mouse, by a spring far stiffer than
+ * those of the body: the node follows the mouse, and the body gives way. */
 static Status use_hand(Simulation *simulation, const Control *control)
 {
-    static const double TIMES = 1000;
+    static const double TIMES = 1000; /* stiffness over that of the body */
     System *system = &simulation->system;
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
     Pull wanted = {.node = control->hand, .cell = INFINITY};
@@ -209,7 +210,7 @@ static Status use_hand(Simulation *simulation, const Control *control)
     return pull_set(system, &hand_energy, &wanted);
 }
 
-/* The hand holds the obstacle of the control in each run, or none. */
+/* Pushes the obstacle of the control in each run, or none. */
 static void use_push(Simulation *simulation, const Control *control)
 {
     for (int r = 0; r < simulation->runs; r++) {
@@ -233,7 +234,7 @@ Status simulation_use(Simulation *simulation, const Control *control)
     double had[SIMULATION_MAX_RUNS];
     dissipated_so_far(simulation, had);
     Status status = use_options(simulation, &control->options);
-    /* A node whose pin comes or goes stands still. */
+    /* A node stops when it is pinned and when its pin is taken away. */
     for (int i = 0; i < system->nodes; i++) {
         if (system->pinned[i] == control->pinned[i])
             continue;
@@ -255,7 +256,7 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
                         bool really)
 {
     TimeIntegrator *run = &simulation->run[0];
-    double *before = run->new_x, *p = run->new_v; /* the next step's */
+    double *before = run->new_x, *p = run->new_v; /* scratch, unused now */
     if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
         !isfinite(y))
         return STATUS_INVALID_INPUT;

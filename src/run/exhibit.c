@@ -1,4 +1,4 @@
-/* What the mouse drags and switches in the lecture's small scenes. */
+/* exhibit.c - moves points and turns switches of the lecture's small scenes. */
 #include <math.h>
 #include <string.h>
 
@@ -18,15 +18,15 @@ int exhibit_handles(const Simulation *simulation,
     return count;
 }
 
-/* A mass is put somewhere, with the velocity that it has, on a spring with
- * none; or it gets the velocity from it to there.  All runs begin anew. */
+/* Dragging x moves the mass, which keeps its velocity, or on a spring loses it;
+ * dragging v sets the velocity.  All runs begin again from there. */
 void exhibit_drag(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = simulation->run;
     double *began = simulation->exhibit.began; /* x and v */
     char grip = scene->grips[handle];
-    bool line = scene->needs & NEEDS_ONE_NUMBER; /* x alone counts */
+    bool line = scene->needs & NEEDS_ONE_NUMBER; /* y is ignored */
     const double to[2] = {x, line ? 0 : y};
     if (!isfinite(to[0]) || !isfinite(to[1]))
         return;
@@ -54,15 +54,15 @@ bool exhibit_has_kinds(const Simulation *simulation)
     return simulation->options.layers & LAYER_KINDS;
 }
 
-/* In the order of the mesh: n (n + 1) that lie, as many that stand, and the
- * diagonals of each cell. */
+/* The order of the mesh: n (n + 1) horizontal springs, as many vertical ones,
+ * and two diagonals for each cell. */
 int exhibit_kind(const Simulation *simulation, int spring)
 {
     int n = simulation->system.segments, half = n * (n + 1);
     return spring < half ? 0 : spring < 2 * half ? 1 : 2 + spring % 2;
 }
 
-/* Kinds of springs are there until they are switched off. */
+/* For kinds of springs a bit of `parts` is 1 if the kind is off. */
 int exhibit_switches(const Simulation *simulation,
                      Switch out[SCENE_MAX_SWITCHES])
 {
@@ -85,9 +85,9 @@ unsigned exhibit_flips(const Simulation *simulation)
     return simulation->exhibit.parts ^ begins;
 }
 
-/* What springs of a kind had stored is the work of whoever takes them away.  Of
- * two parts one stays.  What was minimised before is another function: its
- * updates are no longer shown. */
+/* The energy that a kind of springs takes away is booked as work.  Of two parts
+ * of E one stays on.  A switch changes the function that is minimised, so the
+ * updates so far are no longer shown. */
 void exhibit_flip(Simulation *simulation, int number)
 {
     const Scene *scene = simulation->scene;

@@ -1,4 +1,5 @@
-/* one_line.c - foreign texts made fit for one line of a message. */
+/* one_line.c - makes texts from outside safe to print in a line of a message.
+ */
 #include "run/one_line.h"
 
 #include <stdarg.h>
@@ -8,14 +9,14 @@
 
 static const char CUT[] = "...";
 
-/* Whether a character of UTF-8 goes on with this byte. */
-static bool goes_on(char byte)
+/* Whether a byte continues a character of UTF-8. */
+static bool is_continuation(char byte)
 {
     return ((unsigned char)byte & 0xC0) == 0x80;
 }
 
-/* Whether a character moves the cursor, ends a line, has no width, or turns the
- * direction of writing: a terminal would obey it, and nobody would see it. */
+/* Whether a character moves the cursor, ends a line, has no width, or changes
+ * the direction of writing, so that a message could hide something. */
 static bool is_control(long letter)
 {
     static const long hidden[][2] = {
@@ -28,18 +29,19 @@ static bool is_control(long letter)
     return false;
 }
 
-/* Bytes of the character of UTF-8 at the beginning of a text; 0: it is none, or
- * a control. */
+/* Number of bytes of the first character of a text; 0: not UTF-8, or a control
+ * character. */
 static int letter_bytes(const char *text)
 {
-    static const long least[] = {0, 0, 0x80, 0x800, 0x10000}; /* of so many */
+    /* [bytes]: smallest character that needs so many bytes */
+    static const long least[] = {0, 0, 0x80, 0x800, 0x10000};
     unsigned char first = (unsigned char)text[0];
     int size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
     long letter = size == 1 ? first : first & (0x7F >> size);
     if ((first >= 0x80 && first < 0xC0) || first > 0xF4)
         return 0;
     for (int i = 1; i < size; i++) {
-        if (!goes_on(text[i]))
+        if (!is_continuation(text[i]))
             return 0;
         letter = letter << 6 | (text[i] & 0x3F);
     }
@@ -62,12 +64,12 @@ void one_line(const char *text, char *line, size_t size)
     if (length <= room) {
         memmove(line, text, length + 1);
     } else {
-        /* Neither part begins or ends inside a character. */
+        /* Cut between characters, not inside one. */
         size_t left = (room - (sizeof CUT - 1)) / 2;
         size_t right = room - (sizeof CUT - 1) - left;
-        while (left > 0 && goes_on(text[left]))
+        while (left > 0 && is_continuation(text[left]))
             left--;
-        while (right > 0 && goes_on(text[length - right]))
+        while (right > 0 && is_continuation(text[length - right]))
             right--;
         const char *rest = text + length - right;
         memmove(line, text, left);

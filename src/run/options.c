@@ -35,7 +35,8 @@ const char *solver_name(int solver)
     return solvers[solver];
 }
 
-/* Of a body: no turn, no velocity, no stretch. */
+/* Numbers of --body that a shorter value leaves out: no turn, velocity,
+ * stretch. */
 static const double body_rest[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
 /* Functions for OptionRow.idle: each returns why an option has no effect, or
@@ -65,9 +66,8 @@ REASON(no_state, options->state,
 REASON(nothing_flows, options->yield > 0,
        "the springs do not yield; --yield lets them")
 
-/* What a row begins with: its kind, its field, mostly its name too, what stands
- * for the value, what it is; then, of numbers, the unit, the slides' number,
- * from ... to. */
+/* The beginning of a row: field, placeholder of the value, description; then
+ * for numbers the unit, default, and range. */
 #define SECTION(text) .name = "", .help = text
 #define VALUE(sort, word, letters, text, u)                                    \
     .name = word, .value = letters, .help = text, .kind = OPTION_##sort,       \
@@ -90,9 +90,9 @@ REASON(nothing_flows, options->yield > 0,
 #define SWITCH(field, text)                                                    \
     VALUE(SWITCH, #field, NULL, text, ""), .slot = OPTION_SLOT(field)
 
-/* What it may go on with: what the scene must have, how often it may be given,
- * a list of values (with what the window calls it); and in the row of numbers:
- * where, its longest value, what a pace adds; how a file may be called. */
+/* The rest of a row: what the scene must have, repetitions, the label of an
+ * option with lists of values; ROW puts it into the row of numbers of the
+ * window: its place, the length of its values, the step of the wheel. */
 #define NEEDS(what)           .needs = NEEDS_##what
 #define TIMES(n, field)       .times = n, .counter = OPTION_SLOT(field)
 #define FEWER(bits, others)   .fewer = bits, .rest = others
@@ -103,7 +103,8 @@ REASON(nothing_flows, options->yield > 0,
 #define IDLE(why)             .idle = why
 #define ROW(n, longest, adds) .field = {n, longest, adds}
 
-/* No range lets a product of two numbers become infinite, or lose digits. */
+/* The ranges are so narrow that products of two numbers stay finite and keep
+ * all digits. */
 const OptionRow option_rows[] = {
     {SECTION("the body (flat: density in kg/m^2, stiffness in J/m^2):")},
     {WHOLE(segments, "N", "number of springs along a side", "", 4, 1,
@@ -277,7 +278,7 @@ _Static_assert(sizeof option_rows / sizeof *option_rows - 1 <= OPTIONS_MOST,
 
 const OptionRow *option_find(const char *name)
 {
-    if (strcmp(name, "filter") == 0) /* its name in earlier versions */
+    if (strcmp(name, "filter") == 0) /* old name of the option */
         name = "projection";
     int place = name_place(NAMES_OF(option_rows), name);
     return place >= 0 && name[0] ? &option_rows[place] : NULL;
@@ -324,7 +325,7 @@ const IntegratorMethod *options_method(const Options *options)
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
     bool named = row && row->kind == OPTION_NAME;
-    if (named) /* the scene's choice: the first */
+    if (named) /* -1, the choice of the scene: the first name */
         snprintf(text, size, "%s", name_at(row->names, (int)fmax(value, 0)));
     else
         snprintf(text, size, "%.15g", value);
@@ -339,8 +340,8 @@ void option_value(const OptionRow *row, const Options *options, char *text,
     if (row->times)
         times = (int)options->number[row->counter];
     const double *value = options->number + row->slot + (times - 1) * count;
-    enum { MOST_DIGITS = 6, ROOM = 20 }; /* letters of a list */
-    if (times < 1 || *value < row->low)  /* it was not given */
+    enum { MOST_DIGITS = 6, ROOM = 20 }; /* of a list, in letters */
+    if (times < 1 || *value < row->low)  /* the option is not given */
         snprintf(text, size, "none");
     else if (row->kind == OPTION_NAME)
         option_write(row, *value, text, size);
@@ -375,7 +376,7 @@ void option_unit(const OptionRow *row, char *text, size_t size)
              row->unit[length] == '^' ? "\u00b2" : "");
 }
 
-/* What goes by factors does not go up from 0. */
+/* An option that changes by factors is not shown while it is 0. */
 int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST])
 {
     int count = 0;
@@ -390,7 +391,7 @@ int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST])
     return count;
 }
 
-/* 1, 1.5, 2, 3, 5, 7 times a power of ten. */
+/* Round number with a given index: 1, 1.5, 2, 3, 5, 7, 10, 15 ... */
 static double round_value(double pace)
 {
     static const double mantissa[] = {1, 1.5, 2, 3, 5, 7};
@@ -400,7 +401,7 @@ static double round_value(double pace)
 
 double option_paced(const OptionRow *row, const Options *options, double paces)
 {
-    static const double FIRST = 0.01; /* what goes by factors, up from 0 */
+    static const double FIRST = 0.01; /* value after 0 */
     double value = options->number[row->slot];
     char text[32];
     if (row->field.pace == 0 && !(value > 0) && row->kind != OPTION_NAME)
@@ -414,7 +415,7 @@ double option_paced(const OptionRow *row, const Options *options, double paces)
         value = (rint(value / row->field.pace) + rint(paces)) * row->field.pace;
     } else if (paces != rint(paces)) {
         value *= pow(10, paces / 6);
-    } else { /* from a value between two round ones to a round one */
+    } else { /* to a round value */
         double below = floor(6 * log10(value)) - 1;
         while (round_value(below + 1) <= value * (1 + 1e-9))
             below++;

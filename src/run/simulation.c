@@ -1,5 +1,5 @@
-/* simulation.c - a scene while it runs: steps of all its runs, energies,
- * rest.
+/* simulation.c - creates a scene, makes its steps, and computes its energies
+ * and whether it is at rest.
  */
 #include "run/simulation.h"
 
@@ -13,8 +13,8 @@
 #include "model/self_contact.h"
 #include "base/mathematics.h"
 
-/* More updates than any step needs that ends at all; 1024 segments need some
- * thousands. */
+/* Limit of Newton iterations in a step.  The largest squares, of 1024 segments,
+ * need some thousands. */
 enum { MAX_NEWTON_ITERATIONS = 10000 };
 
 void newton_settings_take(const Options *options, NewtonSettings *settings)
@@ -78,7 +78,7 @@ int simulation_point(const Simulation *simulation, double at[2])
     return simulation->descent.scalar ? 1 : 2;
 }
 
-/* The step is over, or could not be made. */
+/* Ends a step that was made, or that failed. */
 static Status end_step(Simulation *simulation, Status status)
 {
     Prediction *guess = &simulation->prediction;
@@ -95,42 +95,42 @@ static Status end_step(Simulation *simulation, Status status)
     return status;
 }
 
-/* J, energy of a run less the work done until now.
- *   size  out, J, sum of the absolute values of all energies */
+/* Energy of a run less the work done so far, J.
+ *   abs_sum  out, J, sum of the absolute values of all energies */
 static double energy_less_work(const Simulation *simulation, int run,
-                               double *size)
+                               double *abs_sum)
 {
     Energies now = simulation_energies(simulation, run);
-    *size = fabs(now.work);
+    *abs_sum = fabs(now.work);
     for (int i = 1; i < now.rows; i++)
-        *size += fabs(now.row[i].value);
+        *abs_sum += fabs(now.row[i].value);
     return now.total - now.work;
 }
 
-/* The step of the present run begins. */
+/* Begins the step of the present run. */
 static Status begin_run(Simulation *simulation)
 {
-    double size;
+    double abs_sum;
     int run = simulation->stepping;
-    simulation->before = energy_less_work(simulation, run, &size);
+    simulation->before = energy_less_work(simulation, run, &abs_sum);
     return time_integrator_begin(&simulation->run[run]);
 }
 
-/* Books what the total energy has gained in a step of the present run.  A part
- * of 1e-9 of all energies is rounding, and what the tolerance leaves undone. */
+/* Books the energy that backward Euler has gained in a step of the present run.
+ * A gain below 1e-9 of all energies is due to rounding and the tolerance. */
 static void book_gain(Simulation *simulation)
 {
     int run = simulation->stepping;
-    double size, now = energy_less_work(simulation, run, &size);
+    double abs_sum, now = energy_less_work(simulation, run, &abs_sum);
     double gained = now - simulation->before;
     bool backward_euler = simulation->run[run].method->at_end;
-    if (!backward_euler || !(gained > 1e-9 * size))
+    if (!backward_euler || !(gained > 1e-9 * abs_sum))
         return;
     simulation->ledger[run].gain.steps++;
     simulation->ledger[run].gain.energy += gained;
 }
 
-/* Run by run; the last status that is not OK counts. */
+/* Steps run by run; the last status that is not OK is returned. */
 Status simulation_advance(Simulation *simulation)
 {
     while (simulation->stepping < simulation->runs) {
@@ -197,8 +197,8 @@ Effect simulation_effect(const Simulation *simulation, const OptionRow *row)
     return row->effect;
 }
 
-/* Adds to the row of this name, or makes one. */
-static void book(Energies *energies, const char *name, double value)
+/* Adds a value to the row with this name, which is created if necessary. */
+static void add_energy(Energies *energies, const char *name, double value)
 {
     int i = 0;
     while (i < energies->rows && strcmp(energies->row[i].name, name) != 0)
@@ -219,42 +219,42 @@ Energies simulation_energies(const Simulation *simulation, int run)
                              simulation->ledger[run].work + integrator->work};
     double lost = 0;
     energies.total = energies.kinetic + energies.gravity;
-    book(&energies, "total", 0);
-    book(&energies, "kinetic", energies.kinetic);
+    add_energy(&energies, "total", 0);
+    add_energy(&energies, "kinetic", energies.kinetic);
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
         double value = kind->energy ? kind->value(&at) : 0;
         energies.total += value;
         if (kind->energy)
-            book(&energies, kind->energy, value);
+            add_energy(&energies, kind->energy, value);
     }
-    book(&energies, "gravity", energies.gravity);
+    add_energy(&energies, "gravity", energies.gravity);
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->loss)
-            book(&energies, system->term[t].kind->loss, 0);
+            add_energy(&energies, system->term[t].kind->loss, 0);
     for (int i = 0; i < SYSTEM_MAX_TERMS && system->lost[i].name; i++) {
-        book(&energies, system->lost[i].name, system->lost[i].energy);
+        add_energy(&energies, system->lost[i].name, system->lost[i].energy);
         lost += system->lost[i].energy;
     }
     energies.row[0].value = energies.total;
     energies.dissipated =
         simulation->ledger[run].start + energies.work - energies.total - lost;
-    book(&energies, "work", energies.work);
-    book(&energies, "dissipated", energies.dissipated);
+    add_energy(&energies, "work", energies.work);
+    add_energy(&energies, "dissipated", energies.dissipated);
     return energies;
 }
 
-/* A body is at rest where, in a frame or in a step, whichever takes longer, no
- * node moves by more than the first part of the shortest spring, and the forces
- * vanish no further away than the second. */
+/* A body is at rest if no node moves by more than STILL of the shortest spring
+ * in a frame or a step, whichever is longer, and if the forces vanish within
+ * BALANCED of it. */
 static const double STILL = 1e-6, BALANCED = 1e-3, FRAME = 1.0 / 60;
 
-/* The direction of Algorithm 3 for a step from rest that is so long that the
- * masses hardly count: p = (M/T^2 + H_P)^-1 f with the forces f is how far the
- * nodes are from where f vanishes; T^2 = 1e10 m / curvature of P is the longest
- * for which p has its digits.  A Newton object of its own computes it: nothing
- * that the run remembers is touched. */
+/* Whether the nodes are close to where the forces f vanish.  Their distance is
+ * p = (M/T^2 + H_P)^-1 f, the direction of Algorithm 3 for a step from rest
+ * that is so long that masses hardly count; T^2 = 1e10 m / curvature of P is
+ * the longest one for which p is accurate.  A separate Newton object computes
+ * p, so that the run is not changed. */
 static bool forces_balance(const Simulation *simulation, double l)
 {
     const System *system = &simulation->system;
@@ -286,7 +286,7 @@ bool simulation_rests(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     const TimeIntegrator *run = &simulation->run[0];
-    /* a square's first spring is as short as any */
+    /* the first spring of a square is one of the shortest */
     double l = system->springs ? sqrt(system->l2[0]) : 1;
     if (simulation->steps == 0)
         return false;
@@ -305,15 +305,15 @@ NewtonCounters simulation_counters(const Simulation *simulation)
     return sum;
 }
 
-/* Springs, a Newton object that asks for their Hessian, and a scene that shows
- * what it does. */
+/* A projection needs springs, a method that uses their Hessian, and a scene
+ * that shows the projection. */
 bool simulation_has_projection(const Simulation *simulation)
 {
     return simulation->system.springs > 0 && simulation->run[0].newton &&
            (simulation->scene->needs & NEEDS_SPRINGS);
 }
 
-/* Newton with springs, or in one variable. */
+/* Newton's method searches lines with springs, or in one variable. */
 bool simulation_has_line_search(const Simulation *simulation)
 {
     return simulation_has_projection(simulation) || simulation->descent.scalar;
@@ -329,8 +329,8 @@ bool simulation_projects_springs(const Simulation *simulation)
 
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
 
-/* Paces of the power iteration, and numbers that it has room for. */
-enum { PACES = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
+/* Number of power iterations, and of numbers in a mode. */
+enum { ITERATIONS = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
 
 double simulation_fastest(const Simulation *simulation, const double *x,
                           double *mode)
@@ -341,14 +341,14 @@ double simulation_fastest(const Simulation *simulation, const double *x,
     int n = 2 * system->nodes;
     if (n > ROOM)
         return NAN;
-    for (int i = 0; i < n; i++) /* no symmetry: in it all modes have a part */
+    for (int i = 0; i < n; i++) /* without symmetry, so every mode is in it */
         mode[i] = sin(1 + i + 0.1 * i * i);
-    for (int pace = 0; pace < PACES; pace++) {
-        double size = 0;
+    for (int k = 0; k < ITERATIONS; k++) {
+        double length2 = 0;
         for (int i = 0; i < n; i++)
-            size += mode[i] * mode[i];
+            length2 += mode[i] * mode[i];
         for (int i = 0; i < n; i++)
-            mode[i] /= sqrt(size);
+            mode[i] /= sqrt(length2);
         double pulled[ROOM] = {0}; /* M^-1 H mode, 1/s^2 */
         for (int t = 0; t < system->terms; t++) {
             const TermKind *kind = eval_point_term(&at, t);
@@ -361,7 +361,7 @@ double simulation_fastest(const Simulation *simulation, const double *x,
         omega2 = 0;
         for (int i = 0; i < n; i++)
             omega2 += mode[i] * pulled[i];
-        for (int i = 0; i < n && pace + 1 < PACES; i++)
+        for (int i = 0; i < n && k + 1 < ITERATIONS; i++)
             mode[i] = pulled[i];
     }
     return omega2 > 0 ? sqrt(omega2) : NAN;

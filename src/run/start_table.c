@@ -1,5 +1,5 @@
-/* start_table.c - a start out of files: a step of a table of states, and the
- * springs of that step.
+/* start_table.c - reads the start of a run from CSV tables: a step of a table
+ * of states, and its springs from a table of springs.
  */
 #include "run/body.h"
 
@@ -18,24 +18,23 @@
 
 enum { MOST_COLUMNS = 8 };
 
-/* A table of numbers with a line of names.  The columns that are wanted are
- * found by their names, the others are only counted. */
+/* A table that is being read.  The first line has the names of the columns;
+ * wanted columns are found by name, others are skipped. */
 typedef struct Reader {
     FILE *file;
-    char *text; /* the line that was read last, */
-    size_t room;
-    long line;                /* and its number, from 1 */
-    int columns;              /* names in the first line */
-    const char *const *names; /* wanted; NULL ends them */
-    const char
-        *field[MOST_COLUMNS]; /* what the line has there; NULL: nothing */
-    int place[MOST_COLUMNS];  /* of each one among all columns */
-    bool has_panes;           /* there is a column of that name */
-    char why[200];            /* the table cannot be read; "" */
+    char *text;                      /* present line */
+    size_t room;                     /* bytes of text */
+    long line;                       /* number of the present line, from 1 */
+    int columns;                     /* number of columns */
+    const char *const *names;        /* names of wanted columns, up to NULL */
+    const char *field[MOST_COLUMNS]; /* texts of wanted columns in the line */
+    int place[MOST_COLUMNS];         /* index of each wanted column */
+    bool has_panes;                  /* the table has a column "pane" */
+    char why[200];                   /* why the table cannot be read, or "" */
 } Reader;
 
-/* The next line without its end, be it LF, CR LF or that of the file, and
- * without the mark that some programs put before UTF-8. */
+/* Reads the next line, without LF or CR LF, and without the byte order mark
+ * that some programs write before UTF-8.  Returns false at the end. */
 static bool next_line(Reader *reader)
 {
     static const char mark[] = "\xef\xbb\xbf";
@@ -49,8 +48,8 @@ static bool next_line(Reader *reader)
     return true;
 }
 
-/* The next field of a line, without blanks and quotes around it; NULL: there is
- * none.  It is cut out of the line. */
+/* Cuts the next field out of a line, without the blanks and quotes around it.
+ * NULL: the line has no more fields. */
 static char *next_field(char **rest)
 {
     char *field = strsep(rest, ",");
@@ -64,13 +63,13 @@ static char *next_field(char **rest)
     return field;
 }
 
-/* What is wrong with a first line in which a name is not found. */
+/* A hint why the first line lacks a column. */
 static const char *hint_at_names(const char *line)
 {
     return strchr("\xff\xfe", line[0]) && line[0] ? "; UTF-8 is wanted"
            : !strchr(line, ',') && strpbrk(line, ";\t")
                ? "; commas must be between the columns"
-               : "";
+               : "; --states and --springs write such tables";
 }
 
 /* Finds the columns in the first line. */
@@ -99,7 +98,7 @@ static void read_names(Reader *reader)
                      reader->names[k], hint);
 }
 
-/* A field as a finite number. */
+/* Reads a field that is a finite number. */
 static bool read_number(const char *field, double *number)
 {
     char *end;
@@ -107,10 +106,10 @@ static bool read_number(const char *field, double *number)
     return end != field && *end == '\0' && isfinite(*number);
 }
 
-/* The next row.
- *   value  out, of the columns that are wanted
- * Returns false at the end, and where the row cannot be read, which `why` says
- * then. */
+/* Reads the next row.
+ *   value  out, a number for each wanted column
+ * Returns false at the end, and if the row cannot be read; reader->why then
+ * tells. */
 static bool next_row(Reader *reader, double *value)
 {
     int fields = 0;
@@ -140,20 +139,21 @@ static bool next_row(Reader *reader, double *value)
 
 /* ---- a step of a table --------------------------------------------------- */
 
-/* What is read: rows of a step, numbered from 0 in the second column. */
+/* Part of a table: rows of one step, which the second column numbers from 0. */
 typedef struct Part {
-    const char *option, *name; /* for messages: the table's */
-    const char *what;          /* the rows are about */
-    double step;               /* below 0: the last */
-    int size, run, runs;       /* rows of a run; the run; how many there are */
+    const char *option; /* option with the table, for messages */
+    const char *name;   /* name of the file */
+    const char *what;   /* "node" or "spring" */
+    double step;        /* below 0: the last step */
+    int size;           /* rows of a run */
+    int run, runs;      /* the run that is read, and their number */
 } Part;
 
-/* Takes row i of the run; returns why it cannot be taken, or NULL. */
+/* Stores row i of a run.  Returns why it does not fit, or NULL. */
 typedef const char *TakeRow(void *into, int i, const double *value);
 
-/* Reads all rows of the step, or of all steps: those that come later replace
- * what was read before.  Where somebody went back a table has a step several
- * times, and the last one counts. */
+/* Reads the rows of the step, or of all steps, of which the last one remains. A
+ * table has a step several times if the user went back; the last one counts. */
 static void read_rows(Reader *reader, const Part *part, TakeRow *take,
                       void *into)
 {
@@ -234,13 +234,14 @@ Status start_table_read(const char *name, double step, int nodes, int run,
 
 /* ---- springs ------------------------------------------------------------- */
 
-/* What springs become. */
+/* The springs that a table describes. */
 typedef struct Springs {
     System *system;
-    double stiffness; /* J/m^2, of those that are whole */
+    double stiffness; /* J/m^2, of springs that are not broken */
 } Springs;
 
-/* Breaks the spring where it was broken, and bends it as far as it was. */
+/* Gives a spring the plastic strain of the table, and breaks it if it is broken
+ * there. */
 static const char *take_spring(void *into, int i, const double *value)
 {
     const Springs *springs = into;
@@ -249,11 +250,13 @@ static const char *take_spring(void *into, int i, const double *value)
     const int *e = system->e + 2 * i;
     bool broken = value[4] == 0, breaks = system_find_term(system, &fracture);
     if (value[3] - value[2] != e[1] - e[0])
-        return "this spring is another square's";
+        return "this spring belongs to another square";
     if (broken && !spring_is_broken(system, i) && !breaks)
-        return "this spring is broken, and nothing breaks; --tear lets it";
+        return "this spring is broken; --tear is missing, which lets springs "
+               "break";
     if (value[6] != 0 && !flow)
-        return "this spring has flowed, and none flows; --yield lets it";
+        return "this spring has yielded; --yield is missing, which lets "
+               "springs yield";
     if (breaks)
         system->k[i] = broken ? 0 : springs->stiffness;
     if (flow) {

@@ -1,4 +1,4 @@
-/* state.c - saving, restoring and hashing the state of a simulation. */
+/* state.c - saves, restores and hashes the state of a simulation. */
 #include "run/control.h"
 
 #include <string.h>
@@ -8,12 +8,12 @@
 #include "model/plasticity.h"
 #include "run/body.h"
 
-/* Where pieces of a state are saved to or restored from, NULL: they are only
- * counted; and how many bytes there were. */
+/* A place in the bytes of a state.  One function visits all pieces of a state,
+ * to save, to restore or to count them. */
 typedef struct Cursor {
-    unsigned char *bytes;
-    bool restores;
-    size_t used;
+    unsigned char *bytes; /* NULL: the pieces are only counted */
+    bool restores;        /* bytes are read, not written */
+    size_t used;          /* bytes visited so far */
 } Cursor;
 
 static void pass(Cursor *cursor, void *piece, size_t size)
@@ -28,8 +28,8 @@ static void pass(Cursor *cursor, void *piece, size_t size)
 
 #define PASS(piece) pass(cursor, &(piece), sizeof(piece))
 
-/* What steps change in a system: broken springs, plastic strains, obstacles
- * that move, and what each term has lost. */
+/* Visits what steps change in a system: broken springs, plastic strains, moving
+ * obstacles, and the energy that each term has lost. */
 static void pass_system(Cursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
@@ -47,7 +47,7 @@ static void pass_system(Cursor *cursor, System *system)
              (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
-/* What a scene shows beside its system. */
+/* Visits the data of a small scene. */
 static void pass_exhibit(Cursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
@@ -100,21 +100,21 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
 size_t state_save(const Simulation *simulation, void *bytes)
 {
     Cursor cursor = {bytes, false, 0};
-    pass_all(&cursor, (Simulation *)simulation); /* it is not changed */
+    pass_all(&cursor, (Simulation *)simulation); /* saving changes nothing */
     return cursor.used;
 }
 
 void state_restore(const void *bytes, Simulation *simulation)
 {
     Cursor cursor = {(unsigned char *)bytes, true, 0};
-    simulation->prediction = (Prediction){0}; /* it was of another step */
+    simulation->prediction = (Prediction){0}; /* a guess is about one step */
     pass_all(&cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         if (simulation->scene->needs & NEEDS_BODY)
             body_follow(simulation, r);
 }
 
-/* FNV-1a over these bytes. */
+/* FNV-1a hash of bytes. */
 static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;

@@ -5,7 +5,8 @@
 
 /* ---- slope ------------------------------------------------------------- */
 
-/* Each run is lower than the one before, with its own friction. */
+/* Each run has a block that is lower than the one before, and its own friction.
+ */
 Status create_slope(Simulation *simulation)
 {
     static const double part[SIMULATION_MAX_RUNS] = {0.5, 0.9, 1.1};
@@ -22,8 +23,8 @@ Status create_slope(Simulation *simulation)
 
 /* ---- squeeze ----------------------------------------------------------- */
 
-/* The ceiling begins as far above the square as the floor is below it, takes
- * 0.55 of its height, and goes back at twice the speed. */
+/* The ceiling starts as far above the square as the floor is below, presses the
+ * square by 0.55 of its height, and goes back at twice the speed. */
 Obstacle squeeze_ceiling(const Options *options)
 {
     double down = 0.55 / 0.4, back = down + 0.7;
@@ -37,7 +38,7 @@ Obstacle squeeze_ceiling(const Options *options)
         .motion = {2, {down, back}, {{0, -speed}, {0, 2 * speed}}}};
 }
 
-/* Small velocities to the side, so that it may buckle. */
+/* Small random velocities to the side let the square buckle. */
 Status create_squeeze(Simulation *simulation)
 {
     Status status = create_square(simulation);
@@ -52,8 +53,8 @@ Status create_squeeze(Simulation *simulation)
 
 /* ---- tear -------------------------------------------------------------- */
 
-/* Cuts the springs across the line x between two heights, all in the rest
- * positions, where springs can break. */
+/* Cuts the springs across a vertical line at x between two heights, in the rest
+ * positions, if springs can break. */
 static void cut(Simulation *simulation, double x, double low, double high)
 {
     System *system = &simulation->system;
@@ -68,8 +69,8 @@ static void cut(Simulation *simulation, double x, double low, double high)
     system_changed(system, false);
 }
 
-/* The pins of the left half go left, the others right, at 0.2 sides a
- * second. */
+/* Pins of the left half move left and the others right, by 0.2 sides a second.
+ */
 Status create_tear(Simulation *simulation)
 {
     const SquareMesh *mesh = &simulation->mesh;
@@ -78,7 +79,7 @@ Status create_tear(Simulation *simulation)
     double rest[2];
     for (int i = 0; i < mesh->nodes && !status; i++) {
         square_mesh_place(mesh, i, rest);
-        if (system->pinned[i]) /* a pin set later stays */
+        if (system->pinned[i]) /* pins that are set later stand still */
             system->pin_v[2 * i] = copysign(0.2 * mesh->side, rest[0]);
     }
     if (!status)
@@ -89,7 +90,7 @@ Status create_tear(Simulation *simulation)
 
 /* ---- bend -------------------------------------------------------------- */
 
-/* It begins 0.05 m above the beam. */
+/* The ball starts 0.05 m above the beam. */
 Obstacle bend_ball(const Options *options)
 {
     const SquareMesh shape = body_shape(options);
@@ -109,7 +110,7 @@ Status create_bend(Simulation *simulation)
         return status;
     double a = mesh->spacing, half = 0.5 * mesh->rows * a;
     simulation->system.m[mesh->nodes] = 60;
-    if (!simulation->options.state) /* else the table has its velocity */
+    if (!simulation->options.state) /* a table has the velocity, too */
         simulation->run[0].v[2 * mesh->nodes + 1] = -3;
     cut(simulation, 0.5 * a, -2 * half, -half + 0.6 * a);
     return STATUS_OK;

@@ -1,5 +1,5 @@
-/* descent.c - scenes in which Newton's method minimises a function of one or
- * two unknowns.
+/* descent.c - scenes that minimise a function of one or two unknowns by
+ * Newton's method: overshoot, tangent, landscape and dial.
  */
 #include "scenes/small_scenes.h"
 
@@ -11,29 +11,29 @@
 
 enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
 
-static const double POINT_MASS = 1;            /* kg, of all */
+static const double POINT_MASS = 1;            /* kg */
 static const double LINE_STIFFNESS = 10;       /* J/m^2 */
 static const double LINE_LENGTH = 1;           /* m, at rest */
 static const double LINE_TARGET = 2;           /* m, x_tilde */
 static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
 static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
 
-/* x_tilde of the free node, m: where inertia alone would take it. */
+/* x_tilde of the free node, m: its place if inertia alone acted. */
 static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
 
-/* h of the dial from 1e-3 to 10 s, ten to a power of ten. */
+/* Time steps of the dial, s: from 1e-3 to 10, ten for each factor of 10. */
 static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 
-/* m: a shorter p changes E by less than E's rounding, and is taken whole; from
- * the line of the pins. */
+/* DIAL_NEAR, m: a shorter p changes E by less than rounding and needs no line
+ * search.  DIAL_BESIDE, m: smallest distance of a start from the pins' line. */
 static const double DIAL_NEAR = 1e-6, DIAL_BESIDE = 1e-9;
 
 enum { DIAL_UPDATES = 100 };
 
 /* ---- what is minimised --------------------------------------------------- */
 
-/* ln(e^x + e^-x) = |x| + ln(1 + e^(-2|x|)), which cannot overflow; its
- * derivatives are tanh and 1/cosh^2. */
+/* ln(e^x + e^-x), written as |x| + ln(1 + e^(-2|x|)), which cannot overflow.
+ * The derivatives are tanh and 1/cosh^2. */
 static Local log_two_cosh(const Simulation *simulation, double x)
 {
     double f = fabs(x) + log1p(exp(-2 * fabs(x)));
@@ -55,7 +55,8 @@ static Local line_energy(const Simulation *simulation, double x)
     return (Local){.value = E, .g = {g}, .H = {H}};
 }
 
-/* The parts of E of landscape and dial, with this h; or f of one unknown. */
+/* Some parts of E of landscape and dial for a time step h; or the function of
+ * one unknown. */
 static Local landscape_at(const Simulation *simulation, unsigned parts,
                           double h, Projection projection, const double at[2])
 {
@@ -114,13 +115,13 @@ int descent_bends_down(const Simulation *simulation, double x, double y)
 
 /* ---- Newton -------------------------------------------------------------- */
 
-/* In one unknown: the zero of the tangent of g. */
+/* Newton's direction in one unknown leads to the zero of the tangent of g. */
 static double tangent_direction(double g, double H)
 {
     return -g / H;
 }
 
-/* p = -H^-1 g; returns g . p. */
+/* Computes p = -H^-1 g.  Returns g . p. */
 static double newton_direction(const Local *E, bool scalar, double p[2])
 {
     const double *g = E->g, *H = E->H;
@@ -144,29 +145,29 @@ double descent_direction(const Simulation *simulation, Projection projection,
     return newton_direction(&E, simulation->descent.scalar, p);
 }
 
-/* E along p, from a point where it is `value`. */
-typedef struct Way {
+/* The line along which E is searched: x + alpha p. */
+typedef struct SearchLine {
     const Simulation *simulation;
-    unsigned parts;
-    double h;
-    const double *from, *p;
-    double value;
-} Way;
+    unsigned parts; /* enum LandscapePart */
+    double h;       /* s */
+    const double *x, *p;
+    double value; /* E(x) */
+} SearchLine;
 
-/* E(x + alpha p) - E(x), as line_search calls it */
+/* E(x + alpha p) - E(x), for line_search_backtrack. */
 static double descent_difference(const void *function, double alpha)
 {
-    const Way *way = function;
-    const double to[2] = {way->from[0] + alpha * way->p[0],
-                          way->from[1] + alpha * way->p[1]};
-    Local E =
-        landscape_at(way->simulation, way->parts, way->h, PROJECTION_NONE, to);
-    return E.value - way->value;
+    const SearchLine *line = function;
+    const double to[2] = {line->x[0] + alpha * line->p[0],
+                          line->x[1] + alpha * line->p[1]};
+    Local E = landscape_at(line->simulation, line->parts, line->h,
+                           PROJECTION_NONE, to);
+    return E.value - line->value;
 }
 
-/* E and its derivatives at the iterate, projected as the options say; on
- * demand: where the Hessian is not positive definite. */
-static Local present(const Simulation *simulation)
+/* E and its derivatives at the iterate, with the projection of the options; on
+ * demand means: if the Hessian is not positive definite. */
+static Local local_at_iterate(const Simulation *simulation)
 {
     const double *at = simulation->descent.point;
     Projection projection = (Projection)simulation->options.projection;
@@ -177,10 +178,10 @@ static Local present(const Simulation *simulation)
     return descent_at(simulation, projection, at[0], at[1]);
 }
 
-/* Shows the iterate where the picture and the states look for it, p, and what
- * the loop tests there: of Algorithm 1 |g|, else |p|/h; and what that test says
- * if the search (status) goes on: an end above the start is no success where no
- * line search held E down.  Where it failed its direction stays to be seen. */
+/* Updates the data of the search at a new iterate: E, p, slope, and the number
+ * that the loop tests.  If status is RUNNING the test is made: it returns OK if
+ * the search has converged, and DIVERGED if E is above that of the start, which
+ * can happen without a line search.  After a failure p stays visible. */
 static Status show_iterate(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];
@@ -191,7 +192,7 @@ static Status show_iterate(Simulation *simulation, Status status)
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
-    Local E = present(simulation);
+    Local E = local_at_iterate(simulation);
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->by_gradient
                             ? math_hypot(E.g[0], E.g[1])
@@ -208,7 +209,7 @@ static Status show_iterate(Simulation *simulation, Status status)
     return status;
 }
 
-/* Algorithm 1 has a test of its own. */
+/* Chooses what the loop tests: |g| in Algorithm 1, else |p|/h. */
 static void choose_test(Simulation *simulation)
 {
     const Options *options = &simulation->options;
@@ -216,16 +217,15 @@ static void choose_test(Simulation *simulation)
     bool plain = descent->scalar || (options->projection == PROJECTION_NONE &&
                                      options->line_search == LINE_SEARCH_NONE);
     if (plain != descent->by_gradient)
-        descent->count = 0; /* residuals of another kind */
+        descent->count = 0; /* the residuals so far are not comparable */
     descent->by_gradient = plain;
 }
 
-/* The search begins at the present iterate; x_tilde stays. */
 void aim_descent(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     choose_test(simulation);
-    descent->began = INFINITY; /* until it is known */
+    descent->began = INFINITY; /* known only after show_iterate */
     Status status = show_iterate(simulation, STATUS_RUNNING);
     simulation->status = simulation->done ? status : STATUS_OK;
     if (!descent->scalar)
@@ -242,22 +242,22 @@ Status step_descent(Simulation *simulation)
                            .alpha = 1,
                            .slope = descent->slope,
                            .factorised = true,
-                           .projected = present(simulation).projected,
+                           .projected = local_at_iterate(simulation).projected,
                            .from = {descent->point[0], descent->point[1]}};
     const double *p = descent->direction;
     double *x = simulation->run[0].x;
-    const Way way = {simulation,
-                     simulation->exhibit.parts,
-                     simulation->run[0].h,
-                     descent->point,
-                     p,
-                     descent->value};
+    const SearchLine line = {simulation,
+                             simulation->exhibit.parts,
+                             simulation->run[0].h,
+                             descent->point,
+                             p,
+                             descent->value};
     Status status = STATUS_RUNNING;
     if (simulation->options.line_search == LINE_SEARCH_BACKTRACK) {
-        Status found = line_search_backtrack(descent_difference, &way,
+        Status found = line_search_backtrack(descent_difference, &line,
                                              &record.alpha, &record.trials);
-        /* Uphill E grows by about slope (alpha - alpha^2/2): a step as short as
-         * that lowers it only in its rounding. */
+        /* Uphill E grows by about slope (alpha - alpha^2/2), so that a very
+         * short step lowers E only by rounding. */
         bool rounding = record.slope > 0 && record.alpha < 1e-3;
         if (found || rounding) {
             status = record.slope > 0 ? STATUS_NOT_DESCENT
@@ -265,7 +265,7 @@ Status step_descent(Simulation *simulation)
             record.alpha = 0;
         }
     }
-    record.change = descent_difference(&way, record.alpha);
+    record.change = descent_difference(&line, record.alpha);
     for (int i = 0; i < 2; i++)
         x[i] += record.alpha * p[i];
     record.status = show_iterate(simulation, status);
@@ -286,9 +286,9 @@ void descent_restart(Simulation *simulation)
 
 /* ---- the scenes ---------------------------------------------------------- */
 
-/* Node 0 starts where the options say, and the search aims.  Of two unknowns it
- * is a step of backward Euler, but nobody makes steps of time; pins are at
- * (-1, 0) and (1, 0) m, each with a spring to node 0. */
+/* Creates the system and begins the search at the start of the options.  With
+ * two unknowns the pins are at (-1, 0) and (1, 0) m, each with a spring to node
+ * 0, and E is that of a step of backward Euler. */
 static Status begin_descent(Simulation *simulation)
 {
     const double *start = simulation->options.start;
@@ -323,8 +323,8 @@ Status create_tangent(Simulation *simulation)
     return begin_descent(simulation);
 }
 
-/* The springs are too long to lie flat between the pins: like a buckling column
- * node 0 gives way up or down. */
+/* The springs are too long to lie flat between the pins; like a buckling column
+ * node 0 moves up or down. */
 Status create_landscape(Simulation *simulation)
 {
     memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
@@ -335,9 +335,10 @@ Status create_landscape(Simulation *simulation)
 
 /* ---- the dial ------------------------------------------------------------ */
 
-/* The minimiser for this h, m, to which the one before leads: Algorithm 3 for
- * two unknowns, from `point` to the size of rounding.  On the line of the pins
- * there may be a saddle, where the gradient is 0, too: it begins beside it. */
+/* Finds the minimiser for a time step h, up to rounding, by Algorithm 3 for two
+ * unknowns.  The line of the pins may have a saddle, where the gradient is 0,
+ * too, so the search begins beside that line.
+ *   point  [2] m, in/out */
 static void dial_minimise(const Simulation *simulation, double h,
                           double point[2])
 {
@@ -347,20 +348,20 @@ static void dial_minimise(const Simulation *simulation, double h,
     for (int update = 0; update < DIAL_UPDATES && length > 1e-14; update++) {
         Local E =
             landscape_at(simulation, PART_BOTH, h, PROJECTION_CLAMP, point);
-        const Way way = {simulation, PART_BOTH, h, point, p, E.value};
+        const SearchLine line = {simulation, PART_BOTH, h, point, p, E.value};
         double alpha = 1;
         int trials;
         newton_direction(&E, false, p);
         length = math_hypot(p[0], p[1]);
         if (length > DIAL_NEAR)
-            line_search_backtrack(descent_difference, &way, &alpha, &trials);
+            line_search_backtrack(descent_difference, &line, &alpha, &trials);
         for (int i = 0; i < 2; i++)
             point[i] += alpha * p[i];
     }
 }
 
-/* Each minimiser begins where the one before was: the path is continuous.  Node
- * 0 is put to the minimiser for the present h. */
+/* Each search begins at the minimiser before, so that the curve is continuous.
+ * Node 0 is put to the minimiser of the present h. */
 void dial_restart(Simulation *simulation)
 {
     DialCurve *dial = &simulation->exhibit.dial;

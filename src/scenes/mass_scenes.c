@@ -1,4 +1,4 @@
-/* mass_scenes.c - scenes of single masses without a mesh. */
+/* mass_scenes.c - scenes of one mass: circle, arrows and spring. */
 #include "scenes/small_scenes.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ Status small_system(System *system, int held, double mass, double length,
     return status;
 }
 
-/* A mass with a = -omega2 x, from x with v. */
+/* Creates runs of a mass with a = -omega2 x, which starts at x with v. */
 static Status create_orbit(Simulation *simulation, double omega2,
                            const double x[2], const double v[2])
 {
@@ -39,7 +39,7 @@ static Status create_orbit(Simulation *simulation, double omega2,
     Status status = small_system(&simulation->system, 0, 1, 0, 0);
     if (!status)
         status = pull_set(&simulation->system, &central_field,
-                          &(Pull){.k = omega2}); /* of 1 kg */
+                          &(Pull){.k = omega2}); /* the mass is 1 kg */
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     memcpy(simulation->exhibit.began, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.began + 2, v, 2 * sizeof *v);

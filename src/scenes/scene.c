@@ -1,17 +1,17 @@
-/* scene.c - the table of scenes. */
+/* scene.c - the table of scenes, and guesses where their next step leads. */
 #include "scenes/scenes.h"
 
 #include "run/body.h"
 #include "scenes/contact_scenes.h"
 #include "scenes/small_scenes.h"
 
-/* A body of cells, by any integrator. */
+/* A body that any integrator can move. */
 #define SQUARE PICTURE_SQUARE, NEEDS_SQUARE
 
-/* What all of those have that fall on something. */
+/* Options of scenes in which a body of springs falls. */
 #define FALL "--stretch 1 --tolerance 1e-4 --gravity 9.81 --cells on "
 
-/* What all soft bodies have. */
+/* Options of scenes with soft bodies. */
 #define SOLIDS                                                                 \
     "--material neo-hookean --timestep 0.01 --tolerance 1e-4 --gravity 9.81 "
 
@@ -32,8 +32,8 @@ const Scene scenes[] = {
      "the squeezed square: without projection Newton is stuck", SQUARE,
      "--timestep 0.02 --stretch 0.5 --projection none", create_square,
      .explains = true},
-    /* Within the first step E rises to 2e16 J s^2 and nodes fly 1.7 km (found
-     * by a scan of 2560 squares); with either ingredient it does not. */
+    /* In the first step E rises to 2e16 J s^2 and nodes fly 1.7 km (found by a
+     * scan of 2560 squares); projection or line search prevents that. */
     {"explosion", "Newton's method explodes",
      "one step without projection and line search: nodes fly", SQUARE,
      "--segments 3 --timestep 0.02 --stretch 0.485 --projection none "
@@ -115,14 +115,14 @@ const Scene scenes[] = {
      .body.obstacle = bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
      PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
-     /* no chaos; Newton's error is below that of every time step */
+     /* no chaos; the tolerance is below the error of every time step */
      "--stretch 1.1 --tolerance 1e-8", create_race, .turn = "run",
      .step = step_race, .parts = {"error over h"}, .group = "Measured now"},
     {"envelope", "How far it can be trusted",
      "where the square converges: h across, k upwards", PICTURE_ENVELOPE,
      NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_STEP, NULL,
      create_envelope, .turn = "row", .step = step_envelope},
-    /* Small enough to calculate along: scenes of the tour. */
+    /* Scenes of the tour, small enough to compute on paper. */
     {"landscape", "Search directions",
      "without projection Newton may go uphill; clamped, never",
      PICTURE_LANDSCAPE,

@@ -1,4 +1,4 @@
-/* trial_scenes.c - many runs of one square: the race, the envelope. */
+/* trial_scenes.c - scenes of many runs of the square: race and envelope. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +9,9 @@
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
-/* The last status that is not OK of so many steps with these options, or the
- * failure that ended them; x, v: the start, run out, free it in any case. */
+/* Makes steps of a method with these options, from the state of another run.
+ *   run  out; free it in any case
+ * Returns the last status that is not OK, or the failure that ended the run. */
 static Status trial_run(const Options *options, const IntegratorMethod *method,
                         System *system, const TimeIntegrator *from, long steps,
                         TimeIntegrator *run)
@@ -31,7 +32,7 @@ static Status trial_run(const Options *options, const IntegratorMethod *method,
 
 /* ---- run time against error ---------------------------------------------- */
 
-enum { RACE_FIRST_STEPS = 8 }; /* of the longest time step */
+enum { RACE_FIRST_STEPS = 8 }; /* steps of a run with the longest time step */
 
 const IntegratorMethod *race_method(int i)
 {
@@ -41,10 +42,10 @@ const IntegratorMethod *race_method(int i)
     return integrator_method(names[i]);
 }
 
-/* Upper bound of the angular frequencies, 1/s.  The second derivative of a
- * spring's energy is largest along it; a shorter spring counts as if it were at
- * rest.  A node has eight springs: by Gershgorin omega^2 is below twice their
- * sum over m. */
+/* Upper bound of the angular frequencies, 1/s.  The curvature of a spring's
+ * energy is largest along the spring; a compressed spring counts as one at
+ * rest.  A node has at most eight springs, so by Gershgorin omega^2 is below
+ * twice eight times the largest curvature over m. */
 static double frequency_bound(const System *system, const double *x)
 {
     double most = 0;
@@ -56,12 +57,13 @@ static double frequency_bound(const System *system, const double *x)
     return sqrt(2 * 8 * most / system->m[0]);
 }
 
-/* Velocity Verlet crosses an interval of H seconds in 1, 2, ... 6 steps; these
- * results are extrapolated to steps of length 0.  Verlet is symmetric, its
- * error has even powers of the step, and the error that remains is O(H^12)
- * (Gragg 1965).  Lagrange: the polynomial in 1/n^2 through all results has at 0
- * the sum over j of w_j times result j, with w_j = product over i of n_j^2 /
- * (n_j^2 - n_i^2).  from, to: room, [2 size] */
+/* Moves a run by H seconds almost exactly, by extrapolation (Gragg 1965).
+ * Verlet makes 1, 2, ... 6 steps; the results are extrapolated to steps of
+ * length 0. Verlet's error has even powers of the step only, so an error of
+ * O(H^12) remains.  By Lagrange the polynomial in 1/n^2 through the results has
+ * the value sum over j of w_j times result j at 0, with w_j = product over i of
+ * n_j^2 / (n_j^2 - n_i^2).
+ *   from, to  scratch, [2 size] */
 static Status cross_exactly(TimeIntegrator *run, double H, double *from,
                             double *to)
 {
@@ -88,7 +90,7 @@ static Status cross_exactly(TimeIntegrator *run, double H, double *from,
 
 Status race_reference(Simulation *simulation, double time)
 {
-    const double most = 1 << 14; /* intervals: more take too long */
+    const double most = 1 << 14; /* intervals; more would take too long */
     const TimeIntegrator *start = &simulation->run[0];
     TimeIntegrator *run = &simulation->run[1];
     NewtonSettings settings = {0};
@@ -110,13 +112,12 @@ Status race_reference(Simulation *simulation, double time)
     return status;
 }
 
-/* Run 1 is the reference: it stands at its end. */
 Status create_race(Simulation *simulation)
 {
     Status status = create_square(simulation);
     if (!status)
         status = race_reference(simulation, RACE_TIME);
-    if (status == STATUS_NOT_FINITE) { /* nothing to compare with */
+    if (status == STATUS_NOT_FINITE) { /* without a reference */
         simulation->done = true;
         simulation->status = status;
         return STATUS_OK;
@@ -124,15 +125,15 @@ Status create_race(Simulation *simulation)
     return status;
 }
 
-/* J */
+/* Energy of a run, J. */
 static double energy_of(const TimeIntegrator *run)
 {
     return system_potential(run->system, run->x) +
            system_kinetic(run->system, run->v);
 }
 
-/* Whether an explicit run can go on; implicit ones always do, and forward Euler
- * adds energy with any time step. */
+/* Whether the energy of a run stays bounded.  Implicit methods count as stable,
+ * forward Euler as unstable, since it adds energy with any time step. */
 static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
 {
     if (strcmp(run->method->name, "forward-euler") == 0)
@@ -144,8 +145,8 @@ static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
            energy_of(run) <= RACE_ENERGY * energy_of(&simulation->run[0]);
 }
 
-/* The part of the energy at the start that is left when the run has gone on to
- * a whole second; NaN: it has not come so far. */
+/* Energy of a run after a second, over that of the start; NaN: the run failed.
+ */
 static double energy_later(const Simulation *simulation, TimeIntegrator *run)
 {
     while (run->clock.now + 0.5 * run->h < 1) {
@@ -161,14 +162,15 @@ static bool has_failed(Status status)
     return status && !status_is_unconverged(status);
 }
 
-/* Runs to the end again and again, until a clock that ticks in tenths of a
- * millisecond, as a browser's does, can tell how long one takes: the least of
- * several times, for whatever disturbs it only adds to it. */
+/* Measures the processor time of a run.  The run is repeated until a clock that
+ * ticks in tenths of a millisecond, as in a browser, is accurate enough; the
+ * least of several measurements counts, because disturbances only add time. */
 static Status measure_run(Simulation *simulation,
                           const IntegratorMethod *method, double h, long steps,
                           TimeIntegrator *run, double *seconds)
 {
-    const double enough = 1e-3, all = 0.01; /* s, of a time, and of them all */
+    const double enough = 1e-3; /* s, of a measurement */
+    const double all = 0.01;    /* s, of all measurements */
     double end = clock_worked() + all;
     Options options = simulation->options;
     Status status = STATUS_OK;
@@ -228,7 +230,7 @@ Status step_race(Simulation *simulation)
     TimeIntegrator run = {0};
     double seconds;
     RacePoint *point = &race->point[race->count];
-    if (race->count >= RACE_METHODS) { /* its last one once more, later */
+    if (race->count >= RACE_METHODS) { /* measure the run before once more */
         RacePoint *before = point - RACE_METHODS;
         measure_run(simulation, method, before->h, steps / 2, &run, &seconds);
         before->seconds = fmin(before->seconds, seconds);
@@ -260,7 +262,7 @@ double envelope_stiffness(int row)
     return pow(10, row - 6);
 }
 
-/* The column or row whose logarithm is nearest. */
+/* Index of the column or row with the nearest logarithm. */
 static int nearest(double value, double first, double per_ten, int count)
 {
     double place = round((log10(value) - first) * per_ten);
@@ -289,7 +291,7 @@ Status envelope_visit(Simulation *simulation, int column, int row)
     return STATUS_OK;
 }
 
-/* Run 1 is the start of all of them. */
+/* Run 1 keeps the start of all runs. */
 Status create_envelope(Simulation *simulation)
 {
     const Options *options = &simulation->options;
@@ -303,7 +305,7 @@ Status create_envelope(Simulation *simulation)
                           nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
 }
 
-/* The cell that was shown before is shown again after it. */
+/* After the row the cell that was shown before is shown again. */
 Status step_envelope(Simulation *simulation)
 {
     const EnvelopeMap *map = &simulation->exhibit.map;

@@ -181,7 +181,7 @@ END
     refused '--segments 4 --state-springs nowhere' 'nowhere.: No such file'
     run --segments 3 --steps 1 --states table --springs springs
     cp plain table
-    refused '--state-springs springs' "another square's"
+    refused '--state-springs springs' "belongs to another square"
     run tear --steps 60 --states table --springs springs
     refused 'tear --state-springs springs --state-step 99' 'step 99 is not'
 }
