@@ -40,10 +40,10 @@ Status output_open(const char *name, char *told, Output *output);
 Status output_close(Output *output, Keep keep);
 
 /* Tells of a failure, and why, or NULL: what the status says, of FILE_FAILED
- * errno.  Returns the status; output_fail: FILE_FAILED. */
-Status output_tell(char *told, const char *name, Status status,
-                   const char *why);
-Status output_fail(const Output *output, const char *why);
+ * errno.  Returns the status; output_report_failure: FILE_FAILED. */
+Status output_report(char *told, const char *name, Status status,
+                     const char *why);
+Status output_report_failure(const Output *output, const char *why);
 
 /* Why something failed: after FILE_FAILED what errno means here. */
 const char *output_reason(Status status);

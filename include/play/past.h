@@ -103,6 +103,15 @@ typedef struct Machine {
     Records records; /* all that Newton told of that step, for the log */
 } Machine;
 
+/* How far the work has come. */
+typedef enum Work {
+    WORK_DONE,    /* the step that was aimed at is shown */
+    WORK_LOADS,   /* machines take states that are kept */
+    WORK_REPEATS, /* steps that are known are made once more */
+    WORK_MAKES,   /* a new step is made: no pane has come to its end */
+    WORK_MADE     /* at least one pane has made its part of a new step */
+} Work;
+
 typedef struct Past {
     Branch *branch;
     int branches, room; /* for so many */
@@ -118,17 +127,25 @@ typedef struct Past {
     size_t bytes, limit;
     int line; /* pane in which E along p is drawn: it is kept of the last update
                  of each step; -1: none */
-    /* Work that is under way, a Newton iteration at a time. */
-    bool works;    /* the rest means nothing otherwise */
-    long aim;      /* the step that is to be shown */
-    long from;     /* where machines are brought first; -1: they are */
-    bool again;    /* all of its rounds are to be known */
-    bool making;   /* the aim is a new step, and all machines have come to the
-                      newest one that is known */
-    double target; /* of a new step: s, where it ends, */
-    bool made;     /* whether any pane has made it, */
-    Status worst;  /* and with what */
+    /* The work to show another step, a Newton iteration at a time. */
+    Work work;
+    long aim;      /* step that is to be shown */
+    long from;     /* step that machines are brought to by WORK_LOADS */
+    bool walks;    /* all rounds of the aim are kept, for a walk through it */
+    double target; /* s, end of a new step */
+    Status worst;  /* of the parts of a new step */
 } Past;
+
+static inline bool past_works(const Past *past)
+{
+    return past->work != WORK_DONE;
+}
+
+/* Whether a new step is being made. */
+static inline bool past_makes(const Past *past)
+{
+    return past->work >= WORK_MAKES;
+}
 
 void past_create(bool keeps, bool goes_on, Past *past);
 void past_free(Past *past);
@@ -193,11 +210,11 @@ const Control *past_start(const Past *past, int pane);
 
 /* Whether no step has led to what is shown: it is a start, or something was
  * dragged there. */
-bool past_is_given(const Past *past);
+bool past_is_start(const Past *past);
 
 /* The last step that a pane could make, if it has ended before this one because
  * a step of it failed; else -1. */
-long past_ended(const Past *past, int pane, long step);
+long past_end_step(const Past *past, int pane, long step);
 
 /* The last step up to this one whose state can still be seen: at most
  * PAST_EXPLODED times as large as after step 1. */

@@ -2,13 +2,12 @@
  * in, and told what to do by keys, mouse and scripts.
  *
  *   keys, mouse, chips, scripts, pages  ->  Command      (hands.c, command.h)
- *   player_obey: the deed of its kind                    (obey.c)
- *   the deed changes the past, or says which step is to be shown
+ *   player_obey: the function of its kind                (obey.c)
+ *   that function changes the past, or chooses the step to be shown
  *   player_work: past_iterate, until that step is shown  (steps.c)
  *
- * From a key to Newton's method: player_input, player_obey (after the deed),
- * player_work, past_iterate, simulation_advance, time_integrator_advance,
- * newton_minimise.
+ * From a key to Newton's method: player_input, player_obey, player_work,
+ * past_iterate, simulation_advance, time_integrator_advance, newton_iterate.
  */
 #ifndef ELASTO_PLAYER_H
 #define ELASTO_PLAYER_H
@@ -22,150 +21,188 @@
 #include "play/recording.h"
 #include "play/view.h"
 
+/* ---- what was asked for -------------------------------------------------- */
+
+/* What the command line asks for. */
+typedef struct Given {
+    Options options[OPTIONS_MAX_PANES]; /* of each pane */
+    char *const *words; /* [...] the command line, NULL at its end; or NULL */
+    Script script;
+    const volatile sig_atomic_t *stop; /* not 0 after a signal: the run ends */
+    double started; /* s, time on the wall clock when the run began */
+    bool
+        attended; /* a window, a script or a page: the run may pause, go back */
+    bool asks;    /* pages wait for a guess before they show the answer */
+} Given;
+
+/* ---- time ---------------------------------------------------------------- */
+
 enum {
     SPEED_LEAST = -6, /* a frame every second */
     SPEED_MOST = 10   /* 1024 steps a frame */
 };
 
-/* What time does.  From MODE_PAUSE on it stands still; from MODE_END on nobody
- * has asked for that. */
+/* Whether steps are made.  From MODE_PAUSE on none is; MODE_END and MODE_REST
+ * are pauses that nobody asked for. */
 typedef enum Mode {
     MODE_RUN,
     MODE_PAUSE,
     MODE_END, /* the scene is over, or a step did not converge */
-    MODE_REST /* nothing moves, and the forces are in balance */
+    MODE_REST /* all bodies are at rest, the forces in balance */
 } Mode;
 
-/* What is to be done as soon as the step that was asked for is shown. */
-typedef enum Then {
-    THEN_NOTHING,
-    THEN_ENTER, /* its lines are walked through from the first one, */
-    THEN_LEAVE, /* or from the last one back */
-    THEN_PEAK,  /* it was taken by itself: an explosion in it is shown */
-    THEN_TELL   /* it was taken again: both outcomes are told */
-} Then;
+/* What is done when the step that was asked for is shown. */
+typedef enum AfterWork {
+    AFTER_NOTHING,
+    AFTER_ENTER,  /* its first line of Algorithm 3 is shown */
+    AFTER_LEAVE,  /* its last line is shown */
+    AFTER_PEAK,   /* an explosion in it is shown, if there was one */
+    AFTER_COMPARE /* the outcomes before and after an edit are compared */
+} AfterWork;
 
-typedef struct Mouse {
-    double x, y; /* pixels */
-    bool placed; /* where it rests at the start is known: now it can move */
-    CommandKind drag; /* what its movement asks for, while a button is down: */
-    int index; /* of a node, a point, a number of the row; -1: the stretch */
-    double from[2];  /* pixels, where the drag began, or has come */
-    bool moved;      /* it is more than a click */
-    double grip[2];  /* m, from the mouse to the point that it moves */
-    bool pins;       /* the node is pinned again when it is let go */
-    bool turns;      /* the last input was the wheel's */
-    int gesture;     /* the last key, click or turn of the wheel */
-    Options options; /* at its beginning */
-} Mouse;
-
-/* What is shown of one of the runs side by side. */
+/* What is shown of the present step in one pane. */
 typedef struct Side {
-    int place;     /* in the rounds of the step; -1: it shows all of it */
-    double *ghost; /* [2n] m, the outcome with other settings, or NULL */
-    char ghost_label[256]; /* which one, and what it was */
+    int place;             /* in the step's trace; -1: the whole step */
+    double *ghost;         /* [2n] m, positions before an edit, or NULL */
+    char ghost_label[256]; /* the edited setting, and the outcome before it */
 } Side;
+
+/* How steps follow each other. */
+typedef struct Time {
+    Mode mode;
+    int fine; /* unit of "next": 0 a step, 1 an update, 2 a line */
+    AfterWork after;
+    Station
+        retaken; /* place before an edit made the step again; round -1: none */
+    int speed;   /* s: 2^s steps a frame, or a frame lasts 2^-s times as long */
+    double due;  /* s on the wall clock, time of the next step */
+    double began; /* s on the wall clock, start of the present work; 0: none */
+    bool warned;  /* the run has stopped at a step that did not converge */
+    bool gained;  /* a rise of the total energy was reported */
+} Time;
+
+/* ---- commands ------------------------------------------------------------ */
+
+enum { QUEUE_MOST = 16 };
+
+/* Commands that wait until the present one is obeyed and no step is being made:
+ * those that the present one consists of, and those of a mouse that moves while
+ * a step is made. */
+typedef struct Queue {
+    Command command[QUEUE_MOST];
+    int count;
+    bool of_page;         /* the commands are those of a page that opens */
+    const Control *pins;  /* pins to be set again after them, or NULL */
+    bool plays;           /* the run goes on after them */
+    char note[SHOW_TEXT]; /* message after them, or "" */
+} Queue;
+
+/* The order in which commands are obeyed and undone. */
+typedef struct Orders {
+    Queue queue;
+    int gesture;         /* id of the present gesture: undone as a whole */
+    int gestures;        /* id of the newest gesture */
+    int held;            /* id of the last grab or push, for its drags */
+    Script journal;      /* all commands so far, undo and redo included */
+    CommandKind leaving; /* COMMAND_ESCAPE or COMMAND_QUIT, if a second one ends
+                            the program */
+    bool refused;        /* a line of the script was refused */
+} Orders;
+
+/* ---- tour ---------------------------------------------------------------- */
+
+typedef struct Tour {
+    const LecturePage *left;     /* page that was last open, or NULL */
+    const LecturePage *revealed; /* page whose answer is shown, or NULL */
+    char verdict[SHOW_VALUE];    /* on the guess at this page, or "" */
+    int guesses, right;          /* numbers of guesses on all pages */
+    bool opens;                  /* the commands of a page are obeyed */
+} Tour;
+
+/* ---- screen -------------------------------------------------------------- */
 
 enum { LABEL_SIZE = 64 }; /* bytes */
 
-/* Contents of the last frame: pictures read the Show, which points to the rest;
- * the mouse finds in it what was drawn. */
+/* Contents of the last frame.  Pictures read the Show, which points to the
+ * other fields; the mouse finds in it what was drawn. */
 typedef struct Frame {
     Show show;
     History history[LAYOUT_PANES];
     Trace trace[LAYOUT_PANES];
-    char label[LAYOUT_PANES][LABEL_SIZE]; /* what is different in a pane */
+    char label[LAYOUT_PANES][LABEL_SIZE]; /* what differs between the panes */
     char chip_key[LAYOUT_CHIPS][SHOW_VALUE];
     char chip_label[LAYOUT_CHIPS][SHOW_VALUE];
-    CommandKind chip[LAYOUT_CHIPS]; /* what the chips ask for */
-    int numbers;                    /* in the row */
+    CommandKind chip[LAYOUT_CHIPS]; /* command of each chip */
+    int numbers;                    /* count of numbers in the row */
     const OptionRow *number[OPTIONS_MOST];
 } Frame;
 
-enum { QUEUE_MOST = 16 };
-
-/* Commands that wait until the present one is obeyed and no step is under way:
- * those that it is made of, and those of a mouse that moves meanwhile. */
-typedef struct Queue {
-    Command command[QUEUE_MOST];
-    int count;
-    bool of_page;        /* a page's own, as it opens */
-    const Control *pins; /* before a restart, to be set after the page's
-                            commands; or NULL */
-    bool plays;          /* the run goes on after them */
-    char note[SHOW_TEXT];
-} Queue;
-
-typedef struct Player {
-    Options given[OPTIONS_MAX_PANES]; /* of the command line */
-    char *const *words; /* of the command line, not owned; NULL ends them, or
-                           there are none */
-    Script script;      /* of the command line */
-    bool draws;         /* frames, on this paper */
+typedef struct Screen {
+    bool draws;  /* frames are drawn: for a window, for files */
+    bool window; /* a window is open; else frames go to files */
     Paper paper;
-    int size[2];   /* its pixels; 0: those of the window */
-    bool window;   /* it is a window's, which takes keys */
-    bool attended; /* a window or a script: it may pause and go back */
-    bool quit;     /* somebody asked for the end */
-    bool refused;  /* a line of the script made no sense */
-    const volatile sig_atomic_t *stop; /* set by signals */
-    double started;                    /* s, on the wall clock */
-
-    Past past;
-    Side side[OPTIONS_MAX_PANES]; /* one for each of its panes */
-    int active;                   /* the one whose numbers are shown */
-    const struct Scene *scene;    /* that is shown, and the page */
-    const LecturePage *page;
-    Recording recording;
-    long written; /* the last step in its tables; -1: none */
-    long booked;  /* last step whose row of the ledger is up to date, at most
-                     `written`; -1: none */
-    Mode mode;
-    int fine; /* one on is: 0 a step, 1 an update, 2 a line */
-    Then then;
-    Station
-        retaken; /* the place in a step that is taken again; round -1: none */
-    bool holds;  /* the hand has not let go since it took a node */
-    long pulled; /* the step at which it went where it is */
-    Queue queue;
-    bool warned; /* it has stopped because a step did not converge */
-    bool gained; /* whether a rise of the total energy was reported */
-
-    int gesture;    /* what is done now is undone at once: its number, */
-    int gestures;   /* how many there were, */
-    int held;       /* that of a script's last grab, which drags go on with */
-    Script journal; /* all that was done, undo and redo, too */
-    char message[768]; /* why a command or the script makes no sense, or "" */
-    char note[SHOW_TEXT]; /* what a command just did, or "" */
-    bool warning;         /* and it is a bad thing */
-    bool explains;        /* the mouse has gone to something else since then */
-
-    int speed;    /* s: 2^s steps a frame, or a frame 2^-s times as long */
-    double due;   /* s, on the wall clock: the next step */
-    double began; /* s, work that is under way; 0: none is */
-    bool changed; /* the window must be drawn again */
+    int size[2];  /* pixels of the paper; 0: those of the window */
+    bool changed; /* the frame must be drawn again */
     long sampled; /* step of the last frame that was drawn; -1: none */
-
-    /* What only the screen shows. */
+    const struct Scene *scene; /* scene and page of that frame: new ones */
+    const LecturePage *page;   /* reset the camera and the cards */
     Column column;
-    struct Sheet *sheet;      /* of scenes; NULL: it is closed */
-    const LecturePage *left;  /* the page that was last open, or NULL */
-    const LecturePage *told;  /* the page whose answer is shown, or NULL */
-    char verdict[SHOW_VALUE]; /* on the guess at this page, or "" */
-    int guesses, right;       /* numbers and clicks of all pages */
-    bool opens;               /* a page: its own lines are obeyed */
-    bool asks;                /* pages wait for a guess before they tell */
-    bool strain, bare, blank;
-    unsigned closed;      /* cards that are not as the picture has them */
-    int large;            /* the enlarged card, */
-    const OptionRow *lit; /* and the number that is lit; NULL: none */
-    uint64_t added; /* bit r: row r of the options is in the row of numbers */
-    bool typing;    /* every key belongs into what is typed: */
-    char typed[28]; /* for the selected number, or a page of the list */
-    CommandKind leaving; /* Escape or Q, which once more ends the program */
-    Mouse mouse;
+    struct Sheet *sheet; /* open sheet of scenes, or NULL */
+    bool strain;         /* colours of springs are not those of the scene */
+    bool bare, blank;    /* the picture alone; a black screen */
+    unsigned closed;     /* bit c: card c was opened or closed by hand */
+    int large;           /* index of the enlarged card; -1: none */
     View view;
     Frame frame;
+} Screen;
+
+/* ---- hands --------------------------------------------------------------- */
+
+typedef struct Mouse {
+    double x, y;      /* pixels */
+    bool placed;      /* the position is known */
+    CommandKind drag; /* command of its movement while a button is down */
+    int index;       /* of the dragged node, point or number; -1: the stretch */
+    double from[2];  /* pixels, start of the drag, or its last position */
+    bool moved;      /* it has moved farther than a click may */
+    double grip[2];  /* m, from the mouse to the dragged point */
+    bool pins;       /* the dragged node is pinned again when it is let go */
+    bool turns;      /* the last input was the wheel's */
+    int gesture;     /* id of the last key, click or turn of the wheel */
+    Options options; /* values at the start of a drag of a number */
+} Mouse;
+
+typedef struct Hands {
+    Mouse mouse;
+    bool holds;           /* a node or an obstacle is grabbed */
+    long pulled;          /* step at which it was last moved */
+    const OptionRow *lit; /* selected number, or NULL */
+    uint64_t added;       /* bit r: row r of the options was added to the row */
+    bool typing;          /* a field is open: keys go into `typed` */
+    char typed[28];       /* a value, an answer, a line of a list */
+} Hands;
+
+/* ---- all of it ----------------------------------------------------------- */
+
+typedef struct Player {
+    Given given;
+    Past past;
+    Side side[OPTIONS_MAX_PANES];
+    int active; /* index of the pane whose numbers are shown */
+    Recording recording;
+    long written; /* last step in the tables; -1: none */
+    long booked;  /* last step whose energies in the tables are up to date */
+    Time time;
+    Orders orders;
+    Tour tour;
+    Screen screen;
+    Hands hands;
+    bool quit;            /* the program is asked to end */
+    char message[768];    /* why a command was refused, or "" */
+    char note[SHOW_TEXT]; /* message below the picture, or "" */
+    bool warning;         /* the note is a warning */
+    bool explains; /* the mouse has moved since the note: a sentence about what
+                      is under it may replace the note */
 } Player;
 
 /* Sets everything up.  Says on standard error if there is no screen, and then
@@ -235,8 +272,8 @@ enum ExitCode {
 
 /* The place of the word from i on that decides what is simulated, not how long
  * it runs and what it leaves behind.  0: there is none.  A loop over all of
- * them is for (i = 0; (i = player_next_word(player, i + 1));) */
-int player_next_word(const Player *player, int i);
+ * them is for (i = 0; (i = player_next_argument(player, i + 1));) */
+int player_next_argument(const Player *player, int i);
 
 /* Does what a command line asks for, until it is to be played.
  *   argv    in, NULL ends it; it must live as long as the player

@@ -4,9 +4,9 @@
 #include "scenes/small_scenes.h"
 
 /* In all panes. */
-static Status change_all(Player *player, const Command *change)
+static Status edit_all_panes(Player *player, const Command *change)
 {
-    return player_change(player, change, 0, past_panes(&player->past), false);
+    return player_edit(player, change, 0, past_panes(&player->past), false);
 }
 
 /* Pins a node, or sets it free. */
@@ -18,7 +18,7 @@ Status obey_pin(Player *player, const Command *command)
         return player_refuse(player, "only nodes of a square can be pinned");
     bool pinned = simulation->system.pinned[node];
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
-    Status status = change_all(player, &change);
+    Status status = edit_all_panes(player, &change);
     if (!status)
         player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
     return status;
@@ -30,9 +30,9 @@ static Status take(Player *player, CommandKind kind, long number,
 {
     const Command change = {
         .kind = kind, .number = number, .x = at[0], .y = at[1]};
-    Status status = change_all(player, &change);
-    player->holds = player->holds || !status;
-    if (!status && player_stands(player))
+    Status status = edit_all_panes(player, &change);
+    player->hands.holds = player->hands.holds || !status;
+    if (!status && player_is_stopped(player))
         player_note(player,
                     "paused: the hand %s as soon as time goes on (Space, N)",
                     kind == COMMAND_GRAB ? "pulls" : "pushes");
@@ -71,7 +71,7 @@ Status obey_place(Player *player, const Command *command)
                                  "no room for it there: an obstacle, a "
                                  "body, or a cell that would turn over");
     }
-    return change_all(player, command);
+    return edit_all_panes(player, command);
 }
 
 /* A ground or a ball goes where the bodies leave room. */
@@ -86,7 +86,7 @@ Status obey_obstacle(Player *player, const Command *command)
         status =
             simulation_has_room(&player->past.machine[p].simulation, &moved,
                                 player->message, sizeof player->message);
-    return status ? status : change_all(player, command);
+    return status ? status : edit_all_panes(player, command);
 }
 
 /* The hand pulls or pushes, or lets go. */
@@ -94,9 +94,9 @@ Status obey_drag(Player *player, const Command *command)
 {
     if (!control_holds(past_control(&player->past, player->active)))
         return player_refuse(player, "the hand holds nothing");
-    player->holds = command->kind == COMMAND_DRAG;
-    player->pulled = player->past.step;
-    return change_all(player, command);
+    player->hands.holds = command->kind == COMMAND_DRAG;
+    player->hands.pulled = player->past.step;
+    return edit_all_panes(player, command);
 }
 
 /* A point or a switch of the scene; a minimisation begins anew with a point, at
@@ -111,12 +111,12 @@ Status obey_handle(Player *player, const Command *command)
     int now = past->now;
     if (command->kind == COMMAND_HANDLE && (needs & NEEDS_START) &&
         !(needs & NEEDS_TIME)) {
-        player_stop(player);
-        status = player_show(player, 0, THEN_NOTHING);
+        player_pause(player);
+        status = player_seek(player, 0, AFTER_NOTHING);
         status = status ? status : player_work(player);
     }
     if (!status)
-        status = change_all(player, command);
+        status = edit_all_panes(player, command);
     if (past->now > now)
         past->branch[now].shown = step; /* where undo leads back to */
     return status;

@@ -44,7 +44,7 @@ Status film_open(const char *name, char *told, Film *film)
     if (!why)
         return STATUS_OK;
     output_close(&film->output, KEEP_NOTHING);
-    return output_tell(told, name, STATUS_INVALID_INPUT, why);
+    return output_report(told, name, STATUS_INVALID_INPUT, why);
 }
 
 /* With the first frame, whose size the film has.  ffmpeg's words go nowhere; a
@@ -72,7 +72,7 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
     if (!film->pipe)
         start_ffmpeg(film, canvas);
     if (!film->pipe)
-        return output_fail(&film->output, NULL);
+        return output_report_failure(&film->output, NULL);
     int both = canvas->width < film->width ? canvas->width : film->width;
     for (int i = 0; i < shown * film->height; i++) {
         int y = i % film->height, there = y < canvas->height ? both : 0;
@@ -84,7 +84,8 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
     film->frames += shown;
     if (!ferror(film->pipe))
         return STATUS_OK;
-    return output_fail(&film->output, "ffmpeg ended before the film did");
+    return output_report_failure(&film->output,
+                                 "ffmpeg ended before the film did");
 }
 
 Status film_close(Film *film, Keep keep)
@@ -97,9 +98,9 @@ Status film_close(Film *film, Keep keep)
     bool well = film->pipe && pclose(film->pipe) == 0;
     bool full = stat(output->temporary, &info) == 0 && info.st_size > 0;
     if (!well || !full)
-        status = output_fail(output, film->frames == 0
-                                         ? "no frame was drawn for it"
-                                         : "ffmpeg could not write it");
+        status = output_report_failure(
+            output, film->frames == 0 ? "no frame was drawn for it"
+                                      : "ffmpeg could not write it");
     film->pipe = NULL;
     Status closed = output_close(output, !full    ? KEEP_NOTHING
                                          : status ? KEEP_PART

@@ -68,11 +68,11 @@ static void fill_help(Show *show)
 static void fill_settings(const Player *player, Frame *frame)
 {
     Show *show = &frame->show;
-    const Hit *mouse = &player->view.over;
+    const Hit *mouse = &player->screen.view.over;
     const Options shown = player_numbers(player), *options = &shown;
     const OptionRow *all[OPTIONS_MOST];
     show->selected = -1;
-    frame->numbers = player_row(player, false, frame->number);
+    frame->numbers = player_visible_options(player, false, frame->number);
     bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->numbers;
     for (int i = 0; i < frame->numbers; i++) {
         const OptionRow *row = frame->number[i];
@@ -80,24 +80,24 @@ static void fill_settings(const Player *player, Frame *frame)
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = row->label ? row->label : row->name;
         setting->letters = row->field.letters;
-        player_value(row, options, player_simulation(player), setting->value,
-                     SHOW_VALUE);
+        player_format_value(row, options, player_simulation(player),
+                            setting->value, SHOW_VALUE);
         option_value(row, options, now, sizeof now);
         option_value(row, &past_start(&player->past, player->active)->options,
                      start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
-        const char *idle = player_idle(player, row);
+        const char *idle = player_idle_reason(player, row);
         setting->off = strcmp(setting->value, "none") == 0 || idle;
-        bool told = over ? i == mouse->index : row == player->lit;
+        bool told = over ? i == mouse->index : row == player->hands.lit;
         if (told && (idle || row->help[0]))
             snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
                      idle ? idle : row->help);
-        if (row == player->lit)
+        if (row == player->hands.lit)
             show->selected = i;
-        if (row == player->lit && player->typing)
-            snprintf(setting->value, SHOW_VALUE, "%s_", player->typed);
+        if (row == player->hands.lit && player->hands.typing)
+            snprintf(setting->value, SHOW_VALUE, "%s_", player->hands.typed);
     }
-    if (player_row(player, true, all) > frame->numbers)
+    if (player_visible_options(player, true, all) > frame->numbers)
         show->setting[show->settings++] =
             (Setting){"", "+ more", 0, false, false};
 }
@@ -107,13 +107,13 @@ static void fill_options(const Player *player, Show *show)
 {
     const OptionRow *all[OPTIONS_MOST];
     const Options options = player_numbers(player);
-    show->help_rows = player_row(player, true, all);
+    show->help_rows = player_visible_options(player, true, all);
     for (int i = 0; i < show->help_rows; i++) {
         HelpRow *row = &show->help[i];
         char value[SHOW_VALUE];
-        const char *idle = player_idle(player, all[i]);
-        player_value(all[i], &options, player_simulation(player), value,
-                     sizeof value);
+        const char *idle = player_idle_reason(player, all[i]);
+        player_format_value(all[i], &options, player_simulation(player), value,
+                            sizeof value);
         snprintf(row->key, SHOW_VALUE, "%d", i + 1);
         snprintf(row->text, SHOW_TEXT, "%s %s%s%s", all[i]->name, value,
                  idle || all[i]->help[0] ? ": " : "",
@@ -151,28 +151,29 @@ static void fill_chips(const Player *player, Frame *frame)
     bool time = simulation->scene->needs & NEEDS_TIME;
     bool nears = options->next == NEXT_NEARER;
     bool newton = simulation->run[0].newton && time && !nears;
-    bool ended = simulation->done || player->mode > MODE_END;
-    bool stands = player_stands(player);
-    if (player->sheet) {
+    bool ended = simulation->done || player->time.mode > MODE_END;
+    bool stands = player_is_stopped(player);
+    if (player->screen.sheet) {
         add_chip(frame, COMMAND_PAGE_ON, 0, false);
         add_chip(frame, COMMAND_PAGES, 0, false);
         add_chip(frame, COMMAND_SHEET, 1, false);
         return;
     }
     add_chip(frame, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
-    int next = nears ? 4 : newton ? player->fine : time ? 0 : 3;
+    int next = nears ? 4 : newton ? player->time.fine : time ? 0 : 3;
     add_chip(frame, COMMAND_NEXT, next, false);
     add_chip(frame, COMMAND_BACK, 0, false);
     if (options->page) {
         add_chip(frame, COMMAND_PAGE_ON, 0, ended && options->page[1].name);
-        add_chip(frame, COMMAND_CODE, 0, player->column == COLUMN_CODE);
-        add_chip(frame, COMMAND_PAGES, 0, player->column == COLUMN_PAGES);
-    } else if (player->left) {
+        add_chip(frame, COMMAND_CODE, 0, player->screen.column == COLUMN_CODE);
+        add_chip(frame, COMMAND_PAGES, 0,
+                 player->screen.column == COLUMN_PAGES);
+    } else if (player->tour.left) {
         add_chip(frame, COMMAND_PAGE_BACK, 0, true);
     }
     add_chip(frame, COMMAND_RESTART, 0, ended);
     if (newton)
-        add_chip(frame, COMMAND_FINER, player->fine, false);
+        add_chip(frame, COMMAND_FINER, player->time.fine, false);
     if (simulation_has_projection(simulation))
         add_chip(frame, COMMAND_PROJECTION,
                  options->projection == PROJECTION_NONE, false);
@@ -184,7 +185,7 @@ static void fill_chips(const Player *player, Frame *frame)
     if (player->past.now > 0)
         add_chip(frame, COMMAND_UNDO, 0, false);
     add_chip(frame, COMMAND_SHEET, 0, false);
-    add_chip(frame, COMMAND_KEYS, 0, player->column == COLUMN_KEYS);
+    add_chip(frame, COMMAND_KEYS, 0, player->screen.column == COLUMN_KEYS);
 }
 
 /* ---- the picture --------------------------------------------------------- */
@@ -194,15 +195,16 @@ _Static_assert((int)OPTIONS_MAX_DRAWN == (int)LAYOUT_PANES, "all are drawn");
 void player_label(const Player *player, int pane, char label[LABEL_SIZE])
 {
     const Past *past = &player->past;
-    long last = past_ended(past, pane, past->step);
+    long last = past_end_step(past, pane, past->step);
     const Entry *entry = past_entry(past, pane, last < 0 ? past->step : last);
     char value[SHOW_VALUE];
     label[0] = '\0';
     for (const OptionRow *row = option_rows; row->name; row++) {
-        if (!player_compares(player, row))
+        if (!player_panes_differ(player, row))
             continue;
-        player_value(row, &entry->control->options,
-                     &past->machine[pane].simulation, value, sizeof value);
+        player_format_value(row, &entry->control->options,
+                            &past->machine[pane].simulation, value,
+                            sizeof value);
         append(label, LABEL_SIZE, "%s", label[0] ? ", " : "");
         if (row->slot != OPTION_SLOT(integrator))
             append(label, LABEL_SIZE, "%s ", row->label);
@@ -260,12 +262,12 @@ static void fill_time(const Player *player, Show *show)
     double time = 0, longest = -1; /* h leads; a pane that ended stands still */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->machine[p].simulation;
-        bool goes = past_ended(past, p, past->step) < 0;
+        bool goes = past_end_step(past, p, past->step) < 0;
         double h = goes ? now->options.timestep : 0;
         time = h > longest ? simulation_time(now) : time;
         longest = fmax(longest, h);
     }
-    show->paused = player_stands(player);
+    show->paused = player_is_stopped(player);
     if (player_settings(player)->next ==
             NEXT_SPRING && /* its steps are springs */
         past->step < player_simulation(player)->system.springs) {
@@ -277,13 +279,13 @@ static void fill_time(const Player *player, Show *show)
         append(text, SHOW_TEXT, " of %ld", past_newest(past));
     if (!turn)
         append(text, SHOW_TEXT, "   t = %.4g s", time);
-    if (!turn && player->speed != 0)
+    if (!turn && player->time.speed != 0)
         append(text, SHOW_TEXT, "   %.4g steps a frame",
-               ldexp(1, player->speed));
+               ldexp(1, player->time.speed));
     snprintf(show->state, SHOW_VALUE, "%s",
-             player->mode == MODE_REST ? "at rest" : "");
-    if (!past->making ||
-        (clock_now() - player->began <= LONG_WORK && !player_is_slow(player)))
+             player->time.mode == MODE_REST ? "at rest" : "");
+    if (!past_makes(past) || (clock_now() - player->time.began <= LONG_WORK &&
+                              !player_is_slow(player)))
         return;
     snprintf(show->sentence, SHOW_TEXT,
              "a long step: Esc stops it, at the last whole one");
@@ -298,12 +300,12 @@ static void fill_frame(const Player *player, Frame *frame)
     Show *show = &frame->show;
     const int active = player->active;
     show_create(player_simulation(player), show);
-    show->view = &player->view;
-    show->text = player->paper.text;
-    show->letter = player->window  ? window_letter()
-                   : player->draws ? SMALL_LETTER
-                                   : 0;
-    show->document = player->window && window_has_document();
+    show->view = &player->screen.view;
+    show->text = player->screen.paper.text;
+    show->letter = player->screen.window  ? window_letter()
+                   : player->screen.draws ? SMALL_LETTER
+                                          : 0;
+    show->document = player->screen.window && window_has_document();
     show->panes = past_panes(past);
     if (show->panes > LAYOUT_PANES) /* of a run that only a script draws */
         show->panes = LAYOUT_PANES;
@@ -321,25 +323,26 @@ static void fill_frame(const Player *player, Frame *frame)
     show->past = player;
     show->step = past->step;
     show->warning = player->warning;
-    show->large = player->large;
-    show->strain = player->strain !=
+    show->large = player->screen.large;
+    show->strain = player->screen.strain !=
                    (show->pane[0].simulation->scene->strain_colour_max > 0);
-    show->bare = player->bare;
-    if (player->column == COLUMN_KEYS)
+    show->bare = player->screen.bare;
+    if (player->screen.column == COLUMN_KEYS)
         fill_help(show);
-    if (player->column == COLUMN_OPTIONS)
+    if (player->screen.column == COLUMN_OPTIONS)
         fill_options(player, show);
-    if (!(player->explains && show->sentence[0] && !player->typing))
+    if (!(player->explains && show->sentence[0] && !player->hands.typing))
         snprintf(show->message, SHOW_TEXT, "%s", player->note);
-    show->veiled = player_veils(player);
-    bool judged = show->pane[0].simulation->options.page == player->told &&
-                  player->verdict[0];
-    show->verdict = judged ? player->verdict : NULL;
-    show->guesses = player->guesses;
-    show->right = player->right;
-    show_lecture(player->column, player->left, show);
-    show->closed ^= player->closed;
-    if (player->sheet)
+    show->veiled = player_hides_answer(player);
+    bool judged =
+        show->pane[0].simulation->options.page == player->tour.revealed &&
+        player->tour.verdict[0];
+    show->verdict = judged ? player->tour.verdict : NULL;
+    show->guesses = player->tour.guesses;
+    show->right = player->tour.right;
+    show_lecture(player->screen.column, player->tour.left, show);
+    show->closed ^= player->screen.closed;
+    if (player->screen.sheet)
         sheet_fill(player, show);
     show_describe(show);
 }
@@ -347,10 +350,10 @@ static void fill_frame(const Player *player, Frame *frame)
 /* Finds what lies now under a mouse that rests on a body. */
 static void look_again(Player *player)
 {
-    const Show *show = &player->frame.show;
-    const Mouse *mouse = &player->mouse;
-    const Canvas *canvas = &player->paper.canvas;
-    View *view = &player->view;
+    const Show *show = &player->screen.frame.show;
+    const Mouse *mouse = &player->hands.mouse;
+    const Canvas *canvas = &player->screen.paper.canvas;
+    View *view = &player->screen.view;
     PickKind kind = view->hover.kind;
     bool body = kind == PICK_NODE || kind == PICK_SPRING ||
                 kind == PICK_OBSTACLE || kind == PICK_EDGE;
@@ -363,7 +366,7 @@ static void look_again(Player *player)
 
 void player_fill(Player *player)
 {
-    fill_frame(player, &player->frame);
+    fill_frame(player, &player->screen.frame);
     look_again(player);
 }
 
@@ -373,10 +376,10 @@ Paper *player_paper(Player *player)
 {
     static bool told;
     const char *font = getenv("ELASTO_FONT"); /* empty: no words, please */
-    Paper *paper = &player->paper;
+    Paper *paper = &player->screen.paper;
     const Canvas *canvas = &paper->canvas;
-    int size[2] = {player->size[0], player->size[1]};
-    if (!player->draws)
+    int size[2] = {player->screen.size[0], player->screen.size[1]};
+    if (!player->screen.draws)
         return NULL;
     if (size[0] == 0)
         window_size(size);
@@ -389,7 +392,7 @@ Paper *player_paper(Player *player)
         paper_free(paper);
         return NULL;
     }
-    player->frame.show.text = paper->text;
+    player->screen.frame.show.text = paper->text;
     if (!paper->text && !told && (!font || font[0])) {
         fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
                         "no words (ELASTO_FONT=FILE.ttf names another font)\n");
@@ -401,13 +404,13 @@ Paper *player_paper(Player *player)
 void player_paint(Player *player, Paper *paper)
 {
     player_fill(player);
-    if (player->blank)
+    if (player->screen.blank)
         canvas_clear(&paper->canvas, 0xff000000u);
     else
-        show_draw(paper, &player->frame.show);
+        show_draw(paper, &player->screen.frame.show);
 }
 
 void player_paint_card(Player *player, Paper *paper, int card)
 {
-    show_draw_card(paper, &player->frame.show, card);
+    show_draw_card(paper, &player->screen.frame.show, card);
 }

@@ -32,10 +32,10 @@ typedef struct Under {
 
 static Under look(Player *player)
 {
-    const Mouse *mouse = &player->mouse;
+    const Mouse *mouse = &player->hands.mouse;
     const Paper *paper = player_paper(player);
-    const Show *show = &player->frame.show;
-    Held *held = &player->view.held;
+    const Show *show = &player->screen.frame.show;
+    Held *held = &player->screen.view.held;
     Under under = {.layout = show_layout(show, paper ? paper->canvas.width : 1,
                                          paper ? paper->canvas.height : 1),
                    .pane = player->active};
@@ -86,15 +86,15 @@ static Status change_pace(Player *player, const OptionRow *row, int paces)
 /* Who listens to the keys. */
 static Keyboard keyboard_now(const Player *player)
 {
-    bool number = player->lit;
-    bool list = player_lists(player);
-    bool asks = player_veils(player);
-    return player->typing && (number || list || asks) ? AT_FIELD
-           : player->sheet                            ? AT_SHEET
-           : number                                   ? AT_NUMBER
-           : list                                     ? AT_LIST
-           : asks                                     ? AT_QUESTION
-                                                      : AT_RUN;
+    bool number = player->hands.lit;
+    bool list = player_has_list(player);
+    bool asks = player_hides_answer(player);
+    return player->hands.typing && (number || list || asks) ? AT_FIELD
+           : player->screen.sheet                           ? AT_SHEET
+           : number                                         ? AT_NUMBER
+           : list                                           ? AT_LIST
+           : asks                                           ? AT_QUESTION
+                                                            : AT_RUN;
 }
 
 /* A line of the list of pages or of numbers, as it was typed or hit. */
@@ -104,11 +104,12 @@ static Status open_line(Player *player, const char *line)
     Command page = {.kind = COMMAND_PAGE, .joins = true};
     char *end;
     long number = strtol(line, &end, 10);
-    if (player->column != COLUMN_OPTIONS || player->sheet) {
+    if (player->screen.column != COLUMN_OPTIONS || player->screen.sheet) {
         snprintf(page.text, sizeof page.text, "%s", line);
         return player_obey(player, &page);
     }
-    if (*end || number < 1 || number > player_row(player, true, all))
+    if (*end || number < 1 ||
+        number > player_visible_options(player, true, all))
         return player_refuse(player, "there is no such number in the list");
     return ask(player, COMMAND_ADD, all[number - 1] - option_rows);
 }
@@ -117,21 +118,21 @@ static Status open_line(Player *player, const char *line)
  * be read leaves the field as it is. */
 static Status enter(Player *player)
 {
-    const OptionRow *row = player->lit;
+    const OptionRow *row = player->hands.lit;
     Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
-    if (!row && player_lists(player)) {
-        status = open_line(player, player->typed);
-        player->typing = player->typing && status;
+    if (!row && player_has_list(player)) {
+        status = open_line(player, player->hands.typed);
+        player->hands.typing = player->hands.typing && status;
         return status;
     }
     if (row) {
         made.number = row - option_rows;
-        if (row->count > 1 || !option_read(row, player->typed, &made.x))
-            memcpy(made.text, player->typed, sizeof player->typed);
+        if (row->count > 1 || !option_read(row, player->hands.typed, &made.x))
+            memcpy(made.text, player->hands.typed, sizeof player->hands.typed);
         status = player_obey(player, &made);
     } else {
-        status = player_reveal(player, player->typed);
+        status = player_reveal(player, player->hands.typed);
         if (!status)
             status = player_obey_waiting(player, false);
     }
@@ -146,10 +147,10 @@ static Status enter(Player *player)
  * puts the edge there, in hundredths. */
 static Status drag_number(Player *player, const Under *under)
 {
-    const Mouse *mouse = &player->mouse;
+    const Mouse *mouse = &player->hands.mouse;
     const Options now = player_numbers(player);
     bool edge = mouse->index < 0;
-    const OptionRow *row = edge ? option_find("stretch") : player->lit;
+    const OptionRow *row = edge ? option_find("stretch") : player->hands.lit;
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
     double wanted = fmax(rint(200 * fabs(under->at[0]) / now.side), 2) / 100;
     if (!row)
@@ -192,19 +193,19 @@ static Status load_cell(Player *player, long cell)
 /* Whether a drag places things; else it pulls and pushes. */
 static bool is_paused(const Player *player)
 {
-    return player->mode == MODE_PAUSE || player->mode == MODE_END;
+    return player->time.mode == MODE_PAUSE || player->time.mode == MODE_END;
 }
 
 /* Takes what is under the mouse. */
 static Status take(Player *player, const Under *under)
 {
-    Mouse *mouse = &player->mouse;
+    Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_settings(player)->page;
     double point[2];
     bool paused = is_paused(player);
     mouse->index = under->pick.index;
-    player->view.held =
-        show_hold(&player->frame.show, &under->layout, under->pane);
+    player->screen.view.held =
+        show_hold(&player->screen.frame.show, &under->layout, under->pane);
     switch (under->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
@@ -230,7 +231,7 @@ static Status take(Player *player, const Under *under)
         return ask_at(player, COMMAND_START, mouse->index, under->pick.point);
     default:
         if (under->pick.kind != PICK_NODE) /* a spring beside the node */
-            player->view.hover.kind = PICK_NONE;
+            player->screen.view.hover.kind = PICK_NONE;
         mouse->index = under->pick.near;
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
                       : paused         ? COMMAND_PLACE
@@ -268,11 +269,11 @@ static Status put_ball(Player *player, const double at[2])
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
-    int number = player->mouse.index;
+    int number = player->hands.mouse.index;
     double part = 1, from[2];
-    if (player->holds || !is_paused(player)) {
+    if (player->hands.holds || !is_paused(player)) {
         Status status =
-            player->holds ? STATUS_OK : ask(player, COMMAND_PUSH, number);
+            player->hands.holds ? STATUS_OK : ask(player, COMMAND_PUSH, number);
         return status ? status : ask_at(player, COMMAND_DRAG, 0, at);
     }
     for (int p = 0; p < past_panes(past); p++) {
@@ -291,7 +292,7 @@ static Status drag_obstacle(Player *player, const double at[2])
 /* What is held follows the mouse. */
 static Status follow(Player *player)
 {
-    Mouse *mouse = &player->mouse;
+    Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
     Under under = look(player);
     double dx = mouse->x - mouse->from[0], dy = mouse->y - mouse->from[1];
@@ -299,7 +300,7 @@ static Status follow(Player *player)
     mouse->moved = mouse->moved || math_hypot(dx, dy) > CLICK_ROOM;
     switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
     case COMMAND_GRAB: /* of a pin it makes a free node first */
-        if (!player->holds) {
+        if (!player->hands.holds) {
             mouse->pins = simulation->system.pinned[mouse->index];
             if (mouse->pins)
                 status = ask(player, COMMAND_PIN, mouse->index);
@@ -320,11 +321,13 @@ static Status follow(Player *player)
     case COMMAND_SET:
         return drag_number(player, &under);
     case COMMAND_GOTO:
-        return ask(player, COMMAND_GOTO,
-                   show_step_at(&player->frame.show, &under.layout, mouse->x));
+        return ask(
+            player, COMMAND_GOTO,
+            show_step_at(&player->screen.frame.show, &under.layout, mouse->x));
     case COMMAND_PAN:
-        lens_move(&player->view.lens, under.layout.pane[under.pane], dx, dy);
-        player->changed = true;
+        lens_move(&player->screen.view.lens, under.layout.pane[under.pane], dx,
+                  dy);
+        player->screen.changed = true;
         mouse->from[0] = mouse->x;
         mouse->from[1] = mouse->y;
         return STATUS_OK;
@@ -338,22 +341,23 @@ static Status follow(Player *player)
 /* What is under the mouse, for the picture; a cell of the envelope is run. */
 static Status hover(Player *player)
 {
-    View *view = &player->view;
+    View *view = &player->screen.view;
     Under under = look(player);
     Pick pick = under.pick;
     bool same =
         under.hit.zone == view->over.zone &&
         under.hit.index == view->over.index && pick.kind == view->hover.kind &&
         pick.index == view->hover.index && pick.pane == view->hover.pane;
-    bool idle = pick.kind == PICK_NONE && !player->frame.show.lecture; /* whose
-                                                             terms light up */
+    bool idle =
+        pick.kind == PICK_NONE && !player->screen.frame.show.lecture; /* whose
+                                                     terms light up */
     if (under.hit.zone == ZONE_CELL)
         view->chosen = under.hit.index;
     view->over = under.hit;
     view->hover = pick;
     player->explains = player->explains || !same;
     if (!same || !idle)
-        player->changed = true;
+        player->screen.changed = true;
     return pick.kind == PICK_CELL && !same
                ? ask(player, COMMAND_CELL, pick.index)
                : STATUS_OK;
@@ -361,13 +365,13 @@ static Status hover(Player *player)
 
 static Status number_pressed(Player *player, int index, int clicks)
 {
-    Mouse *mouse = &player->mouse;
-    if (index >= player->frame.numbers) /* the plus behind them */
+    Mouse *mouse = &player->hands.mouse;
+    if (index >= player->screen.frame.numbers) /* the plus behind them */
         return ask(player, COMMAND_OPTIONS, 0);
-    player->lit = player->frame.number[index];
-    player->changed = true;
+    player->hands.lit = player->screen.frame.number[index];
+    player->screen.changed = true;
     if (clicks == 2)
-        return ask(player, COMMAND_DEFAULT, player->lit - option_rows);
+        return ask(player, COMMAND_DEFAULT, player->hands.lit - option_rows);
     mouse->drag = COMMAND_SET;
     mouse->index = index;
     mouse->options = player_numbers(player);
@@ -385,28 +389,28 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     player_deselect(player);
     switch (under->hit.zone) {
     case ZONE_CHIP:
-        return ask(player, player->frame.chip[index], 0);
+        return ask(player, player->screen.frame.chip[index], 0);
     case ZONE_CARD_CLOSE:
         return ask(player, COMMAND_CARD, index);
     case ZONE_CARD:
         return ask(player, COMMAND_ENLARGE, index);
     case ZONE_TIME:
-        player->mouse.drag = COMMAND_GOTO;
-        player->mouse.moved = true; /* a click goes there, too */
+        player->hands.mouse.drag = COMMAND_GOTO;
+        player->hands.mouse.moved = true; /* a click goes there, too */
         return follow(player);
     case ZONE_SETTING:
         return number_pressed(player, index, clicks);
     case ZONE_PAGE_CLOSE:
         return ask(player, COMMAND_ESCAPE, 0);
     case ZONE_PAGE: /* a line of a list */
-        index = show_help_row(&player->frame.show, &under->layout,
-                              player->mouse.x, player->mouse.y);
+        index = show_help_row(&player->screen.frame.show, &under->layout,
+                              player->hands.mouse.x, player->hands.mouse.y);
         snprintf(line, sizeof line, "%d", index + 1);
         return keyboard_now(player) == AT_LIST && index >= 0
                    ? open_line(player, line)
                    : STATUS_OK;
     case ZONE_CELL:
-        player->view.chosen = index;
+        player->screen.view.chosen = index;
         return ask(player, COMMAND_OPEN, 0);
     case ZONE_STAGE:
         if (under->pane != player->active)
@@ -423,7 +427,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
 
 static Status pressed(Player *player, const Input *input)
 {
-    Mouse *mouse = &player->mouse;
+    Mouse *mouse = &player->hands.mouse;
     Under under = look(player);
     bool stage = under.hit.zone == ZONE_STAGE;
     const Scene *scene = player_simulation(player)->scene;
@@ -452,20 +456,22 @@ static Status pressed(Player *player, const Input *input)
  * and right click do. */
 static Status release(Player *player)
 {
-    Mouse *mouse = &player->mouse;
+    Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
     CommandKind drag = mouse->drag;
     int node = mouse->index;
     mouse->drag = COMMAND_NONE;
-    player->view.held.on = false;
+    player->screen.view.held.on = false;
     if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,
                     simulation->system.pinned[node] ? "frees" : "pins");
-    if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) && player->holds) {
-        player_emit(player, &(Command){.kind = COMMAND_RELEASE, .joins = true});
+    if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) &&
+        player->hands.holds) {
+        player_enqueue(player,
+                       &(Command){.kind = COMMAND_RELEASE, .joins = true});
         if (drag == COMMAND_GRAB && mouse->pins)
-            player_emit(
+            player_enqueue(
                 player,
                 &(Command){.kind = COMMAND_PIN, .number = node, .joins = true});
         return player_obey_waiting(player, false);
@@ -473,8 +479,8 @@ static Status release(Player *player)
     if (drag == COMMAND_SET && mouse->moved)
         player_deselect(player); /* a drag sets it, a click waits for keys */
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
-        player->lit && player->lit->kind == OPTION_NAME)
-        return change_pace(player, player->lit, 1);
+        player->hands.lit && player->hands.lit->kind == OPTION_NAME)
+        return change_pace(player, player->hands.lit, 1);
     return STATUS_OK;
 }
 
@@ -482,23 +488,24 @@ static Status wheeled(Player *player, double amount)
 {
     Under under = look(player);
     if (under.hit.zone == ZONE_SETTING &&
-        under.hit.index < player->frame.numbers)
-        return change_pace(player, player->frame.number[under.hit.index],
+        under.hit.index < player->screen.frame.numbers)
+        return change_pace(player, player->screen.frame.number[under.hit.index],
                            amount > 0 ? 1 : -1);
     if (under.hit.zone == ZONE_TIME)
         return ask(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
     if (under.hit.zone != ZONE_STAGE)
         return STATUS_OK;
-    lens_zoom(&player->view.lens, under.layout.pane[under.hit.index],
-              player->mouse.x, player->mouse.y, pow(WHEEL_ZOOM, amount));
-    player->changed = true;
+    lens_zoom(&player->screen.view.lens, under.layout.pane[under.hit.index],
+              player->hands.mouse.x, player->hands.mouse.y,
+              pow(WHEEL_ZOOM, amount));
+    player->screen.changed = true;
     return STATUS_OK;
 }
 
 /* The mouse is where the input says. */
 static Status mouse_used(Player *player, const Input *input)
 {
-    Mouse *mouse = &player->mouse;
+    Mouse *mouse = &player->hands.mouse;
     bool rests =
         !mouse->placed || (mouse->x == input->x && mouse->y == input->y);
     mouse->x = input->x;
@@ -518,24 +525,24 @@ static Status mouse_used(Player *player, const Input *input)
 /* A drag is one gesture, and so is a wheel that turns on. */
 Status player_input(Player *player, const Input *input)
 {
-    Mouse *mouse = &player->mouse;
+    Mouse *mouse = &player->hands.mouse;
     Command command;
     bool wheel = input->kind == INPUT_WHEEL;
     bool press = input->kind == INPUT_PRESS;
     Status status = STATUS_OK;
-    player->gesture = mouse->gesture;
+    player->orders.gesture = mouse->gesture;
     if (press && mouse->drag != COMMAND_NONE)
         status = release(player); /* by another button */
     if (!status)
-        status = player_obey_waiting(player, press && player->holds);
+        status = player_obey_waiting(player, press && player->hands.holds);
     if (status)
         return status;
     bool key = input->kind == INPUT_KEY && !input->repeats &&
                mouse->drag == COMMAND_NONE;
     if (press || key || (wheel && !mouse->turns))
-        mouse->gesture = ++player->gestures;
+        mouse->gesture = ++player->orders.gestures;
     mouse->turns = wheel;
-    player->gesture = mouse->gesture;
+    player->orders.gesture = mouse->gesture;
     switch (input->kind) {
     case INPUT_KEY:
         command =
@@ -548,12 +555,12 @@ Status player_input(Player *player, const Input *input)
     case INPUT_CLOSE:
         return ask(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:
-        player->view.hover = (Pick){.kind = PICK_NONE};
-        player->view.over = (Hit){.zone = ZONE_NONE};
-        player->changed = true;
+        player->screen.view.hover = (Pick){.kind = PICK_NONE};
+        player->screen.view.over = (Hit){.zone = ZONE_NONE};
+        player->screen.changed = true;
         return STATUS_OK;
     case INPUT_REDRAW:
-        player->changed = true;
+        player->screen.changed = true;
         return STATUS_OK;
     case INPUT_NONE:
         return STATUS_OK;

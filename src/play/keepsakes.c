@@ -18,7 +18,7 @@ static void free_name(const Player *player, const char *end, char *name,
 {
     char number[16] = "";
     for (int i = 2; i < 100000; i++) {
-        snprintf(name, size, "elasto_%s_%06ld%s%s", player->scene->name,
+        snprintf(name, size, "elasto_%s_%06ld%s%s", player->screen.scene->name,
                  player->past.step, number, end);
         if (access(name, F_OK) != 0)
             return;
@@ -30,11 +30,11 @@ static void free_name(const Player *player, const char *end, char *name,
 Status obey_shot(Player *player, const Command *command)
 {
     char name[80];
-    const bool draws = player->draws;
-    player->draws = true;
+    const bool draws = player->screen.draws;
+    player->screen.draws = true;
     Paper *paper = player_paper(player);
     Status status = paper ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    player->draws = draws;
+    player->screen.draws = draws;
     free_name(player, ".png", name, sizeof name);
     if (paper) {
         player_paint(player, paper);
@@ -53,14 +53,15 @@ Status obey_film(Player *player, const Command *command)
     char name[80], told[OUTPUT_TOLD] = "";
     Film *film = &player->recording.film;
     bool ends = film_runs(film);
-    if (!player->draws)
+    if (!player->screen.draws)
         return player_refuse(player, "nothing is drawn that could be filmed");
     free_name(player, ".mp4", name, sizeof name);
     film->output.told = told;
     Status status =
         ends ? film_close(film, KEEP_WHOLE) : film_open(name, told, film);
     film->output.told = player->recording.message;
-    player->sampled = -1; /* the present frame is the first, or drawn again */
+    player->screen.sampled =
+        -1; /* the present frame is the first, or drawn again */
     if (status)
         player_note(player, "no film: %s", told);
     else if (ends)
@@ -71,9 +72,9 @@ Status obey_film(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-int player_next_word(const Player *player, int i)
+int player_next_argument(const Player *player, int i)
 {
-    char *const *words = player->words;
+    char *const *words = player->given.words;
     const OptionRow *first = option_find("steps");
     for (; words && words[0] && words[i]; i++) {
         char name[32];
@@ -121,8 +122,8 @@ static char *make_line(const Player *player, const char *script)
     if (!file)
         return NULL;
     fputs("elasto", file);
-    for (int i = 0; (i = player_next_word(player, i + 1));)
-        put_word(file, player->words[i]);
+    for (int i = 0; (i = player_next_argument(player, i + 1));)
+        put_word(file, player->given.words[i]);
     if (script)
         fprintf(file, " --script %s", script);
     else
@@ -138,10 +139,10 @@ static char *make_line(const Player *player, const char *script)
 static Status write_journal(Player *player, const char *name, const char *line)
 {
     const Command pause = {.kind = COMMAND_PAUSE};
-    Script *journal = &player->journal;
+    Script *journal = &player->orders.journal;
     size_t count = journal->count;
     Status status = STATUS_OK;
-    if (!player_stands(player))
+    if (!player_is_stopped(player))
         status = script_add(journal, player->past.step, &pause, 0);
     if (!status)
         status = script_write(name, line, journal);
@@ -155,7 +156,7 @@ static Status write_journal(Player *player, const char *name, const char *line)
 Status obey_hash(Player *player, const Command *command)
 {
     char name[80], hash[64];
-    bool commands = player->journal.count > 0;
+    bool commands = player->orders.journal.count > 0;
     free_name(player, ".script", name, sizeof name);
     char *line = make_line(player, commands ? name : NULL);
     Status status = line ? STATUS_OK : STATUS_OUT_OF_MEMORY;

@@ -25,13 +25,13 @@ static bool is_number(const Player *player, const OptionRow *row)
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
 }
 
-int player_row(const Player *player, bool all,
-               const OptionRow *found[OPTIONS_MOST])
+int player_visible_options(const Player *player, bool all,
+                           const OptionRow *found[OPTIONS_MOST])
 {
     const Options options = player_numbers(player);
     int own = all ? 0 : options_row(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
-        bool more = all || player->added >> (row - option_rows) & 1;
+        bool more = all || player->hands.added >> (row - option_rows) & 1;
         more = more && is_number(player, row);
         for (int i = 0; i < own; i++)
             more = more && found[i] != row;
@@ -41,7 +41,7 @@ int player_row(const Player *player, bool all,
     return all || count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
 }
 
-const char *player_idle(const Player *player, const OptionRow *row)
+const char *player_idle_reason(const Player *player, const OptionRow *row)
 {
     const Simulation *simulation = player_simulation(player);
     bool minimises = simulation->scene->step;
@@ -67,13 +67,13 @@ Status obey_add(Player *player, const Command *command)
     const OptionRow *row = row_of(command);
     if (!row || !is_number(player, row))
         return player_refuse(player, "this scene has no such number");
-    const char *idle = player_idle(player, row);
+    const char *idle = player_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s: %s", row->name, idle);
-    player->added |= (uint64_t)1 << (row - option_rows);
-    player->column = COLUMN_CARDS;
+    player->hands.added |= (uint64_t)1 << (row - option_rows);
+    player->screen.column = COLUMN_CARDS;
     player_deselect(player);
-    player->lit = row;
+    player->hands.lit = row;
     player_note(player, "%s: %s; type a value and Enter", row->name, row->help);
     return STATUS_OK;
 }
@@ -82,39 +82,39 @@ Status obey_add(Player *player, const Command *command)
 Status obey_select(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
-    int next = 0, count = player_row(player, false, number);
+    int next = 0, count = player_visible_options(player, false, number);
     for (int i = 0; i < count; i++)
-        next = number[i] == player->lit ? i + 1 : next;
+        next = number[i] == player->hands.lit ? i + 1 : next;
     player_deselect(player);
-    player->lit = next < count ? number[next] : NULL;
+    player->hands.lit = next < count ? number[next] : NULL;
     return STATUS_OK;
 }
 
 /* One letter more or less.  The first one opens the field. */
 Status obey_type(Player *player, const Command *command)
 {
-    char *typed = player->typed;
-    bool list = player_lists(player),
+    char *typed = player->hands.typed;
+    bool list = player_has_list(player),
          shift = strncmp(command->text, "Shift+", 6) == 0;
     const char *key = command->text + (shift ? 6 : 0);
-    if (!player->typing)
+    if (!player->hands.typing)
         typed[0] = '\0';
-    player->typing = true;
+    player->hands.typing = true;
     size_t length = strlen(typed);
     if (strcmp(key, "Backspace") == 0)
         typed[length > 0 ? length - 1 : 0] = '\0';
     else if (strcmp(key, "Space") == 0)
-        append(typed, sizeof player->typed, " ");
+        append(typed, sizeof player->hands.typed, " ");
     else if (!key[1])
-        append(typed, sizeof player->typed, "%c",
+        append(typed, sizeof player->hands.typed, "%c",
                shift ? key[0] : tolower(key[0]));
-    if (player->lit)
+    if (player->hands.lit)
         player_note(player, "a number is typed: Enter sets it, Esc leaves it");
     else
         player_note(player, "%s %s_: Enter %s it, Esc leaves it",
-                    !list                              ? "your answer"
-                    : player->column == COLUMN_OPTIONS ? "number"
-                                                       : "page",
+                    !list                                     ? "your answer"
+                    : player->screen.column == COLUMN_OPTIONS ? "number"
+                                                              : "page",
                     typed, list ? "opens" : "checks");
     return STATUS_OK;
 }
@@ -153,10 +153,10 @@ Status obey_set(Player *player, const Command *command)
     if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE)
         return player_refuse(player, "there is no option '%s' with a value",
                              row ? row->name : command->text);
-    const char *idle = player_idle(player, row);
+    const char *idle = player_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s", idle);
-    bool one = player->opens || player_compares(player, row);
+    bool one = player->tour.opens || player_panes_differ(player, row);
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);
     player_options(player, options);
@@ -169,17 +169,17 @@ Status obey_set(Player *player, const Command *command)
     Command change = *command;
     change.x = options[player->active].number[row->slot];
     bool again =
-        (!past_is_given(&player->past) || player_machine(player)->failed) &&
+        (!past_is_start(&player->past) || player_machine(player)->failed) &&
         (row->effect == EFFECT_AGAIN ||
          (player_settings(player)->law && player->past.step > 0 &&
-          player_stands(player)) ||
-         (player->fine > 0 && player->side[player->active].place >= 0));
+          player_is_stopped(player)) ||
+         (player->time.fine > 0 && player->side[player->active].place >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)
         return player_begin_again(player, options, past_panes(&player->past),
                                   command);
     if (again && change.x != old)
-        return player_retake(player, &change, from, to);
-    return player_change(player, &change, from, to, false);
+        return player_repeat_step(player, &change, from, to);
+    return player_edit(player, &change, from, to, false);
 }
 
 Status player_paced(Player *player, const OptionRow *row, int paces,
@@ -196,14 +196,14 @@ Status player_paced(Player *player, const OptionRow *row, int paces,
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
-    if (player_row(player, false, number) == 0)
+    if (player_visible_options(player, false, number) == 0)
         return player_refuse(player, "there is no number to change here");
-    player->lit = player->lit ? player->lit : number[0];
+    player->hands.lit = player->hands.lit ? player->hands.lit : number[0];
     double value;
     int paces = command->kind == COMMAND_RAISE ? 1 : -1;
-    Status status = player_paced(player, player->lit, paces, &value);
+    Status status = player_paced(player, player->hands.lit, paces, &value);
     if (!status)
-        player_emit_set(player, player->lit, value);
+        player_enqueue_set(player, player->hands.lit, value);
     return status;
 }
 
@@ -216,10 +216,10 @@ Status obey_default(Player *player, const Command *command)
     int count;
     if (!row || !row->label)
         return player_refuse(player, "there is no such number");
-    Status status = player_own_options(player, now->scene->name, now->page,
-                                       options, &count);
+    Status status = player_default_options(player, now->scene->name, now->page,
+                                           options, &count);
     if (!status)
-        player_emit_set(player, row, options->number[row->slot]);
+        player_enqueue_set(player, row, options->number[row->slot]);
     return status;
 }
 
@@ -230,10 +230,10 @@ Status obey_switch(Player *player, const Command *command)
     bool search = command->kind == COMMAND_SEARCH;
     const OptionRow *row = option_find(search ? "line-search" : "projection");
     double off = search ? LINE_SEARCH_NONE : PROJECTION_NONE;
-    double on = player->given[0].number[row->slot];
+    double on = player->given.options[0].number[row->slot];
     if (on == off)
         on = search ? LINE_SEARCH_BACKTRACK : PROJECTION_CLAMP;
     bool was_off = player_settings(player)->number[row->slot] == off;
-    player_emit_set(player, row, was_off ? on : off);
+    player_enqueue_set(player, row, was_off ? on : off);
     return STATUS_OK;
 }

@@ -23,11 +23,11 @@ static Deed *const deeds[COMMAND_KINDS] = {
 static void begin_gesture(Player *player, const Command *command)
 {
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
-        player->gesture = player->held;
+        player->orders.gesture = player->orders.held;
     else if (!command->joins)
-        player->gesture = ++player->gestures;
+        player->orders.gesture = ++player->orders.gestures;
     if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
-        player->held = player->gesture;
+        player->orders.held = player->orders.gesture;
 }
 
 /* ---- obeying ------------------------------------------------------------- */
@@ -86,8 +86,8 @@ static Command meant_by(const Player *player, const Command *asked)
     const double *x = player_simulation(player)->run[0].x;
     Command meant = *asked;
     if (asked->kind == COMMAND_TOGGLE_PAUSE)
-        meant.kind = player_stands(player) ? COMMAND_PLAY : COMMAND_PAUSE;
-    if (asked->kind == COMMAND_NEXT && !player_veils(player) &&
+        meant.kind = player_is_stopped(player) ? COMMAND_PLAY : COMMAND_PAUSE;
+    if (asked->kind == COMMAND_NEXT && !player_hides_answer(player) &&
         player_settings(player)->next == NEXT_NEARER)
         meant =
             (Command){.kind = COMMAND_HANDLE, .x = 0.8 * x[0], .y = 0.8 * x[1]};
@@ -98,7 +98,7 @@ static Command meant_by(const Player *player, const Command *asked)
  * Returns whether they did. */
 static bool unveils(Player *player, const Command *command, Status *status)
 {
-    if (!player_veils(player) ||
+    if (!player_hides_answer(player) ||
         (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
         return false;
     *status = player_reveal(player, NULL);
@@ -110,24 +110,25 @@ static bool unveils(Player *player, const Command *command, Status *status)
  * waits any longer. */
 static Status obey_queue(Player *player, bool now)
 {
-    Queue queue = player->queue;
-    const bool opens = player->opens;
+    Queue queue = player->orders.queue;
+    const bool opens = player->tour.opens;
     Status status = STATUS_OK;
     int i = 0;
-    player->queue = (Queue){.count = 0};
+    player->orders.queue = (Queue){.count = 0};
     for (; i < queue.count && !status; i++) {
         const Command *command = &queue.command[i];
-        bool pulls = command->kind == COMMAND_RELEASE && player_pulls(player);
-        if (!now && (player->past.works || pulls))
+        bool pulls =
+            command->kind == COMMAND_RELEASE && player_pull_is_due(player);
+        if (!now && (past_works(&player->past) || pulls))
             break;
-        player->opens = opens || queue.of_page;
+        player->tour.opens = opens || queue.of_page;
         status = player_obey(player, command);
-        player->opens = opens;
+        player->tour.opens = opens;
     }
     if (!status && i == queue.count) {
         status = player_restore_pins(player, queue.pins);
         if (queue.plays)
-            player->mode = MODE_RUN;
+            player->time.mode = MODE_RUN;
         if (queue.note[0])
             player_note(player, "%s", queue.note);
         return status;
@@ -139,24 +140,24 @@ static Status obey_queue(Player *player, bool now)
     queue.count -= i;
     memmove(queue.command, queue.command + i,
             (size_t)queue.count * sizeof *queue.command);
-    player->queue = queue;
+    player->orders.queue = queue;
     return STATUS_OK;
 }
 
 Status player_obey_waiting(Player *player, bool now)
 {
-    return player_tell(player, obey_queue(player, now));
+    return player_report(player, obey_queue(player, now));
 }
 
 Status player_obey_page(Player *player)
 {
-    Status status = player_emit_page(player);
+    Status status = player_enqueue_page(player);
     return status ? status : obey_queue(player, false);
 }
 
 Status player_obey_lines(Player *player, const char *lines)
 {
-    Status status = player_emit_lines(player, lines);
+    Status status = player_enqueue_lines(player, lines);
     return status ? status : obey_queue(player, false);
 }
 
@@ -164,11 +165,11 @@ Status player_obey_lines(Player *player, const char *lines)
  * done behind it, but now. */
 static Status give_up(Player *player)
 {
-    int gesture = player->gesture;
+    int gesture = player->orders.gesture;
     past_aim(&player->past, player->past.step, false);
-    player->then = THEN_NOTHING;
+    player->time.after = AFTER_NOTHING;
     Status status = player_obey_waiting(player, true);
-    player->gesture = gesture;
+    player->orders.gesture = gesture;
     return status;
 }
 
@@ -182,23 +183,23 @@ static Status obey_one(Player *player, const Command *asked)
     const CommandRow *row = &command_rows[command.kind];
     unsigned flags = row->flags;
     begin_gesture(player, &command);
-    player->changed = true;
+    player->screen.changed = true;
     player->message[0] = '\0';
-    if (player->leaving != command.kind)
-        player->leaving = COMMAND_NONE;
-    if (!(flags & QUIET || (flags & LATEST && player->mouse.drag)))
+    if (player->orders.leaving != command.kind)
+        player->orders.leaving = COMMAND_NONE;
+    if (!(flags & QUIET || (flags & LATEST && player->hands.mouse.drag)))
         player->note[0] = '\0';
-    if (past->works && command.kind == COMMAND_NEXT)
+    if (past_works(past) && command.kind == COMMAND_NEXT)
         return STATUS_OK; /* it is on its way */
-    if (past->making && flags & LATEST &&
-        (player->mouse.drag || command.kind == COMMAND_DRAG)) {
-        player_emit(player, &command); /* a mouse holds up no step */
+    if (past_makes(past) && flags & LATEST &&
+        (player->hands.mouse.drag || command.kind == COMMAND_DRAG)) {
+        player_enqueue(player, &command); /* a mouse holds up no step */
         return STATUS_OK;
     }
     Status status = STATUS_OK;
     if (unveils(player, &command, &status))
         return status; /* the step is the next press */
-    if (past->works && !(flags & SCREEN)) {
+    if (past_works(past) && !(flags & SCREEN)) {
         status = give_up(player);
         if (command.kind == COMMAND_ESCAPE) {
             player_note(player, "given up: the last whole step stands");
@@ -206,15 +207,16 @@ static Status obey_one(Player *player, const Command *asked)
         }
     }
     status = status ? status : check_number(player, &command);
-    size_t at = player->journal.count;
+    size_t at = player->orders.journal.count;
     bool noted = !status && flags & KEPT; /* before what it does in turn */
-    if (noted && script_add(&player->journal, step, &command, player->gesture))
+    if (noted && script_add(&player->orders.journal, step, &command,
+                            player->orders.gesture))
         return STATUS_OUT_OF_MEMORY;
     if (!status)
         status = deeds[command.kind](player, &command);
-    bool worked = past->works;
+    bool worked = past_works(past);
     player_complete_line(player); /* of another pane, of a card that is open */
-    if (past->works && (!worked || !(flags & SCREEN))) {
+    if (past_works(past) && (!worked || !(flags & SCREEN))) {
         Status shown = player_work(player);
         status = status ? status : shown;
     }
@@ -223,10 +225,10 @@ static Status obey_one(Player *player, const Command *asked)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);
-    if (noted && player->journal.count == at + 1 &&
+    if (noted && player->orders.journal.count == at + 1 &&
         status == STATUS_INVALID_INPUT)
-        player->journal.count = at;
-    return player_bear(player, status);
+        player->orders.journal.count = at;
+    return player_tolerate_failure(player, status);
 }
 
 Status player_obey(Player *player, const Command *command)
@@ -245,6 +247,6 @@ Status player_continue(Player *player)
 
 Status player_step(Player *player)
 {
-    Status status = player_show(player, player->past.step + 1, THEN_NOTHING);
+    Status status = player_seek(player, player->past.step + 1, AFTER_NOTHING);
     return status ? status : player_continue(player);
 }

@@ -18,7 +18,8 @@ const char *output_reason(Status status)
                                         : strerror(errno ? errno : EIO);
 }
 
-Status output_tell(char *told, const char *name, Status status, const char *why)
+Status output_report(char *told, const char *name, Status status,
+                     const char *why)
 {
     if (told && !told[0])
         snprintf(told, OUTPUT_TOLD, "%s: %s", name,
@@ -26,9 +27,9 @@ Status output_tell(char *told, const char *name, Status status, const char *why)
     return status;
 }
 
-Status output_fail(const Output *output, const char *why)
+Status output_report_failure(const Output *output, const char *why)
 {
-    return output_tell(output->told, output->name, STATUS_FILE_FAILED, why);
+    return output_report(output->told, output->name, STATUS_FILE_FAILED, why);
 }
 
 /* ---- files --------------------------------------------------------------- */
@@ -49,7 +50,7 @@ Status output_open(const char *name, char *told, Output *output)
         snprintf(output->temporary, OUTPUT_NAME, "%.4096s.part", name);
         output->file = fopen(output->temporary, "wbe");
     }
-    return output->file ? STATUS_OK : output_fail(output, NULL);
+    return output->file ? STATUS_OK : output_report_failure(output, NULL);
 }
 
 /* Every call that can report a failed write is asked. */
@@ -68,7 +69,7 @@ Status output_close(Output *output, Keep keep)
     else if (beside && keep == KEEP_WHOLE && whole)
         whole = rename(output->temporary, output->name) == 0;
     output->file = NULL;
-    return whole ? STATUS_OK : output_fail(output, NULL);
+    return whole ? STATUS_OK : output_report_failure(output, NULL);
 }
 
 /* ---- rows ---------------------------------------------------------------- */
@@ -120,5 +121,6 @@ void table_add(Table *table, const double *value)
 Status table_check(const Table *table)
 {
     FILE *file = table->output.file;
-    return file && ferror(file) ? output_fail(&table->output, NULL) : STATUS_OK;
+    return file && ferror(file) ? output_report_failure(&table->output, NULL)
+                                : STATUS_OK;
 }

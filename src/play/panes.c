@@ -34,8 +34,8 @@ Status obey_method(Player *player, const Command *command)
     const IntegratorMethod *next = find_method(player, player->active);
     if (!next)
         return STATUS_INVALID_INPUT;
-    player_emit_set(player, option_find("integrator"),
-                    (double)(next - integrator_methods));
+    player_enqueue_set(player, option_find("integrator"),
+                       (double)(next - integrator_methods));
     return STATUS_OK;
 }
 
@@ -51,15 +51,15 @@ Status obey_add_pane(Player *player, const Command *command)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
     const IntegratorMethod *next =
-        player->opens ? run->method : find_method(player, panes - 1);
+        player->tour.opens ? run->method : find_method(player, panes - 1);
     if (!next)
         return STATUS_INVALID_INPUT;
     const Command change = {.kind = COMMAND_SET,
                             .number = option_find("integrator") - option_rows,
                             .x = (double)(next - integrator_methods)};
-    Status status = player_change(player, command, 0, 0, false);
-    if (!status && !player->opens)
-        status = player_change(player, &change, panes, panes + 1, false);
+    Status status = player_edit(player, command, 0, 0, false);
+    if (!status && !player->tour.opens)
+        status = player_edit(player, &change, panes, panes + 1, false);
     if (status)
         return status;
     player->active = panes;
@@ -72,5 +72,5 @@ Status obey_end_pane(Player *player, const Command *command)
 {
     if (past_panes(&player->past) < 2)
         return player_refuse(player, "there is only one");
-    return player_change(player, command, 0, 0, false);
+    return player_edit(player, command, 0, 0, false);
 }

@@ -75,7 +75,7 @@ static bool has_failed(const Entry *entry)
     return entry->substeps == 0 && is_failure(entry);
 }
 
-long past_ended(const Past *past, int pane, long step)
+long past_end_step(const Past *past, int pane, long step)
 {
     long last = step;
     while (last > 0 && has_failed(past_entry(past, pane, last)))
@@ -195,7 +195,7 @@ static Kept kept_of(const Past *past, int pane, long step)
                   i > 0 ? entry[-branch->panes].control : entry->control};
 }
 
-bool past_is_given(const Past *past)
+bool past_is_start(const Past *past)
 {
     return kept_of(past, 0, past->step).dragged;
 }
@@ -206,7 +206,7 @@ void past_history(const Past *past, int pane, History *history)
     long last = past_newest(past), stride = 1;
     while (last / stride > HISTORY_POINTS - 2)
         stride *= 2;
-    long ended = past_ended(past, pane, last);
+    long ended = past_end_step(past, pane, last);
     if (ended >= 0)
         last = ended;
     history->series = history->count = 0;
@@ -449,7 +449,7 @@ static void unmake(Past *past, int pane)
  * have left it stand nowhere. */
 static void stop_work(Past *past)
 {
-    if (!past->works)
+    if (past->work == WORK_DONE)
         return;
     for (int p = 0; p < past_panes(past); p++) {
         Machine *machine = &past->machine[p];
@@ -458,10 +458,10 @@ static void stop_work(Past *past)
             machine->stands = false;
         machine->iterating = false;
         machine->substeps = 0;
-        if (past->making)
+        if (past_makes(past))
             unmake(past, p);
     }
-    past->making = past->works = false;
+    past->work = WORK_DONE;
 }
 
 /* Whether it is the computer that cannot go on. */
@@ -489,7 +489,8 @@ static Status end_pane(Past *past, int pane, Status why)
     machine->substeps = 0;
     machine->outcome = past_entry(past, pane, last)->outcome;
     machine->outcome.status = past->worst = why;
-    past->made = true;
+    if (past_makes(past))
+        past->work = WORK_MADE;
     return arrive(past, pane);
 }
 
@@ -497,7 +498,7 @@ static Status end_pane(Past *past, int pane, Status why)
 static Status fail(Past *past, int pane, Status status)
 {
     Machine *machine = &past->machine[pane];
-    if (past->making && past->goes_on && past_panes(past) > 1 &&
+    if (past_makes(past) && past->goes_on && past_panes(past) > 1 &&
         !lacks(status)) {
         status = end_pane(past, pane, status);
         if (status == STATUS_RUNNING)
@@ -526,7 +527,8 @@ static Status arrive(Past *past, int pane)
         to->substeps = machine->substeps;
         to->outcome = machine->outcome;
     }
-    past->made = past->made || machine->substeps > 0;
+    if (past_makes(past) && machine->substeps > 0)
+        past->work = WORK_MADE;
     machine->substeps = 0;
     leave_step(past, pane);
     Kept kept = kept_of(past, pane, step);
@@ -562,7 +564,7 @@ static Status go_on(Past *past, int pane, Status status)
         return fail(past, pane, status);
     machine->known = past->keeps;
     machine->substeps += moved;
-    if (past->making && status)
+    if (past_makes(past) && status)
         past->worst = status;
     double middle = simulation_time(simulation) + 0.5 * pace_of(machine);
     const Entry *to = past_entry(past, pane, machine->step + 1);
@@ -593,7 +595,7 @@ static Status work_on(Past *past, int pane)
     if (to && is_failure(to))
         return end_pane(past, pane, to->outcome.status);
     if (past->keeps)
-        rounds_begin(&machine->rounds, &machine->simulation, past->again,
+        rounds_begin(&machine->rounds, &machine->simulation, past->walks,
                      pane == past->line);
     machine->before = machine->simulation.steps;
     machine->iterating = true;
@@ -615,46 +617,46 @@ static Status begin_making(Past *past)
         longest = pace;
         past->target = simulation_time(&machine->simulation) + pace;
     }
-    past->made = false;
     past->worst = STATUS_OK;
     if (make_room(past, present(past)))
         return fail(past, 0, STATUS_OUT_OF_MEMORY);
-    past->making = true;
+    past->work = WORK_MAKES;
     return STATUS_RUNNING;
 }
 
 /* All panes have come to the aim; none has, where every scene is at its end. */
 static Status end_work(Past *past)
 {
-    Status worst = past->making ? past->worst : STATUS_OK;
-    if (past->making && past->made) {
+    Status worst = past_makes(past) ? past->worst : STATUS_OK;
+    if (past->work == WORK_MADE) {
         present(past)->count++;
-    } else if (past->making) {
+    } else if (past->work == WORK_MAKES) {
         past->aim = past_newest(past);
         for (int p = 0; p < past_panes(past); p++)
             past->machine[p].step = past->aim;
         stop_work(past);
     }
-    past->making = past->works = false;
+    past->work = WORK_DONE;
     past->step = past->aim;
     return worst;
 }
 
 Status past_iterate(Past *past)
 {
-    if (!past->works)
+    if (past->work == WORK_DONE)
         return STATUS_OK;
     int panes = past_panes(past), pane = 0;
-    for (; past->from >= 0 && pane < panes; pane++) {
+    for (; past->work == WORK_LOADS && pane < panes; pane++) {
         Status status = load(past, pane, past->from);
         if (status)
             return fail(past, pane, status);
     }
-    past->from = -1;
+    if (past->work == WORK_LOADS)
+        past->work = WORK_REPEATS;
     /* One pane after the other makes its way to what is known, and then each
      * its part of a new step. */
     long newest = past_newest(past);
-    long goal = past->making || past->aim < newest ? past->aim : newest;
+    long goal = past_makes(past) || past->aim < newest ? past->aim : newest;
     for (pane = 0; pane < panes; pane++)
         if (past->machine[pane].iterating || past->machine[pane].step < goal)
             return work_on(past, pane);
@@ -695,8 +697,8 @@ void past_aim(Past *past, long step, bool again)
     long newest = past_newest(past);
     past->aim = step < 0 ? 0 : step > newest ? newest + 1 : step;
     past->from = past->aim < newest ? past->aim : newest;
-    past->works = true;
-    past->again = again;
+    past->work = WORK_LOADS;
+    past->walks = again;
     if (past->aim == 0 || past->aim > newest || !past->keeps ||
         !(again || is_short(past)))
         return;
@@ -708,7 +710,7 @@ void past_aim(Past *past, long step, bool again)
 
 void past_complete(Past *past, int place)
 {
-    bool whole = !past->works && past->line >= 0;
+    bool whole = past->work == WORK_DONE && past->line >= 0;
     for (int p = 0; p < past_panes(past); p++)
         whole = whole && !past->machine[p].failed;
     if (whole && past->machine[past->line].known &&

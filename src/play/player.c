@@ -22,22 +22,24 @@ static const double EARLY = 0.002; /* s, how early a frame may come */
 
 Status player_draw(Player *player)
 {
-    player->changed = false;
-    if (!player->draws)
+    player->screen.changed = false;
+    if (!player->screen.draws)
         return STATUS_OK;
-    if (player->past.works && !player->past.making) {
-        player->changed = true; /* as soon as it is there */
+    if (past_works(&player->past) && !past_makes(&player->past)) {
+        player->screen.changed = true; /* as soon as it is there */
         return STATUS_OK;
     }
     Paper *paper = player_paper(player);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
-    bool fresh = player->sampled != player->past.step;
+    bool fresh = player->screen.sampled != player->past.step;
     bool filmed = film_runs(&player->recording.film);
-    player->sampled = player->past.step;
+    player->screen.sampled = player->past.step;
     player_paint(player, paper);
-    Status status = player->size[0] ? STATUS_OK : window_show(&paper->canvas);
-    int shown = player->speed < 0 ? 1 << -player->speed : 1; /* in a film */
+    Status status =
+        player->screen.size[0] ? STATUS_OK : window_show(&paper->canvas);
+    int shown =
+        player->time.speed < 0 ? 1 << -player->time.speed : 1; /* in a film */
     if (!status && (fresh || filmed))
         status = recording_frame(&player->recording, &paper->canvas,
                                  player->past.step, shown);
@@ -48,16 +50,16 @@ Status player_draw(Player *player)
 
 bool player_ended(const Player *player)
 {
-    const Options *options = &player->given[0];
+    const Options *options = &player->given.options[0];
     const Simulation *simulation = &player->past.machine[0].simulation;
     bool counted = options->steps >= 0;
-    if (player->quit || *player->stop)
+    if (player->quit || *player->given.stop)
         return true;
-    if (!script_is_over(&player->script) || player->past.works)
+    if (!script_is_over(&player->given.script) || past_works(&player->past))
         return false;
     return (counted && player->past.step >= options->steps) ||
-           ((!player->window || counted) && simulation->done) ||
-           (!player->window && player_stands(player));
+           ((!player->screen.window || counted) && simulation->done) ||
+           (!player->screen.window && player_is_stopped(player));
 }
 
 /* All lines of the script that are due. */
@@ -66,8 +68,9 @@ static Status obey_script(Player *player)
     Status status = STATUS_OK;
     while (!status && !player->quit) {
         bool done = player->past.machine[0].simulation.done;
-        const Command *command = script_due(&player->script, player->past.step,
-                                            !player_stands(player) && !done);
+        const Command *command =
+            script_due(&player->given.script, player->past.step,
+                       !player_is_stopped(player) && !done);
         if (!command)
             break;
         status = player_obey(player, command);
@@ -78,7 +81,7 @@ static Status obey_script(Player *player)
             fprintf(stderr, "script: step %ld: '%s': %s\n", player->past.step,
                     line, player->message);
             player->message[0] = '\0';
-            player->refused = true;
+            player->orders.refused = true;
             status = STATUS_OK;
         }
     }
@@ -91,15 +94,18 @@ static Status step_frame(Player *player)
 {
     const Past *past = &player->past;
     Status status = STATUS_OK;
-    int count = player->window && player->speed > 0 ? 1 << player->speed : 1;
+    int count = player->screen.window && player->time.speed > 0
+                    ? 1 << player->time.speed
+                    : 1;
     double begin = count > 1 ? clock_now() : 0;
     for (int i = 0; i < count && !status; i++) {
         if (i > 0 && (player_ended(player) || clock_now() - begin > SLICE))
             break;
-        if (player_stands(player) && !past->works)
+        if (player_is_stopped(player) && !past_works(past))
             break;
-        status = past->works ? player_continue(player) : player_step(player);
-        if (past->works)
+        status =
+            past_works(past) ? player_continue(player) : player_step(player);
+        if (past_works(past))
             break;
         if (!status)
             status = obey_script(player);
@@ -109,50 +115,52 @@ static Status step_frame(Player *player)
 
 Status player_frame(Player *player)
 {
-    double period =
-        ldexp(1.0 / FRAME_RATE, player->speed < 0 ? -player->speed : 0);
+    double period = ldexp(1.0 / FRAME_RATE,
+                          player->time.speed < 0 ? -player->time.speed : 0);
     double start = clock_now();
     Status status = STATUS_OK;
-    while (player->window && !status && !player->quit) {
+    while (player->screen.window && !status && !player->quit) {
         Input input = window_input();
         if (input.kind == INPUT_NONE)
             break;
-        status = player_tell(player, player_input(player, &input));
+        status = player_report(player, player_input(player, &input));
     }
-    if (!status && !player->past.works)
+    if (!status && !past_works(&player->past))
         status = obey_script(player);
-    double now = player->window ? clock_now() : 0; /* else nobody waits */
-    if (player->sampled < 0) /* a new run: step 0 is a frame too */
-        player->due = now + period;
-    bool due = !player->window || now >= player->due - EARLY;
-    bool first = player->sampled < 0 && player->draws;
-    bool works = player->past.works;
-    bool begins = works && player->began > start; /* first that is drawn */
-    bool lives = player->sheet && player->window;
-    bool goes = !lives && !player_stands(player) && due && !first &&
+    double now =
+        player->screen.window ? clock_now() : 0; /* else nobody waits */
+    if (player->screen.sampled < 0) /* a new run: step 0 is a frame too */
+        player->time.due = now + period;
+    bool due = !player->screen.window || now >= player->time.due - EARLY;
+    bool first = player->screen.sampled < 0 && player->screen.draws;
+    bool works = past_works(&player->past);
+    bool begins = works && player->time.began > start; /* first that is drawn */
+    bool lives = player->screen.sheet && player->screen.window;
+    bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);
     if (!status && !begins && (works || goes)) {
         if (!works)
-            player->due = fmax(player->due + period, now);
+            player->time.due = fmax(player->time.due + period, now);
         status = step_frame(player);
     }
     if (lives && due) {
-        player->due = now + 1.0 / FRAME_RATE;
-        player_live(player);
+        player->time.due = now + 1.0 / FRAME_RATE;
+        sheet_advance(player);
     }
-    if (!status && !player->quit && player->changed)
+    if (!status && !player->quit && player->screen.changed)
         status = player_draw(player);
     return status;
 }
 
 int player_wait(const Player *player)
 {
-    bool stands = player_stands(player);
-    if (!player->window || player->past.works ||
-        (stands && !script_is_over(&player->script)))
+    bool stands = player_is_stopped(player);
+    if (!player->screen.window || past_works(&player->past) ||
+        (stands && !script_is_over(&player->given.script)))
         return 0;
-    double wait = stands && !player->sheet ? IDLE_WAIT
-                                           : 1e3 * (player->due - clock_now());
+    double wait = stands && !player->screen.sheet
+                      ? IDLE_WAIT
+                      : 1e3 * (player->time.due - clock_now());
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
 }
 
@@ -160,7 +168,7 @@ Status player_run(Player *player)
 {
     Status status = player_frame(player);
     while (!status && !player_ended(player)) {
-        if (player->window)
+        if (player->screen.window)
             window_wait(player_wait(player));
         status = player_frame(player);
     }
@@ -172,12 +180,13 @@ Status player_run(Player *player)
 /* A window; or if there is no screen, a surface for the frames. */
 static void open_view(Player *player)
 {
-    Options *options = &player->given[0];
+    Options *options = &player->given.options[0];
     char reason[256], shown[256];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
     if (!options->headless)
-        player->window = window_open("elasto", size, options->fullscreen);
-    if (!options->headless && !player->window) {
+        player->screen.window =
+            window_open("elasto", size, options->fullscreen);
+    if (!options->headless && !player->screen.window) {
         one_line(window_failure(), reason, sizeof reason);
         window_close();
         if (!options->frames && !options->film)
@@ -187,13 +196,14 @@ static void open_view(Player *player)
         fprintf(stderr, "no screen: %s; the frames go to %s%s\n", reason, shown,
                 options->frames ? "/" : "");
     }
-    if (!player->window && !options->script) {
+    if (!player->screen.window && !options->script) {
         options->steps = options->steps < 0 ? UNSEEN_STEPS : options->steps;
         options->paused = 0; /* nobody could go on */
     }
-    player->draws = player->window || options->frames || options->film;
-    for (int i = 0; i < 2 && !player->window; i++)
-        player->size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
+    player->screen.draws =
+        player->screen.window || options->frames || options->film;
+    for (int i = 0; i < 2 && !player->screen.window; i++)
+        player->screen.size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
 }
 
 Status player_create(const Options *options, int count, char *const *words,
@@ -201,35 +211,37 @@ Status player_create(const Options *options, int count, char *const *words,
 {
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
-    *player = (Player){.words = words,
-                       .stop = stop,
-                       .left = options->page,
+    *player = (Player){.given = {.words = words, .stop = stop},
+                       .tour.left = options->page,
                        .written = -1,
                        .booked = -1};
-    memcpy(player->given, options, (size_t)count * sizeof *options);
-    player->started = clock_now();
-    Status status = script_read(options->script, &player->script,
+    memcpy(player->given.options, options, (size_t)count * sizeof *options);
+    player->given.started = clock_now();
+    Status status = script_read(options->script, &player->given.script,
                                 player->message, sizeof player->message);
     if (status)
         return status;
     open_view(player);
-    player->asks = player->window && !options->script;
-    player->attended = player->window || options->script || options->page;
-    options = player->given;
-    if (options->paused || (player->asks && options->steps < 0 &&
+    player->given.asks = player->screen.window && !options->script;
+    player->given.attended =
+        player->screen.window || options->script || options->page;
+    options = player->given.options;
+    if (options->paused || (player->given.asks && options->steps < 0 &&
                             (options->page || options->scene->explains)))
-        player->mode = MODE_PAUSE;
-    status = recording_open(&player->given[0], count, &player->recording);
-    past_create(player->attended || player->draws,
-                player->attended && options->steps < 0, &player->past);
+        player->time.mode = MODE_PAUSE;
+    status =
+        recording_open(&player->given.options[0], count, &player->recording);
+    past_create(player->given.attended || player->screen.draws,
+                player->given.attended && options->steps < 0, &player->past);
     if (!status)
-        status = player_begin(player, player->given, count, &begin);
-    if (!status && player_stands(player)) /* scripts begin to run */
-        status = script_add(&player->journal, 0, &pause, 0);
+        status =
+            player_begin_runs(player, player->given.options, count, &begin);
+    if (!status && player_is_stopped(player)) /* scripts begin to run */
+        status = script_add(&player->orders.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
-    if (!status && player->asks && options->page)
+    if (!status && player->given.asks && options->page)
         status = player_obey_page(player);
-    else if (!status && player->asks &&
+    else if (!status && player->given.asks &&
              simulation_is_draggable(player_simulation(player)))
         player_note(player,
                     "pull at a %s with the mouse%s; G: scenes; Page "
@@ -241,15 +253,15 @@ Status player_create(const Options *options, int count, char *const *words,
 
 static void close_view(Player *player)
 {
-    paper_free(&player->paper);
+    paper_free(&player->screen.paper);
     window_close();
-    player->draws = false;
+    player->screen.draws = false;
 }
 
 Status player_finish(Player *player, Status status)
 {
     if (player->past.branches > 0) {
-        Status rest = player_write_rest(player);
+        Status rest = player_write_remaining(player);
         status = status ? status : rest;
     }
     Keep keep = player->written < 0 ? KEEP_NOTHING
@@ -265,9 +277,9 @@ void player_free(Player *player)
     close_view(player);
     recording_close(&player->recording, KEEP_NOTHING);
     past_free(&player->past);
-    player_leave_step(player);
-    player_close_sheet(player);
-    control_drop(player->queue.pins);
-    script_free(&player->script);
-    script_free(&player->journal);
+    player_forget_step(player);
+    sheet_close(player);
+    control_drop(player->orders.queue.pins);
+    script_free(&player->given.script);
+    script_free(&player->orders.journal);
 }

@@ -27,15 +27,15 @@ Options player_numbers(const Player *player);
 
 /* The options of a scene or, where it has one, of a page: those of the command
  * line where it was called for, else its own.  count out: of panes. */
-Status player_own_options(Player *player, const char *scene,
-                          const LecturePage *page, Options *options,
-                          int *count);
+Status player_default_options(Player *player, const char *scene,
+                              const LecturePage *page, Options *options,
+                              int *count);
 
 /* Whether the panes have different values of this option. */
-bool player_compares(const Player *player, const OptionRow *row);
+bool player_panes_differ(const Player *player, const OptionRow *row);
 
 /* Whether no step is made by itself. */
-bool player_stands(const Player *player);
+bool player_is_stopped(const Player *player);
 
 /* Whether a single factor takes longer than a slice. */
 bool player_is_slow(const Player *player);
@@ -48,25 +48,25 @@ int player_line_pane(const Player *player);
 void player_complete_line(Player *player);
 
 /* Whether no step was made yet with where the hand is, and one will be. */
-bool player_pulls(const Player *player);
+bool player_pull_is_due(const Player *player);
 
 /* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, or the scene where
  * somebody attends, else one step a frame through time, and iterations one at a
  * time. */
-int player_first_speed(const Player *player, const Options *options);
+int player_initial_speed(const Player *player, const Options *options);
 
 /* Whether the page in the window waits for a guess. */
-bool player_veils(const Player *player);
+bool player_hides_answer(const Player *player);
 
 /* Whether a list is open whose lines have numbers. */
-bool player_lists(const Player *player);
+bool player_has_list(const Player *player);
 
 /* Without a number that is lit or typed. */
 void player_deselect(Player *player);
 
 /* A value as the row of numbers shows it. */
-void player_value(const OptionRow *row, const Options *options,
-                  const Simulation *simulation, char *text, size_t size);
+void player_format_value(const OptionRow *row, const Options *options,
+                         const Simulation *simulation, char *text, size_t size);
 
 /* A line below the picture. */
 void player_note(Player *player, const char *format, ...);
@@ -77,31 +77,31 @@ void player_note(Player *player, const char *format, ...);
     refuse((Refusal){(player)->message, sizeof(player)->message}, __VA_ARGS__)
 
 /* INVALID_INPUT becomes a line below the picture; returns any other status. */
-Status player_tell(Player *player, Status status);
+Status player_report(Player *player, Status status);
 
 /* Somebody has asked for a pause. */
-void player_stop(Player *player);
+void player_pause(Player *player);
 
 /* Where somebody attends, a step that failed is only shown.  Returns OK, or the
  * status of what ends the run. */
-Status player_bear(Player *player, Status status);
+Status player_tolerate_failure(Player *player, Status status);
 
 /* Commands for the queue: one; an option, undone together with the present
  * command; several with a ; between them, alike, NULL: none. */
-void player_emit(Player *player, const Command *command);
-void player_emit_set(Player *player, const OptionRow *row, double value);
-Status player_emit_lines(Player *player, const char *lines);
+void player_enqueue(Player *player, const Command *command);
+void player_enqueue_set(Player *player, const OptionRow *row, double value);
+Status player_enqueue_lines(Player *player, const char *lines);
 
 /* ---- steps.c ------------------------------------------------------------- */
 
 /* New runs with these options, from step 0; files begin anew. */
-Status player_begin(Player *player, const Options *options, int count,
-                    const Command *edit);
+Status player_begin_runs(Player *player, const Options *options, int count,
+                         const Command *edit);
 
 /* A change from here on in panes from ... to - 1; again: the step that is shown
  * is to be made once more with it. */
-Status player_change(Player *player, const Command *change, int from, int to,
-                     bool again);
+Status player_edit(Player *player, const Command *change, int from, int to,
+                   bool again);
 
 /* Iterates until the step that is wanted is shown, or the slice of time of a
  * frame is over. */
@@ -109,18 +109,19 @@ Status player_work(Player *player);
 
 /* Wants a step shown, the newest one or one before it, or the next new one.
  * player_work follows, after a deed by itself. */
-Status player_show(Player *player, long step, Then then);
+Status player_seek(Player *player, long step, AfterWork after);
 
 /* A change in panes from ... to - 1, and the present step once more with it,
  * from its own start; what it was before stays as a ghost of the active pane.
  */
-Status player_retake(Player *player, const Command *change, int from, int to);
+Status player_repeat_step(Player *player, const Command *change, int from,
+                          int to);
 
 /* What goes whenever another step is shown. */
-void player_leave_step(Player *player);
+void player_forget_step(Player *player);
 
 /* What tables still lack of the past that is shown. */
-Status player_write_rest(Player *player);
+Status player_write_remaining(Player *player);
 
 /* ---- start.c ------------------------------------------------------------- */
 
@@ -133,7 +134,7 @@ Status player_begin_again(Player *player, const Options *options, int panes,
 Status player_restore_pins(Player *player, const Control *before);
 
 /* What the page does when it opens goes into the queue. */
-Status player_emit_page(Player *player);
+Status player_enqueue_page(Player *player);
 
 /* What a page asks for is shown from now on, beside the number that was typed,
  * or NULL; the page's commands for that go into the queue. */
@@ -143,11 +144,11 @@ Status player_reveal(Player *player, const char *typed);
 
 /* The numbers of the row, those of the table and those that were added; or all
  * that the scene has.  Returns how many. */
-int player_row(const Player *player, bool all,
-               const OptionRow *found[OPTIONS_MOST]);
+int player_visible_options(const Player *player, bool all,
+                           const OptionRow *found[OPTIONS_MOST]);
 
 /* Why a number has no meaning now; NULL: it has one. */
-const char *player_idle(const Player *player, const OptionRow *row);
+const char *player_idle_reason(const Player *player, const OptionRow *row);
 
 /* The number so many paces up, into value. */
 Status player_paced(Player *player, const OptionRow *row, int paces,
@@ -156,15 +157,15 @@ Status player_paced(Player *player, const OptionRow *row, int paces,
 /* ---- panes.c, bodies.c have deeds alone; sheet.c ------------------------- */
 
 /* The scenes on the sheet go on for a slice of time, where it is open. */
-void player_live(Player *player);
+void sheet_advance(Player *player);
 
 /* What is drawn of the open sheet; the sheet is closed. */
 void sheet_fill(const Player *player, Show *show);
-void player_close_sheet(Player *player);
+void sheet_close(Player *player);
 
 /* ---- frame.c ------------------------------------------------------------- */
 
-/* Fills player->frame, and finds what is under a mouse that rests. */
+/* Fills player->screen.frame, and finds what is under a mouse that rests. */
 void player_fill(Player *player);
 
 /* The paper, in the size that it has now; NULL: nothing is drawn, or there is

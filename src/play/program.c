@@ -77,7 +77,7 @@ static int print_information(const Options *options)
 /* What a user can do about a failure. */
 static const char *advice(const Player *player, Status status)
 {
-    bool time = player->given[0].scene->needs & NEEDS_TIME;
+    bool time = player->given.options[0].scene->needs & NEEDS_TIME;
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE
                ? "; try fewer --segments"
            : status == STATUS_NOT_POSITIVE_DEFINITE ? "; try --projection clamp"
@@ -204,7 +204,7 @@ static void print_summary(FILE *file, const Player *player)
                         simulation->reasons[i]);
         fputs(panes > 1 ? "\n\n" : "\n", file);
     }
-    print(file, "wall time", "%.3f s", clock_now() - player->started);
+    print(file, "wall time", "%.3f s", clock_now() - player->given.started);
     if (recording->folder)
         print(file, "frames written", "%ld, in %s/", recording->frames,
               recording->folder);
@@ -243,11 +243,11 @@ int program_end(Player *player, Status status)
     if (status)
         return report_failure(player, status);
     errno = 0;
-    if (!player->given[0].quiet)
+    if (!player->given.options[0].quiet)
         print_summary(player->recording.standard ? stderr : stdout, player);
     print_older(&player->recording);
     int code = check_output();
-    if (code == EXIT_FINE && player->refused)
+    if (code == EXIT_FINE && player->orders.refused)
         return EXIT_MISUSED;
     for (int i = 0; i < past_panes(&player->past) && code == EXIT_FINE; i++) {
         const Simulation *simulation = &player->past.machine[i].simulation;

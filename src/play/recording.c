@@ -134,7 +134,7 @@ Status png_file_write(const char *name, char *told, const Canvas *canvas)
     status = png_write(output.file, canvas);
     if (!status)
         return output_close(&output, KEEP_WHOLE);
-    output_tell(told, name, status, NULL);
+    output_report(told, name, status, NULL);
     output_close(&output, KEEP_PART);
     return status;
 }
@@ -204,7 +204,7 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     char *told = recording->message;
     Status status = STATUS_OK;
     if (folder && mkdir(folder, 0777) && errno != EEXIST)
-        status = output_tell(told, folder, STATUS_FILE_FAILED, NULL);
+        status = output_report(told, folder, STATUS_FILE_FAILED, NULL);
     if (!status && folder)
         find_older(recording);
     if (!status && options->film)

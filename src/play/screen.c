@@ -14,8 +14,8 @@ static bool has_work(const Player *player)
 {
     static const double LONG = 60; /* s */
     const Past *past = &player->past;
-    return past->now > 0 ||
-           (past_newest(past) > 0 && clock_now() - player->started > LONG);
+    return past->now > 0 || (past_newest(past) > 0 &&
+                             clock_now() - player->given.started > LONG);
 }
 
 /* Speed, which doubles or halves; what is on or off; which pane's numbers are
@@ -24,22 +24,22 @@ Status obey_screen(Player *player, const Command *command)
 {
     switch (command->kind) {
     case COMMAND_FASTER:
-        player->speed += player->speed < SPEED_MOST;
+        player->time.speed += player->time.speed < SPEED_MOST;
         break;
     case COMMAND_SLOWER:
-        player->speed -= player->speed > SPEED_LEAST;
+        player->time.speed -= player->time.speed > SPEED_LEAST;
         break;
     case COMMAND_COLOURS:
-        player->strain = !player->strain;
+        player->screen.strain = !player->screen.strain;
         break;
     case COMMAND_BARE:
-        player->bare = !player->bare;
+        player->screen.bare = !player->screen.bare;
         break;
     case COMMAND_BLANK:
-        player->blank = !player->blank;
+        player->screen.blank = !player->screen.blank;
         break;
     case COMMAND_FULL:
-        if (player->window)
+        if (player->screen.window)
             window_set_full(!window_is_full());
         break;
     case COMMAND_PANE:
@@ -64,8 +64,9 @@ Status obey_column(Player *player, const Command *command)
     if (column == COLUMN_CODE && !player_settings(player)->page)
         return player_refuse(player, "only pages of the lecture have code: "
                                      "Page Down opens them");
-    player->column = player->column == column ? COLUMN_CARDS : column;
-    player_close_sheet(player);
+    player->screen.column =
+        player->screen.column == column ? COLUMN_CARDS : column;
+    sheet_close(player);
     player_deselect(player);
     return STATUS_OK;
 }
@@ -73,9 +74,9 @@ Status obey_column(Player *player, const Command *command)
 /* Ends the program; the key asks first where there is something to lose. */
 Status obey_quit(Player *player, const Command *command)
 {
-    bool key = command->text[0] != '\0', asked = player->leaving;
+    bool key = command->text[0] != '\0', asked = player->orders.leaving;
     player->quit = !key || asked || !has_work(player);
-    player->leaving = COMMAND_QUIT;
+    player->orders.leaving = COMMAND_QUIT;
     if (!player->quit)
         player_note(player, "Q once more ends the program; Y writes down first "
                             "what leads here");
@@ -86,27 +87,27 @@ Status obey_quit(Player *player, const Command *command)
  * something to lose. */
 Status obey_escape(Player *player, const Command *command)
 {
-    bool asked = player->leaving == COMMAND_ESCAPE;
-    player->leaving = COMMAND_NONE;
-    if (player->blank)
-        player->blank = false;
-    else if (player->sheet)
-        player_close_sheet(player);
-    else if (player->column == COLUMN_KEYS)
-        player->column = COLUMN_CARDS;
-    else if (player->lit)
+    bool asked = player->orders.leaving == COMMAND_ESCAPE;
+    player->orders.leaving = COMMAND_NONE;
+    if (player->screen.blank)
+        player->screen.blank = false;
+    else if (player->screen.sheet)
+        sheet_close(player);
+    else if (player->screen.column == COLUMN_KEYS)
+        player->screen.column = COLUMN_CARDS;
+    else if (player->hands.lit)
         player_deselect(player);
-    else if (player->column)
-        player->column = COLUMN_CARDS;
-    else if (player->window && window_is_full())
+    else if (player->screen.column)
+        player->screen.column = COLUMN_CARDS;
+    else if (player->screen.window && window_is_full())
         window_set_full(false);
     else if (has_work(player))
         player_note(player, "nothing is open; Q ends the program");
     else if (asked)
         player->quit = true;
     else
-        player->leaving = COMMAND_ESCAPE;
-    if (player->leaving)
+        player->orders.leaving = COMMAND_ESCAPE;
+    if (player->orders.leaving)
         player_note(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;
 }
@@ -116,8 +117,8 @@ Status obey_escape(Player *player, const Command *command)
 Status obey_camera(Player *player, const Command *command)
 {
     const Paper *paper = player_paper(player);
-    const Show *show = &player->frame.show;
-    Lens *lens = &player->view.lens;
+    const Show *show = &player->screen.frame.show;
+    Lens *lens = &player->screen.view.lens;
     if (command->kind == COMMAND_FIT)
         *lens = LENS_FITS;
     if (command->kind == COMMAND_FIT || !paper)
@@ -144,11 +145,11 @@ Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
     player_fill(player);
-    bool closed = player->frame.show.closed >> card & 1;
+    bool closed = player->screen.frame.show.closed >> card & 1;
     if (command->kind == COMMAND_CARD || closed) /* its title opens it */
-        player->closed ^= 1u << card;
+        player->screen.closed ^= 1u << card;
     else
-        player->large = player->large == card ? -1 : card;
+        player->screen.large = player->screen.large == card ? -1 : card;
     return STATUS_OK;
 }
 
@@ -156,8 +157,8 @@ Status obey_card(Player *player, const Command *command)
  * its left, or above it and not to its right. */
 Status obey_choose(Player *player, const Command *command)
 {
-    const Show *show = &player->frame.show;
-    int *chosen = &player->view.chosen;
+    const Show *show = &player->screen.frame.show;
+    int *chosen = &player->screen.view.chosen;
     const Paper *paper = player_paper(player);
     const char *key = command->text;
     bool up = strcmp(key, "Up") == 0, upright = up || strcmp(key, "Down") == 0;

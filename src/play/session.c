@@ -50,10 +50,11 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
     return past_panes(past);
 }
 
-Status player_own_options(Player *player, const char *scene,
-                          const LecturePage *page, Options *options, int *count)
+Status player_default_options(Player *player, const char *scene,
+                              const LecturePage *page, Options *options,
+                              int *count)
 {
-    const Options *given = &player->given[0];
+    const Options *given = &player->given.options[0];
     *count = 1;
     Status status = page ? lecture_options(page, options, player->message,
                                            sizeof player->message)
@@ -72,7 +73,7 @@ Status player_own_options(Player *player, const char *scene,
     return STATUS_OK;
 }
 
-bool player_compares(const Player *player, const OptionRow *row)
+bool player_panes_differ(const Player *player, const OptionRow *row)
 {
     const Past *past = &player->past;
     bool differ = false;
@@ -82,9 +83,9 @@ bool player_compares(const Player *player, const OptionRow *row)
     return differ;
 }
 
-bool player_stands(const Player *player)
+bool player_is_stopped(const Player *player)
 {
-    return player->mode >= MODE_PAUSE;
+    return player->time.mode >= MODE_PAUSE;
 }
 
 uint64_t player_hash(const Player *player)
@@ -104,8 +105,9 @@ bool player_is_slow(const Player *player)
 
 int player_line_pane(const Player *player)
 {
-    return player->draws && !player->bare &&
-                   show_needs_line(player_simulation(player), player->closed)
+    return player->screen.draws && !player->screen.bare &&
+                   show_needs_line(player_simulation(player),
+                                   player->screen.closed)
                ? player->active
                : -1;
 }
@@ -116,16 +118,17 @@ void player_complete_line(Player *player)
     past_complete(&player->past, player->side[player->active].place);
 }
 
-bool player_pulls(const Player *player)
+bool player_pull_is_due(const Player *player)
 {
-    return player->past.making ||
-           (!player_stands(player) && player->past.step <= player->pulled);
+    return past_makes(&player->past) ||
+           (!player_is_stopped(player) &&
+            player->past.step <= player->hands.pulled);
 }
 
-int player_first_speed(const Player *player, const Options *options)
+int player_initial_speed(const Player *player, const Options *options)
 {
     double speed = options->speed;
-    if (speed == 0 && !options->page && player->attended)
+    if (speed == 0 && !options->page && player->given.attended)
         speed = options->scene->speed;
     if (speed > 0)
         return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));
@@ -134,29 +137,29 @@ int player_first_speed(const Player *player, const Options *options)
 
 /* ---- the window ---------------------------------------------------------- */
 
-bool player_veils(const Player *player)
+bool player_hides_answer(const Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
-    return page && page->ask && player->told != page && player->asks &&
-           !player->opens;
+    return page && page->ask && player->tour.revealed != page &&
+           player->given.asks && !player->tour.opens;
 }
 
 /* Whether a list is open whose lines have numbers. */
-bool player_lists(const Player *player)
+bool player_has_list(const Player *player)
 {
-    return player->column == COLUMN_PAGES || player->column == COLUMN_OPTIONS ||
-           player->sheet;
+    return player->screen.column == COLUMN_PAGES ||
+           player->screen.column == COLUMN_OPTIONS || player->screen.sheet;
 }
 
 void player_deselect(Player *player)
 {
-    player->lit = NULL;
-    player->typing = false;
-    player->typed[0] = '\0';
+    player->hands.lit = NULL;
+    player->hands.typing = false;
+    player->hands.typed[0] = '\0';
 }
 
-void player_value(const OptionRow *row, const Options *options,
-                  const Simulation *simulation, char *text, size_t size)
+void player_format_value(const OptionRow *row, const Options *options,
+                         const Simulation *simulation, char *text, size_t size)
 {
     char value[COMMAND_TEXT_SIZE], unit[16];
     option_unit(row, unit, sizeof unit);
@@ -187,10 +190,10 @@ void player_note(Player *player, const char *format, ...)
     vsnprintf(player->note, sizeof player->note, format, arguments);
     va_end(arguments);
     player->warning = player->explains = false;
-    player->changed = true;
+    player->screen.changed = true;
 }
 
-Status player_tell(Player *player, Status status)
+Status player_report(Player *player, Status status)
 {
     if (status != STATUS_INVALID_INPUT)
         return status;
@@ -199,20 +202,21 @@ Status player_tell(Player *player, Status status)
     return STATUS_OK;
 }
 
-void player_stop(Player *player)
+void player_pause(Player *player)
 {
-    if (!player_stands(player))
-        player->mode = MODE_PAUSE;
+    if (!player_is_stopped(player))
+        player->time.mode = MODE_PAUSE;
 }
 
-Status player_bear(Player *player, Status status)
+Status player_tolerate_failure(Player *player, Status status)
 {
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
                  status == STATUS_INVALID_INPUT ||
                  status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
-    if (!status || fatal || !player->attended || player->given[0].steps >= 0)
+    if (!status || fatal || !player->given.attended ||
+        player->given.options[0].steps >= 0)
         return status;
-    player_stop(player);
+    player_pause(player);
     return STATUS_OK;
 }
 
@@ -220,9 +224,9 @@ Status player_bear(Player *player, Status status)
 
 /* A command that waits until the present one is obeyed and no step is under
  * way.  Of the positions of one drag the last one counts. */
-void player_emit(Player *player, const Command *command)
+void player_enqueue(Player *player, const Command *command)
 {
-    Queue *queue = &player->queue;
+    Queue *queue = &player->orders.queue;
     Command *last = &queue->command[queue->count - 1];
     bool covers = command_rows[command->kind].flags & LATEST;
     if (queue->count > 0 && covers && last->kind == command->kind &&
@@ -232,15 +236,15 @@ void player_emit(Player *player, const Command *command)
         queue->command[queue->count++] = *command;
 }
 
-void player_emit_set(Player *player, const OptionRow *row, double value)
+void player_enqueue_set(Player *player, const OptionRow *row, double value)
 {
-    player_emit(player, &(Command){.kind = COMMAND_SET,
-                                   .number = row - option_rows,
-                                   .x = value,
-                                   .joins = true});
+    player_enqueue(player, &(Command){.kind = COMMAND_SET,
+                                      .number = row - option_rows,
+                                      .x = value,
+                                      .joins = true});
 }
 
-Status player_emit_lines(Player *player, const char *lines)
+Status player_enqueue_lines(Player *player, const char *lines)
 {
     Status status = STATUS_OK;
     while (lines && *lines && !status) {
@@ -252,7 +256,7 @@ Status player_emit_lines(Player *player, const char *lines)
         status = command_parse(line, &command, player->message,
                                sizeof player->message);
         if (!status)
-            player_emit(player, &command);
+            player_enqueue(player, &command);
     }
     return status;
 }

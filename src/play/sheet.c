@@ -23,13 +23,13 @@ typedef struct Sheet {
     Simulation simulation[LAYOUT_CELLS];
 } Sheet;
 
-void player_close_sheet(Player *player)
+void sheet_close(Player *player)
 {
-    Sheet *sheet = player->sheet;
+    Sheet *sheet = player->screen.sheet;
     for (int i = 0; sheet && i < sheet->cells; i++)
         simulation_free(&sheet->simulation[i]);
     free(sheet);
-    player->sheet = NULL;
+    player->screen.sheet = NULL;
 }
 
 /* All scenes but those by name, or the run again.  The open scene is chosen,
@@ -37,22 +37,22 @@ void player_close_sheet(Player *player)
 Status obey_sheet(Player *player, const Command *command)
 {
     const Options *options = player_settings(player);
-    bool opens = !player->sheet;
-    player_close_sheet(player);
+    bool opens = !player->screen.sheet;
+    sheet_close(player);
     player_deselect(player);
     if (!opens)
         return STATUS_OK;
-    player->sheet = calloc(1, sizeof *player->sheet);
-    if (!player->sheet)
+    player->screen.sheet = calloc(1, sizeof *player->screen.sheet);
+    if (!player->screen.sheet)
         return STATUS_OUT_OF_MEMORY;
     int cells = 1; /* the first one is the tour's */
     while (cells < LAYOUT_CELLS && scenes[cells - 1].name &&
            !scenes[cells - 1].by_name)
         cells++;
-    player->sheet->cells = cells;
-    player->view.chosen = options->page || options->scene->by_name
-                              ? 0
-                              : (int)(options->scene - scenes) + 1;
+    player->screen.sheet->cells = cells;
+    player->screen.view.chosen = options->page || options->scene->by_name
+                                     ? 0
+                                     : (int)(options->scene - scenes) + 1;
     return STATUS_OK;
 }
 
@@ -75,9 +75,9 @@ static void begin_cell(Sheet *sheet, int i)
         simulation_free(simulation);
 }
 
-void player_live(Player *player)
+void sheet_advance(Player *player)
 {
-    Sheet *sheet = player->sheet;
+    Sheet *sheet = player->screen.sheet;
     double begin = clock_now();
     if (!sheet)
         return;
@@ -93,12 +93,12 @@ void player_live(Player *player)
             simulation_step(simulation);
         sheet->next = (cell + 1) % sheet->cells;
     }
-    player->changed = true;
+    player->screen.changed = true;
 }
 
 void sheet_fill(const Player *player, Show *show)
 {
-    const Sheet *sheet = player->sheet;
+    const Sheet *sheet = player->screen.sheet;
     show->cells = sheet->cells;
     for (int i = 0; i < sheet->cells; i++) {
         const Scene *scene = &scenes[i > 0 ? i - 1 : 0];
@@ -107,7 +107,7 @@ void sheet_fill(const Player *player, Show *show)
             (SheetCell){.name = i > 0 ? scene->name : "the guided tour",
                         .group = i == 1 ? NULL : scene->group,
                         .simulation = simulation->scene ? simulation : NULL};
-        if (i == player->view.chosen)
+        if (i == player->screen.view.chosen)
             snprintf(show->sentence, SHOW_TEXT, "%s: %s", show->cell[i].name,
                      i > 0 ? scene->sentence : "the lecture, page by page");
     }
@@ -121,11 +121,11 @@ void sheet_fill(const Player *player, Show *show)
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";
-    int cell = player->view.chosen;
+    int cell = player->screen.view.chosen;
     bool behind = cell == 0 && player_settings(player)->page;
     if (cell > 0)
         snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);
-    player_close_sheet(player);
+    sheet_close(player);
     player_deselect(player);
-    return behind ? STATUS_OK : player_emit_lines(player, line);
+    return behind ? STATUS_OK : player_enqueue_lines(player, line);
 }

@@ -21,18 +21,19 @@ Status obey_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     int count;
-    bool runs = player->mode >= MODE_END || !player_stands(player);
+    bool runs = player->time.mode >= MODE_END || !player_is_stopped(player);
     Status status =
-        player_own_options(player, command->text, NULL, options, &count);
+        player_default_options(player, command->text, NULL, options, &count);
     if (!status)
-        status = player_begin(player, options, count, command);
+        status = player_begin_runs(player, options, count, command);
     if (status)
         return status;
-    player_close_sheet(player);
-    bool explains = options->scene->explains && !player->given[0].script;
-    player->mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
-    if (player->column != COLUMN_KEYS)
-        player->column = COLUMN_CARDS;
+    sheet_close(player);
+    bool explains =
+        options->scene->explains && !player->given.options[0].script;
+    player->time.mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
+    if (player->screen.column != COLUMN_KEYS)
+        player->screen.column = COLUMN_CARDS;
     return STATUS_OK;
 }
 
@@ -50,7 +51,7 @@ static bool opens_again(Player *player, const Options *now)
 /* Whether the page runs once its answer is shown. */
 static bool plays_again(const Player *player, const LecturePage *page)
 {
-    return page && page == player->told && page->tell &&
+    return page && page == player->tour.revealed && page->tell &&
            strstr(page->tell, "play");
 }
 
@@ -92,8 +93,8 @@ Status player_restore_pins(Player *player, const Control *before)
             .kind = COMMAND_PIN, .number = i, .x = before->pinned[i]};
         now = past_control(&player->past, 0);
         if (now->pinned[i] != before->pinned[i])
-            status = player_change(player, &pin, 0, past_panes(&player->past),
-                                   false);
+            status =
+                player_edit(player, &pin, 0, past_panes(&player->past), false);
     }
     control_drop(before);
     return status;
@@ -104,11 +105,12 @@ Status player_begin_again(Player *player, const Options *options, int panes,
 {
     const Control *before = control_keep(past_control(&player->past, 0));
     bool opens = edit->kind == COMMAND_RESTART && opens_again(player, options);
-    Status status = player_begin(player, options, opens ? 1 : panes, edit);
-    player->fine = opens ? 0 : player->fine;
-    if (!status && opens && player->asks) { /* a script has these commands */
-        player->queue.pins = before;
-        return player_emit_page(player);
+    Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
+    player->time.fine = opens ? 0 : player->time.fine;
+    if (!status && opens &&
+        player->given.asks) { /* a script has these commands */
+        player->orders.queue.pins = before;
+        return player_enqueue_page(player);
     }
     if (!status)
         return player_restore_pins(player, before);
@@ -134,23 +136,23 @@ Status obey_restart(Player *player, const Command *command)
         options[p].start[1] = command->y;
     }
     if (moves)
-        player->mode = MODE_PAUSE;
-    else if (player->mode >= MODE_END && !options->page &&
+        player->time.mode = MODE_PAUSE;
+    else if (player->time.mode >= MODE_END && !options->page &&
              !options->scene->explains)
-        player->mode = MODE_RUN;
+        player->time.mode = MODE_RUN;
     if (!moves)
-        player->view.lens = LENS_FITS;
-    player->queue.plays = !moves && plays_again(player, options->page);
+        player->screen.view.lens = LENS_FITS;
+    player->orders.queue.plays = !moves && plays_again(player, options->page);
     return player_begin_again(player, options, panes, command);
 }
 
 /* ---- the lecture --------------------------------------------------------- */
 
-Status player_emit_page(Player *player)
+Status player_enqueue_page(Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
-    player->queue.of_page = true; /* nobody has asked for these steps */
-    return player_emit_lines(player, page ? page->open : NULL);
+    player->orders.queue.of_page = true; /* nobody has asked for these steps */
+    return player_enqueue_lines(player, page ? page->open : NULL);
 }
 
 /* Keeps what became of a guess for the page's card and for the score. */
@@ -158,10 +160,11 @@ static void judge_guess(Player *player, bool right, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(player->verdict, sizeof player->verdict, format, arguments);
+    vsnprintf(player->tour.verdict, sizeof player->tour.verdict, format,
+              arguments);
     va_end(arguments);
-    player->guesses++;
-    player->right += right;
+    player->tour.guesses++;
+    player->tour.right += right;
 }
 
 /* A guess within two percent is right, as it may be calculated on paper. */
@@ -170,29 +173,30 @@ Status player_reveal(Player *player, const char *typed)
     const LecturePage *page = player_settings(player)->page;
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
-    double truth =
-        page->answer ? show_number(&player->frame.show, page->answer) : 0;
+    double truth = page->answer
+                       ? show_number(&player->screen.frame.show, page->answer)
+                       : 0;
     double guess = truth;
     if (typed && (!option_read(&any, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
     Number number = number_with(truth, 5);
-    player->told = page;
-    player->verdict[0] = '\0';
+    player->tour.revealed = page;
+    player->tour.verdict[0] = '\0';
     if (typed && !page->answer)
-        snprintf(player->verdict, sizeof player->verdict, "Your answer: %s.",
-                 typed);
+        snprintf(player->tour.verdict, sizeof player->tour.verdict,
+                 "Your answer: %s.", typed);
     else if (typed && !isnan(truth))
         judge_guess(player, right, right ? "%s is right." : "%s? It is %s.",
                     typed, number.text);
     if (page->answer && !isnan(truth))
-        snprintf(player->queue.note, SHOW_TEXT, "%s%sit is %s",
+        snprintf(player->orders.queue.note, SHOW_TEXT, "%s%sit is %s",
                  typed ? typed : "",
                  !typed  ? ""
                  : right ? ": right, "
                          : ": no, ",
                  number.text);
-    return player_emit_lines(player, page->tell);
+    return player_enqueue_lines(player, page->tell);
 }
 
 /* The page that is asked for, from its start with its settings: by its name;
@@ -215,26 +219,26 @@ Status obey_page(Player *player, const Command *command)
             return player_refuse(player, on ? "this is the last page"
                                             : "this is the first page");
         page += on ? 1 : -1;
-    } else if (player->left) {
-        page = player->left + (on && player->left[1].name);
+    } else if (player->tour.left) {
+        page = player->tour.left + (on && player->tour.left[1].name);
     } else {
         page = &lecture_pages[0];
     }
-    Status status = player_own_options(player, "", page, &options, &count);
+    Status status = player_default_options(player, "", page, &options, &count);
     if (status)
         return status;
-    status = player_begin(player, &options, 1, command);
-    player->speed = player_first_speed(player, &options);
-    player->left = page;
-    player->told = NULL;
-    player->verdict[0] = '\0';
-    player->column = COLUMN_CARDS;
-    player->fine = 0;
-    player_close_sheet(player);
-    if (status || !player->asks)
+    status = player_begin_runs(player, &options, 1, command);
+    player->time.speed = player_initial_speed(player, &options);
+    player->tour.left = page;
+    player->tour.revealed = NULL;
+    player->tour.verdict[0] = '\0';
+    player->screen.column = COLUMN_CARDS;
+    player->time.fine = 0;
+    sheet_close(player);
+    if (status || !player->given.asks)
         return status;
-    player->mode = MODE_PAUSE;
-    return player_emit_page(player);
+    player->time.mode = MODE_PAUSE;
+    return player_enqueue_page(player);
 }
 
 /* A guess of where the next step leads; on a page that asks for a click it is
@@ -245,10 +249,10 @@ Status obey_predict(Player *player, const Command *command)
     Simulation *simulation = &player->past.machine[player->active].simulation;
     if (simulation->done || simulation_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
-    player_stop(player);
+    player_pause(player);
     scene_predict(simulation, command->x, command->y);
     const Prediction *guess = &simulation->prediction;
-    if (!player_veils(player))
+    if (!player_hides_answer(player))
         return STATUS_OK;
     double way = math_hypot(guess->came[0] - at[0], guess->came[1] - at[1]);
     bool right = guess->distance <= 0.1 * way;

@@ -66,7 +66,7 @@ static Status record_step(Player *player)
                                      panes, step);
 }
 
-Status player_write_rest(Player *player)
+Status player_write_remaining(Player *player)
 {
     Past *past = &player->past;
     Status status = STATUS_OK;
@@ -78,7 +78,8 @@ Status player_write_rest(Player *player)
         status = record_updates(player, shown + 1);
     if (!past->keeps || !player->recording.tables)
         return status;
-    while (player->booked < past_newest(past) && !status && !*player->stop) {
+    while (player->booked < past_newest(past) && !status &&
+           !*player->given.stop) {
         long next = player->booked + 1;
         past_aim(past, next, again);
         status = past_finish(past);
@@ -100,11 +101,11 @@ static void leave_lines(Player *player)
         player->side[p].place = -1;
 }
 
-void player_leave_step(Player *player)
+void player_forget_step(Player *player)
 {
-    player->changed = true;
-    if (player->mode > MODE_END)
-        player->mode = MODE_END;
+    player->screen.changed = true;
+    if (player->time.mode > MODE_END)
+        player->time.mode = MODE_END;
     leave_lines(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->side[p].ghost);
@@ -115,8 +116,8 @@ void player_leave_step(Player *player)
 /* The hand holds nothing any more, and nothing waits to be let go. */
 static void forget_hand(Player *player)
 {
-    player->holds = false;
-    player->queue.count = 0;
+    player->hands.holds = false;
+    player->orders.queue.count = 0;
 }
 
 /* Another scene has a camera and cards of its own, and so has another page. */
@@ -124,18 +125,18 @@ static void enter_scene(Player *player)
 {
     const Options *options = player_settings(player);
     char title[128];
-    player->scene = options->scene;
-    player->page = options->page;
-    player->speed = player_first_speed(player, options);
-    player->view.lens = LENS_FITS;
-    player->closed = 0;
-    player->large = -1;
+    player->screen.scene = options->scene;
+    player->screen.page = options->page;
+    player->time.speed = player_initial_speed(player, options);
+    player->screen.view.lens = LENS_FITS;
+    player->screen.closed = 0;
+    player->screen.large = -1;
     player_deselect(player);
-    player->view.hover = (Pick){.kind = PICK_NONE};
-    player->mouse.drag = COMMAND_NONE;
+    player->screen.view.hover = (Pick){.kind = PICK_NONE};
+    player->hands.mouse.drag = COMMAND_NONE;
     snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
              options->scene->name);
-    if (player->window)
+    if (player->screen.window)
         window_set_title(title);
 }
 
@@ -146,13 +147,13 @@ static void follow(Player *player)
     Past *past = &player->past;
     long same = past->same, booked = past->booked;
     past->same = past->booked = LONG_MAX;
-    player->changed = true;
-    if (player_stands(player))
-        player->sampled = -1;
+    player->screen.changed = true;
+    if (player_is_stopped(player))
+        player->screen.sampled = -1;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
     const Options *now = player_settings(player);
-    if (now->scene != player->scene || now->page != player->page)
+    if (now->scene != player->screen.scene || now->page != player->screen.page)
         enter_scene(player);
     if (player->written > same)
         player->written = same;
@@ -160,31 +161,33 @@ static void follow(Player *player)
         player->booked = booked;
 }
 
-Status player_begin(Player *player, const Options *options, int count,
-                    const Command *edit)
+Status player_begin_runs(Player *player, const Options *options, int count,
+                         const Command *edit)
 {
     Past *past = &player->past;
     bool again = past->branches > 0;
-    Status status = past_begin(past, options, count, player->gesture, edit);
+    Status status =
+        past_begin(past, options, count, player->orders.gesture, edit);
     if (status) /* what was there before is going to be shown again */
         return again ? player_refuse(player, "%s", status_text(status))
                      : status;
-    player_leave_step(player);
-    player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
-    player->sampled = -1;
-    player->warned = player->gained = false;
+    player_forget_step(player);
+    player->time.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
+    player->screen.sampled = -1;
+    player->time.warned = player->time.gained = false;
     forget_hand(player);
     follow(player);
     return record_step(player);
 }
 
-Status player_change(Player *player, const Command *change, int from, int to,
-                     bool again)
+Status player_edit(Player *player, const Command *change, int from, int to,
+                   bool again)
 {
     Past *past = &player->past;
-    if (player->mode == MODE_REST)
-        player->mode = MODE_RUN; /* something may move again */
-    Status status = past_edit(past, change, from, to, again, player->gesture);
+    if (player->time.mode == MODE_REST)
+        player->time.mode = MODE_RUN; /* something may move again */
+    Status status =
+        past_edit(past, change, from, to, again, player->orders.gesture);
     if (!status)
         follow(player);
     return status || again ? status : record_step(player);
@@ -199,7 +202,7 @@ static void report_rest(Player *player)
     int folded = 0;
     for (int p = 0; p < past_panes(past); p++) {
         Pane pane = {.simulation = &past->machine[p].simulation};
-        if (past_ended(past, p, past->step) < 0)
+        if (past_end_step(past, p, past->step) < 0)
             folded += pane_folded(&pane);
     }
     player_note(player,
@@ -217,13 +220,13 @@ static void report_rest(Player *player)
 static void report_gain(Player *player)
 {
     const Past *past = &player->past;
-    if (player->given[0].steps >= 0 || !player->attended)
+    if (player->given.options[0].steps >= 0 || !player->given.attended)
         return;
-    for (int p = 0; p < past_panes(past) && !player->gained; p++) {
+    for (int p = 0; p < past_panes(past) && !player->time.gained; p++) {
         const Simulation *simulation = &past->machine[p].simulation;
-        for (int r = 0; r < simulation->runs && !player->gained; r++) {
-            player->gained = simulation->ledger[r].gain.steps > 0;
-            if (player->gained)
+        for (int r = 0; r < simulation->runs && !player->time.gained; r++) {
+            player->time.gained = simulation->ledger[r].gain.steps > 0;
+            if (player->time.gained)
                 player_note(player,
                             "step %ld: the total energy has risen by %.3g J "
                             "without work; a long step of backward Euler can "
@@ -241,7 +244,7 @@ static void detect_rest(Player *player)
     bool ended = true, rests = true, bad = false;
     int going = 0;
     const Options *options = player_settings(player);
-    if (player->given[0].steps >= 0 || !player->attended ||
+    if (player->given.options[0].steps >= 0 || !player->given.attended ||
         (options->next ==
              NEXT_SPRING && /* its steps write, they move nothing */
          past->step < player_simulation(player)->system.springs))
@@ -249,7 +252,7 @@ static void detect_rest(Player *player)
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
         const Simulation *simulation = &machine->simulation;
-        if (past_ended(past, p, past->step) >= 0)
+        if (past_end_step(past, p, past->step) >= 0)
             continue;
         going++;
         ended = ended && (simulation->done || machine->failed);
@@ -260,39 +263,39 @@ static void detect_rest(Player *player)
     }
     bad = bad && past_panes(past) == 1;
     if (rests && going > 0)
-        player->mode = MODE_REST;
-    else if (ended || (bad && !player->warned))
-        player->mode = MODE_END;
+        player->time.mode = MODE_REST;
+    else if (ended || (bad && !player->time.warned))
+        player->time.mode = MODE_END;
     if (ended) /* how it ended is said where an answer stood */
         player->note[0] = '\0';
-    player->warned = player->warned || bad;
-    if (player->mode == MODE_REST)
+    player->time.warned = player->time.warned || bad;
+    if (player->time.mode == MODE_REST)
         report_rest(player);
     if (past->step == options->pause && options->pause > 0 &&
-        options->page == player->told) /* what the page is about */
-        player->mode = MODE_PAUSE;
+        options->page == player->tour.revealed) /* what the page is about */
+        player->time.mode = MODE_PAUSE;
 }
 
 /* ---- inside a step ------------------------------------------------------- */
 
 /* Into the step that is shown, where any pane has lines: to the first of them,
  * to the last, or to where E rose beyond all proportion. */
-static void enter(Player *player, Then then)
+static void enter(Player *player, AfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Rounds *rounds = &player->past.machine[p].rounds;
         Trace trace;
         double far = 0;
-        int place = rounds->places <= 2  ? -1 /* the start and the end */
-                    : then == THEN_ENTER ? 0
-                    : then == THEN_LEAVE ? rounds->places - 1
-                                         : rounds_peak(rounds);
+        int place = rounds->places <= 2    ? -1 /* the start and the end */
+                    : after == AFTER_ENTER ? 0
+                    : after == AFTER_LEAVE ? rounds->places - 1
+                                           : rounds_peak(rounds);
         if (place < 0)
             continue;
-        player->mode = MODE_PAUSE;
+        player->time.mode = MODE_PAUSE;
         player->side[p].place = place;
         const double *x = rounds_trace(rounds, place, &trace);
-        if (then != THEN_PEAK)
+        if (after != AFTER_PEAK)
             continue;
         for (int i = 0; x && i < rounds->size; i++)
             far = fmax(far, fabs(x[i]));
@@ -311,7 +314,7 @@ static bool walk(Player *player, int way)
         int *place = &player->side[p].place;
         if (*place < 0)
             continue;
-        int next = rounds_walk(rounds, player->fine, *place, way);
+        int next = rounds_walk(rounds, player->time.fine, *place, way);
         moved = moved || next != *place;
         *place = next;
     }
@@ -326,10 +329,11 @@ static void tell_outcome(const Player *player, const OptionRow *row, char *text,
                          size_t size)
 {
     const Outcome *outcome = &player_machine(player)->outcome;
-    bool curve = player->scene->picture == PICTURE_CURVE; /* f, of a number */
+    bool curve =
+        player->screen.scene->picture == PICTURE_CURVE; /* f, of a number */
     char value[SHOW_VALUE], change[64] = "stays";
-    player_value(row, player_settings(player), player_simulation(player), value,
-                 sizeof value);
+    player_format_value(row, player_settings(player), player_simulation(player),
+                        value, sizeof value);
     if (outcome->change != 0)
         snprintf(change, sizeof change, "%s by %.3g%s",
                  outcome->change > 0 ? "rises" : "falls", fabs(outcome->change),
@@ -348,10 +352,10 @@ static void tell_retake(Player *player)
 {
     const Past *past = &player->past;
     const Rounds *rounds = &player_machine(player)->rounds;
-    const Station *at = &player->retaken;
+    const Station *at = &player->time.retaken;
     char has[256];
     if (at->round >= 0 && rounds->places > 2) {
-        player->mode = MODE_PAUSE;
+        player->time.mode = MODE_PAUSE;
         player->side[player->active].place =
             rounds_find(rounds, at->round, at->line);
     }
@@ -361,7 +365,8 @@ static void tell_retake(Player *player)
                 has);
 }
 
-Status player_retake(Player *player, const Command *change, int from, int to)
+Status player_repeat_step(Player *player, const Command *change, int from,
+                          int to)
 {
     Past *past = &player->past;
     Side *side = &player->side[player->active];
@@ -371,21 +376,21 @@ Status player_retake(Player *player, const Command *change, int from, int to)
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     bool failed = machine->failed;
     long step = past->step + failed;
-    player->retaken = (Station){.round = -1};
-    if (side->place >= 0 && player->fine > 0)
-        player->retaken = machine->rounds.place[side->place];
-    player_leave_step(player);
+    player->time.retaken = (Station){.round = -1};
+    if (side->place >= 0 && player->time.fine > 0)
+        player->time.retaken = machine->rounds.place[side->place];
+    player_forget_step(player);
     tell_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
         side->ghost = malloc(bytes);
     if (side->ghost)
         memcpy(side->ghost, simulation->run[0].x, bytes);
-    Status status = player_change(player, change, from, to, !failed);
+    Status status = player_edit(player, change, from, to, !failed);
     if (status)
         return status;
-    player->sampled = -1;
-    past_aim(past, step, player->retaken.round >= 0);
-    player->then = THEN_TELL;
+    player->screen.sampled = -1;
+    past_aim(past, step, player->time.retaken.round >= 0);
+    player->time.after = AFTER_COMPARE;
     return STATUS_OK;
 }
 
@@ -395,16 +400,16 @@ Status player_retake(Player *player, const Command *change, int from, int to)
 static Status step_shown(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
-    Then then = player->then;
-    bool runs = made && then == THEN_NOTHING && !player_stands(player);
+    AfterWork after = player->time.after;
+    bool runs = made && after == AFTER_NOTHING && !player_is_stopped(player);
     bool failed = status && !status_is_unconverged(status);
-    player->then = THEN_NOTHING;
-    player->changed = true;
+    player->time.after = AFTER_NOTHING;
+    player->screen.changed = true;
     if (failed && past->step == before) { /* it tells why */
         long seen = past_last_seen(past, 0, before);
         bool lost = runs && status == STATUS_NOT_FINITE;
-        player->sampled = -1;
-        status = player_bear(player, status);
+        player->screen.sampled = -1;
+        status = player_tolerate_failure(player, status);
         if (status || !lost || seen == before)
             return status;
         player_note(player,
@@ -412,17 +417,17 @@ static Status step_shown(Player *player, Status status, long before, bool made)
                     "last below ten times the size",
                     before + 1, seen);
         player->warning = true;
-        return player_show(player, seen, THEN_NOTHING);
+        return player_seek(player, seen, AFTER_NOTHING);
     }
     status = record_step(player);
     if (!status && runs)
         report_gain(player);
     if (!status && runs)
         detect_rest(player);
-    else if (!status && then == THEN_TELL)
+    else if (!status && after == AFTER_COMPARE)
         tell_retake(player);
-    else if (!status && then != THEN_NOTHING)
-        enter(player, then);
+    else if (!status && after != AFTER_NOTHING)
+        enter(player, after);
     return status;
 }
 
@@ -430,27 +435,27 @@ Status player_work(Player *player)
 {
     Past *past = &player->past;
     double begin = clock_now();
-    if (player->began == 0)
-        player->began = begin;
+    if (player->time.began == 0)
+        player->time.began = begin;
     past->line = player_line_pane(player);
-    while (past->works && !player->quit) {
+    while (past_works(past) && !player->quit) {
         long before = past->step;
-        bool made = past->making;
+        bool made = past_makes(past);
         Status status = past_iterate(past);
-        if (!past->works || (status && status != STATUS_RUNNING)) {
+        if (!past_works(past) || (status && status != STATUS_RUNNING)) {
             status = step_shown(player, status, before, made);
             if (status)
                 return status;
             player_complete_line(player);
         }
-        player->quit = player->quit || *player->stop;
-        bool begins = past->making && !made && player_is_slow(player);
-        if (player->window && (begins || clock_now() - begin > SLICE))
+        player->quit = player->quit || *player->given.stop;
+        bool begins = past_makes(past) && !made && player_is_slow(player);
+        if (player->screen.window && (begins || clock_now() - begin > SLICE))
             break;
     }
-    player->changed = true;
-    if (!past->works)
-        player->began = 0;
+    player->screen.changed = true;
+    if (!past_works(past))
+        player->time.began = 0;
     return STATUS_OK;
 }
 
@@ -459,16 +464,16 @@ Status player_work(Player *player)
 static Status let_go(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
-    int gesture = player->gesture, panes = past_panes(&player->past);
-    if (!control_holds(past_control(&player->past, 0)) || player->holds)
+    int gesture = player->orders.gesture, panes = past_panes(&player->past);
+    if (!control_holds(past_control(&player->past, 0)) || player->hands.holds)
         return STATUS_OK;
-    player->gesture = ++player->gestures;
-    Status status = player_change(player, &release, 0, panes, false);
-    player->gesture = gesture;
+    player->orders.gesture = ++player->orders.gestures;
+    Status status = player_edit(player, &release, 0, panes, false);
+    player->orders.gesture = gesture;
     return status;
 }
 
-Status player_show(Player *player, long step, Then then)
+Status player_seek(Player *player, long step, AfterWork after)
 {
     Past *past = &player->past;
     bool known = step <= past_newest(past);
@@ -479,9 +484,9 @@ Status player_show(Player *player, long step, Then then)
         status = let_go(player);
     if (status)
         return status;
-    player_leave_step(player);
-    past_aim(past, step, then == THEN_ENTER || then == THEN_LEAVE);
-    player->then = then;
+    player_forget_step(player);
+    past_aim(past, step, after == AFTER_ENTER || after == AFTER_LEAVE);
+    player->time.after = after;
     return STATUS_OK;
 }
 
@@ -490,7 +495,7 @@ Status player_show(Player *player, long step, Then then)
 Status obey_pause(Player *player, const Command *command)
 {
     bool runs = command->kind == COMMAND_PLAY;
-    player->mode = runs ? MODE_RUN : MODE_PAUSE;
+    player->time.mode = runs ? MODE_RUN : MODE_PAUSE;
     if (runs)
         leave_lines(player);
     return STATUS_OK;
@@ -498,17 +503,17 @@ Status obey_pause(Player *player, const Command *command)
 
 Status obey_next(Player *player, const Command *command)
 {
-    Then then = command->kind == COMMAND_STEP ? THEN_NOTHING
-                : player->fine > 0            ? THEN_ENTER
-                                              : THEN_PEAK;
-    player_stop(player);
-    if (then == THEN_ENTER && walk(player, 1))
+    AfterWork after = command->kind == COMMAND_STEP ? AFTER_NOTHING
+                      : player->time.fine > 0       ? AFTER_ENTER
+                                                    : AFTER_PEAK;
+    player_pause(player);
+    if (after == AFTER_ENTER && walk(player, 1))
         return STATUS_OK;
-    if (then == THEN_PEAK && player->side[player->active].place >= 0) {
+    if (after == AFTER_PEAK && player->side[player->active].place >= 0) {
         leave_lines(player); /* from an explosion's height to its end */
         return STATUS_OK;
     }
-    return player_show(player, player->past.step + 1, then);
+    return player_seek(player, player->past.step + 1, after);
 }
 
 /* Whether the steps of any pane are made of updates that are shown. */
@@ -527,19 +532,19 @@ static bool has_updates(const Player *player)
 Status obey_back(Player *player, const Command *command)
 {
     long step = player->past.step;
-    player_stop(player);
+    player_pause(player);
     if (step == 0)
         player_note(player, "this is step 0: nothing was before it");
-    if (player->fine == 0 || !has_updates(player))
-        return player_show(player, step - 1, THEN_NOTHING);
+    if (player->time.fine == 0 || !has_updates(player))
+        return player_seek(player, step - 1, AFTER_NOTHING);
     if (player->side[player->active].place < 0 && step > 0) {
         if (!player_machine(player)->known)
-            return player_show(player, step, THEN_LEAVE);
-        enter(player, THEN_LEAVE);
+            return player_seek(player, step, AFTER_LEAVE);
+        enter(player, AFTER_LEAVE);
     }
     if (player->side[player->active].place >= 0 && walk(player, -1))
         return STATUS_OK;
-    return player_show(player, step - 1, THEN_LEAVE);
+    return player_seek(player, step - 1, AFTER_LEAVE);
 }
 
 /* Steps, updates, lines, and steps again. */
@@ -548,13 +553,13 @@ Status obey_finer(Player *player, const Command *command)
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
     if (player_settings(player)->next == NEXT_NEARER ||
-        (!has_updates(player) && player->fine == 0))
+        (!has_updates(player) && player->time.fine == 0))
         return player_refuse(player, "a step here has no finer ones");
-    player->fine = (player->fine + 1) % 3;
-    player_stop(player);
-    if (player->fine == 0)
+    player->time.fine = (player->time.fine + 1) % 3;
+    player_pause(player);
+    if (player->time.fine == 0)
         leave_lines(player);
-    player_note(player, "N and \u2190 go by %s", paces[player->fine]);
+    player_note(player, "N and \u2190 go by %s", paces[player->time.fine]);
     return STATUS_OK;
 }
 
@@ -564,8 +569,8 @@ Status obey_goto(Player *player, const Command *command)
     long step = command->kind == COMMAND_HOME ? 0 : past_newest(&player->past);
     if (command->kind == COMMAND_GOTO && command->number < step)
         step = command->number;
-    player_stop(player);
-    return player_show(player, step, THEN_NOTHING);
+    player_pause(player);
+    return player_seek(player, step, AFTER_NOTHING);
 }
 
 /* What a hand did, in words; anything else as a script says it, with digits as
@@ -605,11 +610,12 @@ Status obey_undo(Player *player, const Command *command)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");
     const Command edit = *made;
-    player->mode = MODE_PAUSE;
+    player->time.mode = MODE_PAUSE;
     forget_hand(player);
-    player->mouse.gesture = ++player->gestures; /* if a drag goes on */
+    player->hands.mouse.gesture =
+        ++player->orders.gestures; /* if a drag goes on */
     follow(player);
-    player_leave_step(player);
+    player_forget_step(player);
     tell_deed(player, edit, line, sizeof line);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
     return STATUS_OK;

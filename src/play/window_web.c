@@ -143,8 +143,8 @@ Status film_open(const char *name, char *told, Film *film)
 {
     *film = (Film){0};
     if (!page_films())
-        return output_tell(told, name, STATUS_INVALID_INPUT,
-                           "this browser makes no films of a page");
+        return output_report(told, name, STATUS_INVALID_INPUT,
+                             "this browser makes no films of a page");
     film->output.file = stdout; /* which nobody writes: it runs */
     film->output.told = told;
     snprintf(film->output.name, OUTPUT_NAME, "%s", name);
@@ -166,6 +166,7 @@ Status film_close(Film *film, Keep keep)
         return STATUS_OK;
     page_film_end(film->frames > 0);
     film->output.file = NULL;
-    return film->frames > 0 ? STATUS_OK
-                            : output_fail(&film->output, "no frame was drawn");
+    return film->frames > 0
+               ? STATUS_OK
+               : output_report_failure(&film->output, "no frame was drawn");
 }

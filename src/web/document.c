@@ -174,13 +174,13 @@ static void put_numbers(Writer *to, const Player *player)
 {
     const OptionRow *row[OPTIONS_MOST];
     const Options now = player_numbers(player);
-    int count = player_row(player, true, row);
+    int count = player_visible_options(player, true, row);
     for (int i = 0; i < count; i++) {
         char value[COMMAND_TEXT_SIZE], unit[16];
-        const char *idle = player_idle(player, row[i]);
+        const char *idle = player_idle_reason(player, row[i]);
         bool shown = false;
-        for (int k = 0; k < player->frame.numbers; k++)
-            shown = shown || player->frame.number[k] == row[i];
+        for (int k = 0; k < player->screen.frame.numbers; k++)
+            shown = shown || player->screen.frame.number[k] == row[i];
         option_value(row[i], &now, value, sizeof value);
         option_unit(row[i], unit, sizeof unit);
         put(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
@@ -233,7 +233,7 @@ static void put_shape(Writer *to, const Pane *pane)
  * active one. */
 static void put_picture(Writer *to, const Player *player)
 {
-    const Show *show = &player->frame.show;
+    const Show *show = &player->screen.frame.show;
     const Simulation *simulation = player_simulation(player);
     put(to, "picture\t");
     for (int p = 0; p < show->panes; p++) {
@@ -260,7 +260,7 @@ static void put_picture(Writer *to, const Player *player)
 /* The last step in a few words: "step 12: 3 updates, E fell by 13.8 J s²". */
 static void put_event(Writer *to, const Player *player)
 {
-    const Show *show = &player->frame.show;
+    const Show *show = &player->screen.frame.show;
     const Trace *trace = show_pane(show)->update;
     const char *turn = player_simulation(player)->scene->turn;
     double change = 0;
@@ -279,7 +279,7 @@ static void put_event(Writer *to, const Player *player)
 
 void document_write(const Player *player, char *text)
 {
-    const Show *show = &player->frame.show;
+    const Show *show = &player->screen.frame.show;
     const LecturePage *page = show->lecture;
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';

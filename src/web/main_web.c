@@ -63,7 +63,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
 {
     static char words[MOST_TEXT];
     Player *player = &run->player;
-    const Options *given = &player->given[0];
+    const Options *given = &player->given.options[0];
     Options now[OPTIONS_MAX_PANES], base[OPTIONS_MAX_PANES];
     words[0] = '\0';
     if (!plays)
@@ -72,11 +72,11 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
     bool same = now->page == given->page && now->scene == given->scene;
     base[0] = *given; /* what the run began with */
     if ((panes != given->panes && !now->page) ||
-        (!same &&
-         player_own_options(player, now->scene->name, now->page, base, &count)))
+        (!same && player_default_options(player, now->scene->name, now->page,
+                                         base, &count)))
         return words;
-    for (int i = 0; same && (i = player_next_word(player, i + 1));)
-        append(words, sizeof words, "%s\n", player->words[i]);
+    for (int i = 0; same && (i = player_next_argument(player, i + 1));)
+        append(words, sizeof words, "%s\n", player->given.words[i]);
     if (!same)
         append(words, sizeof words, "%s%s", now->page ? "--lecture\n" : "",
                now->page ? now->page->name : now->scene->name);
@@ -126,7 +126,7 @@ EMSCRIPTEN_KEEPALIVE void web_card(int card, int width, int height)
     static Paper paper;
     Player *player = &run->player;
     canvas_free(&paper.canvas);
-    paper.text = player->paper.text;
+    paper.text = player->screen.paper.text;
     if (plays && !canvas_create(width, height, &paper.canvas)) {
         player_paint_card(player, &paper, card);
         window_show_card(&paper.canvas, card);
@@ -139,20 +139,21 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
     Player *player = &run->player;
     if (!plays)
         return;
-    player->gesture = player->mouse.gesture = ++player->gestures;
-    player_tell(player, player_obey_lines(player, lines));
-    player->changed = true;
+    player->orders.gesture = player->hands.mouse.gesture =
+        ++player->orders.gestures;
+    player_report(player, player_obey_lines(player, lines));
+    player->screen.changed = true;
 }
 
 /* A guess of the number that the page asks for; "": shows the answer. */
 EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 {
     Player *player = &run->player;
-    if (plays && player_veils(player)) {
-        player_tell(player, player_reveal(player, *guess ? guess : NULL));
+    if (plays && player_hides_answer(player)) {
+        player_report(player, player_reveal(player, *guess ? guess : NULL));
         player_obey_waiting(player, false);
     }
-    player->changed = true;
+    player->screen.changed = true;
 }
 
 /* ---- the printed lecture --------------------------------------------------
@@ -185,7 +186,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
     options.steps = row->picture;
     if (!status)
         status = player_create(&options, 1, NULL, &never, player);
-    player->draws = true;
+    player->screen.draws = true;
     if (!status)
         status = player_obey_page(player);
     if (!status)
@@ -194,15 +195,15 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
         status = player_obey(player, &next);
     if (!status && !row->lines)
         player_run(player);
-    player->window = true; /* from here on as in the page */
+    player->screen.window = true; /* from here on as in the page */
 }
 
 /* Draws its picture on the canvas that Page.show has chosen. */
 EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int width, int height)
 {
     Player *player = &run->player;
-    player->size[0] = width;
-    player->size[1] = height;
+    player->screen.size[0] = width;
+    player->screen.size[1] = height;
     Paper *paper = player_paper(player);
     if (paper) {
         player_paint(player, paper);
@@ -213,8 +214,8 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int width, int height)
 /* Its texts as before the guess. */
 EMSCRIPTEN_KEEPALIVE void web_sheet_veil(void)
 {
-    run->player.asks = true;
-    run->player.told = NULL;
+    run->player.given.asks = true;
+    run->player.tour.revealed = NULL;
     player_fill(&run->player);
 }
 
@@ -231,7 +232,7 @@ EMSCRIPTEN_KEEPALIVE int web_frame(void)
         return -1;
     do
         status = player_frame(player);
-    while (!status && !player->window && !player_ended(player) &&
+    while (!status && !player->screen.window && !player_ended(player) &&
            clock_now() < begin + SLICE);
     if (!status && !player_ended(player))
         return player_wait(player);

@@ -74,13 +74,13 @@ static inline void obey_all(const char *const *lines)
 /* Runs until it pauses by itself, as it must within some hundred steps. */
 static inline void run_until_it_pauses(void)
 {
-    if (player_stands(&player))
+    if (player_is_stopped(&player))
         CHECK_OK(obey("play"));
-    for (int i = 0; i < 3000 && !player_stands(&player); i++) {
+    for (int i = 0; i < 3000 && !player_is_stopped(&player); i++) {
         Status status = player_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }
-    CHECK(player_stands(&player));
+    CHECK(player_is_stopped(&player));
 }
 
 static inline const Machine *machine(int pane)

@@ -63,7 +63,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         char line[64];
         snprintf(line, sizeof line, "--lecture %s", page->name);
         begin(line);
-        player.asks = true;
+        player.given.asks = true;
         write_document();
         check_lines();
         assert_true(count_lines("topic") == 1 && count_lines("text") > 0);

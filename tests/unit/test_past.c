@@ -177,8 +177,8 @@ TEST(a_pane_that_has_ended_comes_back)
             CHECK(!few || hash[step] == hash_now());
             hash[step] = hash_now();
         }
-        CHECK(past_ended(&past, 0, STEPS) == 11 && past.bytes <= past.limit &&
-              past_ended(&past, 1, STEPS) < 0);
+        CHECK(past_end_step(&past, 0, STEPS) == 11 &&
+              past.bytes <= past.limit && past_end_step(&past, 1, STEPS) < 0);
         for (int i = 0; i < 50; i++) {
             long step = random_below(&random, STEPS + 1);
             CHECK(show(step) == hash[step]);
@@ -297,7 +297,7 @@ static void visit_in_part(Random *random)
     long newest = past_newest(&past);
     past_aim(&past, random_below(random, (int)newest + 2),
              random_below(random, 2));
-    for (int k = random_below(random, 9); k > 0 && past.works; k--)
+    for (int k = random_below(random, 9); k > 0 && past_works(&past); k--)
         past_iterate(&past);
     past_aim(&past, past.step, false);
     CHECK_OK(past_finish(&past));

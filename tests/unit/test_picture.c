@@ -334,14 +334,14 @@ static void frame_of(const char *line, int step, Canvas frame[2])
     char whole[160];
     snprintf(whole, sizeof whole, "%s --steps %d", line, step);
     begin(whole);
-    player.draws = true; /* E along p is kept for the picture */
-    player.mode = MODE_RUN;
+    player.screen.draws = true; /* E along p is kept for the picture */
+    player.time.mode = MODE_RUN;
     while (player.past.step < step) {
         Status status = player_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }
     /* measured as where they were drawn */
-    assert_int_equal(text_create(&player.paper.text), 0);
+    assert_int_equal(text_create(&player.screen.paper.text), 0);
     for (int plain = 0; plain < 2; plain++) {
         Paper paper;
         assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);

@@ -61,10 +61,10 @@ TEST(rest_is_reported_where_nothing_moves)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         begin(lines[i]);
         run_until_it_pauses();
-        CHECK(player.mode == MODE_REST);
+        CHECK(player.time.mode == MODE_REST);
         CHECK(strncmp(player.note, "at rest", 7) == 0);
         player_fill(&player);
-        CHECK(strcmp(player.frame.show.state, "at rest") == 0);
+        CHECK(strcmp(player.screen.frame.show.state, "at rest") == 0);
         compare_with_plain_run(lines[i]);
         CHECK_AT_MOST(way_that_is_left(), 0.002);
         end();
@@ -145,7 +145,7 @@ TEST(curves_are_kept_where_they_are_drawn)
     for (int way = WALKED; way <= DRAWN; way++) {
         Trace trace;
         begin("tear --segments 6");
-        player.draws = way == DRAWN;
+        player.screen.draws = way == DRAWN;
         for (int step = 0; step < (way == WALKED ? 3 : 4); step++)
             CHECK_OK(obey("step"));
         CHECK_OK(obey("finer"));
@@ -156,7 +156,7 @@ TEST(curves_are_kept_where_they_are_drawn)
         CHECK(isnan(last) == (way == UNSEEN) && player.past.step == 4);
         count[way] = look_along(kept[way], ROOM);
         CHECK(isnan(kept[way][0]) == (way != WALKED));
-        player.draws = true;
+        player.screen.draws = true;
         for (int i = 0; i < ROOM && isnan(kept[way][0]); i++) {
             CHECK_OK(obey("back"));
             count[way] = look_along(kept[way], ROOM);
@@ -181,14 +181,14 @@ TEST(scripts_wait_while_it_runs)
     alarm(600); /* s; it takes milliseconds */
     CHECK_OK(player_run(&player));
     alarm(0);
-    CHECK(!stop && player.past.step == 1 && player_stands(&player));
+    CHECK(!stop && player.past.step == 1 && player_is_stopped(&player));
     end();
 }
 
 /* Frames until nothing is computed any more. */
 static void work_off(void)
 {
-    while (player.past.works)
+    while (past_works(&player.past))
         CHECK_OK(player_frame(&player));
 }
 
@@ -203,10 +203,10 @@ TEST(a_long_step_is_made_in_slices)
     simulation_from_line(line, NULL, NULL, &plain);
     CHECK_OK(simulation_step(&plain));
     begin(line);
-    player.draws = true;
-    player.size[0] = 320;
-    player.size[1] = 200;
-    player.window = true;
+    player.screen.draws = true;
+    player.screen.size[0] = 320;
+    player.screen.size[1] = 200;
+    player.screen.window = true;
     CHECK_OK(player_draw(&player));
     uint64_t start = player_hash(&player);
     obey_all((const char *const[]){"next", "colours", "next", NULL});
@@ -216,19 +216,20 @@ TEST(a_long_step_is_made_in_slices)
         strcpy(input.key, typed[i]);
         CHECK_OK(player_input(&player, &input));
     }
-    CHECK(player.past.works && player.past.step == 0 && !player.quit);
+    CHECK(past_works(&player.past) && player.past.step == 0 && !player.quit);
     work_off();
     CHECK(player.past.step == 1 && past_newest(&player.past) == 1);
     CHECK(player_hash(&player) == state_hash(&plain, STATE_HASH_SEED));
     obey_all((const char *const[]){"grab 0", "next", "drag 0.2 0.3", NULL});
-    CHECK(player.past.works); /* the hand follows as soon as it is there */
+    CHECK(
+        past_works(&player.past)); /* the hand follows as soon as it is there */
     work_off();
     CHECK(player.past.step == 2 && past_control(&player.past, 0)->at[0] == 0.2);
     obey_all((const char *const[]){"undo", NULL});
     work_off();
     obey_all((const char *const[]){"next", "escape", NULL});
     work_off();
-    CHECK(!player.quit && player.past.step == 1 && !player.past.works);
+    CHECK(!player.quit && player.past.step == 1 && !past_works(&player.past));
     CHECK(player_hash(&player) == state_hash(&plain, STATE_HASH_SEED));
     obey_all((const char *const[]){"next", "home", NULL});
     work_off();
@@ -242,14 +243,14 @@ TEST(a_long_step_is_made_in_slices)
 TEST(time_goes_on_while_a_node_is_pulled)
 {
     begin("square --segments 2");
-    player.draws = player.window = true;
-    player.size[0] = player.size[1] = 200;
+    player.screen.draws = player.screen.window = true;
+    player.screen.size[0] = player.screen.size[1] = 200;
     CHECK_OK(player_draw(&player));
     obey_all((const char *const[]){"play", "grab 3", NULL});
     for (int frame = 1; frame <= 1000 && player.past.step < 20; frame++) {
         const Command drag = {.kind = COMMAND_DRAG, .x = 0.001 * frame};
         CHECK_OK(player_obey(&player, &drag));
-        player.due = 0; /* as if the last one were long ago */
+        player.time.due = 0; /* as if the last one were long ago */
         CHECK_OK(player_frame(&player));
     }
     CHECK(player.past.step == 20);
@@ -277,11 +278,11 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
 {
     for (int speed = -5; speed <= 3; speed++) {
         begin("square --segments 1 --stretch 1 --velocity 3,4");
-        player.draws = player.window = true;
-        player.size[0] = player.size[1] = 100;
+        player.screen.draws = player.screen.window = true;
+        player.screen.size[0] = player.screen.size[1] = 100;
         wound = 100;
-        while (player.speed != speed)
-            CHECK_OK(obey(player.speed < speed ? "faster" : "slower"));
+        while (player.time.speed != speed)
+            CHECK_OK(obey(player.time.speed < speed ? "faster" : "slower"));
         CHECK_OK(player_frame(&player)); /* the start is a frame, too */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_wait(&player), fmin(1e3 * every, 200), 1);

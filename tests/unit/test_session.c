@@ -19,7 +19,8 @@ static char folder[] = "/tmp/elasto-session-XXXXXX";
 static Layout layout_now(void)
 {
     const Canvas *canvas = &player_paper(&player)->canvas;
-    return show_layout(&player.frame.show, canvas->width, canvas->height);
+    return show_layout(&player.screen.frame.show, canvas->width,
+                       canvas->height);
 }
 
 static uint64_t hash_box(const Canvas *canvas, Box box)
@@ -36,7 +37,8 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
 static uint64_t shape_shown(void)
 {
     player_fill(&player);
-    const Pane *pane = &player.frame.show.pane[player.frame.show.active];
+    const Pane *pane =
+        &player.screen.frame.show.pane[player.screen.frame.show.active];
     const unsigned char *byte = (const unsigned char *)pane_x(pane);
     size_t size = 2 * sizeof(double) * (size_t)pane->simulation->system.nodes;
     uint64_t hash = STATE_HASH_SEED;
@@ -56,7 +58,7 @@ static uint64_t seen(const char *what)
         return shape_shown();
     memcpy(note, player.note, sizeof note);
     player.note[0] = '\0';
-    if (player.changed)
+    if (player.screen.changed)
         CHECK_STATUS(player_draw(&player), STATUS_OK);
     memcpy(player.note, note, sizeof note);
     const Canvas *canvas = &player_paper(&player)->canvas;
@@ -112,8 +114,8 @@ static void begin_session(const char *line)
     begin_script("0 pause\n", line);
     open_player = true;
     mouse[0] = mouse[1] = -1;
-    player.draws = true;
-    player.size[0] = player.size[1] = SIDE;
+    player.screen.draws = true;
+    player.screen.size[0] = player.screen.size[1] = SIDE;
     seen(""); /* a window shows the scene before anything is put in */
 }
 
@@ -152,11 +154,11 @@ static void press_letter(char letter)
 static const Setting *number_shown(const char *name, int *place)
 {
     player_fill(&player);
-    for (int i = 0; i < player.frame.show.settings; i++)
-        if (strcmp(player.frame.show.setting[i].name, name) == 0 ||
+    for (int i = 0; i < player.screen.frame.show.settings; i++)
+        if (strcmp(player.screen.frame.show.setting[i].name, name) == 0 ||
             strcmp(name, "first") == 0) {
             *place = i;
-            return &player.frame.show.setting[i];
+            return &player.screen.frame.show.setting[i];
         }
     fail_msg("the row has no %s", name);
     return NULL;
@@ -172,7 +174,8 @@ static void point_into(Box box, bool corner)
 /* Whether the mouse is on this grip. */
 static bool is_grip(const Layout *layout, int grip)
 {
-    Pick pick = show_pick(&player.frame.show, layout, mouse[0], mouse[1]);
+    Pick pick =
+        show_pick(&player.screen.frame.show, layout, mouse[0], mouse[1]);
     return pick.kind == PICK_HANDLE && pick.index == grip;
 }
 
@@ -181,7 +184,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
 {
     const char *of = strstr(place, " of ");
     int i = 0, p = of ? atoi(of + 4) : 0;
-    const Pane *pane = &player.frame.show.pane[p];
+    const Pane *pane = &player.screen.frame.show.pane[p];
     double at[2], grip[SCENE_MAX_HANDLES][2];
     if (sscanf(place, "grip %d", &i) == 1) {
         assert_true(i < exhibit_handles(pane->simulation, grip));
@@ -190,7 +193,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
         memcpy(at, pane_x(pane) + 2 * i, sizeof at);
     else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) != 2)
         return false;
-    Camera camera = show_camera(&player.frame.show, layout, p);
+    Camera camera = show_camera(&player.screen.frame.show, layout, p);
     camera_pixel(&camera, at, mouse);
     if (place[0] == 'g' && !is_grip(layout, i)) /* it is above, on a curve */
         for (mouse[1] = layout->pane[p].y; !is_grip(layout, i); mouse[1]++)
@@ -201,16 +204,16 @@ static bool point_in_pane(const char *place, const Layout *layout)
 /* The chip with this key, or the cell of the sheet with this scene; -1: none */
 static int find_chip(const char *key)
 {
-    int i = player.frame.show.chips - 1;
-    while (i >= 0 && strcmp(player.frame.show.chip[i].key, key) != 0)
+    int i = player.screen.frame.show.chips - 1;
+    while (i >= 0 && strcmp(player.screen.frame.show.chip[i].key, key) != 0)
         i--;
     return i;
 }
 
 static int find_cell(const char *scene)
 {
-    int i = player.frame.show.cells - 1;
-    while (i >= 0 && strcmp(player.frame.show.cell[i].name, scene) != 0)
+    int i = player.screen.frame.show.cells - 1;
+    while (i >= 0 && strcmp(player.screen.frame.show.cell[i].name, scene) != 0)
         i--;
     return i;
 }
@@ -228,7 +231,8 @@ static void point_at(const char *place)
         long step = atol(place + 5);
         mouse[0] = layout.bars.x;
         mouse[1] = layout.time.y + layout.time.height / 2;
-        while (show_step_at(&player.frame.show, &layout, mouse[0]) < step &&
+        while (show_step_at(&player.screen.frame.show, &layout, mouse[0]) <
+                   step &&
                mouse[0] < layout.width)
             mouse[0]++;
     } else if (strcmp(place, "strip") == 0) {
@@ -257,7 +261,7 @@ static double scale_now(void)
 {
     player_fill(&player);
     Layout layout = layout_now();
-    return show_camera(&player.frame.show, &layout, 0).scale[0];
+    return show_camera(&player.screen.frame.show, &layout, 0).scale[0];
 }
 
 /* Returns false if this is nothing that a mouse does. */
@@ -288,10 +292,11 @@ static bool use_mouse(const char *verb, const char *place)
 static void run_until(long step)
 {
     Command pause = {.kind = COMMAND_PAUSE};
-    if (player_stands(&player))
+    if (player_is_stopped(&player))
         tell(obey("play"));
-    player.script.count = player.script.next; /* nothing else is due */
-    CHECK_STATUS(script_add(&player.script, step, &pause, 0), STATUS_OK);
+    player.given.script.count =
+        player.given.script.next; /* nothing else is due */
+    CHECK_STATUS(script_add(&player.given.script, step, &pause, 0), STATUS_OK);
     player_run(&player);
 }
 
@@ -299,7 +304,7 @@ static void run_until(long step)
 static void begin_step(void)
 {
     Past *past = &player.past;
-    tell(player_show(&player, past->step + 1, THEN_NOTHING));
+    tell(player_seek(&player, past->step + 1, AFTER_NOTHING));
     while (!past->machine[0].iterating)
         CHECK_STATUS(past_iterate(past), STATUS_RUNNING);
 }
@@ -333,7 +338,7 @@ static void replay(const char *line)
     begin_script(script, paused);
     open_player = true;
     player_run(&player); /* of some scenes steps do not converge */
-    CHECK(player_hash(&player) == hash && !player.refused);
+    CHECK(player_hash(&player) == hash && !player.orders.refused);
 }
 
 static void shell(const char *line)
@@ -441,7 +446,7 @@ static void collect_facts(void)
     static const char *const kinds[] = {"none",     "node",  "spring",
                                         "obstacle", "other", "other",
                                         "other",    "other", "other"};
-    const Show *show = &player.frame.show;
+    const Show *show = &player.screen.frame.show;
     const LecturePage *page = show->lecture;
     const Trace *trace = show->pane[show->active].trace;
     facts[0] = '\0';
@@ -454,7 +459,7 @@ static void collect_facts(void)
     fact("stands %d", show->paused);
     fact("panes %d", show->panes);
     fact("ghost %d", show->pane[show->active].ghost != NULL);
-    fact("speed %d", player.speed);
+    fact("speed %d", player.time.speed);
     fact("scene %s", player_simulation(&player)->scene->name);
     fact("over %s %d", kinds[show->view->hover.kind], show->view->hover.index);
     double scale = scale_now();
@@ -517,7 +522,7 @@ static void session_line(const char *line)
     else if (strcmp(verb, "whole") == 0)
         tell(player_continue(&player));
     else if (strcmp(verb, "asks") == 0)
-        player.asks = player.changed = true;
+        player.given.asks = player.screen.changed = true;
     else if (strcmp(verb, "replays") == 0)
         replay(rest);
     else if (strcmp(verb, "tables") == 0)
@@ -694,9 +699,9 @@ static uint64_t all_but(int place)
 {
     uint64_t hash = seen("state") + (uint64_t)player.past.step;
     player_fill(&player);
-    for (int i = 0; i < player.frame.show.settings; i++)
-        for (const char *c = player.frame.show.setting[i].value; i != place && *c;
-             c++)
+    for (int i = 0; i < player.screen.frame.show.settings; i++)
+        for (const char *c = player.screen.frame.show.setting[i].value;
+             i != place && *c; c++)
             hash = (hash ^ (unsigned char)*c) * 1099511628211u;
     return hash;
 }
@@ -721,7 +726,7 @@ static void random_keys_stay_in_their_field(void **unused)
             session_line("key N N");
         }
         uint64_t before = seen("");
-        int place = random_below(&random, player.frame.numbers);
+        int place = random_below(&random, player.screen.frame.numbers);
         for (int i = 0; i <= place; i++)
             press_key("Tab");
         uint64_t rest = all_but(place);
@@ -733,15 +738,16 @@ static void random_keys_stay_in_their_field(void **unused)
                 press_letter((char)(' ' + random_below(&random, 95)));
             else
                 press_letter("0123456789.,e-/ms"[random_below(&random, 17)]);
-        bool mesh = strcmp(player.frame.show.setting[place].name, "segments") == 0;
+        bool mesh = strcmp(player.screen.frame.show.setting[place].name,
+                           "segments") == 0;
         bool enter = !mesh && random_below(&random, 2) == 0;
         if (enter)
             press_key("Return");
-        set = enter && !player.lit;
+        set = enter && !player.hands.lit;
         refused += enter && !set;
         press_key("Escape");
-        CHECK(!player.lit && past_panes(&player.past) == 1 &&
-              player_stands(&player));
+        CHECK(!player.hands.lit && past_panes(&player.past) == 1 &&
+              player_is_stopped(&player));
         if (set && player.past.step == 2) /* else it begins again with it */
             CHECK(all_but(place) == rest);
         if (!set)
