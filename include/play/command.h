@@ -1,9 +1,8 @@
 /* command.h - everything that keys, mouse, wheel and scripts can ask for.
  *
- * One table: a word for scripts, the words behind it, the keys and where they
- * mean this, and what it does in a few words, for the list of keys and for the
- * chips.  What a script can say is what the window obeys, so that a session can
- * be written down and played again, with a window or without.
+ * One table has a row for each command: its word and arguments in scripts, its
+ * keys, and what it does.  The window obeys the same commands as a script, so a
+ * session can be written down and played again.
  */
 #ifndef ELASTO_COMMAND_H
 #define ELASTO_COMMAND_H
@@ -16,7 +15,7 @@
 
 enum { COMMAND_TEXT_SIZE = 64 };
 
-/* What each does is in its row, and told by --help commands. */
+/* command_rows.def says what each command does, as does --help commands. */
 typedef enum CommandKind {
     COMMAND_NONE,
 #define ROW(kind, ...) COMMAND_##kind,
@@ -27,115 +26,113 @@ typedef enum CommandKind {
 
 typedef struct Command {
     CommandKind kind;
-    long number; /* of an option: its row */
+    long number; /* of a node, a card, ...; the row of an option */
     double x, y;
-    char text[COMMAND_TEXT_SIZE]; /* of an option: a value that is not one
-                                     number, or makes no sense; else "" */
-    bool joins; /* undone together with the one before it: "& set ..." */
+    char text[COMMAND_TEXT_SIZE]; /* a name; the value of an option unless x has
+                                     it; else "" */
+    bool joins; /* the command joins the gesture before it: "& set ..." */
 } Command;
 
-/* Who listens to the keys; a row of the table says for whom its keys are. */
+/* The parts of the window that keys can go to; a row says to which its keys
+ * belong. */
 typedef enum Keyboard {
-    AT_RUN = 1,    /* the run, */
-    AT_NUMBER = 2, /* while a number is selected, */
-    AT_LIST = 4,   /* or the list of pages is open; */
-    AT_FIELD = 8,  /* what is typed: it takes every key */
-    AT_SHEET = 16, /* while the sheet of scenes is shown: no key of the run */
+    AT_RUN = 1,
+    AT_NUMBER = 2,    /* a number is selected */
+    AT_LIST = 4,      /* the list of pages or of numbers is open */
+    AT_FIELD = 8,     /* a text is typed: the field takes every key */
+    AT_SHEET = 16,    /* the sheet of scenes is open */
     AT_QUESTION = 32, /* a page waits for a guess */
     AT_PLAY = AT_RUN | AT_NUMBER | AT_LIST | AT_QUESTION,
     AT_ANY = AT_PLAY | AT_SHEET
 } Keyboard;
 
 enum {
-    REPEATS = 1, /* while the key is held down */
-    KEPT = 2,    /* belongs into the script of a session */
-    SCREEN = 4,  /* concerns what is shown: obeyed while a step is computed;
-                    all else ends that work first */
-    LATEST = 8,  /* of several in one drag the last one does what all do */
-    QUIET = 16   /* leaves the message of before */
+    REPEATS = 1, /* is repeated while the key is held down */
+    KEPT = 2,    /* is written into the script of a session */
+    SCREEN = 4,  /* changes only the screen: obeyed while a step is made; other
+                    commands abandon the step first */
+    LATEST = 8,  /* replaces the same command before it in a drag */
+    QUIET = 16   /* keeps the message below the picture */
 };
 
 typedef struct CommandRow {
-    const char *word; /* in scripts; NULL: not there */
-    const char *does; /* for whoever reads or writes one */
+    const char *word; /* in scripts, or NULL */
+    const char *does; /* for --help commands */
     unsigned flags;
-    const char *keys; /* "Space", "Ctrl+R", several: "?|F1"; "*": any;
-                         "letters": all that can be typed; NULL: none */
-    /* What it does, for the list of keys; "": told with the row before it;
-     * NULL: not in the list. */
-    const char *label;
-    /* What stands behind the word: "N X Y", a whole number from 0 and two more;
-     * "OPTION VALUE"; or a name; NULL: nothing. */
-    const char *takes;
+    const char *keys;  /* "Space", "Ctrl+R"; several: "?|F1"; "*": any;
+                          "letters":  all that type text; or NULL */
+    const char *label; /* for the list of keys; "": the keys belong to the row
+                          before; NULL: not listed */
+    const char *takes; /* arguments: "N X Y", a whole number from 0 and two more
+                          numbers; "OPTION VALUE"; a name; or NULL */
     Keyboard keyboard; /* 0: AT_PLAY */
-    const char *chip;  /* what it does now, for the chips: "play|pause" */
+    const char *chip;  /* words for what it does now: "play|pause" */
 } CommandRow;
 
-extern const CommandRow command_rows[COMMAND_KINDS]; /* of each kind */
+extern const CommandRow command_rows[COMMAND_KINDS];
 
-/* What a key asks for; COMMAND_NONE: nothing.  Its text is the key.
- *   key      "N", "Shift+N", "Left", "+"
- *   repeats  the key is held down */
+/* Returns the command of a key, with the key as its text, or COMMAND_NONE.
+ *   key      in, "N", "Shift+N", "Left", "+"
+ *   repeats  in, the key is held down */
 Command command_from_key(const char *key, bool repeats, Keyboard keyboard);
 
-/* The text of --help commands. */
+/* Prints the text of --help commands. */
 void commands_help(FILE *file);
 
-/* "goto 12" and the like.
+/* Reads a line like "goto 12".
  *   line     in, without the step
- *   command  out
- *   message  [size] out, what is wrong, after INVALID_INPUT
+ *   message  [size] out, the reason of INVALID_INPUT
  * Returns OK or INVALID_INPUT. */
 Status command_parse(const char *line, Command *command, char *message,
                      size_t size);
 
-/* The line that command_parse reads; numbers have 17 digits.
+/* Writes the line that command_parse reads, numbers with 17 digits.
  *   line  [size] out */
 void command_format(const Command *command, char *line, size_t size);
 
 /* ---- scripts ------------------------------------------------------------- */
 
-/* Commands from a file, each with the step at which it is given: a line each,
- * the step, a space, the command; empty lines and what stands behind # are
- * skipped.
+/* Commands from a file, a line each: the step at which the command is obeyed, a
+ * space, the command.  Empty lines and comments after # are skipped.
  *     0 set timestep 0.01
  *     40 grab 12
- * `40 & set stretch 1.2` is undone together with the line before it, as what
- * one drag does is.  The lines are obeyed in their order.  A line waits until
- * the run has reached its step; a run that is paused, or at its end, waits for
- * nothing. */
+ *     40 & drag 0.5 0.5
+ * A command with & joins the gesture of the line before: both are undone as
+ * one. Lines are obeyed in their order.  A line waits until the run has reached
+ * its step, unless the run is paused or at its end. */
 typedef struct ScriptLine {
     long step;
     Command command;
-    int gesture; /* it was part of; 0: unknown */
+    int gesture; /* id; 0: not known */
 } ScriptLine;
 
 typedef struct Script {
     ScriptLine *line; /* [count] in their order */
     size_t count, size;
-    size_t next; /* the line that is due next */
+    size_t next; /* index of the next line */
 } Script;
 
 /* Appends a line.  Returns OK, OUT_OF_MEMORY. */
 Status script_add(Script *script, long step, const Command *command,
                   int gesture);
 
-/* Reads the file of --script; NULL: there is none.
+/* Reads a script.
+ *   name     in, NULL: the script is empty
  *   script   out; free it in any case
- *   message  [size] out: what is wrong with the file or with which line
+ *   message  [size] out, the reason of INVALID_INPUT
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status script_read(const char *name, Script *script, char *message,
                    size_t size);
 
-/* Writes what script_read reads, behind a comment with the command line that
- * plays it.  Returns OK, OUT_OF_MEMORY, FILE_FAILED. */
+/* Writes a script after a comment with the command line that plays it.  Returns
+ * OK, OUT_OF_MEMORY, FILE_FAILED. */
 Status script_write(const char *name, const char *line, const Script *script);
 
-/* The next command if it is due, or NULL.
- *   waits  the run goes on by itself: later steps are waited for */
+/* Returns the next command if it is due, or NULL.
+ *   waits  the run goes on: commands of later steps are not due */
 const Command *script_due(Script *script, long step, bool waits);
 
-/* Whether every line was obeyed. */
+/* Whether all lines were obeyed. */
 bool script_is_over(const Script *script);
 
 void script_free(Script *script);

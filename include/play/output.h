@@ -15,37 +15,38 @@
 #include "base/status.h"
 
 enum {
-    OUTPUT_NAME = 4096 + 64,       /* bytes: the longest path and a bit more */
-    OUTPUT_TOLD = OUTPUT_NAME + 64 /* and why it failed */
+    OUTPUT_NAME = 4096 + 64,       /* bytes of a path */
+    OUTPUT_TOLD = OUTPUT_NAME + 64 /* bytes of a path and a reason */
 };
 
 /* A zeroed one is not open. */
 typedef struct Output {
     FILE *file;                  /* NULL: not open */
     char name[OUTPUT_NAME];      /* as it was given, for messages */
-    char temporary[OUTPUT_NAME]; /* where it is written; "": directly */
-    char *told; /* [OUTPUT_TOLD] out, not owned: "NAME: why", if it is "" when
-                   something fails; or NULL */
+    char temporary[OUTPUT_NAME]; /* NAME.part, or "": written directly */
+    char *told; /* [OUTPUT_TOLD] out, not owned: "NAME: why" of the first
+                   failure; or NULL */
 } Output;
 
-/* What becomes of a file at its end: it gets its name, stays NAME.part as far
- * as it got, or goes.  What stood under the name stays but for the first. */
+/* How a file ends: it gets its name and replaces the old file, stays NAME.part,
+ * or is removed. */
 typedef enum Keep { KEEP_WHOLE, KEEP_PART, KEEP_NOTHING } Keep;
 
 /* Opens it.  Returns OK, FILE_FAILED (told, and errno tells why). */
 Status output_open(const char *name, char *told, Output *output);
 
-/* Flushes and closes it, if it is open; its name can still be read.  Returns
- * OK, FILE_FAILED (it is NAME.part then). */
+/* Flushes and closes a file if it is open; output->name stays.  Returns OK, or
+ * FILE_FAILED and leaves NAME.part. */
 Status output_close(Output *output, Keep keep);
 
-/* Tells of a failure, and why, or NULL: what the status says, of FILE_FAILED
- * errno.  Returns the status; output_report_failure: FILE_FAILED. */
+/* Write "NAME: why" into `told` if it is empty.
+ *   why  NULL: the text of the status, after FILE_FAILED of errno
+ * Return the status; the second one FILE_FAILED. */
 Status output_report(char *told, const char *name, Status status,
                      const char *why);
 Status output_report_failure(const Output *output, const char *why);
 
-/* Why something failed: after FILE_FAILED what errno means here. */
+/* The text of a status; of FILE_FAILED that of errno. */
 const char *output_reason(Status status);
 
 /* Whether this name means standard output. */
@@ -64,7 +65,7 @@ typedef struct Table {
         char name[TABLE_LETTERS];
         char kind; /* 'w'hole, 't'ext; 0: a number */
     } column[TABLE_COLUMNS];
-    const char *(*text)(const char *column, int place); /* the texts */
+    const char *(*text)(const char *column, int place); /* for 't' columns */
 } Table;
 
 /* Adds columns: names with commas between them, or NULL; a name that is there
@@ -75,11 +76,11 @@ void table_columns(Table *table, const char *names);
 /* Opens it, and writes the line of names.  Returns as output_open. */
 Status table_open(const char *name, char *told, Table *table);
 
-/* One row, value [columns]; whether it could be written table_check says. */
+/* Adds a row, value [columns]; table_check reports failures. */
 void table_add(Table *table, const double *value);
 
-/* Returns FILE_FAILED (told) if something could not be written so far, else OK;
- * OK too if it is not open, as all that follow. */
+/* Returns FILE_FAILED (told) if a write has failed; OK also if the table is not
+ * open. */
 Status table_check(const Table *table);
 
 #endif

@@ -72,7 +72,7 @@ typedef struct Time {
     Mode mode;
     int fine; /* unit of "next": 0 a step, 1 an update, 2 a line */
     AfterWork after;
-    Station
+    TracePlace
         retaken; /* place before an edit made the step again; round -1: none */
     int speed;   /* s: 2^s steps a frame, or a frame lasts 2^-s times as long */
     double due;  /* s on the wall clock, time of the next step */
@@ -205,63 +205,62 @@ typedef struct Player {
                       is under it may replace the note */
 } Player;
 
-/* Sets everything up.  Says on standard error if there is no screen, and then
- * asks for frames in the folder "frames" and 100 steps.
+/* Creates a player.  Without a screen, says so on standard error and writes 100
+ * frames to the folder "frames".
  *   options  [count] in, of the panes
- *   words    in, how the program was called: its name, words, NULL; or NULL.
- *            They must live as long as the player
- *   stop     in, must live as long; not 0 ends the run after the present step
- *   player   out; must stay where it is; close it in any case
- * Returns OK, or why it failed; INVALID_INPUT: player->message may say more. */
+ *   words    in, command line with NULL at its end, or NULL; lives as long as
+ *            the player
+ *   stop     in, not 0 ends the run after the present step; lives as long
+ *   player   out; must not be moved; free it in any case
+ * Returns OK or a failure; player->message may say more of INVALID_INPUT. */
 Status player_create(const Options *options, int count, char *const *words,
                      const volatile sig_atomic_t *stop, Player *player);
 
-/* The next step, known or new, with its records; in a window it may only begin.
- * OK also for a step that did not converge. */
+/* Makes the next step, known or new, and records it; in a window it may only
+ * begin.  Returns OK also for a step that did not converge. */
 Status player_step(Player *player);
 
-/* Does what a command asks for.  Returns OK; INVALID_INPUT with the reason in
- * player->message where it makes no sense here; or a failure. */
+/* Obeys a command and the commands that it consists of.  Returns OK,
+ * INVALID_INPUT with the reason in player->message, or a failure. */
 Status player_obey(Player *player, const Command *command);
 
-/* What happened at keyboard, mouse or window, as commands.  Returns as
- * player_obey. */
+/* Obeys an input as commands.  Returns as player_obey. */
 Status player_input(Player *player, const Input *input);
 
-/* Draws, shows and records the state, if anything is drawn. */
+/* Draws, shows and records a frame, if frames are drawn. */
 Status player_draw(Player *player);
 
-/* Until the window is closed, or to the end. */
+/* Runs until the window is closed, or to the end. */
 Status player_run(Player *player);
 
-/* The same in its parts, for a program that is called a frame at a time, as a
- * page is: inputs, script, steps and a frame, as far as they are due; for how
- * many milliseconds nothing is; whether it is over. */
+/* The parts of player_run for a program that is called a frame at a time: reads
+ * inputs, obeys the script, makes steps, draws a frame, as far as they are due;
+ * time until something is due, ms; whether the run is over. */
 Status player_frame(Player *player);
 int player_wait(const Player *player);
 bool player_ended(const Player *player);
 
-/* What is different in a pane: "h 0.01 s, ended at step 3". */
+/* Writes the label of a pane: "h 0.01 s, ended at step 3". */
 void player_label(const Player *player, int pane, char label[LABEL_SIZE]);
 
-/* The hash of the present state of all panes; see state_hash. */
+/* Hash of the present state of all panes (state_hash). */
 uint64_t player_hash(const Player *player);
 
-/* The present options of all panes.  Returns how many. */
+/* Copies the present options of all panes.  Returns the number of panes. */
 int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
 
-/* Finishes the files and frees all but the numbers that the summary needs.
- *   status  how the run ended; a failure leaves its files as NAME.part
- * Returns it, or what failed then: OUT_OF_MEMORY, FILE_FAILED. */
+/* Finishes the files and closes the window; the summary can still be printed.
+ *   status  end of the run; after a failure files stay NAME.part
+ * Returns status, or OUT_OF_MEMORY, FILE_FAILED. */
 Status player_finish(Player *player, Status status);
 void player_free(Player *player);
 
 /* ---- the program --------------------------------------------------------- */
 
-/* From its command line to its exit code, wherever it runs.  What is wrong it
- * says in one line on standard error. */
+/* The program from its command line to its exit code, on a computer and in a
+ * page.  Failures are a line each on standard error. */
 
-/* How the program ends. */
+/* Exit codes. */
 enum ExitCode {
     PROGRAM_PLAYS = -1, /* not yet */
     EXIT_FINE = 0,
@@ -270,12 +269,12 @@ enum ExitCode {
     EXIT_UNCONVERGED = 3 /* the run ended, but steps did not converge */
 };
 
-/* The place of the word from i on that decides what is simulated, not how long
- * it runs and what it leaves behind.  0: there is none.  A loop over all of
- * them is for (i = 0; (i = player_next_argument(player, i + 1));) */
+/* Returns the index, from i on, of the next word of the command line that
+ * decides what is simulated, not how long it runs or what it writes; 0: no
+ * more.  A loop is for (i = 0; (i = player_next_argument(player, i + 1));) */
 int player_next_argument(const Player *player, int i);
 
-/* Does what a command line asks for, until it is to be played.
+/* Reads the command line, prints --help and the like, or creates the player.
  *   argv    in, NULL ends it; it must live as long as the player
  *   stop    in, must live as long; not 0 ends the run after the present step
  *   player  out, before its first frame; free it in any case
@@ -284,7 +283,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
                   Player *player);
 
 /* Finishes the files and prints the summary, or why the run failed.
- *   status  how it ended
+ *   status  end of the run
  * Returns the exit code. */
 int program_end(Player *player, Status status);
 

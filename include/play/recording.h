@@ -2,7 +2,7 @@
  *
  *   frames  FOLDER/frame_000000.png, ...: the number is that of the step;
  *           frames of an earlier run that this one does not reach stay there
- * and tables (output.h), which begin at step 0:
+ * Tables (output.h) begin at step 0:
  *   states    step,time,node,x,y,vx,vy of every node at every step; nodes of
  *             run 0 first, those of run 1 numbered on
  *   log       a row a Newton update, see newton.h
@@ -32,26 +32,24 @@
 typedef struct Film {
     const struct FilmKind *kind;
     int width, height; /* pixels; those of the first frame */
-    long frames;       /* so far */
+    long frames;       /* number of frames so far */
     Output output;
     FILE *pipe; /* to ffmpeg; NULL: it does not run */
 } Film;
 
-/* Begins a film; nothing is written before the first frame.
+/* Begins a film; the file begins with the first frame.
  *   name  in, its end says the kind
  *   told  as of output_open
  *   film  out; end it with film_close in any case
  * Returns OK, INVALID_INPUT (no such kind, or no ffmpeg), FILE_FAILED. */
 Status film_open(const char *name, char *told, Film *film);
 
-/* The next frame; what is beyond the size of the first one is cut off, what is
- * missing is white.  shown: so many times, at least 1.
- * Returns OK, FILE_FAILED. */
+/* Adds a frame `shown` times.  Pixels beyond the size of the first frame are
+ * cut off, missing ones are white.  Returns OK, FILE_FAILED. */
 Status film_add(Film *film, const Canvas *canvas, int shown);
 
-/* Ends it; OK too if it does not run.  A film without a frame is a failure,
- * and leaves nothing.  Its frames and name can still be read.  Returns OK,
- * FILE_FAILED. */
+/* Ends a film; OK also if it does not run.  A film without frames is a failure
+ * and leaves no file.  Returns OK, FILE_FAILED. */
 Status film_close(Film *film, Keep keep);
 
 static inline bool film_runs(const Film *film)
@@ -67,21 +65,21 @@ typedef enum RecordingTable {
     RECORDING_TABLES
 } RecordingTable;
 
-enum { FRAMES_MOST = 1000000 }; /* that have six digits */
+enum { FRAMES_MOST = 1000000 }; /* numbers of six digits */
 
 typedef struct Recording {
-    const char *folder;            /* of the frames, or NULL: none */
-    long frames;                   /* written */
+    const char *folder;            /* folder of the frames, or NULL */
+    long frames;                   /* number of frames written */
     unsigned char *older;          /* [FRAMES_MOST] 1: the frame of this step is
-                                      an earlier run's; NULL: not known */
-    long stayed[3];                /* after the end: how many of those are
-                                      left, the first, the last */
+                                      that of an earlier run; or NULL */
+    long stayed[3];                /* at the end: number of those that are left,
+                                      the first, the last */
     Film film;                     /* of the frames */
-    int panes;                     /* when it was opened */
-    Table table[RECORDING_TABLES]; /* not open: not written */
-    bool tables;                   /* any is open */
-    bool standard;                 /* one of them is standard output */
-    char message[OUTPUT_TOLD];     /* the first failure; "" */
+    int panes;                     /* number of panes at the start */
+    Table table[RECORDING_TABLES]; /* the open ones are written */
+    bool tables;                   /* a table is open */
+    bool standard;                 /* a table goes to standard output */
+    char message[OUTPUT_TOLD];     /* the first failure, or "" */
 } Recording;
 
 /* Opens what options->frames, film and the tables ask for; makes the folders.
@@ -90,8 +88,8 @@ typedef struct Recording {
  * INVALID_INPUT; the message says why. */
 Status recording_open(const Options *options, int panes, Recording *recording);
 
-/* One frame, if frames are asked for.  shown: for how many frames' time it
- * shall stand in a film. */
+/* Writes a frame, if the options ask for frames; it stands `shown` times in a
+ * film. */
 Status recording_frame(Recording *recording, const Canvas *canvas, long step,
                        int shown);
 
@@ -102,7 +100,7 @@ Status recording_states(Recording *recording, bool ledger,
                         const Simulation *const *simulation, int count,
                         long step);
 
-/* One row of the log, if there is one. */
+/* Adds a row to the log, if the options ask for a log. */
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane);
 

@@ -1,5 +1,4 @@
-/* view.h - the window: that of window_sdl.c on a computer, of window_web.c in a
- * page.
+/* view.h - the window, by window_sdl.c on a computer, window_web.c in a page.
  */
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H
@@ -8,17 +7,17 @@
 
 #include "picture/paper.h"
 
-/* What happened at keyboard, mouse or window. */
+/* An event of keyboard, mouse or window. */
 typedef enum InputKind {
     INPUT_NONE,
     INPUT_KEY,     /* key */
-    INPUT_CLOSE,   /* somebody asks for the end */
+    INPUT_CLOSE,   /* the window is to be closed */
     INPUT_REDRAW,  /* the window was uncovered or resized */
     INPUT_MOVE,    /* x, y */
     INPUT_PRESS,   /* button, x, y, clicks */
     INPUT_RELEASE, /* button, x, y */
     INPUT_WHEEL,   /* x, y, amount: > 0 away from the hand */
-    INPUT_LEAVE    /* the mouse is elsewhere */
+    INPUT_LEAVE    /* the mouse has left the window */
 } InputKind;
 
 enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
@@ -32,17 +31,16 @@ typedef struct Input {
     double amount;
 } Input;
 
-/* There is one at a time; false: window_failure tells why there is none.
- *   size  [2] in, its pixels; 0: 1280 x 800, or what fits on the screen
- *   full  it fills the screen
- * window_close: in any case; a second time it does nothing. */
+/* Opens the only window.  Returns false if it cannot, window_failure says why.
+ *   size  [2] in, pixels; 0: 1280 x 800, or what fits on the screen
+ *   full  the window fills the screen */
 bool window_open(const char *title, const int size[2], bool full);
 void window_close(void);
 
 /* size  [2] out, pixels of a paper that fills it */
 void window_size(int size[2]);
 
-/* Pixels that a letter needs there, so that it can be read. */
+/* Size of a letter that can be read there, pixels. */
 double window_letter(void);
 
 /* Whether a page shows texts, numbers, keys and cards beside the paper. */
@@ -50,21 +48,21 @@ bool window_has_document(void);
 
 void window_set_title(const char *title);
 
-/* Why the last SCREEN_FAILED; "" where nobody knows. */
+/* Reason of the last SCREEN_FAILED, or "". */
 const char *window_failure(void);
 
 /* Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
 Status window_show(const Canvas *canvas);
 
-/* Full screen, or a window again; whether it is. */
+/* Switches to the full screen or back; whether the window is full. */
 void window_set_full(bool full);
 bool window_is_full(void);
 
-/* The next input that waits, or INPUT_NONE.  Of several movements in a row only
- * the last is told. */
+/* Returns the next input, or INPUT_NONE.  Several movements in a row are one.
+ */
 Input window_input(void);
 
-/* Waits for an input, at most this long. */
+/* Waits for an input, up to a time. */
 void window_wait(int milliseconds);
 
 #endif

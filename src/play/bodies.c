@@ -1,15 +1,15 @@
-/* bodies.c - what a hand does to bodies: pins, pulls, pushes, places, drags. */
+/* bodies.c - pins, pulls, pushes, places and drags bodies. */
 #include "play/playing.h"
 #include "run/scene.h"
 #include "scenes/small_scenes.h"
 
-/* In all panes. */
+/* Edits all panes from the present step on. */
 static Status edit_all_panes(Player *player, const Command *change)
 {
     return player_edit(player, change, 0, past_panes(&player->past), false);
 }
 
-/* Pins a node, or sets it free. */
+/* Pins a node, or frees it. */
 Status obey_pin(Player *player, const Command *command)
 {
     long node = command->number;
@@ -24,8 +24,8 @@ Status obey_pin(Player *player, const Command *command)
     return status;
 }
 
-/* The hand takes a node, or a ground or a ball, where it is. */
-static Status take(Player *player, CommandKind kind, long number,
+/* Grabs a node, a ground or a ball where it is. */
+static Status grab(Player *player, CommandKind kind, long number,
                    const double at[2])
 {
     const Command change = {
@@ -44,7 +44,7 @@ Status obey_grab(Player *player, const Command *command)
     const Simulation *simulation = player_simulation(player);
     if (!simulation_is_draggable(simulation))
         return player_refuse(player, "nothing to take hold of here");
-    return take(player, COMMAND_GRAB, command->number,
+    return grab(player, COMMAND_GRAB, command->number,
                 simulation->run[0].x + 2 * command->number);
 }
 
@@ -55,10 +55,10 @@ Status obey_push(Player *player, const Command *command)
     if (!simulation_is_draggable(simulation))
         return player_refuse(player, "nothing to push here");
     simulation_obstacle(simulation, 0, (int)command->number, at);
-    return take(player, COMMAND_PUSH, command->number, at);
+    return grab(player, COMMAND_PUSH, command->number, at);
 }
 
-/* A node is put somewhere: an experiment of one's own. */
+/* Puts a node somewhere. */
 Status obey_place(Player *player, const Command *command)
 {
     if (!simulation_is_draggable(player_simulation(player)))
@@ -74,7 +74,7 @@ Status obey_place(Player *player, const Command *command)
     return edit_all_panes(player, command);
 }
 
-/* A ground or a ball goes where the bodies leave room. */
+/* Moves a ground or a ball where the bodies leave room. */
 Status obey_obstacle(Player *player, const Command *command)
 {
     Options moved = *player_settings(player);
@@ -89,7 +89,7 @@ Status obey_obstacle(Player *player, const Command *command)
     return status ? status : edit_all_panes(player, command);
 }
 
-/* The hand pulls or pushes, or lets go. */
+/* Moves the hand, or releases what it holds. */
 Status obey_drag(Player *player, const Command *command)
 {
     if (!control_holds(past_control(&player->past, player->active)))
@@ -99,8 +99,8 @@ Status obey_drag(Player *player, const Command *command)
     return edit_all_panes(player, command);
 }
 
-/* A point or a switch of the scene; a minimisation begins anew with a point, at
- * step 0. */
+/* Drags a point of the scene or flips a switch; a dragged start begins the
+ * minimisation again at step 0. */
 Status obey_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;
@@ -118,6 +118,6 @@ Status obey_handle(Player *player, const Command *command)
     if (!status)
         status = edit_all_panes(player, command);
     if (past->now > now)
-        past->branch[now].shown = step; /* where undo leads back to */
+        past->branch[now].shown = step; /* undo leads back to it */
     return status;
 }

@@ -1,4 +1,5 @@
-/* commands.c - the table of commands, with their keys, texts and help. */
+/* commands.c - finds commands by key, reads and writes them as text; scripts.
+ */
 #define _POSIX_C_SOURCE 200809L /* getline */
 
 #include "play/command.h"
@@ -20,8 +21,7 @@ const CommandRow command_rows[COMMAND_KINDS] = {
 #undef ROW
 };
 
-/* Whether a key belongs into a text: a letter, a digit, a sign, a blank, or the
- * key that takes one back. */
+/* Whether a key types text or takes a letter back. */
 static bool is_typed(const char *key)
 {
     if (strncmp(key, "Shift+", 6) == 0)
@@ -63,7 +63,7 @@ Command command_from_key(const char *key, bool repeats, Keyboard keyboard)
 
 /* ---- lines of scripts ---------------------------------------------------- */
 
-/* A line for each: its word, what stands behind it, what it does, its keys. */
+/* Prints a line for each command: word, arguments, what it does, first key. */
 void commands_help(FILE *file)
 {
     fprintf(file,
@@ -89,7 +89,8 @@ void commands_help(FILE *file)
 
 static const char blanks[] = " \t\r\n";
 
-/* The next word of the line, or "".  word [COMMAND_TEXT_SIZE] out */
+/* Takes the next word of a line.  Returns false if there is none, or if it is
+ * too long. word  [COMMAND_TEXT_SIZE] out */
 static bool take_word(const char **line, char *word)
 {
     const char *at = *line + strspn(*line, blanks);
@@ -100,15 +101,15 @@ static bool take_word(const char **line, char *word)
     return fits;
 }
 
-/* The words of what a command takes, one after the other; NULL: no more. */
+/* Returns the next argument of a command, or NULL. */
 static const char *next_taken(const char *at)
 {
     at = strchr(at, ' ');
     return at ? at + 1 : NULL;
 }
 
-/* A word as what a command takes.  An option or a value that makes no sense is
- * refused when the command is obeyed, where somebody knows why. */
+/* Reads a word as an argument.  A wrong option or value is refused when the
+ * command is obeyed, with its reason. */
 static bool read_word(const char *word, const char *taken, Command *command)
 {
     const OptionRow *row;
@@ -157,7 +158,7 @@ Status command_parse(const char *line, Command *command, char *message,
     while (kind < COMMAND_KINDS && (!command_rows[kind].word ||
                                     strcmp(command_rows[kind].word, word) != 0))
         kind++;
-    if (strcmp(word, "box") == 0) /* for one release */
+    if (strcmp(word, "box") == 0)
         return refuse((Refusal){message, size},
                       "'box' is gone: place puts one node somewhere");
     if (kind == COMMAND_KINDS)
@@ -255,7 +256,7 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
     return status;
 }
 
-/* Whether the next line, of the same drag, does all that this one does. */
+/* Whether the next line is of the same drag and replaces this one. */
 static bool is_covered(const ScriptLine *line)
 {
     return command_rows[line->command.kind].flags & LATEST &&
@@ -272,14 +273,14 @@ Status script_write(const char *name, const char *line, const Script *script)
         return status;
     errno = 0;
     fprintf(output.file, "# %s\n", line);
-    int gesture = 0; /* of the line before */
+    int gesture = 0; /* of the previous line */
     for (size_t i = 0; i < script->count; i++) {
         char line[512];
         const ScriptLine *at = &script->line[i];
         Command command = at->command;
         if (i + 1 < script->count && is_covered(at))
             continue;
-        if (at->gesture) /* drags go on with what was grabbed by themselves */
+        if (at->gesture) /* drags join their grab anyway */
             command.joins = at->gesture == gesture &&
                             command.kind != COMMAND_DRAG &&
                             command.kind != COMMAND_RELEASE;

@@ -6,14 +6,14 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Colours that every player knows, which share one value between four pixels;
- * so width and height are made even. */
+/* Pixels in a format that all players read; it needs an even width and height.
+ */
 #define COMMON "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"
 
 static const struct FilmKind {
-    const char *end;   /* of the name; without its dot the name of the format */
+    const char *end;   /* end of the name: a dot and the name of the format */
     int rate;          /* frames a second */
-    const char *words; /* what ffmpeg is told behind its input */
+    const char *words; /* options of ffmpeg for its output */
 } film_kinds[] = {
     {".mp4", 60, COMMON},
     {".webm", 60,
@@ -47,8 +47,9 @@ Status film_open(const char *name, char *told, Film *film)
     return output_report(told, name, STATUS_INVALID_INPUT, why);
 }
 
-/* With the first frame, whose size the film has.  ffmpeg's words go nowhere; a
- * session of its own keeps Ctrl+C from it: the film ends when the pipe does. */
+/* Starts ffmpeg with the first frame, whose size the film has.  Its messages
+ * are discarded; a session of its own keeps Ctrl+C from it, so that the film
+ * ends when the pipe does. */
 static void start_ffmpeg(Film *film, const Canvas *canvas)
 {
     char line[512];
@@ -63,7 +64,7 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
     if (setenv("ELASTO_FILM", film->output.temporary, 1) == 0)
         film->pipe = popen(line, "we");
     if (film->pipe)
-        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* what a pipe takes */
+        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
 }
 
 Status film_add(Film *film, const Canvas *canvas, int shown)

@@ -9,8 +9,8 @@
 #include "play/playing.h"
 #include "run/scene.h"
 
-static const double LONG_WORK = 0.3;  /* s; then it is shown */
-static const double SMALL_LETTER = 9; /* pixels, of a surface */
+static const double LONG_WORK = 0.3;  /* s, after which work is reported */
+static const double SMALL_LETTER = 9; /* pixels, without a window */
 
 /* ---- the list of keys ---------------------------------------------------- */
 
@@ -124,8 +124,8 @@ static void fill_options(const Player *player, Show *show)
 
 /* ---- the chips ----------------------------------------------------------- */
 
-/* Adds the chip of a command: its first key, and word number `word` of those in
- * its row, which say what the key does now. */
+/* Adds the chip of a command: its first key, and one of the words in its row
+ * for what the key does now. */
 static void add_chip(Frame *frame, CommandKind kind, int word, bool lit)
 {
     int i = frame->show.chips;
@@ -239,11 +239,11 @@ static void fill_pane(const Player *player, int p, Frame *frame)
         simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
     if (machine->known && newton) {
         pane->trace = &frame->trace[p];
-        pane->x = rounds_trace(&machine->rounds, side->place, &frame->trace[p]);
+        pane->x = step_trace_at(&machine->trace, side->place, &frame->trace[p]);
     }
 }
 
-/* The bar of a step in the time line. */
+/* Returns the bar of a step in the time line. */
 static StepBar bar_of(const void *shown, long step)
 {
     const Player *player = shown;
@@ -252,14 +252,14 @@ static StepBar bar_of(const void *shown, long step)
     return (StepBar){outcome->updates, status_is_unconverged(outcome->status)};
 }
 
-/* "step 12 of 40   t = 0.24 s   2 steps a frame", and what time does; a long
- * step says so, and how to stop it. */
+/* Writes "step 12 of 40   t = 0.24 s   2 steps a frame", the state of the run,
+ * and how to stop a long step. */
 static void fill_time(const Player *player, Show *show)
 {
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
     char *text = show->time_text;
-    double time = 0, longest = -1; /* h leads; a pane that ended stands still */
+    double time = 0, longest = -1; /* s; the longest h says the time */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->machine[p].simulation;
         bool goes = past_end_step(past, p, past->step) < 0;
@@ -269,7 +269,7 @@ static void fill_time(const Player *player, Show *show)
     }
     show->paused = player_is_stopped(player);
     if (player_settings(player)->next ==
-            NEXT_SPRING && /* its steps are springs */
+            NEXT_SPRING && /* each step writes a spring */
         past->step < player_simulation(player)->system.springs) {
         snprintf(text, SHOW_TEXT, "spring %ld", past->step);
         return;
@@ -307,7 +307,7 @@ static void fill_frame(const Player *player, Frame *frame)
                                           : 0;
     show->document = player->screen.window && window_has_document();
     show->panes = past_panes(past);
-    if (show->panes > LAYOUT_PANES) /* of a run that only a script draws */
+    if (show->panes > LAYOUT_PANES) /* of a script */
         show->panes = LAYOUT_PANES;
     show->active = active < show->panes ? active : 0;
     for (int i = 0; i < show->panes; i++)
@@ -375,7 +375,7 @@ void player_fill(Player *player)
 Paper *player_paper(Player *player)
 {
     static bool told;
-    const char *font = getenv("ELASTO_FONT"); /* empty: no words, please */
+    const char *font = getenv("ELASTO_FONT"); /* "": no words */
     Paper *paper = &player->screen.paper;
     const Canvas *canvas = &paper->canvas;
     int size[2] = {player->screen.size[0], player->screen.size[1]};
@@ -396,7 +396,7 @@ Paper *player_paper(Player *player)
     if (!paper->text && !told && (!font || font[0])) {
         fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
                         "no words (ELASTO_FONT=FILE.ttf names another font)\n");
-        told = true; /* pictures without words are pictures, too */
+        told = true;
     }
     return paper;
 }

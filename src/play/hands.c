@@ -1,7 +1,5 @@
-/* hands.c - from keyboard and mouse to commands.
- *
- * What is under the mouse is a question to the layout and to the pictures; what
- * is done about it is a command, as a script could say it.
+/* hands.c - makes commands of keyboard and mouse, such as a script could have,
+ * from what layout and pictures have under the mouse.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,22 +13,21 @@
 
 enum {
     CLICK_ROOM = 4,  /* pixels that a click may move */
-    PACE_PIXELS = 24 /* of a drag that changes a number by one pace */
+    PACE_PIXELS = 24 /* pixels of a drag that changes a number by a pace */
 };
 
-static const double WHEEL_ZOOM = 1.15; /* of one notch */
+static const double WHEEL_ZOOM = 1.15; /* factor of a notch */
 
-/* What is under the mouse: a part of the window; on the stage a pane, where in
- * its world, m, and what lies there. */
+/* The place of the mouse. */
 typedef struct Under {
     Layout layout; /* of the last frame */
-    Hit hit;
+    Hit hit;       /* part of the window */
     int pane;
-    double at[2];
-    Pick pick;
+    double at[2]; /* m, in the world of that pane */
+    Pick pick;    /* part of the scene */
 } Under;
 
-static Under look(Player *player)
+static Under find_under_mouse(Player *player)
 {
     const Mouse *mouse = &player->hands.mouse;
     const Paper *paper = player_paper(player);
@@ -43,7 +40,7 @@ static Under look(Player *player)
     int pane = held->on                       ? held->pane
                : under.hit.zone == ZONE_STAGE ? under.hit.index
                                               : under.pane;
-    if (pane < past_panes(&player->past)) /* it may have gone meanwhile */
+    if (pane < past_panes(&player->past)) /* it may be closed */
         under.pane = pane;
     held->away = false;
     Camera camera = show_camera(show, &under.layout, under.pane);
@@ -53,7 +50,7 @@ static Under look(Player *player)
     return under;
 }
 
-/* Commands of one key or drag are undone at once. */
+/* Obeys a command that joins the present gesture. */
 static Status ask_at(Player *player, CommandKind kind, long number,
                      const double at[2])
 {
@@ -73,7 +70,7 @@ static Status ask_set(Player *player, const OptionRow *row, double value)
                   (const double[2]){value, 0});
 }
 
-/* A number goes so many paces up. */
+/* Raises a number by some paces. */
 static Status change_pace(Player *player, const OptionRow *row, int paces)
 {
     double value;
@@ -83,7 +80,7 @@ static Status change_pace(Player *player, const OptionRow *row, int paces)
 
 /* ---- the keyboard -------------------------------------------------------- */
 
-/* Who listens to the keys. */
+/* The part of the window that the keys go to. */
 static Keyboard keyboard_now(const Player *player)
 {
     bool number = player->hands.lit;
@@ -97,7 +94,7 @@ static Keyboard keyboard_now(const Player *player)
                                                             : AT_RUN;
 }
 
-/* A line of the list of pages or of numbers, as it was typed or hit. */
+/* Opens a page or adds a number by its line in the list. */
 static Status open_line(Player *player, const char *line)
 {
     const OptionRow *all[OPTIONS_MOST];
@@ -114,9 +111,9 @@ static Status open_line(Player *player, const char *line)
     return ask(player, COMMAND_ADD, all[number - 1] - option_rows);
 }
 
-/* The page is opened, the answer is checked, or the number is set; what cannot
- * be read leaves the field as it is. */
-static Status enter(Player *player)
+/* Opens the typed page, checks the answer or sets the number; the field stays
+ * open if its text cannot be read. */
+static Status enter_typed(Player *player)
 {
     const OptionRow *row = player->hands.lit;
     Command made = {.kind = COMMAND_SET, .joins = true};
@@ -143,8 +140,8 @@ static Status enter(Player *player)
 
 /* ---- the stage ----------------------------------------------------------- */
 
-/* A number follows the mouse, from its value where the drag began; the stretch
- * puts the edge there, in hundredths. */
+/* Sets the dragged number from the distance to the start of the drag; a dragged
+ * edge sets the stretch in hundredths. */
 static Status drag_number(Player *player, const Under *under)
 {
     const Mouse *mouse = &player->hands.mouse;
@@ -156,7 +153,7 @@ static Status drag_number(Player *player, const Under *under)
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
-        return change_pace(player, row, 1); /* which says why not */
+        return change_pace(player, row, 1); /* is refused */
     if (row->field.pace > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
@@ -167,8 +164,8 @@ static Status drag_number(Player *player, const Under *under)
                                            : ask_set(player, row, wanted);
 }
 
-/* The square with the cell's numbers, from its start: commands that a script
- * can repeat. */
+/* Opens the square with the numbers of a cell of the map, by commands that a
+ * script can repeat. */
 static Status load_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;
@@ -190,14 +187,14 @@ static Status load_cell(Player *player, long cell)
     return status;
 }
 
-/* Whether a drag places things; else it pulls and pushes. */
+/* Whether a drag places bodies; else it pulls and pushes them. */
 static bool is_paused(const Player *player)
 {
     return player->time.mode == MODE_PAUSE || player->time.mode == MODE_END;
 }
 
-/* Takes what is under the mouse. */
-static Status take(Player *player, const Under *under)
+/* Begins to drag what is under the mouse, or clicks it. */
+static Status take_under_mouse(Player *player, const Under *under)
 {
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_settings(player)->page;
@@ -240,8 +237,8 @@ static Status take(Player *player, const Under *under)
     }
 }
 
-/* A ball where nothing is, as large as there is room for, but no larger than an
- * eighth of the square or what no gap between two nodes lets through. */
+/* Adds a ball: 1/8 of the square, at least 0.7 of a cell so that it does not
+ * fit between two nodes, and smaller where a node is near. */
 static Status put_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_simulation(player);
@@ -263,9 +260,8 @@ static Status put_ball(Player *player, const double at[2])
     return status;
 }
 
-/* A ground or a ball follows the mouse: while time goes on it pushes what it
- * meets; while time stands still it is put there, or as far on the way as there
- * is room in all panes. */
+/* Moves a ground or a ball with the mouse: pushes it while time goes on; places
+ * it in a pause, as far on the way as all panes have room. */
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
@@ -289,17 +285,17 @@ static Status drag_obstacle(Player *player, const double at[2])
     return ask_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
 }
 
-/* What is held follows the mouse. */
-static Status follow(Player *player)
+/* Moves what is dragged with the mouse. */
+static Status drag_held(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
-    Under under = look(player);
+    Under under = find_under_mouse(player);
     double dx = mouse->x - mouse->from[0], dy = mouse->y - mouse->from[1];
     Status status = STATUS_OK;
     mouse->moved = mouse->moved || math_hypot(dx, dy) > CLICK_ROOM;
     switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
-    case COMMAND_GRAB: /* of a pin it makes a free node first */
+    case COMMAND_GRAB: /* a pin is freed for the drag */
         if (!player->hands.holds) {
             mouse->pins = simulation->system.pinned[mouse->index];
             if (mouse->pins)
@@ -338,19 +334,17 @@ static Status follow(Player *player)
 
 /* ---- events -------------------------------------------------------------- */
 
-/* What is under the mouse, for the picture; a cell of the envelope is run. */
+/* Notes what is under the mouse for the next frame; shows a cell of the map. */
 static Status hover(Player *player)
 {
     View *view = &player->screen.view;
-    Under under = look(player);
+    Under under = find_under_mouse(player);
     Pick pick = under.pick;
     bool same =
         under.hit.zone == view->over.zone &&
         under.hit.index == view->over.index && pick.kind == view->hover.kind &&
         pick.index == view->hover.index && pick.pane == view->hover.pane;
-    bool idle =
-        pick.kind == PICK_NONE && !player->screen.frame.show.lecture; /* whose
-                                                     terms light up */
+    bool idle = pick.kind == PICK_NONE && !player->screen.frame.show.lecture;
     if (under.hit.zone == ZONE_CELL)
         view->chosen = under.hit.index;
     view->over = under.hit;
@@ -397,7 +391,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     case ZONE_TIME:
         player->hands.mouse.drag = COMMAND_GOTO;
         player->hands.mouse.moved = true; /* a click goes there, too */
-        return follow(player);
+        return drag_held(player);
     case ZONE_SETTING:
         return number_pressed(player, index, clicks);
     case ZONE_PAGE_CLOSE:
@@ -416,7 +410,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
         if (under->pane != player->active)
             status = ask(player, COMMAND_PANE, under->pane);
         if (status || clicks < 2 || !ground)
-            return status ? status : take(player, under);
+            return status ? status : take_under_mouse(player, under);
         return body && under->pick.near < 0 && under->pick.kind == PICK_NONE
                    ? put_ball(player, under->at)
                    : ask(player, COMMAND_FIT, 0);
@@ -428,7 +422,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
 static Status pressed(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
-    Under under = look(player);
+    Under under = find_under_mouse(player);
     bool stage = under.hit.zone == ZONE_STAGE;
     const Scene *scene = player_simulation(player)->scene;
     bool nodes = (scene->needs & NEEDS_MESH) && !scene->step;
@@ -437,7 +431,7 @@ static Status pressed(Player *player, const Input *input)
     mouse->from[1] = mouse->y;
     mouse->grip[0] = mouse->grip[1] = 0;
     mouse->moved = false;
-    player->note[0] = '\0'; /* of what was before */
+    player->note[0] = '\0';
     if (input->button == BUTTON_LEFT)
         return left_pressed(player, &under, input->clicks);
     if (!stage)
@@ -452,8 +446,8 @@ static Status pressed(Player *player, const Input *input)
     return STATUS_OK;
 }
 
-/* A click on a name takes the next one; a click on a node only says what drag
- * and right click do. */
+/* Ends a drag.  A click on a choice takes the next value; a click on a node
+ * says what drags and right clicks do. */
 static Status release(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
@@ -486,7 +480,7 @@ static Status release(Player *player)
 
 static Status wheeled(Player *player, double amount)
 {
-    Under under = look(player);
+    Under under = find_under_mouse(player);
     if (under.hit.zone == ZONE_SETTING &&
         under.hit.index < player->screen.frame.numbers)
         return change_pace(player, player->screen.frame.number[under.hit.index],
@@ -502,7 +496,7 @@ static Status wheeled(Player *player, double amount)
     return STATUS_OK;
 }
 
-/* The mouse is where the input says. */
+/* Does what the mouse asks for. */
 static Status mouse_used(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
@@ -518,11 +512,11 @@ static Status mouse_used(Player *player, const Input *input)
     if (input->kind == INPUT_WHEEL)
         return wheeled(player, input->amount);
     if (mouse->drag != COMMAND_NONE)
-        return follow(player);
-    return rests ? STATUS_OK : hover(player); /* the window came to the mouse */
+        return drag_held(player);
+    return rests ? STATUS_OK : hover(player);
 }
 
-/* A drag is one gesture, and so is a wheel that turns on. */
+/* A drag is one gesture, and so are turns of the wheel in a row. */
 Status player_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
@@ -532,7 +526,7 @@ Status player_input(Player *player, const Input *input)
     Status status = STATUS_OK;
     player->orders.gesture = mouse->gesture;
     if (press && mouse->drag != COMMAND_NONE)
-        status = release(player); /* by another button */
+        status = release(player); /* of another button */
     if (!status)
         status = player_obey_waiting(player, press && player->hands.holds);
     if (status)
@@ -550,7 +544,7 @@ Status player_input(Player *player, const Input *input)
         command.joins = true;
         if (command.kind)
             status = player_obey(player, &command);
-        return !status && command.kind == COMMAND_ENTER ? enter(player)
+        return !status && command.kind == COMMAND_ENTER ? enter_typed(player)
                                                         : status;
     case INPUT_CLOSE:
         return ask(player, COMMAND_QUIT, 0);

@@ -1,5 +1,5 @@
-/* keepsakes.c - what is kept of a session, where nothing is overwritten:
- * pictures, films, the way to a state.
+/* keepsakes.c - saves pictures, films and scripts of a session under free
+ * names.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 enum { NOTE_LINE = 100 }; /* letters of a command line that a note has */
 
-/* elasto_SCENE_000012.png, or the first of ..._2.png, ... that is free. */
+/* Finds a free name: elasto_SCENE_000012.png, ..._2.png, ... */
 static void free_name(const Player *player, const char *end, char *name,
                       size_t size)
 {
@@ -26,7 +26,7 @@ static void free_name(const Player *player, const char *end, char *name,
     }
 }
 
-/* The frame as it is, in the present folder. */
+/* Saves the frame in the present folder. */
 Status obey_shot(Player *player, const Command *command)
 {
     char name[80];
@@ -47,7 +47,7 @@ Status obey_shot(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Begins a film of all that is drawn, or ends it. */
+/* Begins a film of all frames, or ends it. */
 Status obey_film(Player *player, const Command *command)
 {
     char name[80], told[OUTPUT_TOLD] = "";
@@ -87,13 +87,13 @@ int player_next_argument(const Player *player, int i)
             return i;
         if (row->kind != OPTION_SWITCH && words[i][length] == '\0' &&
             words[i + 1])
-            i++; /* its value is the next word */
+            i++; /* skips its value */
     }
     return 0;
 }
 
-/* A word as a shell takes it: as it is, in quotes or, where it has what no
- * terminal should see, as bash, zsh and ksh write that. */
+/* Writes a word for a shell: as it is, in quotes, or with control characters as
+ * bash, zsh and ksh write them. */
 static void put_word(FILE *file, const char *word)
 {
     static const char plain[] = "%+,-./0123456789:=@_"
@@ -112,8 +112,9 @@ static void put_word(FILE *file, const char *word)
     fputs(bare ? "" : "'", file);
 }
 
-/* The command line that leads to the present step, by a script where commands
- * have led to it (else NULL).  NULL: not enough memory; free it. */
+/* Returns the command line that leads to the present step, to be freed, or NULL
+ * if memory is missing.
+ *   script  in, name of the script of its commands; NULL: there were none */
 static char *make_line(const Player *player, const char *script)
 {
     char *line = NULL;
@@ -134,8 +135,8 @@ static char *make_line(const Player *player, const char *script)
     return NULL;
 }
 
-/* The journal as a script under this name, which begins with the line that
- * plays it, and ends with a pause. */
+/* Writes the journal as a script, which begins with the command line that plays
+ * it and ends with a pause. */
 static Status write_journal(Player *player, const char *name, const char *line)
 {
     const Command pause = {.kind = COMMAND_PAUSE};
@@ -150,9 +151,8 @@ static Status write_journal(Player *player, const char *name, const char *line)
     return status;
 }
 
-/* The hash of the state and the line that leads to it, whole on the terminal;
- * where commands have led here they are written down as a script, which leads
- * here again and stays. */
+/* Reports the hash of the state and the command line that leads to it; after
+ * commands, saves the script of that line. */
 Status obey_hash(Player *player, const Command *command)
 {
     char name[80], hash[64];

@@ -1,6 +1,4 @@
-/* numbers.c - the numbers of the run: which are in the row, how they are set,
- * lit and typed.
- */
+/* numbers.c - the row of numbers: selects, types, steps and sets them. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,13 +10,13 @@
 
 /* ---- the row ------------------------------------------------------------- */
 
-/* The option that a command is about, or NULL. */
+/* Returns the option of a command, or NULL. */
 static const OptionRow *row_of(const Command *command)
 {
     return command->number < 0 ? NULL : &option_rows[command->number];
 }
 
-/* Whether it is one that the scene can make use of. */
+/* Whether the scene uses this option, and it is a number or a choice. */
 static bool is_number(const Player *player, const OptionRow *row)
 {
     return (row->needs & player_settings(player)->scene->needs) &&
@@ -61,7 +59,7 @@ const char *player_idle_reason(const Player *player, const OptionRow *row)
     return row->idle ? row->idle(player_settings(player)) : NULL;
 }
 
-/* The row of numbers has this one, too, and it is lit. */
+/* Adds a number to the row and selects it. */
 Status obey_add(Player *player, const Command *command)
 {
     const OptionRow *row = row_of(command);
@@ -78,7 +76,7 @@ Status obey_add(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* The next number, and after the last one none. */
+/* Selects the next number, after the last one none. */
 Status obey_select(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
@@ -90,7 +88,7 @@ Status obey_select(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* One letter more or less.  The first one opens the field. */
+/* Types a letter or takes one back; the first letter opens the field. */
 Status obey_type(Player *player, const Command *command)
 {
     char *typed = player->hands.typed;
@@ -109,7 +107,7 @@ Status obey_type(Player *player, const Command *command)
         append(typed, sizeof player->hands.typed, "%c",
                shift ? key[0] : tolower(key[0]));
     if (player->hands.lit)
-        player_note(player, "a number is typed: Enter sets it, Esc leaves it");
+        player_note(player, "type a value: Enter sets it, Esc leaves it");
     else
         player_note(player, "%s %s_: Enter %s it, Esc leaves it",
                     !list                                     ? "your answer"
@@ -121,7 +119,7 @@ Status obey_type(Player *player, const Command *command)
 
 /* ---- values -------------------------------------------------------------- */
 
-/* The value of a command into the options of a pane. */
+/* Puts the value of a command into the options of a pane. */
 static Status put_value(Player *player, int pane, const Command *command,
                         Options *options)
 {
@@ -142,9 +140,8 @@ static Status put_value(Player *player, int pane, const Command *command,
                                      sizeof player->message);
 }
 
-/* An option while the run goes on, or from the start where it cannot change any
- * more: in the active pane where they are compared by it or a page opens, else
- * in all. */
+/* Sets an option, or begins again with it where the run fixes it: in the active
+ * pane if the panes differ in it or a page opens, else in all panes. */
 Status obey_set(Player *player, const Command *command)
 {
     const OptionRow *row = row_of(command);
@@ -192,7 +189,7 @@ Status player_paced(Player *player, const OptionRow *row, int paces,
     return STATUS_OK;
 }
 
-/* The lit number, or else the first one, a pace up or down. */
+/* Changes the selected number, or the first one, by a pace. */
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
@@ -207,7 +204,7 @@ Status obey_raise(Player *player, const Command *command)
     return status;
 }
 
-/* The value of the page, or of the command line, or of the scene by itself. */
+/* Sets an option to its value on the page, the command line or in the scene. */
 Status obey_default(Player *player, const Command *command)
 {
     const OptionRow *row = row_of(command);
@@ -223,8 +220,7 @@ Status obey_default(Player *player, const Command *command)
     return status;
 }
 
-/* Off, or on again as the command line has it; where there is something to
- * switch. */
+/* Switches a method off, or on again as on the command line. */
 Status obey_switch(Player *player, const Command *command)
 {
     bool search = command->kind == COMMAND_SEARCH;

@@ -1,4 +1,4 @@
-/* obey.c - from a command to its deed, and the journal of what was done. */
+/* obey.c - obeys a command and those in the queue; keeps the journal. */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -18,8 +18,8 @@ static Deed *const deeds[COMMAND_KINDS] = {
 
 /* ---- the journal --------------------------------------------------------- */
 
-/* What is done from now on is undone at once with what was done before, if the
- * command says so, or drags what was grabbed. */
+/* Begins a gesture, which is undone as a whole, unless the command joins the
+ * present one; a drag belongs to the gesture of its grab. */
 static void begin_gesture(Player *player, const Command *command)
 {
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
@@ -32,8 +32,8 @@ static void begin_gesture(Player *player, const Command *command)
 
 /* ---- obeying ------------------------------------------------------------- */
 
-/* How many there are of what the number of a command counts. */
-static long parts_of(const Player *player, int pane, CommandKind kind)
+/* Counts what the number of a command refers to: nodes, balls, cards. */
+static long count_parts(const Player *player, int pane, CommandKind kind)
 {
     const Simulation *simulation = &player->past.machine[pane].simulation;
     const Scene *scene = simulation->scene;
@@ -64,12 +64,12 @@ static long parts_of(const Player *player, int pane, CommandKind kind)
     }
 }
 
-/* Whether all panes have what the command is about. */
+/* Refuses a number that not all panes have. */
 static Status check_number(Player *player, const Command *command)
 {
     long count = LONG_MAX;
     for (int p = 0; p < past_panes(&player->past); p++) {
-        long parts = parts_of(player, p, command->kind);
+        long parts = count_parts(player, p, command->kind);
         count = parts < count ? parts : count;
     }
     if (command->number < count)
@@ -80,8 +80,9 @@ static Status check_number(Player *player, const Command *command)
         command_rows[command->kind].word, count - 1, command->number);
 }
 
-/* What a key means here, so that a script of it leads to the same place. */
-static Command meant_by(const Player *player, const Command *asked)
+/* Returns the command that a key stands for now, so that a script with it leads
+ * to the same place. */
+static Command command_meant(const Player *player, const Command *asked)
 {
     const double *x = player_simulation(player)->run[0].x;
     Command meant = *asked;
@@ -96,7 +97,8 @@ static Command meant_by(const Player *player, const Command *asked)
 
 /* Where a page waits for a guess, N and Space show its answer and make no step.
  * Returns whether they did. */
-static bool unveils(Player *player, const Command *command, Status *status)
+static bool reveals_answer(Player *player, const Command *command,
+                           Status *status)
 {
     if (!player_hides_answer(player) ||
         (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
@@ -105,9 +107,9 @@ static bool unveils(Player *player, const Command *command, Status *status)
     return true;
 }
 
-/* Obeys the commands that wait, until one of them has to wait on: for the end
- * of a step, or a hand that lets go for a step with where it is.  `now`: none
- * waits any longer. */
+/* Obeys the commands in the queue, up to one that has to wait: for the end of a
+ * step; a release also for a step with the hand at its last place.
+ *   now  no command waits */
 static Status obey_queue(Player *player, bool now)
 {
     Queue queue = player->orders.queue;
@@ -161,9 +163,9 @@ Status player_obey_lines(Player *player, const char *lines)
     return status ? status : obey_queue(player, false);
 }
 
-/* The step that is made is not wanted any more; what a drag does is not to be
- * done behind it, but now. */
-static Status give_up(Player *player)
+/* Abandons the step that is being made, and obeys the commands that waited for
+ * its end. */
+static Status abandon_step(Player *player)
 {
     int gesture = player->orders.gesture;
     past_aim(&player->past, player->past.step, false);
@@ -173,11 +175,11 @@ static Status give_up(Player *player)
     return status;
 }
 
-/* Does what one command asks for; what it is made of waits in the queue. */
+/* Obeys one command; the commands that it consists of go into the queue. */
 static Status obey_one(Player *player, const Command *asked)
 {
     Past *past = &player->past;
-    Command command = meant_by(player, asked);
+    Command command = command_meant(player, asked);
     long step = past->step, newest = past_newest(past);
     int now = past->now;
     const CommandRow *row = &command_rows[command.kind];
@@ -190,38 +192,38 @@ static Status obey_one(Player *player, const Command *asked)
     if (!(flags & QUIET || (flags & LATEST && player->hands.mouse.drag)))
         player->note[0] = '\0';
     if (past_works(past) && command.kind == COMMAND_NEXT)
-        return STATUS_OK; /* it is on its way */
+        return STATUS_OK; /* the next step is being made */
     if (past_makes(past) && flags & LATEST &&
         (player->hands.mouse.drag || command.kind == COMMAND_DRAG)) {
-        player_enqueue(player, &command); /* a mouse holds up no step */
+        player_enqueue(player, &command); /* the step goes on */
         return STATUS_OK;
     }
     Status status = STATUS_OK;
-    if (unveils(player, &command, &status))
-        return status; /* the step is the next press */
+    if (reveals_answer(player, &command, &status))
+        return status; /* the second press makes the step */
     if (past_works(past) && !(flags & SCREEN)) {
-        status = give_up(player);
+        status = abandon_step(player);
         if (command.kind == COMMAND_ESCAPE) {
-            player_note(player, "given up: the last whole step stands");
+            player_note(player, "step abandoned: the last whole one is shown");
             return player_work(player);
         }
     }
     status = status ? status : check_number(player, &command);
     size_t at = player->orders.journal.count;
-    bool noted = !status && flags & KEPT; /* before what it does in turn */
+    bool noted = !status && flags & KEPT; /* before its own commands */
     if (noted && script_add(&player->orders.journal, step, &command,
                             player->orders.gesture))
         return STATUS_OUT_OF_MEMORY;
     if (!status)
         status = deeds[command.kind](player, &command);
     bool worked = past_works(past);
-    player_complete_line(player); /* of another pane, of a card that is open */
+    player_complete_line(player); /* a card or another pane may show it now */
     if (past_works(past) && (!worked || !(flags & SCREEN))) {
         Status shown = player_work(player);
         status = status ? status : shown;
     }
     if (noted && past->now > now && command.kind != COMMAND_REDO &&
-        !past->branch[past->now].fresh && step < newest) /* later steps */
+        !past->branch[past->now].fresh && step < newest)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);
@@ -237,7 +239,7 @@ Status player_obey(Player *player, const Command *command)
     return status ? status : obey_queue(player, false);
 }
 
-/* ---- on ------------------------------------------------------------------ */
+/* ---- steps --------------------------------------------------------------- */
 
 Status player_continue(Player *player)
 {

@@ -1,4 +1,4 @@
-/* output.c - files that get their name when they are whole, and tables in them.
+/* output.c - writes files that get their name when they are whole, and tables.
  */
 #include "play/output.h"
 
@@ -46,14 +46,14 @@ Status output_open(const char *name, char *told, Output *output)
         output->file = stdout;
     else if (exists && !S_ISREG(info.st_mode))
         output->file = fopen(name, "wbe");
-    else if (!exists || access(name, W_OK) == 0) { /* nobody protected it */
+    else if (!exists || access(name, W_OK) == 0) { /* not protected */
         snprintf(output->temporary, OUTPUT_NAME, "%.4096s.part", name);
         output->file = fopen(output->temporary, "wbe");
     }
     return output->file ? STATUS_OK : output_report_failure(output, NULL);
 }
 
-/* Every call that can report a failed write is asked. */
+/* Checks every call that can report a failed write. */
 Status output_close(Output *output, Keep keep)
 {
     FILE *file = output->file;
@@ -117,7 +117,7 @@ void table_add(Table *table, const double *value)
     }
 }
 
-/* The streams remember that a write failed. */
+/* A stream remembers that a write failed. */
 Status table_check(const Table *table)
 {
     FILE *file = table->output.file;

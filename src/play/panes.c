@@ -1,11 +1,11 @@
-/* panes.c - the integrator of a pane, and runs side by side. */
+/* panes.c - changes the method of a pane; adds and closes panes. */
 #include <stdio.h>
 
 #include "play/playing.h"
 #include "run/scene.h"
 
-/* The next method of the table for this pane: key M reaches it, all terms allow
- * it, and no pane has it.  NULL: refused. */
+/* Returns the next method for a pane: key M reaches it, all terms allow it, and
+ * no pane has it.  NULL: refused. */
 static const IntegratorMethod *find_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.machine[pane].simulation;
@@ -39,8 +39,8 @@ Status obey_method(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* The same run with the next method beside the last one; a page says itself
- * what is another there. */
+/* Adds a pane with the run of the last one and the next method; a page that
+ * opens sets itself what differs. */
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);
@@ -67,7 +67,7 @@ Status obey_add_pane(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* The last pane goes. */
+/* Closes the last pane. */
 Status obey_end_pane(Player *player, const Command *command)
 {
     if (past_panes(&player->past) < 2)

@@ -28,9 +28,9 @@ long past_newest(const Past *past)
     return present(past)->first + present(past)->count - 1;
 }
 
-/* The entry of a step as this branch sees it: its own, or one below; behind the
- * last, the one that is being made. */
-static Entry *entry_in(const Branch *branch, int pane, long step)
+/* Returns the entry of a step as a branch sees it: its own entry or that of a
+ * branch below; behind the last one the entry that is being made. */
+static Entry *branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first && !branch->fresh; branch--)
         pane = branch->source[pane];
@@ -40,19 +40,19 @@ static Entry *entry_in(const Branch *branch, int pane, long step)
                : &branch->entry[i * branch->panes + pane];
 }
 
-static Entry *entry_of(const Past *past, int pane, long step)
+static Entry *find_entry(const Past *past, int pane, long step)
 {
-    return entry_in(present(past), pane, step);
+    return branch_entry(present(past), pane, step);
 }
 
 const Entry *past_entry(const Past *past, int pane, long step)
 {
-    return step > past_newest(past) ? NULL : entry_of(past, pane, step);
+    return step > past_newest(past) ? NULL : find_entry(past, pane, step);
 }
 
 const Control *past_control(const Past *past, int pane)
 {
-    return entry_of(past, pane, past->step)->control;
+    return find_entry(past, pane, past->step)->control;
 }
 
 const Control *past_start(const Past *past, int pane)
@@ -63,7 +63,7 @@ const Control *past_start(const Past *past, int pane)
     return branch->entry[pane].control;
 }
 
-/* Whether the step to here could not be made; and the pane makes no more. */
+/* Whether the step to this entry could not be made, so that the pane ends. */
 static bool is_failure(const Entry *entry)
 {
     Status status = entry->outcome.status;
@@ -111,9 +111,9 @@ static void drop_entry(Past *past, Entry *entry)
     *entry = (Entry){0};
 }
 
-/* Room for one more entry a pane.  Where nobody goes back the last two are
- * enough. */
-static Status make_room(Past *past, Branch *branch)
+/* Reserves memory for one more entry a pane.  If states are not kept the last
+ * two entries are enough. */
+static Status reserve_entry(Past *past, Branch *branch)
 {
     size_t row = (size_t)branch->panes * sizeof(Entry);
     if (!past->keeps && branch->count == 2) {
@@ -137,7 +137,7 @@ static Status make_room(Past *past, Branch *branch)
     return STATUS_OK;
 }
 
-/* Branches from this one on go. */
+/* Drops this branch and those above it. */
 static void drop_branches(Past *past, int from)
 {
     while (past->branches > from) {
@@ -150,8 +150,8 @@ static void drop_branches(Past *past, int from)
 
 /* ---- states -------------------------------------------------------------- */
 
-/* Every second kept state of the branch with the finest ones goes.  Of equals
- * the branch that is shown comes last. */
+/* Drops every second state of the branch that keeps most of its states; among
+ * equals the present branch comes last. */
 static bool thin_states(Past *past)
 {
     Branch *finest = NULL;
@@ -174,13 +174,13 @@ static bool thin_states(Past *past)
 /* Where the state of a step is kept. */
 typedef struct Kept {
     Entry *entry;
-    bool due;          /* it is one of those that stay */
-    bool dragged;      /* its branch begins with it, as it is */
-    const Control *by; /* that it was made with */
+    bool due;          /* the state stays when the machine leaves the step */
+    bool dragged;      /* the state was dragged, not made by a step */
+    const Control *by; /* control of the step that made the state */
 } Kept;
 
-/* In the branch that has made the step, or in which something was dragged. */
-static Kept kept_of(const Past *past, int pane, long step)
+/* Finds the branch that has made the step, or in which it was dragged. */
+static Kept find_kept(const Past *past, int pane, long step)
 {
     const Branch *branch = present(past);
     while (!branch->fresh &&
@@ -197,10 +197,11 @@ static Kept kept_of(const Past *past, int pane, long step)
 
 bool past_is_start(const Past *past)
 {
-    return kept_of(past, 0, past->step).dragged;
+    return find_kept(past, 0, past->step).dragged;
 }
 
-/* Of a long run every so manyth step, and the newest. */
+/* Samples at most HISTORY_POINTS steps of a long run, the newest one among
+ * them. */
 void past_history(const Past *past, int pane, History *history)
 {
     long last = past_newest(past), stride = 1;
@@ -212,13 +213,14 @@ void past_history(const Past *past, int pane, History *history)
     history->series = history->count = 0;
     for (long step = 0; step < last + stride; step += stride) {
         const State *state =
-            kept_of(past, pane, step < last ? step : last).entry->state;
+            find_kept(past, pane, step < last ? step : last).entry->state;
         if (state)
             history_add(history, state->time, state->rows, state->row);
     }
 }
 
-/* The machine's state into an entry, before which others give way. */
+/* Saves the machine's state in an entry; other states are dropped for it where
+ * memory ends. */
 static Status keep_state(Past *past, int pane, Entry *entry)
 {
     const Simulation *simulation = &past->machine[pane].simulation;
@@ -236,28 +238,28 @@ static Status keep_state(Past *past, int pane, Entry *entry)
     return STATUS_OK;
 }
 
-/* Where a machine stands, its state is kept for changes, due or not; it leaves
- * that step. */
-static void leave_step(Past *past, int pane)
+/* Leaves the step at which a machine stands; the state that was kept for edits
+ * of this step is dropped unless it is due. */
+static void machine_leave_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
     if (!machine->stands)
         return;
-    Kept kept = kept_of(past, pane, machine->step);
+    Kept kept = find_kept(past, pane, machine->step);
     if (!kept.due)
         drop_state(past, kept.entry);
     machine->stands = false;
 }
 
-static void leave_all(Past *past)
+static void leave_all_steps(Past *past)
 {
     for (int p = 0; p < past_panes(past); p++)
-        leave_step(past, p);
+        machine_leave_step(past, p);
 }
 
-/* A branch on top of the present one, in the place of those that were undone,
- * with one entry; those that are given are copied from the branch below, but
- * for their states.  NULL: no memory. */
+/* Puts a branch on top of the present one, in the place of those that were
+ * undone.  Its given entries are copied from the branch below without their
+ * states.  Returns NULL if memory is missing. */
 static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->now + 1);
@@ -273,18 +275,18 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     *branch = wanted;
     branch->stride = 1;
     branch->edit = *edit;
-    if (make_room(past, branch))
+    if (reserve_entry(past, branch))
         return NULL;
     branch->count = 1;
-    for (int p = 0; p < past_panes(past); p++) /* others may go on */
+    for (int p = 0; p < past_panes(past); p++) /* the others stay */
         if (branch->fresh || p >= branch->panes ||
             past->machine[p].step > branch->first)
-            leave_step(past, p);
+            machine_leave_step(past, p);
     for (int p = 0; p < branch->panes && !branch->fresh; p++) {
         int below = branch[-1].panes, source = p < below ? p : below - 1;
         for (int i = 0; i < branch->given; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
-            *to = *entry_in(branch - 1, source, branch->first + i);
+            *to = *branch_entry(branch - 1, source, branch->first + i);
             control_keep(to->control);
             to->state = NULL;
         }
@@ -299,17 +301,17 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 
 /* ---- machines ------------------------------------------------------------ */
 
-/* s of one step; 1 in scenes without time. */
-static double pace_of(const Machine *machine)
+/* Time step, s; 1 in scenes without time. */
+static double step_length(const Machine *machine)
 {
     const Simulation *simulation = &machine->simulation;
     return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
                                                  : 1;
 }
 
-/* The Newton object whose rounds are kept: that of the first run that has one,
- * while it is this run's turn; else NULL. */
-static const Newton *listened_to(const Simulation *simulation)
+/* The Newton object whose iterations are traced: that of the first run that has
+ * one, while this run is stepped; else NULL. */
+static const Newton *traced_newton(const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
@@ -317,9 +319,9 @@ static const Newton *listened_to(const Simulation *simulation)
     return NULL;
 }
 
-/* Newton's observer.  The loop pauses after each iteration, so that hands and
- * signals are looked at in between. */
-static bool watch(void *user, const NewtonRecord *record)
+/* Observes Newton's iterations.  The loop pauses after each one, so that the
+ * window can read the mouse and the program its signals. */
+static bool observe_newton(void *user, const NewtonRecord *record)
 {
     Machine *machine = user;
     if (!machine->iterating)
@@ -327,9 +329,9 @@ static bool watch(void *user, const NewtonRecord *record)
     machine->outcome.updates += record->alpha != 0;
     if (machine->simulation.scene->step) /* an update is a step */
         machine->outcome.change = record->change;
-    const Newton *newton = listened_to(&machine->simulation);
-    if (newton && machine->rounds.size > 0 && record->iteration >= 0)
-        rounds_add(&machine->rounds, newton, record);
+    const Newton *newton = traced_newton(&machine->simulation);
+    if (newton && machine->trace.size > 0 && record->iteration >= 0)
+        step_trace_add(&machine->trace, newton, record);
     Records *records = &machine->records;
     if (records_fit(records, records->count + 1))
         records->row[records->count++] = *record;
@@ -338,33 +340,34 @@ static bool watch(void *user, const NewtonRecord *record)
     return false;
 }
 
-/* Nothing is told of any step. */
-static void forget_step(Machine *machine)
+/* Discards the records of the last step. */
+static void machine_forget_step(Machine *machine)
 {
     machine->known = machine->failed = false;
     machine->substeps = 0;
-    machine->rounds.places = machine->records.count = 0;
+    machine->trace.places = machine->records.count = 0;
     machine->records.lost = false;
 }
 
-static void free_simulation(Machine *machine)
+static void machine_free(Machine *machine)
 {
     simulation_free(&machine->simulation);
     control_drop(machine->control);
     control_drop(machine->start);
     machine->control = machine->start = NULL;
     machine->stands = machine->iterating = false;
-    forget_step(machine);
+    machine_forget_step(machine);
 }
 
-/* A simulation at its step 0. */
-static Status make_simulation(Machine *machine, const Options *options)
+/* Creates a simulation at its step 0. */
+static Status machine_create(Machine *machine, const Options *options)
 {
-    free_simulation(machine);
-    return simulation_create(options, watch, machine, &machine->simulation);
+    machine_free(machine);
+    return simulation_create(options, observe_newton, machine,
+                             &machine->simulation);
 }
 
-static Status use_control(Machine *machine, const Control *control)
+static Status machine_use_control(Machine *machine, const Control *control)
 {
     if (machine->control == control)
         return STATUS_OK;
@@ -373,15 +376,17 @@ static Status use_control(Machine *machine, const Control *control)
     control_drop(machine->control);
     machine->control = control;
     if (status)
-        free_simulation(machine);
+        machine_free(machine);
     return status;
 }
 
-/* The machine has the state of this step, and takes its control. */
-static Status land(Past *past, int pane, long step, State *state)
+/* Marks that the machine has the state of a step, and gives it the control of
+ * the next one. */
+static Status machine_set_step(Past *past, int pane, long step, State *state)
 {
     Machine *machine = &past->machine[pane];
-    Status status = use_control(machine, entry_of(past, pane, step)->control);
+    Status status =
+        machine_use_control(machine, find_entry(past, pane, step)->control);
     machine->step = step;
     machine->stands = !status;
     if (!status && state) {
@@ -391,63 +396,64 @@ static Status land(Past *past, int pane, long step, State *state)
     return status;
 }
 
-/* The machine has a state that is kept. */
-static Status take_state(Machine *machine, Kept kept)
+/* Restores a state that was kept. */
+static Status machine_take_state(Machine *machine, Kept kept)
 {
-    Status status = use_control(machine, kept.by);
+    Status status = machine_use_control(machine, kept.by);
     if (!status)
         state_restore(kept.entry->state->bytes, &machine->simulation);
     return status;
 }
 
-/* The machine stands at a step from which it can make those up to this one.
- * (Of runs that keep no states it stands there already, or at step 0.) */
-static Status load(Past *past, int pane, long goal)
+/* Brings the machine to the last step up to `goal` that it can load.  (If no
+ * states are kept it stands there already, or at step 0.) */
+static Status machine_seek(Past *past, int pane, long goal)
 {
     Machine *machine = &past->machine[pane];
     const Control *start = past_start(past, pane);
     long from = goal;
-    while (past->keeps && from > 0 && !kept_of(past, pane, from).entry->state)
+    while (past->keeps && from > 0 && !find_kept(past, pane, from).entry->state)
         from--;
     bool near = machine->stands && machine->step <= goal &&
                 (machine->step >= from || machine->step >= goal - 1);
     if (near &&
-        machine->control == entry_of(past, pane, machine->step)->control)
-        return land(past, pane, machine->step, NULL);
-    Kept kept = kept_of(past, pane, from);
+        machine->control == find_entry(past, pane, machine->step)->control)
+        return machine_set_step(past, pane, machine->step, NULL);
+    Kept kept = find_kept(past, pane, from);
     if (!kept.entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
     if (!machine->stands || machine->step != from) {
-        leave_step(past, pane);
-        forget_step(machine);
-        machine->outcome = entry_of(past, pane, from)->outcome;
+        machine_leave_step(past, pane);
+        machine_forget_step(machine);
+        machine->outcome = find_entry(past, pane, from)->outcome;
     }
     if (machine->start != start) {
-        status = make_simulation(machine, &start->options);
+        status = machine_create(machine, &start->options);
         machine->start = status ? NULL : control_keep(start);
     }
     if (!status)
-        status = take_state(machine, kept);
-    return status ? status : land(past, pane, from, kept.entry->state);
+        status = machine_take_state(machine, kept);
+    return status ? status
+                  : machine_set_step(past, pane, from, kept.entry->state);
 }
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* The step that was being made is not there; a control that came with the
- * branch stays. */
-static void unmake(Past *past, int pane)
+/* Drops the entry of the step that was being made, but not a control that was
+ * given with the branch. */
+static void drop_new_entry(Past *past, int pane)
 {
     const Branch *branch = present(past);
-    Entry *entry = entry_of(past, pane, past_newest(past) + 1);
+    Entry *entry = find_entry(past, pane, past_newest(past) + 1);
     drop_state(past, entry);
     if (branch->count >= branch->given)
         drop_entry(past, entry);
 }
 
-/* Work that is under way ends; the last whole step stays, but machines that
- * have left it stand nowhere. */
-static void stop_work(Past *past)
+/* Ends the present work.  The last whole step stays; machines that have left it
+ * have to load it again. */
+static void abandon_work(Past *past)
 {
     if (past->work == WORK_DONE)
         return;
@@ -459,30 +465,30 @@ static void stop_work(Past *past)
         machine->iterating = false;
         machine->substeps = 0;
         if (past_makes(past))
-            unmake(past, p);
+            drop_new_entry(past, p);
     }
     past->work = WORK_DONE;
 }
 
-/* Whether it is the computer that cannot go on. */
-static bool lacks(Status status)
+/* Whether memory has ended, not the mathematics. */
+static bool is_out_of_memory(Status status)
 {
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
 }
 
-static Status arrive(Past *past, int pane);
-static Status work_on(Past *past, int pane);
+static Status machine_finish_step(Past *past, int pane);
+static Status machine_work(Past *past, int pane);
 
-/* The pane that fails beside others takes its last state that can be seen, and
- * stands still from there on. */
-static Status end_pane(Past *past, int pane, Status why)
+/* Ends a pane that has failed beside others: it shows its last state that can
+ * be seen from here on. */
+static Status machine_end_pane(Past *past, int pane, Status why)
 {
     Machine *machine = &past->machine[pane];
     long step = machine->step, last = past_last_seen(past, pane, step);
-    leave_step(past, pane);
-    Status status = load(past, pane, last);
+    machine_leave_step(past, pane);
+    Status status = machine_seek(past, pane, last);
     while (machine->step < last && (!status || status == STATUS_RUNNING))
-        status = work_on(past, pane);
+        status = machine_work(past, pane);
     if (status && status != STATUS_RUNNING)
         return status;
     machine->step = step;
@@ -491,58 +497,60 @@ static Status end_pane(Past *past, int pane, Status why)
     machine->outcome.status = past->worst = why;
     if (past_makes(past))
         past->work = WORK_MADE;
-    return arrive(past, pane);
+    return machine_finish_step(past, pane);
 }
 
-/* A step could not be made. */
-static Status fail(Past *past, int pane, Status status)
+/* Ends the work after a step that could not be made; beside other panes only
+ * this pane ends. */
+static Status machine_fail(Past *past, int pane, Status status)
 {
     Machine *machine = &past->machine[pane];
     if (past_makes(past) && past->goes_on && past_panes(past) > 1 &&
-        !lacks(status)) {
-        status = end_pane(past, pane, status);
+        !is_out_of_memory(status)) {
+        status = machine_end_pane(past, pane, status);
         if (status == STATUS_RUNNING)
             return status;
     }
-    stop_work(past);
-    if (!lacks(status) && machine->start) {
+    abandon_work(past);
+    if (!is_out_of_memory(status) && machine->start) {
         machine->failed = machine->known = true;
         machine->outcome.status = status;
     }
-    machine->stands = false; /* some of its runs may have made the step */
+    machine->stands = false; /* some runs may have made the step */
     past->aim = past->step;
     return status;
 }
 
-/* The machine has come to the entry behind the one where it stood. */
-static Status arrive(Past *past, int pane)
+/* Moves the machine on to the entry of the step that it has finished. */
+static Status machine_finish_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
     long step = machine->step + 1;
-    Entry *to = entry_of(past, pane, step);
+    Entry *to = find_entry(past, pane, step);
     Status status = STATUS_OK;
     if (step > past_newest(past)) {
         if (!to->control)
-            to->control = control_keep(entry_of(past, pane, step - 1)->control);
+            to->control =
+                control_keep(find_entry(past, pane, step - 1)->control);
         to->substeps = machine->substeps;
         to->outcome = machine->outcome;
     }
     if (past_makes(past) && machine->substeps > 0)
         past->work = WORK_MADE;
     machine->substeps = 0;
-    leave_step(past, pane);
-    Kept kept = kept_of(past, pane, step);
+    machine_leave_step(past, pane);
+    Kept kept = find_kept(past, pane, step);
     if (kept.dragged)
-        status = take_state(machine, kept);
+        status = machine_take_state(machine, kept);
     else if (past->keeps && !kept.entry->state)
         keep_state(past, pane, kept.entry);
     if (!status)
-        status = land(past, pane, step, kept.entry->state);
-    return status ? fail(past, pane, status) : STATUS_RUNNING;
+        status = machine_set_step(past, pane, step, kept.entry->state);
+    return status ? machine_fail(past, pane, status) : STATUS_RUNNING;
 }
 
-/* A step of the simulation goes on, or is over. */
-static Status go_on(Past *past, int pane, Status status)
+/* Goes on after an iteration; at the end of a simulation's step, books it. */
+static Status machine_advance(Past *past, int pane, Status status)
 {
     Machine *machine = &past->machine[pane];
     const Simulation *simulation = &machine->simulation;
@@ -551,7 +559,7 @@ static Status go_on(Past *past, int pane, Status status)
         return status;
     machine->iterating = false;
     if (past->keeps)
-        rounds_end(&machine->rounds, &simulation->options);
+        step_trace_end(&machine->trace, &simulation->options);
     bool moved = simulation->steps > machine->before;
     outcome->status = status ? status : outcome->status;
     outcome->extent = 0;
@@ -560,71 +568,72 @@ static Status go_on(Past *past, int pane, Status status)
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
             outcome->change += simulation->run[r].newton->change;
-    if (status && !moved && (lacks(status) || !simulation->done))
-        return fail(past, pane, status);
+    if (status && !moved && (is_out_of_memory(status) || !simulation->done))
+        return machine_fail(past, pane, status);
     machine->known = past->keeps;
     machine->substeps += moved;
     if (past_makes(past) && status)
         past->worst = status;
-    double middle = simulation_time(simulation) + 0.5 * pace_of(machine);
+    double middle = simulation_time(simulation) + 0.5 * step_length(machine);
     const Entry *to = past_entry(past, pane, machine->step + 1);
     bool more = to ? machine->substeps < to->substeps
                    : moved && middle < past->target &&
                          (simulation->scene->needs & NEEDS_TIME);
-    return more ? STATUS_RUNNING : arrive(past, pane);
+    return more ? STATUS_RUNNING : machine_finish_step(past, pane);
 }
 
-/* The next iteration of this pane; or one step of the simulation begins, where
- * the pane makes any. */
-static Status work_on(Past *past, int pane)
+/* Does the next iteration of a pane, or begins its next step. */
+static Status machine_work(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
     const Entry *from = past_entry(past, pane, machine->step);
     const Entry *to = past_entry(past, pane, machine->step + 1);
     if (machine->iterating) {
-        return go_on(past, pane, simulation_advance(&machine->simulation));
+        return machine_advance(past, pane,
+                               simulation_advance(&machine->simulation));
     }
     if (machine->substeps == 0) {
         machine->outcome = (Outcome){0};
-        forget_step(machine);
+        machine_forget_step(machine);
     }
     if (has_failed(from)) {
         machine->outcome = from->outcome;
-        return arrive(past, pane);
+        return machine_finish_step(past, pane);
     }
     if (to && is_failure(to))
-        return end_pane(past, pane, to->outcome.status);
+        return machine_end_pane(past, pane, to->outcome.status);
     if (past->keeps)
-        rounds_begin(&machine->rounds, &machine->simulation, past->walks,
-                     pane == past->line);
+        step_trace_begin(&machine->trace, &machine->simulation, past->walks,
+                         pane == past->line);
     machine->before = machine->simulation.steps;
     machine->iterating = true;
-    return go_on(past, pane, simulation_begin(&machine->simulation));
+    return machine_advance(past, pane, simulation_begin(&machine->simulation));
 }
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* All panes are at the newest step; another one begins, up to where that with
- * the longest timestep will be. */
-static Status begin_making(Past *past)
+/* Begins a new step in all panes.  The pane with the longest time step says
+ * where it ends. */
+static Status begin_new_step(Past *past)
 {
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
-        double pace = pace_of(machine);
+        double pace = step_length(machine);
         if (pace <= longest || has_failed(past_entry(past, p, machine->step)))
             continue;
         longest = pace;
         past->target = simulation_time(&machine->simulation) + pace;
     }
     past->worst = STATUS_OK;
-    if (make_room(past, present(past)))
-        return fail(past, 0, STATUS_OUT_OF_MEMORY);
+    if (reserve_entry(past, present(past)))
+        return machine_fail(past, 0, STATUS_OUT_OF_MEMORY);
     past->work = WORK_MAKES;
     return STATUS_RUNNING;
 }
 
-/* All panes have come to the aim; none has, where every scene is at its end. */
+/* Ends the work when all panes have come to the aim; if no pane could make the
+ * new step, every scene is over and the newest step is shown. */
 static Status end_work(Past *past)
 {
     Status worst = past_makes(past) ? past->worst : STATUS_OK;
@@ -634,7 +643,7 @@ static Status end_work(Past *past)
         past->aim = past_newest(past);
         for (int p = 0; p < past_panes(past); p++)
             past->machine[p].step = past->aim;
-        stop_work(past);
+        abandon_work(past);
     }
     past->work = WORK_DONE;
     past->step = past->aim;
@@ -647,20 +656,20 @@ Status past_iterate(Past *past)
         return STATUS_OK;
     int panes = past_panes(past), pane = 0;
     for (; past->work == WORK_LOADS && pane < panes; pane++) {
-        Status status = load(past, pane, past->from);
+        Status status = machine_seek(past, pane, past->from);
         if (status)
-            return fail(past, pane, status);
+            return machine_fail(past, pane, status);
     }
     if (past->work == WORK_LOADS)
         past->work = WORK_REPEATS;
-    /* One pane after the other makes its way to what is known, and then each
-     * its part of a new step. */
+    /* One pane after the other repeats known steps, then makes its part of a
+     * new step. */
     long newest = past_newest(past);
     long goal = past_makes(past) || past->aim < newest ? past->aim : newest;
     for (pane = 0; pane < panes; pane++)
         if (past->machine[pane].iterating || past->machine[pane].step < goal)
-            return work_on(past, pane);
-    return goal < past->aim ? begin_making(past) : end_work(past);
+            return machine_work(past, pane);
+    return goal < past->aim ? begin_new_step(past) : end_work(past);
 }
 
 Status past_finish(Past *past)
@@ -671,9 +680,9 @@ Status past_finish(Past *past)
     return status;
 }
 
-/* Whether it is short work to make the step that is aimed at once more, where
- * panes would only find its state. */
-static bool is_short(const Past *past)
+/* Whether the aim, whose state is kept but not its trace, can be made once more
+ * in short time. */
+static bool is_short_work(const Past *past)
 {
     enum { SHORT = 400000 }; /* nodes times updates */
     long work = 0;
@@ -693,19 +702,19 @@ static bool is_short(const Past *past)
 
 void past_aim(Past *past, long step, bool again)
 {
-    stop_work(past);
+    abandon_work(past);
     long newest = past_newest(past);
     past->aim = step < 0 ? 0 : step > newest ? newest + 1 : step;
     past->from = past->aim < newest ? past->aim : newest;
     past->work = WORK_LOADS;
     past->walks = again;
     if (past->aim == 0 || past->aim > newest || !past->keeps ||
-        !(again || is_short(past)))
+        !(again || is_short_work(past)))
         return;
     past->from = past->aim - 1;
     for (int p = 0; p < past_panes(past); p++)
-        rounds_clear(&past->machine[p].rounds);
-    leave_all(past);
+        step_trace_clear(&past->machine[p].trace);
+    leave_all_steps(past);
 }
 
 void past_complete(Past *past, int place)
@@ -714,23 +723,23 @@ void past_complete(Past *past, int place)
     for (int p = 0; p < past_panes(past); p++)
         whole = whole && !past->machine[p].failed;
     if (whole && past->machine[past->line].known &&
-        rounds_lack_line(&past->machine[past->line].rounds, place))
+        step_trace_lacks_line(&past->machine[past->line].trace, place))
         past_aim(past, past->step, true);
 }
 
-/* ---- what is done -------------------------------------------------------- */
+/* ---- edits --------------------------------------------------------------- */
 
-/* Later steps than this are made anew, and this one too, if its state has
- * changed.  The ledger of this step has changed in any case. */
-static void forget_behind(Past *past, long step, bool changed)
+/* Invalidates the tables' rows after a step, those of the step itself if its
+ * state has changed, and its row of energies. */
+static void invalidate_tables(Past *past, long step, bool changed)
 {
     long same = step - changed;
     past->same = same < past->same ? same : past->same;
     past->booked = step - 1 < past->booked ? step - 1 : past->booked;
 }
 
-/* All machines stand at the step that is shown. */
-static Status settle(Past *past)
+/* Brings all machines to the step that is shown. */
+static Status past_settle(Past *past)
 {
     past_aim(past, past->step, false);
     return past_finish(past);
@@ -741,11 +750,11 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
 {
     const Branch wanted = {.fresh = true, .panes = panes, .gesture = gesture};
     Status status = STATUS_OK;
-    stop_work(past);
-    leave_all(past);
+    abandon_work(past);
+    leave_all_steps(past);
     for (int p = 0; p < panes && !status; p++) {
         Machine *machine = &past->machine[p];
-        status = make_simulation(machine, &options[p]);
+        status = machine_create(machine, &options[p]);
         Control *control = status ? NULL : control_of(&machine->simulation);
         if (!control) {
             status = status ? status : STATUS_OUT_OF_MEMORY;
@@ -755,7 +764,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
         machine->start = control;
         machine->control = control_keep(control);
         machine->outcome = (Outcome){.status = machine->simulation.status};
-        rounds_clear(&machine->rounds);
+        step_trace_clear(&machine->trace);
     }
     if (status && past->now >= 0)
         past_aim(past, past->step, false);
@@ -764,7 +773,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     Branch *branch = push_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
-    forget_behind(past, 0, true);
+    invalidate_tables(past, 0, true);
     for (int p = 0; p < panes && !status; p++) {
         Entry *entry = &branch->entry[p];
         entry->control = control_keep(past->machine[p].start);
@@ -772,29 +781,29 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
         if (past->keeps)
             status = keep_state(past, p, entry);
         if (!status)
-            status = land(past, p, 0, entry->state);
+            status = machine_set_step(past, p, 0, entry->state);
     }
     return status;
 }
 
-/* Whether it changes the state, not the control. */
-static bool drags(const Command *edit)
+/* Whether an edit makes another state, which its branch keeps. */
+static bool makes_state(const Command *edit)
 {
     return edit->kind == COMMAND_HANDLE || edit->kind == COMMAND_FLIP ||
            edit->kind == COMMAND_PLACE;
 }
 
-/* Whether the state at which it is given becomes another one: a node that is
- * pinned stops, too. */
-static bool moves(const Command *edit)
+/* Whether an edit changes the state of its step; a pin does, as it stops a
+ * node. */
+static bool changes_state(const Command *edit)
 {
-    return drags(edit) || edit->kind == COMMAND_PIN;
+    return makes_state(edit) || edit->kind == COMMAND_PIN;
 }
 
-/* The control after a change, for one user more.  NULL: no memory.
- *   simulation  in, that stands where the change is made */
-static const Control *changed(const Control *from, const Command *edit,
-                              const Simulation *simulation)
+/* Returns the control after an edit, or NULL if memory is missing.
+ *   simulation  in, at the step that is edited */
+static const Control *edited_control(const Control *from, const Command *edit,
+                                     const Simulation *simulation)
 {
     char message[256];
     Control *control = control_copy(from);
@@ -826,13 +835,14 @@ static const Control *changed(const Control *from, const Command *edit,
     return control;
 }
 
-/* A change of an entry of the topmost branch. */
-static Status change_entry(Past *past, int pane, const Command *edit,
-                           Entry *entry)
+/* Edits an entry of the topmost branch. */
+static Status edit_entry(Past *past, int pane, const Command *edit,
+                         Entry *entry)
 {
     Simulation *simulation = &past->machine[pane].simulation;
-    if (!drags(edit)) {
-        const Control *control = changed(entry->control, edit, simulation);
+    if (!makes_state(edit)) {
+        const Control *control =
+            edited_control(entry->control, edit, simulation);
         if (!control)
             return STATUS_OUT_OF_MEMORY;
         control_drop(entry->control);
@@ -846,13 +856,14 @@ static Status change_entry(Past *past, int pane, const Command *edit,
     else
         exhibit_flip(simulation, (int)edit->number);
     Status status = keep_state(past, pane, entry);
-    return status ? status : land(past, pane, past->step, entry->state);
+    return status ? status
+                  : machine_set_step(past, pane, past->step, entry->state);
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture)
 {
-    Status status = settle(past);
+    Status status = past_settle(past);
     if (status)
         return status;
     Branch *branch = present(past);
@@ -861,37 +872,38 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     bool joins = gesture && branch->gesture == gesture && !branch->fresh &&
                  panes == branch->panes && !again &&
                  past->step == past_newest(past) &&
-                 drags(edit) == drags(&branch->edit) &&
-                 (!drags(edit) || branch->count == 1);
+                 makes_state(edit) == makes_state(&branch->edit) &&
+                 (!makes_state(edit) || branch->count == 1);
     const Branch wanted = {.first = past->step - again,
                            .given = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
-    if (joins) /* those that were undone went on from what it was */
+    if (joins) /* branches that were undone began with the old edit */
         drop_branches(past, past->now + 1);
     else
         branch = push_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
-    if (edit->kind == branch->edit.kind) /* what undo tells: the last of it */
+    if (edit->kind ==
+        branch->edit.kind) /* undo reports the last edit of a gesture */
         branch->edit = *edit;
-    forget_behind(past, past->step, moves(edit));
+    invalidate_tables(past, past->step, changes_state(edit));
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)
-            status = change_entry(past, p, edit,
-                                  &branch->entry[i * branch->panes + p]);
-    return status || again ? status : settle(past);
+            status = edit_entry(past, p, edit,
+                                &branch->entry[i * branch->panes + p]);
+    return status || again ? status : past_settle(past);
 }
 
-/* The plots' samples of the steps at which branches low ... high begin are made
- * once more, with the control that goes on from there now. */
+/* Makes the samples for plots again at the first steps of branches low ...
+ * high, with the control that now follows. */
 static void sample_again(Past *past, int low, int high)
 {
     for (int b = low; b <= high; b++) {
         const Branch *branch = &past->branch[b];
         if (!past->keeps || branch->fresh ||
             branch->first > past_newest(past) ||
-            !kept_of(past, 0, branch->first).entry->state)
+            !find_kept(past, 0, branch->first).entry->state)
             continue;
         past_aim(past, branch->first, false);
         past_finish(past);
@@ -904,19 +916,20 @@ const Command *past_undo(Past *past, int way)
     int last = way < 0 ? 0 : past->branches - 1;
     if (to < 0 || to >= past->branches)
         return NULL;
-    while (to != last && past->branch[to].gesture && /* the same one above */
+    while (to != last && past->branch[to].gesture && /* one gesture */
            past->branch[to].gesture == past->branch[to + 1].gesture)
         to += way;
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     for (int b = low + 1; b <= high; b++) {
         const Branch *branch = &past->branch[b];
         if (branch->fresh)
-            forget_behind(past, 0, true);
+            invalidate_tables(past, 0, true);
         else
-            forget_behind(past, branch->first, moves(&branch->edit));
+            invalidate_tables(past, branch->first,
+                              changes_state(&branch->edit));
     }
-    stop_work(past);
-    leave_all(past);
+    abandon_work(past);
+    leave_all_steps(past);
     present(past)->shown = past->step;
     past->now = to;
     past->step = present(past)->shown;
@@ -943,8 +956,8 @@ void past_free(Past *past)
     drop_branches(past, 0);
     free(past->branch);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
-        free_simulation(&past->machine[p]);
-        rounds_free(&past->machine[p].rounds);
+        machine_free(&past->machine[p]);
+        step_trace_free(&past->machine[p].trace);
         free(past->machine[p].records.row);
     }
     *past = (Past){.now = -1};

@@ -1,4 +1,4 @@
-/* player.c - the application: creation, drawing, main loop, end. */
+/* player.c - creates the application, draws it, runs its loop, ends it. */
 #include "play/player.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ Status player_draw(Player *player)
     if (!player->screen.draws)
         return STATUS_OK;
     if (past_works(&player->past) && !past_makes(&player->past)) {
-        player->screen.changed = true; /* as soon as it is there */
+        player->screen.changed = true; /* the step is soon shown */
         return STATUS_OK;
     }
     Paper *paper = player_paper(player);
@@ -62,7 +62,7 @@ bool player_ended(const Player *player)
            (!player->screen.window && player_is_stopped(player));
 }
 
-/* All lines of the script that are due. */
+/* Obeys all lines of the script that are due. */
 static Status obey_script(Player *player)
 {
     Status status = STATUS_OK;
@@ -88,8 +88,8 @@ static Status obey_script(Player *player)
     return status;
 }
 
-/* The steps of one frame; fewer if they take long.  Without a window each step
- * is a frame. */
+/* Makes the steps of one frame, fewer if they take long.  Without a window each
+ * step is a frame. */
 static Status step_frame(Player *player)
 {
     const Past *past = &player->past;
@@ -134,7 +134,7 @@ Status player_frame(Player *player)
     bool due = !player->screen.window || now >= player->time.due - EARLY;
     bool first = player->screen.sampled < 0 && player->screen.draws;
     bool works = past_works(&player->past);
-    bool begins = works && player->time.began > start; /* first that is drawn */
+    bool begins = works && player->time.began > start; /* its first frame */
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);
@@ -177,7 +177,7 @@ Status player_run(Player *player)
 
 /* ---- beginning and end --------------------------------------------------- */
 
-/* A window; or if there is no screen, a surface for the frames. */
+/* Opens a window; without a screen frames go to files. */
 static void open_view(Player *player)
 {
     Options *options = &player->given.options[0];
@@ -198,7 +198,7 @@ static void open_view(Player *player)
     }
     if (!player->screen.window && !options->script) {
         options->steps = options->steps < 0 ? UNSEEN_STEPS : options->steps;
-        options->paused = 0; /* nobody could go on */
+        options->paused = 0; /* no key could end it */
     }
     player->screen.draws =
         player->screen.window || options->frames || options->film;

@@ -1,5 +1,5 @@
-/* playing.h - what the sources of the player share, by file, from below: a file
- * calls only those before it.
+/* playing.h - functions that the sources of play share, by file from below: a
+ * file calls only files before it.
  */
 #ifndef ELASTO_PLAYING_H
 #define ELASTO_PLAYING_H
@@ -8,10 +8,10 @@
 #include "lesson/command_line.h"
 #include "run/one_line.h"
 
-/* All deeds are called alike, whether they need to know the command or not. */
+/* All functions of commands have the same arguments, used or not. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
-/* s, of a frame in which steps are made; then inputs are looked at. */
+/* Time of a frame for steps, s; then inputs are read. */
 static const double SLICE = 0.05;
 
 /* ---- session.c ----------------------------------------------------------- */
@@ -25,8 +25,9 @@ const Options *player_settings(const Player *player);
  * scene may change by itself. */
 Options player_numbers(const Player *player);
 
-/* The options of a scene or, where it has one, of a page: those of the command
- * line where it was called for, else its own.  count out: of panes. */
+/* Finds the options of a scene or, if it is not NULL, of a page: those of the
+ * command line if it named that scene, else the defaults.
+ *   count  out, number of panes */
 Status player_default_options(Player *player, const char *scene,
                               const LecturePage *page, Options *options,
                               int *count);
@@ -34,25 +35,25 @@ Status player_default_options(Player *player, const char *scene,
 /* Whether the panes have different values of this option. */
 bool player_panes_differ(const Player *player, const OptionRow *row);
 
-/* Whether no step is made by itself. */
+/* Whether no step is made without a command. */
 bool player_is_stopped(const Player *player);
 
-/* Whether a single factor takes longer than a slice. */
+/* Whether a single factorisation takes longer than a slice. */
 bool player_is_slow(const Player *player);
 
-/* The pane in which E along p is drawn, or -1. */
+/* Index of the pane in which E along p is drawn, or -1. */
 int player_line_pane(const Player *player);
 
-/* Keeps E along p from now on where it is drawn; the step that is shown is made
- * once more where it was not kept. */
+/* Keeps E along p from now on if it is drawn, and makes the shown step once
+ * more if it was not kept; player_work follows. */
 void player_complete_line(Player *player);
 
-/* Whether no step was made yet with where the hand is, and one will be. */
+/* Whether a step will be made with the present place of the hand, but was not
+ * yet. */
 bool player_pull_is_due(const Player *player);
 
-/* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, or the scene where
- * somebody attends, else one step a frame through time, and iterations one at a
- * time. */
+/* Speed at the start, SPEED_LEAST ... SPEED_MOST: that of the options, else of
+ * the scene if the run is attended, else a step a frame. */
 int player_initial_speed(const Player *player, const Options *options);
 
 /* Whether the page in the window waits for a guess. */
@@ -61,105 +62,103 @@ bool player_hides_answer(const Player *player);
 /* Whether a list is open whose lines have numbers. */
 bool player_has_list(const Player *player);
 
-/* Without a number that is lit or typed. */
+/* Deselects the number and closes the field. */
 void player_deselect(Player *player);
 
-/* A value as the row of numbers shows it. */
+/* Writes a value as the row of numbers shows it. */
 void player_format_value(const OptionRow *row, const Options *options,
                          const Simulation *simulation, char *text, size_t size);
 
-/* A line below the picture. */
+/* Shows a message below the picture. */
 void player_note(Player *player, const char *format, ...);
 
-/* Says why a command makes no sense here: a format, and what it needs.  Returns
- * INVALID_INPUT. */
+/* Refuses a command with a formatted reason.  Returns INVALID_INPUT. */
 #define player_refuse(player, ...)                                             \
     refuse((Refusal){(player)->message, sizeof(player)->message}, __VA_ARGS__)
 
-/* INVALID_INPUT becomes a line below the picture; returns any other status. */
+/* Shows the reason of INVALID_INPUT as a message; returns any other status. */
 Status player_report(Player *player, Status status);
 
-/* Somebody has asked for a pause. */
+/* Pauses the run. */
 void player_pause(Player *player);
 
-/* Where somebody attends, a step that failed is only shown.  Returns OK, or the
- * status of what ends the run. */
+/* Pauses an attended run after a step that failed.  Returns OK, or the status
+ * that ends the run. */
 Status player_tolerate_failure(Player *player, Status status);
 
-/* Commands for the queue: one; an option, undone together with the present
- * command; several with a ; between them, alike, NULL: none. */
+/* Put commands into the queue: one; a new value of an option, which joins the
+ * present gesture; lines of a script with a ; between them, or NULL, likewise.
+ * A command of a drag replaces the same one before it. */
 void player_enqueue(Player *player, const Command *command);
 void player_enqueue_set(Player *player, const OptionRow *row, double value);
 Status player_enqueue_lines(Player *player, const char *lines);
 
 /* ---- steps.c ------------------------------------------------------------- */
 
-/* New runs with these options, from step 0; files begin anew. */
+/* Begins new runs with these options at step 0; tables begin again. */
 Status player_begin_runs(Player *player, const Options *options, int count,
                          const Command *edit);
 
-/* A change from here on in panes from ... to - 1; again: the step that is shown
- * is to be made once more with it. */
+/* Edits panes from ... to - 1 as past_edit does. */
 Status player_edit(Player *player, const Command *change, int from, int to,
                    bool again);
 
-/* Iterates until the step that is wanted is shown, or the slice of time of a
- * frame is over. */
+/* Iterates until the chosen step is shown, or the SLICE of a frame is over. */
 Status player_work(Player *player);
 
-/* Wants a step shown, the newest one or one before it, or the next new one.
- * player_work follows, after a deed by itself. */
+/* Chooses the step to be shown, 0 ... newest + 1; player_work follows, after a
+ * command by itself. */
 Status player_seek(Player *player, long step, AfterWork after);
 
-/* A change in panes from ... to - 1, and the present step once more with it,
- * from its own start; what it was before stays as a ghost of the active pane.
- */
+/* Edits panes from ... to - 1 and makes the present step once more with the
+ * edit; its old outcome stays as a ghost in the active pane. */
 Status player_repeat_step(Player *player, const Command *change, int from,
                           int to);
 
-/* What goes whenever another step is shown. */
+/* Removes ghosts and lines of the shown step. */
 void player_forget_step(Player *player);
 
-/* What tables still lack of the past that is shown. */
+/* Writes the steps that the tables do not have yet. */
 Status player_write_remaining(Player *player);
 
 /* ---- start.c ------------------------------------------------------------- */
 
-/* New runs with the present pins.  Where a page begins again its commands go
- * into the queue. */
+/* Begins new runs with the present pins.  The commands of a page that begins
+ * again go into the queue. */
 Status player_begin_again(Player *player, const Options *options, int panes,
                           const Command *edit);
 
-/* The pins that were there before new runs were begun; drops that control. */
+/* Sets the pins of a control before new runs, and drops that control; or NULL.
+ */
 Status player_restore_pins(Player *player, const Control *before);
 
-/* What the page does when it opens goes into the queue. */
+/* Puts the opening commands of the page into the queue. */
 Status player_enqueue_page(Player *player);
 
-/* What a page asks for is shown from now on, beside the number that was typed,
- * or NULL; the page's commands for that go into the queue. */
+/* Shows the answer of the page, judges the typed guess, or NULL, and puts the
+ * page's commands for that into the queue. */
 Status player_reveal(Player *player, const char *typed);
 
 /* ---- numbers.c ----------------------------------------------------------- */
 
-/* The numbers of the row, those of the table and those that were added; or all
- * that the scene has.  Returns how many. */
+/* Finds the numbers in the row, or all numbers of the scene.  Returns their
+ * count. */
 int player_visible_options(const Player *player, bool all,
                            const OptionRow *found[OPTIONS_MOST]);
 
-/* Why a number has no meaning now; NULL: it has one. */
+/* Returns why a number has no effect now, or NULL. */
 const char *player_idle_reason(const Player *player, const OptionRow *row);
 
-/* The number so many paces up, into value. */
+/* Computes the value some paces above the present one. */
 Status player_paced(Player *player, const OptionRow *row, int paces,
                     double *value);
 
 /* ---- panes.c, bodies.c have deeds alone; sheet.c ------------------------- */
 
-/* The scenes on the sheet go on for a slice of time, where it is open. */
+/* Makes steps of the scenes on the sheet for a slice of time, if it is open. */
 void sheet_advance(Player *player);
 
-/* What is drawn of the open sheet; the sheet is closed. */
+/* Fill the contents of the open sheet; close it. */
 void sheet_fill(const Player *player, Show *show);
 void sheet_close(Player *player);
 
@@ -168,34 +167,35 @@ void sheet_close(Player *player);
 /* Fills player->screen.frame, and finds what is under a mouse that rests. */
 void player_fill(Player *player);
 
-/* The paper, in the size that it has now; NULL: nothing is drawn, or there is
- * not enough memory. */
+/* Returns the paper in the present size, or NULL if nothing is drawn or memory
+ * is missing. */
 Paper *player_paper(Player *player);
 
-/* The frame on any paper, which nobody sees. */
+/* Fills and draws the frame on a paper. */
 void player_paint(Player *player, Paper *paper);
 
-/* One card of that frame, over all of a paper of its own. */
+/* Draws a card of the last frame over a whole paper. */
 void player_paint_card(Player *player, Paper *paper, int card);
 
 /* ---- screen.c, keepsakes.c; obey.c --------------------------------------- */
 
-/* What a command does.  Returns as player_obey. */
+/* The function of a command.  Returns as player_obey. */
 typedef Status Deed(Player *player, const Command *command);
 
 #define ROW(kind, deed, ...) Deed deed;
 #include "play/command_rows.def"
 #undef ROW
 
-/* What the page does when it opens; commands with a ; between them, which are
- * undone at once, NULL: none. */
+/* Obeys the opening commands of the page; lines with a ; between them, or NULL,
+ * as one gesture. */
 Status player_obey_page(Player *player);
 Status player_obey_lines(Player *player, const char *lines);
 
-/* The commands that have waited until now; now: those that wait on, too. */
+/* Obeys the commands in the queue that need not wait.
+ *   now  no command waits */
 Status player_obey_waiting(Player *player, bool now);
 
-/* Work that is under way, and then what has waited for its end. */
+/* Goes on with the work, and obeys the queue at its end. */
 Status player_continue(Player *player);
 
 #endif

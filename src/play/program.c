@@ -20,10 +20,9 @@
 #include "lesson/pages.h"
 #include "scenes/scenes.h"
 
-/* The one line about what went wrong, fit for a terminal.  Returns the exit
- * code. */
-__attribute__((format(printf, 2, 3))) static int tell(int code,
-                                                      const char *format, ...)
+/* Prints a failure as one line.  Returns the exit code. */
+__attribute__((format(printf, 2, 3))) static int
+print_error(int code, const char *format, ...)
 {
     char line[1024];
     va_list arguments;
@@ -35,8 +34,8 @@ __attribute__((format(printf, 2, 3))) static int tell(int code,
     return code;
 }
 
-/* Whether nobody reads standard output any more: head(1) has seen enough, and
- * is told nothing. */
+/* Whether the reader of standard output has closed it, as head(1) does; then no
+ * message is printed. */
 static bool reader_is_gone(void)
 {
     struct pollfd out = {.fd = STDOUT_FILENO};
@@ -49,8 +48,8 @@ static int check_output(void)
     if (!ferror(stdout) && fflush(stdout) == 0)
         return EXIT_FINE;
     return reader_is_gone() ? EXIT_FAILED
-                            : tell(EXIT_FAILED, "standard output: %s",
-                                   output_reason(STATUS_FILE_FAILED));
+                            : print_error(EXIT_FAILED, "standard output: %s",
+                                          output_reason(STATUS_FILE_FAILED));
 }
 
 /* --help, --version, --lecture --list, --list.  Returns the exit code;
@@ -74,7 +73,7 @@ static int print_information(const Options *options)
     return check_output();
 }
 
-/* What a user can do about a failure. */
+/* Returns advice for a failure. */
 static const char *advice(const Player *player, Status status)
 {
     bool time = player->given.options[0].scene->needs & NEEDS_TIME;
@@ -88,7 +87,7 @@ static const char *advice(const Player *player, Status status)
                                          : "; try a --start nearer to 0,0";
 }
 
-/* The one line about a failure.  Returns the exit code. */
+/* Prints why the run failed.  Returns the exit code. */
 static int report_failure(const Player *player, Status status)
 {
     int code = status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
@@ -105,19 +104,21 @@ static int report_failure(const Player *player, Status status)
     if (panes > 1)
         snprintf(pane, sizeof pane, "pane %d, ", p + 1);
     if (message[0])
-        return tell(code, "%s", message);
+        return print_error(code, "%s", message);
     if (status == STATUS_SCREEN_FAILED)
-        return tell(code, "%s: %s", status_text(status), window_failure());
+        return print_error(code, "%s: %s", status_text(status),
+                           window_failure());
     if (p < panes)
-        return tell(code, "%sstep %ld failed: %s%s", pane,
-                    player->past.machine[p].simulation.steps + 1,
-                    status_text(status), advice(player, status));
-    return tell(code, "%s%s", status_text(status), advice(player, status));
+        return print_error(code, "%sstep %ld failed: %s%s", pane,
+                           player->past.machine[p].simulation.steps + 1,
+                           status_text(status), advice(player, status));
+    return print_error(code, "%s%s", status_text(status),
+                       advice(player, status));
 }
 
-/* ---- what a run did ------------------------------------------------------ */
+/* ---- summary ------------------------------------------------------------- */
 
-/* A quantity, its name in a column of its own. */
+/* Prints a quantity, its name in the first column. */
 __attribute__((format(printf, 3, 4))) static void
 print(FILE *file, const char *name, const char *format, ...)
 {
@@ -130,8 +131,8 @@ print(FILE *file, const char *name, const char *format, ...)
     fprintf(file, "%-20s%s\n", name, line);
 }
 
-/* Who made the first run's last step, and why it was not multigrid; where
- * contact and friction need a smaller tolerance; what minimising took. */
+/* Prints the solver of the last step of run 0, why it was not multigrid, and
+ * the counts of its work. */
 static void print_newton(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
@@ -139,7 +140,7 @@ static void print_newton(FILE *file, const Simulation *simulation)
     unsigned needs = simulation->scene->needs;
     const struct {
         const char *name;
-        long long count; /* 0: nothing is to be told */
+        long long count; /* 0: not printed */
     } rows[] = {
         {"Newton iterations",
          needs & NEEDS_TIME ? sum.iterations : simulation->descent.count},
@@ -173,8 +174,8 @@ static void print_gain(FILE *file, const Simulation *simulation)
               sum.energy, sum.steps);
 }
 
-/* One quantity a line: how far a pane came, what it took, and where that led
- * its first run; of several panes those of each, one after the other. */
+/* Prints for each pane its steps, their work and the energies of run 0; then
+ * time, files and hash. */
 static void print_summary(FILE *file, const Player *player)
 {
     const Recording *recording = &player->recording;
@@ -215,8 +216,7 @@ static void print_summary(FILE *file, const Player *player)
           (unsigned long long)player_hash(player));
 }
 
-/* Frames of an earlier, longer run in the same folder, which a film of all its
- * pictures would show behind those of this one. */
+/* Reports frames of an earlier, longer run that are left in the folder. */
 static void print_older(const Recording *recording)
 {
     char folder[256], last[32] = "";
@@ -235,7 +235,7 @@ static void print_older(const Recording *recording)
 
 int program_end(Player *player, Status status)
 {
-    /* While the panes still stand where a step failed. */
+    /* Before the panes leave the step that failed. */
     int failed = status ? report_failure(player, status) : EXIT_FINE;
     status = player_finish(player, status);
     if (failed)
@@ -258,8 +258,7 @@ int program_end(Player *player, Status status)
     return code;
 }
 
-/* Whether two names are those of one file or folder; a device may be named
- * twice. */
+/* Whether two names are those of one file or folder, which is no device. */
 static bool is_one_file(const char *a, const char *b)
 {
     struct stat info[2];
@@ -271,7 +270,7 @@ static bool is_one_file(const char *a, const char *b)
            info[0].st_ino == info[1].st_ino;
 }
 
-/* What an option names: a file or folder, or NULL. */
+/* Returns the file or folder that an option names, or NULL. */
 static const char *file_of(const Options *options, const OptionRow *row)
 {
     return row->kind == OPTION_TEXT && row->offset != offsetof(Options, pin)
@@ -279,8 +278,7 @@ static const char *file_of(const Options *options, const OptionRow *row)
                : NULL;
 }
 
-/* Each file of a run has a name of its own, so that none replaces what another
- * one reads or writes. */
+/* Refuses one file for two options, since one would replace the other. */
 static Status check_files(const Options *options, Refusal told)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
@@ -296,8 +294,8 @@ static Status check_files(const Options *options, Refusal told)
     return STATUS_OK;
 }
 
-/* What a table of states does not know, and a run that begins in one has as at
- * its start. */
+/* Reports what a table of states does not have, so that a run from it has this
+ * as at its start. */
 static void print_forgotten(const Options *options)
 {
     const Scene *scene = options->scene;
@@ -328,16 +326,16 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
         Status status =
             options_parse(argc, argv, i, &options[i], message, sizeof message);
         if (status == STATUS_INVALID_INPUT)
-            return tell(EXIT_MISUSED, "%s", message);
+            return print_error(EXIT_MISUSED, "%s", message);
         if (status)
-            return tell(EXIT_FAILED, "%s; try fewer --segments",
-                        status_text(status));
+            return print_error(EXIT_FAILED, "%s; try fewer --segments",
+                               status_text(status));
     }
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
     if (check_files(options, (Refusal){message, sizeof message}))
-        return tell(EXIT_MISUSED, "%s", message);
+        return print_error(EXIT_MISUSED, "%s", message);
     print_forgotten(options);
     Status status = player_create(options, options->panes, argv, stop, player);
     return status ? program_end(player, status) : PROGRAM_PLAYS;

@@ -14,14 +14,14 @@
 
 /* ---- kinds of tables ----------------------------------------------------- */
 
-/* A run at a step: what the rows of a table are about. */
+/* A run at a step, the subject of a row. */
 typedef struct Moment {
     const Simulation *simulation;
     const TimeIntegrator *run;
     double step, time;
-    int number;               /* of the run in its simulation */
+    int number;               /* index of the run in its simulation */
     int pane;                 /* from 1 */
-    int runs, nodes, springs; /* before it, in panes before it, too */
+    int runs, nodes, springs; /* counts in all runs before this one */
 } Moment;
 
 static void add_states(Table *table, const Moment *at)
@@ -67,7 +67,7 @@ static void add_energies(Table *table, const Moment *at)
     table_add(table, row);
 }
 
-/* The log's texts; what is known of a residual. */
+/* Returns the text of a number in the log. */
 static const char *log_text(const char *column, int place)
 {
     static const char *const kinds[] = {"value", "estimate"};
@@ -76,9 +76,9 @@ static const char *log_text(const char *column, int place)
                                            : kinds[place];
 }
 
-/* In the order of enum RecordingTable. */
+/* The tables are in the order of enum RecordingTable. */
 static const struct {
-    size_t file; /* its name in the options */
+    size_t file; /* offset of the name in Options */
     const char *columns, *pane;
     void (*add)(Table *table, const Moment *at); /* NULL: the log */
 } kinds[RECORDING_TABLES] = {
@@ -99,8 +99,8 @@ static const struct {
 
 /* ---- pictures ------------------------------------------------------------ */
 
-/* libpng's simplified writer wants red, green and blue of each pixel; it leaves
- * errno of a failed write alone. */
+/* libpng's simplified writer takes red, green and blue of each pixel and keeps
+ * errno of a failed write. */
 static Status png_write(FILE *file, const Canvas *canvas)
 {
     size_t count = (size_t)canvas->width * (size_t)canvas->height;
@@ -141,7 +141,7 @@ Status png_file_write(const char *name, char *told, const Canvas *canvas)
 
 /* ---- frames of an earlier run -------------------------------------------- */
 
-/* The frames that stand in the folder before the first one is written. */
+/* Finds the frames in the folder before the first one is written. */
 static void find_older(Recording *recording)
 {
     DIR *folder = opendir(recording->folder);
@@ -158,7 +158,7 @@ static void find_older(Recording *recording)
         closedir(folder);
 }
 
-/* Counts those that nothing has replaced. */
+/* Counts the frames of an earlier run that were not replaced. */
 static void count_older(Recording *recording)
 {
     for (long step = 0; recording->older && step < FRAMES_MOST; step++)
@@ -173,8 +173,10 @@ static void count_older(Recording *recording)
 
 /* ---- all together -------------------------------------------------------- */
 
-/* Opens a table, if the options name one.  The ledger has a column for each
- * energy of any scene; where there are several panes a row says which. */
+/* Opens a table, if the options name one.  The table of energies has a column
+ * for each energy of any scene; tables of several panes have a column for the
+ * pane.
+ */
 static Status open_table(const Options *options, Recording *recording, int t)
 {
     Table *table = &recording->table[t];
@@ -259,8 +261,7 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane)
 {
     Table *log = &recording->table[RECORDING_LOG];
-    /* A negative number is of no iteration: the prescribed motion ended a step.
-     */
+    /* A negative number: no iteration, a prescribed motion ended the step. */
     double iteration = record->iteration < 0 ? NAN : record->iteration;
     double row[] = {(double)record->step, iteration,         record->residual,
                     record->alpha,        record->trials,    record->slope,
@@ -272,7 +273,7 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
     return table_check(log);
 }
 
-/* All tables are flushed before the first file gets its name. */
+/* Flushes all tables before the first file gets its name. */
 Status recording_close(Recording *recording, Keep keep)
 {
     bool failed = recording->message[0];

@@ -18,8 +18,7 @@ static bool has_work(const Player *player)
                              clock_now() - player->given.started > LONG);
 }
 
-/* Speed, which doubles or halves; what is on or off; which pane's numbers are
- * shown. */
+/* Changes the speed or the active pane; switches something on or off. */
 Status obey_screen(Player *player, const Command *command)
 {
     switch (command->kind) {
@@ -54,7 +53,7 @@ Status obey_screen(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* The list of keys or of pages, or a page's code, or the cards again. */
+/* Shows a list or a page's code in the column, or the cards again. */
 Status obey_column(Player *player, const Command *command)
 {
     Column column = command->kind == COMMAND_KEYS      ? COLUMN_KEYS
@@ -71,20 +70,20 @@ Status obey_column(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Ends the program; the key asks first where there is something to lose. */
+/* Ends the program; the key asks first if the session has something to lose. */
 Status obey_quit(Player *player, const Command *command)
 {
     bool key = command->text[0] != '\0', asked = player->orders.leaving;
     player->quit = !key || asked || !has_work(player);
     player->orders.leaving = COMMAND_QUIT;
     if (!player->quit)
-        player_note(player, "Q once more ends the program; Y writes down first "
-                            "what leads here");
+        player_note(player, "Q once more ends the program; Y saves first a "
+                            "script that leads here");
     return STATUS_OK;
 }
 
-/* What is open ends first; then, asked twice, the program, unless there is
- * something to lose. */
+/* Closes what is open; if nothing is, a second Escape ends the program, unless
+ * the session has something to lose. */
 Status obey_escape(Player *player, const Command *command)
 {
     bool asked = player->orders.leaving == COMMAND_ESCAPE;
@@ -112,8 +111,7 @@ Status obey_escape(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Zooms at a point in metres, moves the picture by some of them, or all fits
- * again. */
+/* Zooms at a point, m, moves the picture by a distance, m, or fits it again. */
 Status obey_camera(Player *player, const Command *command)
 {
     const Paper *paper = player_paper(player);
@@ -139,22 +137,21 @@ Status obey_camera(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* A card is closed or opened; one that is open is enlarged, or as the others.
- */
+/* Closes or opens a card; enlarges an open one, or gives it its size back. */
 Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
     player_fill(player);
     bool closed = player->screen.frame.show.closed >> card & 1;
-    if (command->kind == COMMAND_CARD || closed) /* its title opens it */
+    if (command->kind == COMMAND_CARD || closed)
         player->screen.closed ^= 1u << card;
     else
         player->screen.large = player->screen.large == card ? -1 : card;
     return STATUS_OK;
 }
 
-/* The cell beside it; or the next one, on or back, that is below it and not to
- * its left, or above it and not to its right. */
+/* Chooses the next cell of the sheet to the left or right, or, with Up and
+ * Down, the next one whose left edge is not on the other side. */
 Status obey_choose(Player *player, const Command *command)
 {
     const Show *show = &player->screen.frame.show;

@@ -1,5 +1,5 @@
-/* session.c - what every other file asks of a player: the pane that is shown,
- * its numbers, what is said below the picture; it calls no command.
+/* session.c - what all other files ask of a player and tell it: the active
+ * pane, its numbers, messages, the queue.
  */
 #include <math.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 
 enum {
     SLOW_NODES = 50000, /* a factor of so many takes longer than a SLICE */
-    WATCHED_SPEED = -5  /* of iterations that are watched one by one */
+    WATCHED_SPEED = -5  /* of scenes without time, whose steps are updates */
 };
 
 /* ---- the runs ------------------------------------------------------------ */
@@ -144,7 +144,6 @@ bool player_hides_answer(const Player *player)
            player->given.asks && !player->tour.opens;
 }
 
-/* Whether a list is open whose lines have numbers. */
 bool player_has_list(const Player *player)
 {
     return player->screen.column == COLUMN_PAGES ||
@@ -164,7 +163,7 @@ void player_format_value(const OptionRow *row, const Options *options,
     char value[COMMAND_TEXT_SIZE], unit[16];
     option_unit(row, unit, sizeof unit);
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
-        unit[0] = '\0'; /* of a gradient */
+        unit[0] = '\0'; /* the tolerance of a gradient has another unit */
     option_value(row, options, value, sizeof value);
     if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
         simulation->run[0].method != simulation->run[1].method)
@@ -175,13 +174,13 @@ void player_format_value(const OptionRow *row, const Options *options,
     else if (strcmp(row->name, "solver") == 0 && simulation->steps > 0 &&
              simulation->run[0].newton &&
              simulation->run[0].newton->working != options->solver)
-        snprintf(text, size, "%.12s: %s", value, /* who has made the step */
+        snprintf(text, size, "%.12s: %s", value, /* the one at work */
                  solver_name(simulation->run[0].newton->working));
     else
         snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
 }
 
-/* ---- what is said -------------------------------------------------------- */
+/* ---- messages ------------------------------------------------------------ */
 
 void player_note(Player *player, const char *format, ...)
 {
@@ -222,15 +221,14 @@ Status player_tolerate_failure(Player *player, Status status)
 
 /* ---- commands that wait -------------------------------------------------- */
 
-/* A command that waits until the present one is obeyed and no step is under
- * way.  Of the positions of one drag the last one counts. */
 void player_enqueue(Player *player, const Command *command)
 {
     Queue *queue = &player->orders.queue;
-    Command *last = &queue->command[queue->count - 1];
-    bool covers = command_rows[command->kind].flags & LATEST;
-    if (queue->count > 0 && covers && last->kind == command->kind &&
-        last->number == command->number)
+    Command *last = queue->command + (queue->count > 0 ? queue->count - 1 : 0);
+    bool covers = queue->count > 0 && last->kind == command->kind &&
+                  last->number == command->number &&
+                  command_rows[command->kind].flags & LATEST;
+    if (covers)
         *last = *command;
     else if (queue->count < QUEUE_MOST)
         queue->command[queue->count++] = *command;
@@ -255,6 +253,8 @@ Status player_enqueue_lines(Player *player, const char *lines)
         lines += length + (lines[length] == ';');
         status = command_parse(line, &command, player->message,
                                sizeof player->message);
+        if (!status && player->orders.queue.count == QUEUE_MOST)
+            status = player_refuse(player, "too many commands at once");
         if (!status)
             player_enqueue(player, &command);
     }

@@ -1,4 +1,4 @@
-/* sheet.c - all scenes at once, as small pictures that live. */
+/* sheet.c - the sheet: all scenes at once, as small pictures that go on. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -7,19 +7,20 @@
 #include "lesson/pages.h"
 #include "scenes/scenes.h"
 
-/* The tour comes first and turns its pages; then a cell for each row of the
- * table of scenes.  The run waits behind them. */
 enum {
-    LIFE = 240, /* frames until a scene begins again, */
-    SLOW = 24   /* and between two steps where no time passes */
+    LIFE = 240, /* frames until a scene begins again */
+    SLOW = 24   /* frames between two steps in scenes without time */
 };
 
-static const double LIVING = 0.008; /* s of a frame */
+static const double LIVING = 0.008; /* s of a frame for all steps */
 
+/* The first cell shows the pages of the tour, one after the other; then comes a
+ * cell for each scene. */
 typedef struct Sheet {
-    int cells, next;       /* whose turn it is */
-    int page;              /* of the tour */
-    int age[LAYOUT_CELLS]; /* frames; 0: it is not made yet */
+    int cells;
+    int next;              /* cell whose turn it is */
+    int page;              /* index of the page in the first cell */
+    int age[LAYOUT_CELLS]; /* frames; 0: the cell has no simulation yet */
     Simulation simulation[LAYOUT_CELLS];
 } Sheet;
 
@@ -32,8 +33,7 @@ void sheet_close(Player *player)
     player->screen.sheet = NULL;
 }
 
-/* All scenes but those by name, or the run again.  The open scene is chosen,
- * the tour where the sheet does not have it. */
+/* Opens the sheet with the present scene chosen, or the tour; or closes it. */
 Status obey_sheet(Player *player, const Command *command)
 {
     const Options *options = player_settings(player);
@@ -45,7 +45,7 @@ Status obey_sheet(Player *player, const Command *command)
     player->screen.sheet = calloc(1, sizeof *player->screen.sheet);
     if (!player->screen.sheet)
         return STATUS_OUT_OF_MEMORY;
-    int cells = 1; /* the first one is the tour's */
+    int cells = 1; /* of the tour */
     while (cells < LAYOUT_CELLS && scenes[cells - 1].name &&
            !scenes[cells - 1].by_name)
         cells++;
@@ -56,8 +56,7 @@ Status obey_sheet(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* A scene from its start.  What cannot begin stays a frame without a picture.
- */
+/* Begins the scene of a cell; a cell that fails stays empty. */
 static void begin_cell(Sheet *sheet, int i)
 {
     char message[256];
@@ -116,8 +115,8 @@ void sheet_fill(const Player *player, Show *show)
     snprintf(show->state, SHOW_VALUE, "digits: a page of the tour");
 }
 
-/* The scene that is chosen, by a command that a script can repeat; the page
- * that is open is behind the sheet. */
+/* Opens the chosen cell by a command that a script can repeat; where the page
+ * of the tour is open, closing the sheet is enough. */
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";

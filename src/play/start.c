@@ -1,5 +1,5 @@
-/* start.c - new runs from step 0: again, from another start, another scene, a
- * page of the lecture, a cell of the map.
+/* start.c - begins new runs at step 0: the same run again, another start,
+ * scene, page of the lecture or cell of the map; answers of pages.
  */
 #include <math.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 #include "run/scene.h"
 #include "scenes/small_scenes.h"
 
-/* Another scene, from its start; it keeps the pause, and one that explains
- * something begins with one. */
+/* Begins another scene, paused if the last one was or if the scene explains
+ * something. */
 Status obey_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -37,7 +37,7 @@ Status obey_scene(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Whether a page has commands when it opens, and the nodes that they name. */
+/* Whether a page has opening commands, and the mesh still has their nodes. */
 static bool opens_again(Player *player, const Options *now)
 {
     Options own;
@@ -48,15 +48,15 @@ static bool opens_again(Player *player, const Options *now)
            own.segments == now->segments;
 }
 
-/* Whether the page runs once its answer is shown. */
+/* Whether the page plays, now that its answer is shown. */
 static bool plays_again(const Player *player, const LecturePage *page)
 {
     return page && page == player->tour.revealed && page->tell &&
            strstr(page->tell, "play");
 }
 
-/* Obstacles that stand where the body begins go back to where they began.
- * INVALID_INPUT: one was not there then. */
+/* Moves obstacles out of the start of the body, back to where they began.
+ * Returns INVALID_INPUT if there were others at the start. */
 static Status clear_start(Player *player, int pane, Options *options)
 {
     Options began = past_start(&player->past, pane)->options;
@@ -118,9 +118,8 @@ Status player_begin_again(Player *player, const Options *options, int panes,
     return status;
 }
 
-/* From step 0 with the present numbers, pins, balls and grounds, or from
- * another start; a pause that nobody asked for ends.  A page opens again, and
- * runs again. */
+/* Begins again with the present numbers, pins, balls and grounds, or at another
+ * start.  MODE_END and MODE_REST end; a page opens and plays again. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -151,11 +150,11 @@ Status obey_restart(Player *player, const Command *command)
 Status player_enqueue_page(Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
-    player->orders.queue.of_page = true; /* nobody has asked for these steps */
+    player->orders.queue.of_page = true;
     return player_enqueue_lines(player, page ? page->open : NULL);
 }
 
-/* Keeps what became of a guess for the page's card and for the score. */
+/* Keeps the verdict on a guess for the page's card, and counts it. */
 static void judge_guess(Player *player, bool right, const char *format, ...)
 {
     va_list arguments;
@@ -167,7 +166,7 @@ static void judge_guess(Player *player, bool right, const char *format, ...)
     player->tour.right += right;
 }
 
-/* A guess within two percent is right, as it may be calculated on paper. */
+/* A guess may be off by two percent, since it is calculated on paper. */
 Status player_reveal(Player *player, const char *typed)
 {
     const LecturePage *page = player_settings(player)->page;
@@ -199,9 +198,8 @@ Status player_reveal(Player *player, const char *typed)
     return player_enqueue_lines(player, page->tell);
 }
 
-/* The page that is asked for, from its start with its settings: by its name;
- * the next one or the one before; the one that was left for another scene; or
- * the first. */
+/* Opens a page with its settings: the one with this name; the next or the
+ * previous one; outside of the lecture the one that was left, or the first. */
 Status obey_page(Player *player, const Command *command)
 {
     Options options;
@@ -241,8 +239,8 @@ Status obey_page(Player *player, const Command *command)
     return player_enqueue_page(player);
 }
 
-/* A guess of where the next step leads; on a page that asks for a click it is
- * the answer.  A guess is right within a tenth of the way. */
+/* Keeps a guess of where the next step leads; on a page that asks for a click,
+ * judges it: it may be off by a tenth of the way. */
 Status obey_predict(Player *player, const Command *command)
 {
     double at[2];

@@ -1,7 +1,6 @@
-/* steps.c - through time: the work until a step is shown, what is recorded of
- * it, and where a run stops by itself; on and back by steps, by updates of
- * Newton's method, or by lines of Algorithm 3; the present step once more;
- * undo.
+/* steps.c - time: works until a step is shown and records it; stops runs; goes
+ * on and back by steps, by updates of Newton's method, or by lines of Algorithm
+ * 3; makes the present step once more; undoes.
  */
 #include <limits.h>
 #include <math.h>
@@ -16,7 +15,7 @@
 
 /* ---- tables -------------------------------------------------------------- */
 
-/* What Newton told of the step that the machines have just made, or could not
+/* Writes the log of the step that the machines have just made, or failed to
  * make. */
 static Status record_updates(Player *player, long step)
 {
@@ -37,9 +36,9 @@ static Status record_updates(Player *player, long step)
     return status;
 }
 
-/* Writes the step that is shown, if it is the next one that is not written yet
- * and all panes have its records: they have made it, and not found its state.
- * Writes its row of the ledger alone, if only that is out of date. */
+/* Writes the shown step to the tables if it is the next one and all panes have
+ * made it, so that they have its records.  Writes its energies alone, if only
+ * these are out of date. */
 static Status record_step(Player *player)
 {
     const Past *past = &player->past;
@@ -74,7 +73,7 @@ Status player_write_remaining(Player *player)
     bool failed = false, again = true;
     for (int p = 0; p < past_panes(past); p++)
         failed = failed || past->machine[p].failed;
-    if (failed && shown == player->written) /* its iterations are told */
+    if (failed && shown == player->written) /* iterations of the failure */
         status = record_updates(player, shown + 1);
     if (!past->keeps || !player->recording.tables)
         return status;
@@ -94,7 +93,7 @@ Status player_write_remaining(Player *player)
 
 /* ---- beginning ----------------------------------------------------------- */
 
-/* All of the step is shown, no line of it. */
+/* Shows the whole step in all panes, no line of it. */
 static void leave_lines(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
@@ -113,14 +112,14 @@ void player_forget_step(Player *player)
     }
 }
 
-/* The hand holds nothing any more, and nothing waits to be let go. */
+/* Empties the hand, and the queue of its commands. */
 static void forget_hand(Player *player)
 {
     player->hands.holds = false;
     player->orders.queue.count = 0;
 }
 
-/* Another scene has a camera and cards of its own, and so has another page. */
+/* Resets camera and cards for another scene or page. */
 static void enter_scene(Player *player)
 {
     const Options *options = player_settings(player);
@@ -140,9 +139,9 @@ static void enter_scene(Player *player)
         window_set_title(title);
 }
 
-/* The past is another one behind some step; where time stands still that is
- * drawn anew, too. */
-static void follow(Player *player)
+/* Follows an edit that replaced the steps after `past->same`; a paused window
+ * is redrawn. */
+static void follow_past(Player *player)
 {
     Past *past = &player->past;
     long same = past->same, booked = past->booked;
@@ -168,7 +167,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     bool again = past->branches > 0;
     Status status =
         past_begin(past, options, count, player->orders.gesture, edit);
-    if (status) /* what was there before is going to be shown again */
+    if (status)
         return again ? player_refuse(player, "%s", status_text(status))
                      : status;
     player_forget_step(player);
@@ -176,7 +175,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     player->screen.sampled = -1;
     player->time.warned = player->time.gained = false;
     forget_hand(player);
-    follow(player);
+    follow_past(player);
     return record_step(player);
 }
 
@@ -189,13 +188,13 @@ Status player_edit(Player *player, const Command *change, int from, int to,
     Status status =
         past_edit(past, change, from, to, again, player->orders.gesture);
     if (!status)
-        follow(player);
+        follow_past(player);
     return status || again ? status : record_step(player);
 }
 
-/* ---- where it stops by itself -------------------------------------------- */
+/* ---- where a run stops by itself ----------------------------------------- */
 
-/* Why cells may stay folded at rest. */
+/* Reports rest, and why cells may stay folded. */
 static void report_rest(Player *player)
 {
     const Past *past = &player->past;
@@ -245,8 +244,7 @@ static void detect_rest(Player *player)
     int going = 0;
     const Options *options = player_settings(player);
     if (player->given.options[0].steps >= 0 || !player->given.attended ||
-        (options->next ==
-             NEXT_SPRING && /* its steps write, they move nothing */
+        (options->next == NEXT_SPRING && /* springs write the Hessian */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
@@ -266,67 +264,68 @@ static void detect_rest(Player *player)
         player->time.mode = MODE_REST;
     else if (ended || (bad && !player->time.warned))
         player->time.mode = MODE_END;
-    if (ended) /* how it ended is said where an answer stood */
+    if (ended) /* the sentence says how */
         player->note[0] = '\0';
     player->time.warned = player->time.warned || bad;
     if (player->time.mode == MODE_REST)
         report_rest(player);
     if (past->step == options->pause && options->pause > 0 &&
-        options->page == player->tour.revealed) /* what the page is about */
+        options->page == player->tour.revealed) /* the subject of the page */
         player->time.mode = MODE_PAUSE;
 }
 
 /* ---- inside a step ------------------------------------------------------- */
 
-/* Into the step that is shown, where any pane has lines: to the first of them,
- * to the last, or to where E rose beyond all proportion. */
-static void enter(Player *player, AfterWork after)
+/* Shows a line of the present step in each pane that has lines: the first one,
+ * the last one, or the peak of an explosion. */
+static void enter_lines(Player *player, AfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const Rounds *rounds = &player->past.machine[p].rounds;
+        const StepTrace *kept = &player->past.machine[p].trace;
         Trace trace;
         double far = 0;
-        int place = rounds->places <= 2    ? -1 /* the start and the end */
+        int place = kept->places <= 2      ? -1 /* the start and the end */
                     : after == AFTER_ENTER ? 0
-                    : after == AFTER_LEAVE ? rounds->places - 1
-                                           : rounds_peak(rounds);
+                    : after == AFTER_LEAVE ? kept->places - 1
+                                           : step_trace_peak(kept);
         if (place < 0)
             continue;
         player->time.mode = MODE_PAUSE;
         player->side[p].place = place;
-        const double *x = rounds_trace(rounds, place, &trace);
+        const double *x = step_trace_at(kept, place, &trace);
         if (after != AFTER_PEAK)
             continue;
-        for (int i = 0; x && i < rounds->size; i++)
+        for (int i = 0; x && i < kept->size; i++)
             far = fmax(far, fabs(x[i]));
         player_note(player, "update %d of %d: nodes are %.4g m away; N goes on",
-                    rounds->place[place].round + 1, rounds->made.count, far);
+                    kept->place[place].round + 1, kept->made.count, far);
         player->warning = true;
     }
 }
 
-/* A pace on (1) or back (-1) in all panes; false: each was at its end. */
-static bool walk(Player *player, int way)
+/* Goes one line or update on (1) or back (-1) in all panes.  Returns false if
+ * each was at its end. */
+static bool walk_lines(Player *player, int way)
 {
     bool moved = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const Rounds *rounds = &player->past.machine[p].rounds;
+        const StepTrace *kept = &player->past.machine[p].trace;
         int *place = &player->side[p].place;
         if (*place < 0)
             continue;
-        int next = rounds_walk(rounds, player->time.fine, *place, way);
+        int next = step_trace_walk(kept, player->time.fine, *place, way);
         moved = moved || next != *place;
         *place = next;
     }
     return moved;
 }
 
-/* ---- the step once more: the counterfactual ------------------------------ */
+/* ---- the step once more, with an edit -------------------------------------
+ */
 
-/* "projection none: E(x) rises by 206 J s² in 12 updates"; explicit methods
- * make none. */
-static void tell_outcome(const Player *player, const OptionRow *row, char *text,
-                         size_t size)
+/* Writes "projection none: E(x) rises by 206 J s² in 12 updates". */
+static void describe_outcome(const Player *player, const OptionRow *row,
+                             char *text, size_t size)
 {
     const Outcome *outcome = &player_machine(player)->outcome;
     bool curve =
@@ -347,20 +346,20 @@ static void tell_outcome(const Player *player, const OptionRow *row, char *text,
         append(text, size, ", %s", status_text(outcome->status));
 }
 
-/* What the step did before it was taken again and does now. */
-static void tell_retake(Player *player)
+/* Reports the outcomes of the step before and after the edit. */
+static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
-    const Rounds *rounds = &player_machine(player)->rounds;
-    const Station *at = &player->time.retaken;
+    const StepTrace *kept = &player_machine(player)->trace;
+    const TracePlace *at = &player->time.retaken;
     char has[256];
-    if (at->round >= 0 && rounds->places > 2) {
+    if (at->round >= 0 && kept->places > 2) {
         player->time.mode = MODE_PAUSE;
         player->side[player->active].place =
-            rounds_find(rounds, at->round, at->line);
+            step_trace_find(kept, at->round, at->line);
     }
-    tell_outcome(player, &option_rows[past->branch[past->now].edit.number], has,
-                 sizeof has);
+    describe_outcome(player, &option_rows[past->branch[past->now].edit.number],
+                     has, sizeof has);
     player_note(player, "%s; %s", player->side[player->active].ghost_label,
                 has);
 }
@@ -376,11 +375,11 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     bool failed = machine->failed;
     long step = past->step + failed;
-    player->time.retaken = (Station){.round = -1};
+    player->time.retaken = (TracePlace){.round = -1};
     if (side->place >= 0 && player->time.fine > 0)
-        player->time.retaken = machine->rounds.place[side->place];
+        player->time.retaken = machine->trace.place[side->place];
     player_forget_step(player);
-    tell_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
+    describe_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
         side->ghost = malloc(bytes);
     if (side->ghost)
@@ -394,10 +393,11 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     return STATUS_OK;
 }
 
-/* ---- what happens as a step is shown ------------------------------------- */
+/* ---- work ---------------------------------------------------------------- */
 
-/* The work has come to its end; made: of a new step. */
-static Status step_shown(Player *player, Status status, long before, bool made)
+/* Records the step that the work has led to, and does what was to follow.
+ *   made  the step is a new one */
+static Status finish_work(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
     AfterWork after = player->time.after;
@@ -405,7 +405,7 @@ static Status step_shown(Player *player, Status status, long before, bool made)
     bool failed = status && !status_is_unconverged(status);
     player->time.after = AFTER_NOTHING;
     player->screen.changed = true;
-    if (failed && past->step == before) { /* it tells why */
+    if (failed && past->step == before) { /* the sentence says why */
         long seen = past_last_seen(past, 0, before);
         bool lost = runs && status == STATUS_NOT_FINITE;
         player->screen.sampled = -1;
@@ -425,9 +425,9 @@ static Status step_shown(Player *player, Status status, long before, bool made)
     if (!status && runs)
         detect_rest(player);
     else if (!status && after == AFTER_COMPARE)
-        tell_retake(player);
+        compare_outcomes(player);
     else if (!status && after != AFTER_NOTHING)
-        enter(player, after);
+        enter_lines(player, after);
     return status;
 }
 
@@ -443,7 +443,7 @@ Status player_work(Player *player)
         bool made = past_makes(past);
         Status status = past_iterate(past);
         if (!past_works(past) || (status && status != STATUS_RUNNING)) {
-            status = step_shown(player, status, before, made);
+            status = finish_work(player, status, before, made);
             if (status)
                 return status;
             player_complete_line(player);
@@ -459,9 +459,8 @@ Status player_work(Player *player)
     return STATUS_OK;
 }
 
-/* Lets go of what was held when this step was shown, long ago; that is undone
- * by itself. */
-static Status let_go(Player *player)
+/* Releases what was held at this old step, as a gesture of its own. */
+static Status release_old_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
     int gesture = player->orders.gesture, panes = past_panes(&player->past);
@@ -481,7 +480,7 @@ Status player_seek(Player *player, long step, AfterWork after)
     if (known)
         forget_hand(player);
     if (!status && !known)
-        status = let_go(player);
+        status = release_old_hand(player);
     if (status)
         return status;
     player_forget_step(player);
@@ -507,7 +506,7 @@ Status obey_next(Player *player, const Command *command)
                       : player->time.fine > 0       ? AFTER_ENTER
                                                     : AFTER_PEAK;
     player_pause(player);
-    if (after == AFTER_ENTER && walk(player, 1))
+    if (after == AFTER_ENTER && walk_lines(player, 1))
         return STATUS_OK;
     if (after == AFTER_PEAK && player->side[player->active].place >= 0) {
         leave_lines(player); /* from an explosion's height to its end */
@@ -516,7 +515,7 @@ Status obey_next(Player *player, const Command *command)
     return player_seek(player, player->past.step + 1, after);
 }
 
-/* Whether the steps of any pane are made of updates that are shown. */
+/* Whether the steps of any pane consist of Newton's updates. */
 static bool has_updates(const Player *player)
 {
     bool any = false;
@@ -528,7 +527,7 @@ static bool has_updates(const Player *player)
     return any;
 }
 
-/* From the first line of a step to the end of the one before. */
+/* Goes back; from the first line of a step to the end of the step before. */
 Status obey_back(Player *player, const Command *command)
 {
     long step = player->past.step;
@@ -540,14 +539,14 @@ Status obey_back(Player *player, const Command *command)
     if (player->side[player->active].place < 0 && step > 0) {
         if (!player_machine(player)->known)
             return player_seek(player, step, AFTER_LEAVE);
-        enter(player, AFTER_LEAVE);
+        enter_lines(player, AFTER_LEAVE);
     }
-    if (player->side[player->active].place >= 0 && walk(player, -1))
+    if (player->side[player->active].place >= 0 && walk_lines(player, -1))
         return STATUS_OK;
     return player_seek(player, step - 1, AFTER_LEAVE);
 }
 
-/* Steps, updates, lines, and steps again. */
+/* Changes the unit of "next" and "back": steps, updates, lines, steps again. */
 Status obey_finer(Player *player, const Command *command)
 {
     static const char *const paces[] = {
@@ -563,7 +562,7 @@ Status obey_finer(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Step 0, the newest one, or the one with this number. */
+/* Shows step 0, the newest step, or the step with this number. */
 Status obey_goto(Player *player, const Command *command)
 {
     long step = command->kind == COMMAND_HOME ? 0 : past_newest(&player->past);
@@ -573,33 +572,43 @@ Status obey_goto(Player *player, const Command *command)
     return player_seek(player, step, AFTER_NOTHING);
 }
 
-/* What a hand did, in words; anything else as a script says it, with digits as
- * the row of numbers has them. */
-static void tell_deed(const Player *player, Command edit, char *line,
-                      size_t size)
+/* Writes what an edit has done to the scene: "ball moved", "stretch 1.2". */
+static void describe_edit(const Player *player, const Command *edit, char *line,
+                          size_t size)
 {
-    bool ground = edit.number < player_settings(player)->grounds;
-    const char *obstacle = edit.kind == COMMAND_PUSH       ? "pushed"
-                           : edit.kind == COMMAND_OBSTACLE ? "moved"
-                                                           : NULL;
-    const char *node = edit.kind == COMMAND_GRAB    ? "pulled"
-                       : edit.kind == COMMAND_PLACE ? "placed"
-                                                    : NULL;
-    double *at[] = {&edit.x, &edit.y};
-    edit.joins = false;
-    for (int k = 0; k < 2; k++) {
-        snprintf(line, size, "%g", *at[k]);
-        *at[k] = strtod(line, NULL);
+    const Options *options = player_settings(player);
+    const OptionRow *row = &option_rows[edit->number];
+    bool ground = edit->number < options->grounds;
+    char value[COMMAND_TEXT_SIZE];
+    switch (edit->kind) {
+    case COMMAND_SET:
+        snprintf(line, size, "%g", edit->x);
+        option_write(row, strtod(line, NULL), value, sizeof value);
+        snprintf(line, size, "%s %s", row->name,
+                 edit->text[0] ? edit->text : value);
+        break;
+    case COMMAND_OBSTACLE:
+    case COMMAND_PUSH:
+        snprintf(line, size, "%s %s", ground ? "ground" : "ball",
+                 edit->kind == COMMAND_PUSH ? "pushed" : "moved");
+        break;
+    case COMMAND_GRAB:
+    case COMMAND_PLACE:
+        snprintf(line, size, "node %ld %s", edit->number,
+                 edit->kind == COMMAND_GRAB ? "pulled" : "placed");
+        break;
+    case COMMAND_PIN:
+        snprintf(line, size, "node %ld %s", edit->number,
+                 edit->x != 0 ? "pinned" : "freed");
+        break;
+    default:
+        snprintf(line, size, "%s%s%s", command_rows[edit->kind].word,
+                 edit->text[0] ? " " : "", edit->text);
+        break;
     }
-    if (obstacle)
-        snprintf(line, size, "%s %s", ground ? "ground" : "ball", obstacle);
-    else if (node)
-        snprintf(line, size, "node %ld %s", edit.number, node);
-    else
-        command_format(&edit, line, size);
 }
 
-/* What was done last, or undone: "set stretch 1.2". */
+/* Undoes the last gesture or does it again, and reports it. */
 Status obey_undo(Player *player, const Command *command)
 {
     Past *past = &player->past;
@@ -612,11 +621,10 @@ Status obey_undo(Player *player, const Command *command)
     const Command edit = *made;
     player->time.mode = MODE_PAUSE;
     forget_hand(player);
-    player->hands.mouse.gesture =
-        ++player->orders.gestures; /* if a drag goes on */
-    follow(player);
+    player->hands.mouse.gesture = ++player->orders.gestures; /* of a drag */
+    follow_past(player);
     player_forget_step(player);
-    tell_deed(player, edit, line, sizeof line);
+    describe_edit(player, &edit, line, sizeof line);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
     return STATUS_OK;
 }

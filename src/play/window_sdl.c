@@ -1,5 +1,4 @@
-/* window_sdl.c - the window on a computer.  SDL only carries the finished
- * picture to the screen, so that it is the same on all of them.
+/* window_sdl.c - the window on a computer; SDL only shows the finished picture.
  */
 #include <SDL.h>
 #include <ctype.h>
@@ -11,15 +10,15 @@
 
 enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800 };
 
-/* Points, that the frame of a window has at left and right, and above and
- * below, where nobody tells. */
+/* Points of a window's frame, both sides together, if the system does not say.
+ */
 enum { FRAME_WIDTH = 10, FRAME_HEIGHT = 40 };
 
 static SDL_Window *window;
-static bool tab; /* Tab is down and has asked for nothing yet */
+static bool tab; /* Tab is down, without another key so far */
 
-/* As they were at the event that is read: it may have waited, and SDL only
- * tells what is held now. */
+/* Tab and mouse at the time of the event that is read; SDL only knows the
+ * present. */
 static bool tab_held;
 static SDL_Point mouse;
 
@@ -30,9 +29,10 @@ const char *window_failure(void)
 
 /* ---- opening and closing ------------------------------------------------- */
 
-/* Whether SDL's video shows what is drawn; if not, SDL's error tells why.
- * Without XDG_RUNTIME_DIR Wayland's library would write a line of its own to
- * standard error, so SDL should not even ask it. */
+/* Starts SDL's video.  Returns false if no screen shows it; SDL's error says
+ * why. Without XDG_RUNTIME_DIR Wayland's library prints an error, so it is left
+ * out.
+ */
 static bool open_video(void)
 {
 #ifdef __linux__
@@ -57,15 +57,14 @@ bool window_is_full(void)
     return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
-/* The usual size, or what the screen has room for beside a frame. */
+/* Computes the usual size, or what fits on the screen with its frame. */
 static void usual_size(const SDL_Rect *area, const int frame[2], int size[2])
 {
     size[0] = SDL_max(SDL_min(WINDOW_WIDTH, area->w - frame[0]), 1);
     size[1] = SDL_max(SDL_min(WINDOW_HEIGHT, area->h - frame[1]), 1);
 }
 
-/* Makes a window that is larger than the screen with the frame that it got as
- * small as needed. */
+/* Shrinks a window that is larger than the screen with its frame. */
 static void fit_frame(const SDL_Rect *area, const int now[2])
 {
     int top = 0, left = 0, low = 0, right = 0, fits[2];
@@ -79,9 +78,8 @@ static void fit_frame(const SDL_Rect *area, const int now[2])
     SDL_SetWindowPosition(window, area->x + left, area->y + top);
 }
 
-/* Pixels that go to an X server as they are cost less than half of what an
- * OpenGL takes that the processor computes, and no time to begin (measured: 6
- * instead of 14 ms a frame of 900 x 900 pixels). */
+/* On X11 without acceleration a frame of 900 x 900 pixels takes 6 ms, not 14 as
+ * with OpenGL computed by the processor (measured). */
 bool window_open(const char *title, const int size[2], bool full)
 {
     SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
@@ -118,7 +116,7 @@ void window_close(void)
     SDL_Quit();
 }
 
-/* ---- what it shows ------------------------------------------------------- */
+/* ---- output -------------------------------------------------------------- */
 
 void window_set_title(const char *title)
 {
@@ -132,7 +130,7 @@ void window_size(int size[2])
     size[1] = surface ? surface->h : 1;
 }
 
-/* Pixels in a point, each way; 1 where nobody knows. */
+/* Pixels per point in each direction; 1 if not known. */
 static void window_scale(double scale[2])
 {
     int size[2], points[2] = {0, 0};
@@ -170,15 +168,14 @@ Status window_show(const Canvas *canvas)
 
 /* ---- keys ---------------------------------------------------------------- */
 
-/* "Ctrl+", "Shift+", "Tab+" in front of the key's own name.  Signs and digits
- * come as texts, wherever a keyboard has them; Tab is told when it comes up
- * again, for Tab+M is another key.  When the window loses the keys SDL lets go
- * of all of them. */
+/* Names a key with "Ctrl+", "Shift+", "Tab+" in front.  Signs and digits come
+ * as texts, independent of the keyboard; Tab counts when it comes up again,
+ * since Tab+M is another key. */
 static void read_key(const SDL_KeyboardEvent *event, Input *input)
 {
     SDL_Keycode key = event->keysym.sym;
     SDL_Scancode place = event->keysym.scancode;
-    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* none of our letters */
+    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* another alphabet */
         place >= SDL_SCANCODE_A && place <= SDL_SCANCODE_Z)
         key = SDLK_a + (SDL_Keycode)(place - SDL_SCANCODE_A);
     SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
@@ -204,8 +201,8 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
 
 /* ---- mouse and window ---------------------------------------------------- */
 
-/* Uncovered, resized, left or closed.  A drag ends where the keys go to another
- * window: who gets the button's release then is not known. */
+/* Translates an event of the window.  A drag ends when the window loses the
+ * keys, since the release of the button may go elsewhere. */
 static InputKind change_of_window(const SDL_WindowEvent *event)
 {
     switch (event->event) {
@@ -225,7 +222,7 @@ static InputKind change_of_window(const SDL_WindowEvent *event)
     }
 }
 
-/* What an event says, and where the mouse was then. */
+/* Translates an event, with the place of the mouse. */
 static Input read_event(const SDL_Event *event)
 {
     Input input = {.kind = INPUT_NONE};
@@ -279,7 +276,7 @@ static Input read_event(const SDL_Event *event)
     return input;
 }
 
-/* Of several movements in a row the last one. */
+/* Skips all but the last of several movements in a row. */
 Input window_input(void)
 {
     SDL_Event event, next;
@@ -293,9 +290,9 @@ Input window_input(void)
     return input;
 }
 
-/* SDL_WaitEventTimeout would do, but on X it wakes itself up by an event of a
- * second connection: one that arrives when the window has been closed is an X
- * error, which ends the program. */
+/* SDL_WaitEventTimeout is not used: on X it wakes itself by an event of a
+ * second connection, and such an event after the window is closed ends the
+ * program. */
 void window_wait(int milliseconds)
 {
     enum { PAUSE = 8 }; /* ms */

@@ -85,15 +85,15 @@ void window_show_card(const Canvas *canvas, int card)
     show(canvas, card);
 }
 
-/* ---- what the page tells ------------------------------------------------- */
+/* ---- inputs -------------------------------------------------------------- */
 
 enum { INPUTS = 256 };
 
-/* What nobody has read yet; the page's loop is the only caller. */
+/* The inputs that were not read yet; only the page's loop uses them. */
 static Input inputs[INPUTS];
 static int first_input, input_count;
 
-/* Of several movements in a row only the last is kept. */
+/* Keeps only the last of several movements in a row. */
 static void put_input(const Input *input)
 {
     int last = (first_input + input_count - 1) % INPUTS;
@@ -131,7 +131,7 @@ Input window_input(void)
     return input;
 }
 
-/* The page waits between its frames; nothing arrives while C runs. */
+/* Does not wait: the page does, and no input arrives while C runs. */
 void window_wait(int milliseconds)
 {
     (void)milliseconds;
@@ -145,7 +145,7 @@ Status film_open(const char *name, char *told, Film *film)
     if (!page_films())
         return output_report(told, name, STATUS_INVALID_INPUT,
                              "this browser makes no films of a page");
-    film->output.file = stdout; /* which nobody writes: it runs */
+    film->output.file = stdout; /* marks the film as running */
     film->output.told = told;
     snprintf(film->output.name, OUTPUT_NAME, "%s", name);
     page_film(name);
@@ -161,7 +161,7 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
 
 Status film_close(Film *film, Keep keep)
 {
-    (void)keep; /* what was filmed is always given */
+    (void)keep; /* the browser always offers the film */
     if (!film_runs(film))
         return STATUS_OK;
     page_film_end(film->frames > 0);

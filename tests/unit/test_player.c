@@ -86,11 +86,11 @@ TEST(the_curve_goes_through_the_step)
             past_aim(&player.past, step + 1, true); /* all of its lines */
             Status status = past_finish(&player.past);
             CHECK(!status || status_is_unconverged(status));
-            const Rounds *rounds = &machine(0)->rounds;
-            for (int place = 0; place < rounds->places; place++) {
+            const StepTrace *kept = &machine(0)->trace;
+            for (int place = 0; place < kept->places; place++) {
                 Trace trace;
-                rounds_trace(rounds, place, &trace);
-                int round = rounds->place[place].round;
+                step_trace_at(kept, place, &trace);
+                int round = kept->place[place].round;
                 if (trace.line != LINE_UPDATE)
                     continue;
                 seen++;
@@ -98,10 +98,10 @@ TEST(the_curve_goes_through_the_step)
                     CHECK(i == 3 && round == 0 && !trace.difference);
                     continue;
                 }
-                const NewtonRecord *record = &rounds->made.row[round];
+                const NewtonRecord *record = &kept->made.row[round];
                 double change = trace.difference(trace.function, record->alpha);
-                rough += rounds->round[round].rough;
-                if (rounds->round[round].rough &&
+                rough += kept->round[round].rough;
+                if (kept->round[round].rough &&
                     record->alpha < trace.first / ROUND_PARTS)
                     continue; /* between two kept values */
                 CHECK_NEAR(change, record->change,
@@ -110,8 +110,8 @@ TEST(the_curve_goes_through_the_step)
         }
         CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
         Trace whole;
-        const Rounds *rounds = &machine(0)->rounds;
-        rounds_trace(rounds, -1, &whole);
+        const StepTrace *kept = &machine(0)->trace;
+        step_trace_at(kept, -1, &whole);
         CHECK(whole.residual > 0);
         end();
     }
@@ -121,11 +121,11 @@ TEST(the_curve_goes_through_the_step)
  * what is shown; out [room].  Returns how many they are. */
 static int look_along(double *out, int room)
 {
-    const Rounds *rounds = &machine(0)->rounds;
+    const StepTrace *kept = &machine(0)->trace;
     int count = 0;
-    for (int place = 0; place < rounds->places && count < room; place++) {
+    for (int place = 0; place < kept->places && count < room; place++) {
         Trace trace;
-        rounds_trace(rounds, place, &trace);
+        step_trace_at(kept, place, &trace);
         const Round *round = trace.function;
         if (trace.difference && round->rough)
             out[count++] =
@@ -151,7 +151,7 @@ TEST(curves_are_kept_where_they_are_drawn)
         CHECK_OK(obey("finer"));
         if (way == WALKED)
             CHECK_OK(obey("next"));
-        rounds_trace(&machine(0)->rounds, -1, &trace);
+        step_trace_at(&machine(0)->trace, -1, &trace);
         double last = trace.difference(trace.function, 0.625 * trace.first);
         CHECK(isnan(last) == (way == UNSEEN) && player.past.step == 4);
         count[way] = look_along(kept[way], ROOM);
