@@ -372,15 +372,19 @@ static void evaluate_gradient(Newton *newton)
 /* The projected Hessian is M plus something positive semi-definite, so
  * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  Projection on demand is
  * judged as if it projected here. */
+double negligible_direction(const Newton *newton)
+{
+    return fmin(newton->tolerance * newton->settings.h,
+                NEGLIGIBLE * newton->rounding.shortest);
+}
+
 bool next_direction_is_negligible(Newton *newton)
 {
     if (newton->settings.projection == PROJECTION_NONE)
         return false;
     evaluate_gradient(newton);
     double norm = system_inverse_mass_norm(newton->system, newton->at.g);
-    double most = fmin(newton->tolerance * newton->settings.h,
-                       NEGLIGIBLE * newton->rounding.shortest);
-    return largest_of_norm(newton, norm) <= most;
+    return largest_of_norm(newton, norm) <= negligible_direction(newton);
 }
 
 /* Whether the last factor is of a Hessian nearby, in the same minimisation. */

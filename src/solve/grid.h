@@ -119,9 +119,9 @@ double grid_remainder(const Grid *grid, const double *g, const double *p,
 void grid_along(const Grid *grid, const double *g, const double *p,
                 double quartic[4]);
 
-/* Moves all nodes of p alike, so that sum m (x + p) is sum m x_tilde: as at the
- * minimum, where nothing is pinned. */
-void grid_keep_momentum(const Grid *grid, double *p);
+/* Moves all nodes alike, so that sum m x is sum m x_tilde, as at the minimum of
+ * E where no node is pinned.  Returns the change of E, which is at most 0. */
+double grid_keep_momentum(const Grid *grid);
 
 /* x += a p */
 void grid_move(const Grid *grid, double a, const double *p);

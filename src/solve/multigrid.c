@@ -40,9 +40,9 @@ struct Multigrid {
     double *g, *p;     /* [2 planes] grad E and direction at x */
     double *remainder; /* [2 planes] -g - H p */
     double square;     /* |g|_(M^-1)^2 */
-    double bound;      /* m/s, upper bound of the residual, by g alone */
-    double last_bound; /* m/s, bound of the iteration before */
-    double test_below; /* m/s, half the bound of the last test that failed */
+    double bound;      /* m, upper bound of |p_x| + |p_y|, by g alone */
+    double last_bound; /* m, bound of the iteration before */
+    double test_below; /* m, half the bound of the last test that failed */
     double largest;    /* J s^2, largest change of E in this step, < 0 */
     Quartic along;     /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;  /* of the system that the grid holds */
@@ -118,7 +118,19 @@ bool multigrid_takes(Newton *newton)
     return wanted && !newton->refusal;
 }
 
-/* Puts the step's problem on the grid. */
+/* g at x, and the bound of |p_x| + |p_y| that it gives.  Returns OK, NOT_FINITE.
+ */
+static Status evaluate_gradient(Multigrid *mg)
+{
+    mg->square = grid_gradient(&mg->grid, mg->g);
+    mg->cycle.set_up = false;
+    mg->last_bound = mg->bound;
+    mg->bound = sqrt(2 / mg->grid.lightest * mg->square) / mg->grid.length;
+    return isfinite(mg->square) ? STATUS_OK : STATUS_NOT_FINITE;
+}
+
+/* Puts the step's problem on the grid.  Returns OK, OUT_OF_MEMORY, NOT_FINITE.
+ */
 static Status read_problem(Newton *newton)
 {
     Iterate *at = &newton->at;
@@ -141,7 +153,8 @@ static Status read_problem(Newton *newton)
     mg->weight = at->E.weight;
     mg->version = system->version;
     grid_read_state(&mg->grid, at, u_tilde);
-    return STATUS_OK;
+    mg->bound = INFINITY;
+    return evaluate_gradient(mg);
 }
 
 /* ---- search direction ---- */
@@ -176,13 +189,8 @@ static Status grid_direction(Newton *newton)
     if (status)
         return status;
     const double h = newton->settings.h * mg->grid.length;
-    mg->square = grid_gradient(&mg->grid, mg->g);
-    mg->cycle.set_up = false;
-    if (!isfinite(mg->square))
-        return STATUS_NOT_FINITE;
-    mg->last_bound = record->iteration == 0 ? INFINITY : mg->bound;
-    mg->bound = sqrt(2 / mg->grid.lightest * mg->square) / h;
-    double worth = WORTH_A_TEST * tolerance * mg->grid.segments;
+    double worth =
+        WORTH_A_TEST * tolerance * newton->settings.h * mg->grid.segments;
     bool near = mg->bound <= fmin(worth, mg->test_below);
     record->kind = RESIDUAL_ESTIMATE;
     if (near) {
@@ -193,8 +201,6 @@ static Status grid_direction(Newton *newton)
         record->residual =
             v_solve(&mg->cycle, mg->g, mg->square, ENOUGH, 0, false, mg->p) / h;
     }
-    if (newton->passes && system_is_free(newton->system))
-        grid_keep_momentum(&mg->grid, mg->p);
     newton->counters.cycles = mg->cycle.cycles;
     return STATUS_OK;
 }
@@ -260,7 +266,7 @@ static Status grid_update(Newton *newton)
             tiles_relax(&mg->tiles, PACE * record->change * unit / tiles) /
             unit;
     newton->counters.local = mg->tiles.sweeps;
-    return STATUS_OK;
+    return evaluate_gradient(mg);
 }
 
 /* The test; where multigrid has come to an end without passing it, such as among
@@ -275,12 +281,16 @@ static Status grid_test(Newton *newton, Status status)
     bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest;
     bool last = record->iteration + 1 >= newton_most_iterations(newton);
     bool stuck = status != STATUS_OK || record->iteration >= HANDED_ITERATIONS;
-    if (newton->passes || stuck || small || last ||
+    bool ends = newton->passes ||
+                (!stuck && mg->bound <= negligible_direction(newton));
+    if (ends && system_is_free(newton->system))
+        record->change += grid_keep_momentum(&mg->grid) / mg->grid.energy;
+    if (ends || stuck || small || last ||
         newton->settings.observer) { /* else nobody looks at it */
         swap_iterates(newton);
         grid_write_state(&mg->grid, &newton->at);
     }
-    if (newton->passes && status != STATUS_NOT_FINITE)
+    if (ends && status != STATUS_NOT_FINITE)
         return STATUS_OK;
     bool hidden = small && below_roundoff(newton, record->change);
     if (stuck || (hidden && mg->hidden)) {

@@ -31,8 +31,11 @@ void direction_free_matrix(SearchDirection *search);
 
 Status find_direction(Newton *newton);
 
-/* Whether the next p is negligible: its bound passes the test, and is below a
- * millionth of the shortest spring.  Computes g. */
+/* Largest |p_x| + |p_y| of a direction that is negligible, m: it passes the
+ * test, and is a millionth of the shortest spring. */
+double negligible_direction(const Newton *newton);
+
+/* Whether the next direction is negligible, by a bound.  Computes g. */
 bool next_direction_is_negligible(Newton *newton);
 
 /* ---- line_search.c: how far to go along p (slide: Algorithm 2) */

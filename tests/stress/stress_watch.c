@@ -240,7 +240,7 @@ static void judge_convergence(Watch *watch, const double *u, double limit)
 
 /* The last direction passed the test, and was used; or the one after it passes
  * the test and is shorter than a millionth of the shortest spring. */
-static void judge_end(Watch *watch, const NewtonRecord *record)
+static void judge_end(Watch *watch)
 {
     const Newton *newton = watch->run->newton;
     const System *system = newton->system;
@@ -249,7 +249,7 @@ static void judge_end(Watch *watch, const NewtonRecord *record)
         l2 = fmin(l2, system->l2[s]);
     bool guess = watch->run->moves && watch->run->left > 0;
     double limit = guess ? newton->tolerance : watch->tolerance;
-    if (record->residual <= newton->tolerance)
+    if (newton->passes)
         judge_convergence(watch, watch->u, limit);
     else
         judge_convergence(watch, newton->at.u,
@@ -373,7 +373,7 @@ static bool watch_record(void *user, const NewtonRecord *record)
     check_excuse(watch, record);
     check_walls(watch, newton->at.x);
     if (record->status == STATUS_OK)
-        judge_end(watch, record);
+        judge_end(watch);
     memcpy(watch->u, newton->at.u,
            (size_t)watch_size(watch) * sizeof *watch->u);
     return true;
