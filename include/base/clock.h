@@ -16,7 +16,7 @@ static inline double clock_now(void)
 
 /* The same, of the processor's time, as far as the system tells it: whatever
  * else the computer does is not in it. */
-static inline double clock_worked(void)
+static inline double clock_processor(void)
 {
     struct timespec now;
     if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now))

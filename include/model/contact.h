@@ -60,15 +60,15 @@ typedef struct Gap {
 
 /* The point that the obstacle's gaps are measured from, in positions x [2n] m:
  * o, or the free node. */
-const double *obstacle_point(const Obstacle *obstacle, const double *x);
+const double *obstacle_origin(const Obstacle *obstacle, const double *x);
 
 /* The gap of a node with this radius (a point: 0) at x_i [2] to an obstacle
  * whose point is at o [2]. */
-Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
-                double radius);
+Gap contact_measure_gap(const Obstacle *obstacle, const double *o,
+                        const double *x_i, double radius);
 
 /* -dW/dd >= 0, N, at the gap d > 0: the force that pushes the node along n. */
-double contact_force(const Barrier *barrier, double d);
+double contact_normal_force(const Barrier *barrier, double d);
 
 /* ---- the term -------------------------------------------------------- */
 
@@ -121,11 +121,11 @@ double contact_node_radius(const Contact *contact, int node);
  * bounded speed.  It stands still where a node in front of it is pressed as
  * strongly as the hand can, and stops before pinned nodes that do not give way
  * and before its centre enters a cell. */
-void push_begin(Contact *contact, const System *system, const double *x,
-                double h);
+void push_begin_step(Contact *contact, const System *system, const double *x,
+                     double h);
 
 /* The largest part of a step's way that the held obstacle may make at once: a
  * ball half of its radius, so that it jumps over no node. */
-double push_most(const Contact *contact, double h);
+double push_max_step(const Contact *contact, double h);
 
 #endif

@@ -53,7 +53,7 @@ static inline void element_vectors(const Element *element, const double *x,
 struct ElementKind {
     /* Looks for elements before they are counted: those at x, and with p [2n]
      * those that come up until x + alpha p.  NULL: all are known. */
-    void (*look)(const EvalPoint *at, const double *p, double alpha);
+    void (*prepare)(const EvalPoint *at, const double *p, double alpha);
     int (*count)(const EvalPoint *at);
 
     /* Element i at x.  Returns false where there is nothing, or W is 0 and
@@ -62,8 +62,8 @@ struct ElementKind {
 
     /* The blocks of the matrix, each with all entries of 1 to 3 nodes: how many
      * there are; the nodes of one, out, and how many.  x is not known. */
-    int (*blocks)(const EvalPoint *at);
-    int (*nodes)(const EvalPoint *at, int block, int node[3]);
+    int (*block_count)(const EvalPoint *at);
+    int (*block_nodes)(const EvalPoint *at, int block, int node[3]);
 
     /* W, J, and its gradient g [4] out; H [4][4] out, projected (TermKind's
      * hessian), returns whether it was changed. */
@@ -81,30 +81,32 @@ struct ElementKind {
      * alpha grad W.P, J, without cancellation; and the alpha that uses up
      * ELEMENT_LIMIT of s, which must stay above 0, where W is not.  NULL: any s
      * will do. */
-    double (*remainder)(const EvalPoint *at, const Element *element,
-                        const double P[4], double alpha);
-    double (*reach)(const EvalPoint *at, const Element *element,
-                    const double P[4]);
+    double (*line_remainder)(const EvalPoint *at, const Element *element,
+                             const double P[4], double alpha);
+    double (*max_step)(const EvalPoint *at, const Element *element,
+                       const double P[4]);
 
     /* Of what friction acts on: mu times the normal force, N.  It slides by
      * t.(da, db), t [4] out, on what goes along at `carry`, m/s, out. */
-    double (*rub)(const EvalPoint *at, const Element *element, double t[4],
-                  double *carry);
+    double (*friction_limit)(const EvalPoint *at, const Element *element,
+                             double t[4], double *carry);
 };
 
-/* From element to element: for (ElementWalk walk = elements_from(at, NULL, 0);
- * elements_next(&walk);).  With p [2n] also those whose W begins until alpha p.
+/* From element to element: for (ElementIterator walk = elements_begin(at, NULL,
+ * 0); elements_next(&walk);).  With p [2n] also those whose W begins until
+ * alpha p.
  */
-typedef struct ElementWalk {
+typedef struct ElementIterator {
     const EvalPoint *at;
     const ElementKind *kind;
     double way;
     int i, count;
     Element element;
-} ElementWalk;
+} ElementIterator;
 
-ElementWalk elements_from(const EvalPoint *at, const double *p, double alpha);
-bool elements_next(ElementWalk *walk);
+ElementIterator elements_begin(const EvalPoint *at, const double *p,
+                               double alpha);
+bool elements_next(ElementIterator *walk);
 
 /* Functions of a TermKind with elements. */
 double elements_value(const EvalPoint *at);
@@ -113,21 +115,17 @@ long long elements_entries(const EvalPoint *at);
 void elements_pattern(const EvalPoint *at, Triplets *triplets);
 int elements_hessian(const EvalPoint *at, Projection projection,
                      const int *slot, const double *q, double *out);
-double elements_remainder(const EvalPoint *at, const double *p, double alpha);
-double elements_reach(const EvalPoint *at, const double *p);
-bool elements_allowed(const EvalPoint *at);
+double elements_line_remainder(const EvalPoint *at, const double *p,
+                               double alpha);
+double elements_max_step(const EvalPoint *at, const double *p);
+bool elements_are_feasible(const EvalPoint *at);
 
 /* All of them, for its row. */
 #define ELEMENTS(kind)                                                         \
     .element = &(kind), .value = elements_value,                               \
     .gradient = elements_gradient, .entries = elements_entries,                \
     .pattern = elements_pattern, .hessian = elements_hessian,                  \
-    .remainder = elements_remainder, .reach = elements_reach,                  \
-    .allowed = elements_allowed
-
-/* What every ElementKind has, for its table: its source calls them so. */
-#define ELEMENT_FUNCTIONS                                                      \
-    .count = count, .get = get, .nodes = nodes, .value = value,                \
-    .gradient = gradient, .hessian = hessian, .remainder = remainder_along
+    .line_remainder = elements_line_remainder, .max_step = elements_max_step,  \
+    .is_feasible = elements_are_feasible
 
 #endif

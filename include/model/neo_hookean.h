@@ -40,9 +40,9 @@ typedef struct NeoHookean {
 extern const TermKind neo_hookean_energy;
 
 /* Its data, or NULL: the system is one of springs. */
-static inline const NeoHookean *solid_of(const System *system)
+static inline const NeoHookean *neo_hookean_of(const System *system)
 {
-    return system_data(system, &neo_hookean_energy);
+    return system_term_data(system, &neo_hookean_energy);
 }
 
 #endif

@@ -33,7 +33,8 @@ double flow_law_slope(FlowLaw law, double e);
 /* The block H of the spring (spring_law.h) is c (l2 tau I + 2 tau' d d^T).
  * Returns its eigenvalue along d, divided by c, m^2.
  *   across  l2 tau, the eigenvalue across d, divided by c */
-double flow_law_along(FlowLaw law, double e, double d2, double across);
+double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
+                                 double across);
 
 /* ---- the term -------------------------------------------------------- */
 
@@ -51,6 +52,6 @@ typedef struct Plasticity {
 extern const TermKind plastic_energy;
 
 /* The law of spring s without damping, elastic where nothing flows. */
-FlowLaw plasticity_law(const System *system, int s);
+FlowLaw plasticity_get_law(const System *system, int s);
 
 #endif

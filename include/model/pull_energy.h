@@ -36,8 +36,8 @@ Status pull_set(System *system, const TermKind *kind, const Pull *pull);
  *   free  [2] m/s^2, the node's acceleration without the hand, of an explicit
  *         method, in which the force has to be that which leads there; NULL:
  *         an implicit one, in which a stiff spring does */
-void hand_follow(Pull *hand, const double *x, const double *v, double m,
-                 double h, const double *free);
+void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
+                     double h, const double *free);
 
 /* J, the work it did in a step from x to y [2]. */
 double hand_work(const Pull *hand, const double *x, const double *y);

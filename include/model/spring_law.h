@@ -29,7 +29,8 @@ static inline double spring_vector(const int e[2], const double *x, double d[2])
     return d[0] * d[0] + d[1] * d[1];
 }
 
-/* The strain s.  Near rest spring_across(d2, l2)/l2 keeps more of its digits.
+/* The strain s.  Near rest spring_eigenvalue_across(d2, l2)/l2 keeps more of
+ * its digits.
  */
 static inline double spring_strain(double d2, double l2)
 {
@@ -42,33 +43,33 @@ static inline double spring_energy(double l2, double k, double s)
 }
 
 /* The gradient at node i, divided by d. */
-static inline double spring_pull(double k, double s)
+static inline double spring_gradient_factor(double k, double s)
 {
     return 2 * k * s;
 }
 
 /* c = 2k/l2, J/m^4 */
-static inline double spring_c(double l2, double k)
+static inline double spring_hessian_factor(double l2, double k)
 {
     return 2 * k / l2;
 }
 
 /* The eigenvalue of H along d, divided by c, m^2. */
-static inline double spring_along(double d2, double l2)
+static inline double spring_eigenvalue_along(double d2, double l2)
 {
     return 3 * d2 - l2;
 }
 
 /* The eigenvalue of H across d, divided by c, m^2. */
-static inline double spring_across(double d2, double l2)
+static inline double spring_eigenvalue_across(double d2, double l2)
 {
     return d2 - l2;
 }
 
 /* Both eigenvalues projected: a negative one becomes what the projection says.
  * Returns whether there was one; that across d is the smaller one. */
-static inline bool spring_project(Projection projection, double *along,
-                                  double *across)
+static inline bool spring_project_eigenvalues(Projection projection,
+                                              double *along, double *across)
 {
     if (*across >= 0 || !projects_blocks(projection))
         return false;
@@ -83,9 +84,10 @@ static inline bool spring_project(Projection projection, double *along,
 static inline bool spring_hessian(const double d[2], double l2, double k,
                                   Projection projection, double H[3])
 {
-    double c = spring_c(l2, k), d2 = d[0] * d[0] + d[1] * d[1];
-    double along = spring_along(d2, l2), across = spring_across(d2, l2);
-    if (!spring_project(projection, &along, &across)) {
+    double c = spring_hessian_factor(l2, k), d2 = d[0] * d[0] + d[1] * d[1];
+    double along = spring_eigenvalue_along(d2, l2),
+           across = spring_eigenvalue_across(d2, l2);
+    if (!spring_project_eigenvalues(projection, &along, &across)) {
         H[0] = c * (2 * d[0] * d[0] + across);
         H[1] = c * (2 * d[0] * d[1]);
         H[2] = c * (2 * d[1] * d[1] + across);

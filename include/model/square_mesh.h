@@ -39,39 +39,39 @@ enum { MESH_LEFT = 1, MESH_RIGHT = 2, MESH_BOTTOM = 4, MESH_TOP = 8 };
  *                  else a beam of square cells
  *   side           m, of all columns
  *   bodies         1 ... SQUARE_MESH_MAX_BODIES */
-SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies);
+SquareMesh square_mesh_create(int columns, int rows, double side, int bodies);
 
 /* The nodes of each spring, e [2 springs] out; and the place of each node in
  * the elimination order, by nested dissection: a Cholesky factor has O(n log n)
  * entries.  order [n] out */
-void square_mesh_springs(const SquareMesh *shape, int *e);
-void square_mesh_order(const SquareMesh *shape, int *order);
+void square_mesh_list_springs(const SquareMesh *shape, int *e);
+void square_mesh_order_nodes(const SquareMesh *shape, int *order);
 
 /* The body of node i, which becomes its number there. */
-int square_mesh_body(const SquareMesh *shape, int *i);
+int square_mesh_locate_body(const SquareMesh *shape, int *i);
 
 /* Where node i is at rest, x [2] m, out; and the sides that it is on. */
-void square_mesh_place(const SquareMesh *shape, int i, double x[2]);
-int square_mesh_sides(const SquareMesh *shape, int i);
+void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2]);
+int square_mesh_get_sides(const SquareMesh *shape, int i);
 
 /* What cell c, 0 ... cells-1, is made of.
  *   node    [4] out, its corners a b c d, anticlockwise from the lower left
  *   spring  [6] out: ab bc dc ad ac bd */
-void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
-                      int spring[6]);
+void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
+                          int spring[6]);
 
 /* Triangle t = 4 c + k is corner k of cell c with the neighbours of that
  * corner.
  *   node  [3] out, anticlockwise from the corner
  *   side  [3] out, springs */
-void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
-                          int side[3]);
+void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
+                              int side[3]);
 
 /* The first of the cells cell ... end - 1 that the point at [2] is in or on the
  * border of, m, where the nodes are at x [2n] m; -1: none.  Contact sees nodes
  * alone: a small ball may have none near it in a cell. */
-int square_mesh_cell_at(const SquareMesh *shape, const double *x,
-                        const double *at, int cell, int end);
+int square_mesh_find_cell(const SquareMesh *shape, const double *x,
+                          const double *at, int cell, int end);
 
 /* Whether triangle t is one of the two that a cell is cut into, by one or the
  * other diagonal in turn: ac where column + row is even. */
@@ -80,10 +80,11 @@ bool square_mesh_is_half(const SquareMesh *shape, int t);
 /* The corners of so many times so many cells of which c is the lower left one;
  * fewer at the edges.  node [4] out, anticlockwise.  Returns false where no
  * such patch begins at c: with all others they cover the square once. */
-bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4]);
+bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
+                           int node[4]);
 
 /* Both nodes of edge k of the outlines, 0 ... outline-1: anticlockwise from the
  * lower left, one edge after another. */
-void square_mesh_outline(const SquareMesh *shape, int k, int node[2]);
+void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2]);
 
 #endif

@@ -6,8 +6,8 @@
  * one adds it to the acceleration, and so free fall is exact in both.  Arrays
  * change only between steps, in a term's begin and end.
  *
- * Whoever changes it says so (system_changed): what solvers have computed from
- * it carries the version it was computed for.
+ * Whoever changes it says so (system_mark_changed): what solvers have computed
+ * from it carries the version it was computed for.
  */
 #ifndef ELASTO_SYSTEM_H
 #define ELASTO_SYSTEM_H
@@ -57,7 +57,7 @@ static inline bool spring_is_broken(const System *system, int s)
 
 /* After numbers were changed; with `pattern` also pins, or which nodes a term
  * is about. */
-void system_changed(System *system, bool pattern);
+void system_mark_changed(System *system, bool pattern);
 
 /* Accepts a zeroed struct. */
 void system_free(System *system);
@@ -65,17 +65,17 @@ void system_free(System *system);
 /* The data of the first term of this kind; where there is none, one is put at
  * its place of the list, with so many bytes that are 0.  NULL: no memory, or
  * the list is full. */
-void *system_term(System *system, const TermKind *kind, size_t bytes);
+void *system_add_term(System *system, const TermKind *kind, size_t bytes);
 
 /* The first term of this kind, and its data, or NULL. */
 Term *system_find_term(const System *system, const TermKind *kind);
-void *system_data(const System *system, const TermKind *kind);
+void *system_term_data(const System *system, const TermKind *kind);
 
 /* Takes it out of the list and frees its data; nothing where there is none. */
 void system_remove_term(System *system, const TermKind *kind);
 
 /* Books what a term of this kind has taken out, J. */
-void system_lose(System *system, const TermKind *kind, double energy);
+void system_book_loss(System *system, const TermKind *kind, double energy);
 
 /* Checks what the struct promises: every number finite and in its range, every
  * spring between two different nodes, every bound of a term finite.  x [2n] m,
@@ -87,8 +87,9 @@ Status system_check(const System *system, const double *x);
  * place; and whether nothing would be passed or turned over, and a tenth of
  * each distance and area would stay, if all nodes went straight from x to x +
  * p. x, p [2n] m, in. */
-double system_reach(EvalPoint at, const double *p, bool internal);
-bool system_lets_pass(const System *system, const double *x, const double *p);
+double system_max_step(EvalPoint at, const double *p, bool internal);
+bool system_path_is_free(const System *system, const double *x,
+                         const double *p);
 
 /* P(x), J, the sum of the terms.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
@@ -106,13 +107,13 @@ void system_acceleration(const System *system, const double *x, double *a);
 
 /* Whether only gravity and internal forces act: the centre of mass falls
  * freely. */
-bool system_is_free(const System *system);
+bool system_falls_freely(const System *system);
 
 /* sum m |v|^2 / 2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
 
 /* The larger bound; NaN if one of them is. */
-static inline double larger_bound(double a, double b)
+static inline double max_or_nan(double a, double b)
 {
     return b <= a || isnan(a) ? a : b;
 }

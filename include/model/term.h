@@ -23,7 +23,7 @@ struct SquareMesh;
 typedef struct EvalPoint {
     const System *system;
     const Term *term;  /* term that is evaluated; NULL: none is selected yet */
-    double w;          /* s^2, factor on everything that is added to an array;
+    double weight;     /* s^2, factor on everything that is added to an array;
                           h^2 for implicit Euler */
     const double *x_n; /* [2n] m, start of the step */
     const double *u;   /* [2n] m, displacement from x_n; NULL: no step */
@@ -61,7 +61,7 @@ struct TermKind {
                   const double *number);
 
     /* What the ledger calls the energy that it stores, and what it takes out
-     * for good (system_lose); NULL: neither. */
+     * for good (system_book_loss); NULL: neither. */
     const char *energy, *loss;
 
     /* In the list it stands behind all with the same or a smaller number: sums
@@ -119,27 +119,28 @@ struct TermKind {
      *              - alpha grad P.p] without cancellation, minus what along
      *              gave; asked once for each trial.  NULL: a polynomial of
      *              degree 4 or less in x. */
-    void (*along)(const EvalPoint *at, const double *p, double q[3]);
-    double (*remainder)(const EvalPoint *at, const double *p, double alpha);
+    void (*line_polynomial)(const EvalPoint *at, const double *p, double q[3]);
+    double (*line_remainder)(const EvalPoint *at, const double *p,
+                             double alpha);
 
     /* The largest alpha that p may be followed, > 0 (contact, cells); NULL, or
      * infinite: any up to 1.  Backtracking starts at the smallest of all terms
      * and 1. */
-    double (*reach)(const EvalPoint *at, const double *p);
+    double (*max_step)(const EvalPoint *at, const double *p);
 
     /* Whether x is a place where the energy exists: every distance and area
      * > 0.  Asked after rounding, for starts and for updates; NULL: always. */
-    bool (*allowed)(const EvalPoint *at);
+    bool (*is_feasible)(const EvalPoint *at);
 
     /* Before a step, from x_n and v_n [2n]: what it freezes (the normal forces
      * of friction).  After a step to x, v [2n] was accepted: what it changes
      * for good (plastic lengths, broken springs); it books what that cost in
-     * system_lose.  Both say so (system_changed) where arrays of the system or
-     * of a term have changed, or entries of the Hessian: factors and bounds
-     * that were made with them are then dropped.  begin returns OK,
+     * system_book_loss.  Both say so (system_mark_changed) where arrays of the
+     * system or of a term have changed, or entries of the Hessian: factors and
+     * bounds that were made with them are then dropped.  begin returns OK,
      * OUT_OF_MEMORY. */
-    Status (*begin)(const TermStep *step);
-    void (*end)(const TermStep *step);
+    Status (*begin_step)(const TermStep *step);
+    void (*end_step)(const TermStep *step);
 
     /* Bound of the curvature's size at rest, J/m^2.  A bound that is not finite
      * is refused. */
@@ -147,10 +148,11 @@ struct TermKind {
     /* Frees what data points to; NULL: nothing. */
     void (*free)(void *data);
 
-    bool diagonal;    /* quadratic, and each node stands alone: c/2 |x - o|^2 */
-    bool internal;    /* its forces add up to 0: the centre of mass is free */
-    bool end_of_step; /* right only where x_(n+1) is the minimiser itself: in
-                         backward Euler; other methods refuse it by name */
+    bool diagonal; /* quadratic, and each node stands alone: c/2 |x - o|^2 */
+    bool internal; /* its forces add up to 0: the centre of mass is free */
+    bool backward_euler_only; /* right only where x_(n+1) is the minimiser
+                         itself: in backward Euler; other methods refuse it by
+                         name */
 };
 
 struct Term {

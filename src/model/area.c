@@ -5,19 +5,19 @@
 
 #include "base/mathematics.h"
 
-void area_along(const double f[4], double unit, const double P[4], double *J1,
-                double *J2)
+void area_expand_along(const double f[4], double unit, const double P[4],
+                       double *J1, double *J2)
 {
     *J1 = unit * (cross(P, f + 2) + cross(f, P + 2));
     *J2 = unit * cross(P, P + 2);
 }
 
 /* most + alpha J1 + alpha^2 J2 = 0 */
-double area_reach(const double f[4], double unit, double most,
-                  const double P[4])
+double area_max_step(const double f[4], double unit, double most,
+                     const double P[4])
 {
     double J1, J2;
-    area_along(f, unit, P, &J1, &J2);
+    area_expand_along(f, unit, P, &J1, &J2);
     double discriminant = J1 * J1 - 4 * J2 * most;
     if (!(discriminant >= 0))
         return INFINITY;
@@ -38,16 +38,16 @@ static double make_unit(double v[4], const double instead[4])
  * Hessian maps the plane of a = f+/|f+| and b = f-/|f-| to itself, and what
  * lies across, S of their halves, are eigenvectors with on_plus and on_minus.
  * In that plane a 2x2 matrix Q is projected. */
-bool area_curvature(const double f[4], double unit, double on_plus,
-                    double on_minus, double second, Projection projection,
-                    AreaCurvature *area)
+bool area_project_hessian(const double f[4], double unit, double on_plus,
+                          double on_minus, double second, Projection projection,
+                          AreaHessian *area)
 {
     static const double any_plus[4] = {0, 0.7071067811865476,
                                        -0.7071067811865476, 0};
     static const double any_minus[4] = {0, 0.7071067811865476,
                                         0.7071067811865476, 0};
     double p[2], m[2], *a = area->a, *b = area->b, *Q = area->Q;
-    area_parts(f, p, m);
+    area_split(f, p, m);
     for (int i = 0; i < 4; i++) {
         a[i] = (i == 2 ? -1 : 1) * p[i == 1 || i == 2];
         b[i] = (i == 3 ? -1 : 1) * m[i == 1 || i == 2];
@@ -71,7 +71,7 @@ bool area_curvature(const double f[4], double unit, double on_plus,
     return changed || on_plus < 0 || on_minus < 0;
 }
 
-void area_hessian(const AreaCurvature *area, double H[4][4])
+void area_assemble_hessian(const AreaHessian *area, double H[4][4])
 {
     const double *a = area->a, *b = area->b, *Q = area->Q;
     for (int r = 0; r < 4; r++)
@@ -82,19 +82,20 @@ void area_hessian(const AreaCurvature *area, double H[4][4])
                       area->on_plus * area->across_a[r] * area->across_a[c];
 }
 
-static double dot(const double a[4], const double b[4])
+static double dot4(const double a[4], const double b[4])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-void area_product(const AreaCurvature *area, const double v[4], double Hv[4])
+void area_multiply_hessian(const AreaHessian *area, const double v[4],
+                           double Hv[4])
 {
     const double *Q = area->Q;
-    double on_a = dot(area->a, v), on_b = dot(area->b, v);
+    double on_a = dot4(area->a, v), on_b = dot4(area->b, v);
     double along_a = Q[0] * on_a + Q[1] * on_b;
     double along_b = Q[1] * on_a + Q[2] * on_b;
-    double across_a = area->on_plus * dot(area->across_a, v);
-    double across_b = area->on_minus * dot(area->across_b, v);
+    double across_a = area->on_plus * dot4(area->across_a, v);
+    double across_b = area->on_minus * dot4(area->across_b, v);
     for (int i = 0; i < 4; i++)
         Hv[i] = along_a * area->a[i] + along_b * area->b[i] +
                 across_a * area->across_a[i] + across_b * area->across_b[i];

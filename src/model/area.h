@@ -19,7 +19,7 @@ static inline double cross(const double a[2], const double b[2])
  *   f+ = (a0, a1, -a1, a0), a rotation times a number; a = plus [2], out
  *   f- = (b0, b1, b1, -b0), a reflection times a number; b = minus [2], out
  * J is |a|^2 - |b|^2. */
-static inline void area_parts(const double f[4], double plus[2],
+static inline void area_split(const double f[4], double plus[2],
                               double minus[2])
 {
     plus[0] = 0.5 * (f[0] + f[3]);
@@ -29,31 +29,32 @@ static inline void area_parts(const double f[4], double plus[2],
 }
 
 /* Along P unit J becomes unit J + alpha J1 + alpha^2 J2, both out. */
-void area_along(const double f[4], double unit, const double P[4], double *J1,
-                double *J2);
+void area_expand_along(const double f[4], double unit, const double P[4],
+                       double *J1, double *J2);
 
 /* The alpha > 0 that uses up `most` of unit J along P; infinite: none does. */
-double area_reach(const double f[4], double unit, double most,
-                  const double P[4]);
+double area_max_step(const double f[4], double unit, double most,
+                     const double P[4]);
 
 /* H = on_plus on the space of f+, on_minus on that of f-, plus
  * second (unit K f)(unit K f)^T, by its eigenvectors: Q in the plane of a and
  * b, on_plus and on_minus across.  All have length 1. */
-typedef struct AreaCurvature {
+typedef struct AreaHessian {
     double a[4], b[4], across_a[4], across_b[4];
     double Q[3]; /* aa, ab, bb */
     double on_plus, on_minus;
-} AreaCurvature;
+} AreaHessian;
 
 /* The same, projected.  Returns whether an eigenvalue was changed. */
-bool area_curvature(const double f[4], double unit, double on_plus,
-                    double on_minus, double second, Projection projection,
-                    AreaCurvature *area);
+bool area_project_hessian(const double f[4], double unit, double on_plus,
+                          double on_minus, double second, Projection projection,
+                          AreaHessian *area);
 
 /* H [4][4], out; and Hv [4] = H v, out.  A turn v = S f has only the curvature
  * across a in the product, however small that is; in the numbers of H it is
  * lost in the last digits of the larger ones. */
-void area_hessian(const AreaCurvature *area, double H[4][4]);
-void area_product(const AreaCurvature *area, const double v[4], double Hv[4]);
+void area_assemble_hessian(const AreaHessian *area, double H[4][4]);
+void area_multiply_hessian(const AreaHessian *area, const double v[4],
+                           double Hv[4]);
 
 #endif

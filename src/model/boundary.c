@@ -46,7 +46,7 @@ static void find_boundary(Boundary *boundary, const System *system)
     for (int c = 0; c < shape->cells; c++) {
         int node[4][3], side[4][3], solid = 0;
         for (int k = 0; k < 4; k++) {
-            square_mesh_triangle(shape, 4 * c + k, node[k], side[k]);
+            square_mesh_get_triangle(shape, 4 * c + k, node[k], side[k]);
             bool broken = spring_is_broken(system, side[k][0]) ||
                           spring_is_broken(system, side[k][1]) ||
                           spring_is_broken(system, side[k][2]);

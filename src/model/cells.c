@@ -8,12 +8,12 @@
 #include "model/barrier.h"
 #include "model/elements.h"
 
-static int count(const EvalPoint *at)
+static int cell_count(const EvalPoint *at)
 {
     return ((const Cells *)at->term->data)->triangles;
 }
 
-static int nodes(const EvalPoint *at, int t, int node[3])
+static int cell_block_nodes(const EvalPoint *at, int t, int node[3])
 {
     const Cells *cells = at->term->data;
     memcpy(node, cells->node + 3 * t, 3 * sizeof *node);
@@ -22,7 +22,7 @@ static int nodes(const EvalPoint *at, int t, int node[3])
 
 /* Of a triangle that still has its three springs: a = e1, b = e2, s = J, which
  * a way changes by q way (|e1| + |e2| + way) at most, q = 1/(2 A0). */
-static bool get(const EvalPoint *at, int t, double way, Element *element)
+static bool cell_get(const EvalPoint *at, int t, double way, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const Cells *cells = at->term->data;
@@ -39,23 +39,24 @@ static bool get(const EvalPoint *at, int t, double way, Element *element)
         !(k[side[0]] > 0 && k[side[1]] > 0 && k[side[2]] > 0))
         return false;
     element->vectors = 2;
-    element->nodes = nodes(at, t, element->node);
+    element->nodes = cell_block_nodes(at, t, element->node);
     element->weight = edges;
     element->block = t;
-    element->factor = at->w;
+    element->factor = at->weight;
     element->s = J;
     memcpy(element->v, e, sizeof e);
     return true;
 }
 
-static double value(const EvalPoint *at, const Element *element)
+static double cell_value(const EvalPoint *at, const Element *element)
 {
     const Cells *cells = at->term->data;
     return cells->c * barrier_value(element->s / CELL_J_HAT);
 }
 
 /* grad J in e1 and e2 is (S e2, -S e1)/(2 A0) with S v = (v_y, -v_x). */
-static void gradient(const EvalPoint *at, const Element *element, double g[4])
+static void cell_gradient(const EvalPoint *at, const Element *element,
+                          double g[4])
 {
     const Cells *cells = at->term->data;
     const double *e1 = element->v, *e2 = element->v + 2;
@@ -67,34 +68,34 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
     g[3] = factor * e1[0];
 }
 
-static bool hessian(const EvalPoint *at, const Element *element,
-                    Projection projection, double H[4][4])
+static bool cell_hessian(const EvalPoint *at, const Element *element,
+                         Projection projection, double H[4][4])
 {
     const Cells *cells = at->term->data;
     double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->area);
     double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
-    AreaCurvature area;
-    bool changed =
-        area_curvature(element->v, q, slope, -slope, bend, projection, &area);
-    area_hessian(&area, H);
+    AreaHessian area;
+    bool changed = area_project_hessian(element->v, q, slope, -slope, bend,
+                                        projection, &area);
+    area_assemble_hessian(&area, H);
     return changed;
 }
 
-static double reach(const EvalPoint *at, const Element *element,
-                    const double P[4])
+static double cell_max_step(const EvalPoint *at, const Element *element,
+                            const double P[4])
 {
     const Cells *cells = at->term->data;
-    return area_reach(element->v, 1 / (2 * cells->area),
-                      ELEMENT_LIMIT * element->s, P);
+    return area_max_step(element->v, 1 / (2 * cells->area),
+                         ELEMENT_LIMIT * element->s, P);
 }
 
-static double remainder_along(const EvalPoint *at, const Element *element,
-                              const double P[4], double alpha)
+static double cell_line_remainder(const EvalPoint *at, const Element *element,
+                                  const double P[4], double alpha)
 {
     const Cells *cells = at->term->data;
     double J1, J2, s = element->s / CELL_J_HAT;
-    area_along(element->v, 1 / (2 * cells->area), P, &J1, &J2);
+    area_expand_along(element->v, 1 / (2 * cells->area), P, &J1, &J2);
     J1 *= alpha;
     J2 *= alpha * alpha;
     return cells->c * (barrier_slope(s) * J2 / CELL_J_HAT +
@@ -103,30 +104,39 @@ static double remainder_along(const EvalPoint *at, const Element *element,
 
 /* The curvature where the barrier begins, by g = K e with sides of the rest
  * length. */
-static double curvature_bound(const EvalPoint *at)
+static double cell_curvature_bound(const EvalPoint *at)
 {
     const Cells *cells = at->term->data;
     return 2 * cells->c / CELL_J_HAT / CELL_J_HAT / cells->area;
 }
 
-static const ElementKind triangle = {ELEMENT_FUNCTIONS, .blocks = count,
-                                     .reach = reach};
+static const ElementKind triangle = {
+    .count = cell_count,
+    .get = cell_get,
+    .block_nodes = cell_block_nodes,
+    .value = cell_value,
+    .gradient = cell_gradient,
+    .hessian = cell_hessian,
+    .line_remainder = cell_line_remainder,
+    .block_count = cell_count,
+    .max_step = cell_max_step,
+};
 
 const TermKind cell_energy = {
     .name = "cells that cannot turn over",
     ELEMENTS(triangle),
     .energy = "contact",
     .place = PLACE_CELLS,
-    .curvature_bound = curvature_bound,
+    .curvature_bound = cell_curvature_bound,
     .internal = true,
-    .end_of_step = true,
+    .backward_euler_only = true,
 };
 
 Status cells_set(System *system, const SquareMesh *shape, double stiffness)
 {
     size_t numbers = 3 * 4 * (size_t)shape->cells;
-    Cells *cells = system_term(system, &cell_energy,
-                               sizeof *cells + 2 * numbers * sizeof(int));
+    Cells *cells = system_add_term(system, &cell_energy,
+                                   sizeof *cells + 2 * numbers * sizeof(int));
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
     cells->area = 0.5 * shape->spacing * shape->spacing;
@@ -137,7 +147,7 @@ Status cells_set(System *system, const SquareMesh *shape, double stiffness)
     cells->node = (int *)(cells + 1);
     cells->spring = cells->node + numbers;
     for (int t = 0; t < cells->triangles; t++)
-        square_mesh_triangle(shape, t, cells->node + 3 * t,
-                             cells->spring + 3 * t);
+        square_mesh_get_triangle(shape, t, cells->node + 3 * t,
+                                 cells->spring + 3 * t);
     return STATUS_OK;
 }

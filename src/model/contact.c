@@ -8,13 +8,13 @@
 #include "model/barrier.h"
 #include "model/elements.h"
 
-const double *obstacle_point(const Obstacle *obstacle, const double *x)
+const double *obstacle_origin(const Obstacle *obstacle, const double *x)
 {
     return obstacle->node < 0 ? obstacle->o : x + 2 * obstacle->node;
 }
 
-Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
-                double radius)
+Gap contact_measure_gap(const Obstacle *obstacle, const double *o,
+                        const double *x_i, double radius)
 {
     double D[2] = {x_i[0] - o[0], x_i[1] - o[1]};
     const double *n = obstacle->n;
@@ -25,7 +25,7 @@ Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
     return (Gap){r - (obstacle->radius + radius), {D[0] / r, D[1] / r}, r};
 }
 
-double contact_force(const Barrier *barrier, double d)
+double contact_normal_force(const Barrier *barrier, double d)
 {
     return -barrier->c / barrier->d_hat * barrier_slope(d / barrier->d_hat);
 }
@@ -34,7 +34,7 @@ double contact_force(const Barrier *barrier, double d)
 
 Contact *contact_of(const System *system)
 {
-    return system_data(system, &contact_energy);
+    return system_term_data(system, &contact_energy);
 }
 
 bool contact_has_pair(const Contact *contact, const System *system, int node,
@@ -56,19 +56,20 @@ double contact_node_radius(const Contact *contact, int node)
 
 /* ---- the term ------------------------------------------------------------ */
 
-static const Barrier *barrier_of(const EvalPoint *at)
+static const Barrier *contact_barrier(const EvalPoint *at)
 {
     return &((const Contact *)at->term->data)->barrier;
 }
 
 /* Obstacle by obstacle, node by node; s is d. */
-static int count(const EvalPoint *at)
+static int contact_count(const EvalPoint *at)
 {
     const Contact *contact = at->term->data;
     return contact->obstacles * at->system->nodes;
 }
 
-static bool get(const EvalPoint *at, int i, double way, Element *element)
+static bool contact_get(const EvalPoint *at, int i, double way,
+                        Element *element)
 {
     static const double difference[1][3] = {{1, -1}};
     const Contact *contact = at->term->data;
@@ -77,8 +78,9 @@ static bool get(const EvalPoint *at, int i, double way, Element *element)
     if (!contact_has_pair(contact, at->system, node, obstacle))
         return false;
     const Obstacle *other = &contact->obstacle[obstacle];
-    Gap gap = contact_gap(other, obstacle_point(other, at->x), at->x + 2 * node,
-                          contact_node_radius(contact, node));
+    Gap gap = contact_measure_gap(other, obstacle_origin(other, at->x),
+                                  at->x + 2 * node,
+                                  contact_node_radius(contact, node));
     if (gap.d >= contact->barrier.d_hat + way)
         return false;
     element->vectors = 1;
@@ -98,12 +100,12 @@ static bool get(const EvalPoint *at, int i, double way, Element *element)
 /* A node has its own block, and where there is a free ball shares it with the
  * ball; the ball itself shares it with a neighbour, so that all have as many
  * entries. */
-static int blocks(const EvalPoint *at)
+static int contact_block_count(const EvalPoint *at)
 {
     return at->system->nodes;
 }
 
-static int nodes(const EvalPoint *at, int block, int node[3])
+static int contact_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     const Contact *contact = contact_of(at->system);
     node[0] = block;
@@ -115,45 +117,47 @@ static int nodes(const EvalPoint *at, int block, int node[3])
     return 2;
 }
 
-static double value(const EvalPoint *at, const Element *element)
+static double contact_value(const EvalPoint *at, const Element *element)
 {
-    const Barrier *barrier = barrier_of(at);
+    const Barrier *barrier = contact_barrier(at);
     return barrier->c * barrier_value(element->s / barrier->d_hat);
 }
 
 /* The force pushes the node along n and a free ball back. */
-static void gradient(const EvalPoint *at, const Element *element, double g[4])
+static void contact_gradient(const EvalPoint *at, const Element *element,
+                             double g[4])
 {
-    double factor = -at->w * contact_force(barrier_of(at), element->s);
+    double factor =
+        -at->weight * contact_normal_force(contact_barrier(at), element->s);
     g[0] = factor * element->n[0];
     g[1] = factor * element->n[1];
 }
 
 /* c f''/d_hat^2 n n^T, and where nothing is projected the ball's curvature
  * (c/d_hat) f'/r (I - n n^T), which is negative. */
-static bool hessian(const EvalPoint *at, const Element *element,
-                    Projection projection, double H[4][4])
+static bool contact_hessian(const EvalPoint *at, const Element *element,
+                            Projection projection, double H[4][4])
 {
-    const Barrier *barrier = barrier_of(at);
+    const Barrier *barrier = contact_barrier(at);
     const double *n = element->n;
     double along = barrier->c / (barrier->d_hat * barrier->d_hat) *
                    barrier_curvature(element->s / barrier->d_hat);
-    double across = -contact_force(barrier, element->s) / element->r;
+    double across = -contact_normal_force(barrier, element->s) / element->r;
     bool changed =
         across < 0 && projects_blocks(projection); /* a wall's is 0 */
     if (changed)
         across = project_eigenvalue(projection, across);
-    H[0][0] = at->w * (along * n[0] * n[0] + across * n[1] * n[1]);
-    H[0][1] = H[1][0] = at->w * ((along - across) * n[0] * n[1]);
-    H[1][1] = at->w * (along * n[1] * n[1] + across * n[0] * n[0]);
+    H[0][0] = at->weight * (along * n[0] * n[0] + across * n[1] * n[1]);
+    H[0][1] = H[1][0] = at->weight * ((along - across) * n[0] * n[1]);
+    H[1][1] = at->weight * (along * n[1] * n[1] + across * n[0] * n[0]);
     return changed;
 }
 
 /* A ball: |D + alpha P| = r - F d is the quadratic equation
  * a alpha^2 + 2 b alpha + c0 = 0, whose smaller root is written so that nothing
  * cancels. */
-static double reach(const EvalPoint *at, const Element *element,
-                    const double P[4])
+static double contact_max_step(const EvalPoint *at, const Element *element,
+                               const double P[4])
 {
     double d = element->s, F = ELEMENT_LIMIT;
     double pn = element->n[0] * P[0] + element->n[1] * P[1];
@@ -170,10 +174,11 @@ static double reach(const EvalPoint *at, const Element *element,
 
 /* Along P the distance of a ball's centre changes by pn + k, where k is what
  * the motion across adds: sqrt((r + pn)^2 + pt^2) - (r + pn). */
-static double remainder_along(const EvalPoint *at, const Element *element,
-                              const double P[4], double alpha)
+static double contact_line_remainder(const EvalPoint *at,
+                                     const Element *element, const double P[4],
+                                     double alpha)
 {
-    const Barrier *barrier = barrier_of(at);
+    const Barrier *barrier = contact_barrier(at);
     const double *n = element->n, p0 = alpha * P[0], p1 = alpha * P[1];
     double pn = n[0] * p0 + n[1] * p1, k = 0;
     double s = element->s / barrier->d_hat;
@@ -187,33 +192,45 @@ static double remainder_along(const EvalPoint *at, const Element *element,
 }
 
 /* The curvature where the barrier begins, 2 c/d_hat^2. */
-static double curvature_bound(const EvalPoint *at)
+static double contact_curvature_bound(const EvalPoint *at)
 {
-    const Barrier *barrier = barrier_of(at);
+    const Barrier *barrier = contact_barrier(at);
     return 2 * barrier->c / barrier->d_hat / barrier->d_hat;
 }
 
-static double rub(const EvalPoint *at, const Element *element, double t[4],
-                  double *carry)
+static double contact_friction_limit(const EvalPoint *at,
+                                     const Element *element, double t[4],
+                                     double *carry)
 {
     const Contact *contact = at->term->data;
     const Obstacle *obstacle = &contact->obstacle[element->from];
     t[0] = -element->n[1];
     t[1] = element->n[0];
     *carry = t[0] * obstacle->v[0] + t[1] * obstacle->v[1];
-    return obstacle->friction * contact_force(&contact->barrier, element->s);
+    return obstacle->friction *
+           contact_normal_force(&contact->barrier, element->s);
 }
 
-static const ElementKind pairs = {ELEMENT_FUNCTIONS, .blocks = blocks,
-                                  .reach = reach, .rub = rub};
+static const ElementKind pairs = {
+    .count = contact_count,
+    .get = contact_get,
+    .block_nodes = contact_block_nodes,
+    .value = contact_value,
+    .gradient = contact_gradient,
+    .hessian = contact_hessian,
+    .line_remainder = contact_line_remainder,
+    .block_count = contact_block_count,
+    .max_step = contact_max_step,
+    .friction_limit = contact_friction_limit,
+};
 
 const TermKind contact_energy = {
     .name = "contact",
     ELEMENTS(pairs),
     .energy = "contact",
     .place = PLACE_CONTACT,
-    .curvature_bound = curvature_bound,
-    .end_of_step = true,
+    .curvature_bound = contact_curvature_bound,
+    .backward_euler_only = true,
 };
 
 Status contact_set(System *system, const Barrier *barrier, int obstacles,
@@ -223,7 +240,8 @@ Status contact_set(System *system, const Barrier *barrier, int obstacles,
         system_remove_term(system, &contact_energy);
         return STATUS_OK;
     }
-    Contact *contact = system_term(system, &contact_energy, sizeof *contact);
+    Contact *contact =
+        system_add_term(system, &contact_energy, sizeof *contact);
     if (!contact)
         return STATUS_OUT_OF_MEMORY;
     contact->barrier = *barrier;

@@ -8,7 +8,7 @@
 #include "model/mass_spring_energy.h"
 
 /* The springs of the step from x_n.  A broken one stays broken. */
-static Status begin(const TermStep *step)
+static Status damping_begin_step(const TermStep *step)
 {
     System *system = step->system;
     Damping *data = step->term->data;
@@ -20,11 +20,11 @@ static Status begin(const TermStep *step)
         data->l2[s] = theta > 0 ? (l2 + theta * d2) / (1 + theta) : l2;
         data->k[s] = system->k[s] * (1 + theta) * (data->l2[s] / l2);
     }
-    system_changed(system, false);
+    system_mark_changed(system, false);
     return STATUS_OK;
 }
 
-static void end(const TermStep *step)
+static void damping_end_step(const TermStep *step)
 {
     System *system = step->system;
     const Damping *data = step->term->data;
@@ -35,11 +35,11 @@ static void end(const TermStep *step)
         double change = spring_strain(d2, l2) - data->E_n[s];
         sum += system->k[s] * l2 * data->theta * change * change;
     }
-    system_lose(system, &damping, sum);
+    system_book_loss(system, &damping, sum);
 }
 
 /* The bound of springs, with the numbers of the last step. */
-static double curvature_bound(const EvalPoint *at)
+static double damping_curvature_bound(const EvalPoint *at)
 {
     const Damping *data = at->term->data;
     EvalPoint damped = *at;
@@ -48,13 +48,13 @@ static double curvature_bound(const EvalPoint *at)
     return mass_spring_curvature_bound(&damped);
 }
 
-static Status set(System *system, const struct SquareMesh *mesh,
-                  const double *number)
+static Status damping_set(System *system, const struct SquareMesh *mesh,
+                          const double *number)
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
-    Damping *data = system_term(system, &damping,
-                                sizeof *data + 3 * springs * sizeof(double));
+    Damping *data = system_add_term(
+        system, &damping, sizeof *data + 3 * springs * sizeof(double));
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->eta = number[0];
@@ -70,12 +70,12 @@ static Status set(System *system, const struct SquareMesh *mesh,
 
 const TermKind damping = {
     .name = "damping",
-    .set = set,
+    .set = damping_set,
     .loss = "damping",
     .place = PLACE_DAMPING,
-    .begin = begin,
-    .end = end,
-    .curvature_bound = curvature_bound,
+    .begin_step = damping_begin_step,
+    .end_step = damping_end_step,
+    .curvature_bound = damping_curvature_bound,
     .internal = true,
-    .end_of_step = true,
+    .backward_euler_only = true,
 };

@@ -5,21 +5,22 @@
 
 #include <math.h>
 
-ElementWalk elements_from(const EvalPoint *at, const double *p, double alpha)
+ElementIterator elements_begin(const EvalPoint *at, const double *p,
+                               double alpha)
 {
     const ElementKind *kind = at->term->kind->element;
     double most = 0;
     for (int i = 0; p && i < 2 * at->system->nodes; i++)
         most = fabs(p[i]) > most ? fabs(p[i]) : most;
-    if (kind->look)
-        kind->look(at, p, alpha);
+    if (kind->prepare)
+        kind->prepare(at, p, alpha);
     /* So much may a and b change: |sum w_k p_k| with sum |w_k| <= 2, and |p_k|
      * <= 1.5 of its larger coordinate. */
     double way = 3 * alpha * most;
-    return (ElementWalk){at, kind, way, -1, kind->count(at), {0}};
+    return (ElementIterator){at, kind, way, -1, kind->count(at), {0}};
 }
 
-bool elements_next(ElementWalk *walk)
+bool elements_next(ElementIterator *walk)
 {
     while (walk->element.more > 0 || ++walk->i < walk->count)
         if (walk->kind->get(walk->at, walk->i, walk->way, &walk->element))
@@ -42,7 +43,8 @@ static void element_add(const Element *element, double factor,
 double elements_value(const EvalPoint *at)
 {
     double sum = 0;
-    for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);)
+    for (ElementIterator walk = elements_begin(at, NULL, 0);
+         elements_next(&walk);)
         sum += walk.kind->value(at, &walk.element);
     return sum;
 }
@@ -50,7 +52,8 @@ double elements_value(const EvalPoint *at)
 void elements_gradient(const EvalPoint *at, double *g)
 {
     double own[4];
-    for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
+    for (ElementIterator walk = elements_begin(at, NULL, 0);
+         elements_next(&walk);) {
         walk.kind->gradient(at, &walk.element, own);
         element_add(&walk.element, walk.element.factor, own, g);
     }
@@ -65,22 +68,22 @@ static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
  */
 static int entries_of_a_block(const EvalPoint *at)
 {
-    int node[3], nodes = at->term->kind->element->nodes(at, 0, node);
+    int node[3], nodes = at->term->kind->element->block_nodes(at, 0, node);
     return nodes * (2 * nodes + 1);
 }
 
 long long elements_entries(const EvalPoint *at)
 {
     return (long long)entries_of_a_block(at) *
-           at->term->kind->element->blocks(at);
+           at->term->kind->element->block_count(at);
 }
 
 void elements_pattern(const EvalPoint *at, Triplets *triplets)
 {
     const ElementKind *kind = at->term->kind->element;
-    int node[3], blocks = kind->blocks(at);
+    int node[3], blocks = kind->block_count(at);
     for (int b = 0; b < blocks; b++) {
-        int nodes = kind->nodes(at, b, node);
+        int nodes = kind->block_nodes(at, b, node);
         for (int i = 0; i < PARTS; i++)
             if (part[i][1] < nodes)
                 term_add_block(at->system, node[part[i][0]], node[part[i][1]],
@@ -91,8 +94,9 @@ void elements_pattern(const EvalPoint *at, Triplets *triplets)
 /* Entry (r, c) of the part of nodes k and l is factor sum w_k w_l H_(r,c) over
  * the pairs of vectors.  The compiler makes a function of its own for each
  * number of vectors. */
-static inline void add_block(const Element *element, int vectors,
-                             double H[4][4], const int *slot, double *out)
+static inline void element_add_block(const Element *element, int vectors,
+                                     double H[4][4], const int *slot,
+                                     double *out)
 {
     for (int i = 0; i < PARTS; i++) {
         int k = part[i][0], l = part[i][1];
@@ -114,7 +118,7 @@ static inline void add_block(const Element *element, int vectors,
 }
 
 /* out += Hessian q of an element. */
-static bool add_product(const ElementWalk *walk, Projection projection,
+static bool add_product(const ElementIterator *walk, Projection projection,
                         const double *q, double *out)
 {
     const Element *element = &walk->element;
@@ -138,7 +142,8 @@ int elements_hessian(const EvalPoint *at, Projection projection,
 {
     int projected = 0, entries = entries_of_a_block(at);
     double H[4][4];
-    for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
+    for (ElementIterator walk = elements_begin(at, NULL, 0);
+         elements_next(&walk);) {
         const Element *element = &walk.element;
         if (q) {
             projected += add_product(&walk, projection, q, out);
@@ -146,40 +151,43 @@ int elements_hessian(const EvalPoint *at, Projection projection,
         }
         projected += walk.kind->hessian(at, element, projection, H);
         if (element->vectors == 1)
-            add_block(element, 1, H, slot + entries * element->block, out);
+            element_add_block(element, 1, H, slot + entries * element->block,
+                              out);
         else
-            add_block(element, 2, H, slot + entries * element->block, out);
+            element_add_block(element, 2, H, slot + entries * element->block,
+                              out);
     }
     return projected;
 }
 
-double elements_remainder(const EvalPoint *at, const double *p, double alpha)
+double elements_line_remainder(const EvalPoint *at, const double *p,
+                               double alpha)
 {
     double sum = 0, P[4];
-    for (ElementWalk walk = elements_from(at, p, alpha);
+    for (ElementIterator walk = elements_begin(at, p, alpha);
          elements_next(&walk);) {
         element_vectors(&walk.element, p, P);
-        sum += walk.kind->remainder(at, &walk.element, P, alpha);
+        sum += walk.kind->line_remainder(at, &walk.element, P, alpha);
     }
-    return at->w * sum;
+    return at->weight * sum;
 }
 
-double elements_reach(const EvalPoint *at, const double *p)
+double elements_max_step(const EvalPoint *at, const double *p)
 {
     double smallest = INFINITY, P[4];
-    ElementWalk walk = elements_from(at, p, 1);
-    while (walk.kind->reach && elements_next(&walk)) {
+    ElementIterator walk = elements_begin(at, p, 1);
+    while (walk.kind->max_step && elements_next(&walk)) {
         element_vectors(&walk.element, p, P);
-        double alpha = walk.kind->reach(at, &walk.element, P);
+        double alpha = walk.kind->max_step(at, &walk.element, P);
         smallest = alpha <= 1 ? fmin(smallest, alpha) : smallest;
     }
     return smallest;
 }
 
-bool elements_allowed(const EvalPoint *at)
+bool elements_are_feasible(const EvalPoint *at)
 {
-    ElementWalk walk = elements_from(at, NULL, 0);
-    while (walk.kind->reach && elements_next(&walk))
+    ElementIterator walk = elements_begin(at, NULL, 0);
+    while (walk.kind->max_step && elements_next(&walk))
         if (!(walk.element.s > 0))
             return false;
     return true;

@@ -23,7 +23,7 @@ double fracture_strength(const Fracture *fracture, int s)
 }
 
 /* The most loaded candidates first; equal loads by number. */
-static int compare(const void *one, const void *other)
+static int compare_loads(const void *one, const void *other)
 {
     const Candidate *a = one, *b = other;
     if (a->load != b->load)
@@ -45,13 +45,13 @@ static int find_candidates(Fracture *fracture, const System *system,
         if (load > 1 && !spring_is_broken(system, s))
             fracture->candidate[count++] = (Candidate){load, s};
     }
-    qsort(fracture->candidate, (size_t)count, sizeof(Candidate), compare);
+    qsort(fracture->candidate, (size_t)count, sizeof(Candidate), compare_loads);
     return count;
 }
 
 /* Breaks them; the energy that was in them, and in cells that end with them, is
  * what the potential has less afterwards. */
-static void end(const TermStep *step)
+static void fracture_end_step(const TermStep *step)
 {
     System *system = step->system;
     Fracture *fracture = step->term->data;
@@ -69,20 +69,20 @@ static void end(const TermStep *step)
         *i = *j = 1;
         system->k[s] = 0;
     }
-    system_lose(system, step->term->kind,
-                energy - system_potential(system, step->x));
-    system_changed(system, false);
+    system_book_loss(system, step->term->kind,
+                     energy - system_potential(system, step->x));
+    system_mark_changed(system, false);
 }
 
-static Status set(System *system, const struct SquareMesh *mesh,
-                  const double *number)
+static Status fracture_set(System *system, const struct SquareMesh *mesh,
+                           const double *number)
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
     Fracture *data =
-        system_term(system, &fracture,
-                    sizeof *data + springs * sizeof *data->candidate +
-                        (size_t)system->nodes);
+        system_add_term(system, &fracture,
+                        sizeof *data + springs * sizeof *data->candidate +
+                            (size_t)system->nodes);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->strength = number[0];
@@ -92,9 +92,9 @@ static Status set(System *system, const struct SquareMesh *mesh,
 }
 
 const TermKind fracture = {
-    .set = set,
+    .set = fracture_set,
     .loss = "fracture",
     .place = PLACE_FRACTURE,
-    .end = end,
+    .end_step = fracture_end_step,
     .internal = true,
 };

@@ -96,7 +96,7 @@ static EvalPoint point_of_source(const EvalPoint *at)
 }
 
 /* Normal forces and tangents at x_n. */
-static Status begin(const TermStep *step)
+static Status friction_begin_step(const TermStep *step)
 {
     Friction *friction = step->term->data;
     EvalPoint at = eval_point_at(step->system, step->x, NULL, step->x);
@@ -104,11 +104,11 @@ static Status begin(const TermStep *step)
     at = point_of_source(&at);
     friction->e = friction->slip_speed * step->h;
     friction->slides = 0;
-    for (ElementWalk walk = elements_from(&at, NULL, 0);
+    for (ElementIterator walk = elements_begin(&at, NULL, 0);
          elements_next(&walk);) {
         Slide slide = {walk.element, 0};
-        slide.row.r =
-            walk.kind->rub(&at, &walk.element, slide.row.v, &slide.carry);
+        slide.row.r = walk.kind->friction_limit(&at, &walk.element, slide.row.v,
+                                                &slide.carry);
         slide.row.factor = 1;
         slide.row.more = 0;
         slide.carry *= step->h;
@@ -129,7 +129,7 @@ static Status begin(const TermStep *step)
 }
 
 /* What was rubbed off in this step. */
-static void end(const TermStep *step)
+static void friction_end_step(const TermStep *step)
 {
     const Friction *friction = step->term->data;
     for (int i = 0; i < friction->slides; i++) {
@@ -137,8 +137,8 @@ static void end(const TermStep *step)
         double vectors[4];
         element_vectors(&slide->row, step->v, vectors);
         double y = step->h * along(&slide->row, vectors) - slide->carry;
-        system_lose(step->system, step->term->kind,
-                    slide->row.r * friction_slope(y, friction->e) * y);
+        system_book_loss(step->system, step->term->kind,
+                         slide->row.r * friction_slope(y, friction->e) * y);
     }
 }
 
@@ -147,13 +147,13 @@ static const Friction *friction_of(const EvalPoint *at)
     return at->term->data;
 }
 
-static int count(const EvalPoint *at)
+static int slide_count(const EvalPoint *at)
 {
     return friction_of(at)->slides;
 }
 
 /* s is y.  Nothing of it is stored: outside of a step (u NULL) it is 0. */
-static bool get(const EvalPoint *at, int i, double way, Element *element)
+static bool slide_get(const EvalPoint *at, int i, double way, Element *element)
 {
     const Slide *slide = &friction_of(at)->slide[i];
     (void)way;
@@ -165,37 +165,38 @@ static bool get(const EvalPoint *at, int i, double way, Element *element)
 }
 
 /* The blocks are those of the contact. */
-static int blocks(const EvalPoint *at)
+static int slide_block_count(const EvalPoint *at)
 {
     EvalPoint source = point_of_source(at);
-    return source.term->kind->element->blocks(&source);
+    return source.term->kind->element->block_count(&source);
 }
 
-static int nodes(const EvalPoint *at, int block, int node[3])
+static int slide_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     EvalPoint source = point_of_source(at);
-    return source.term->kind->element->nodes(&source, block, node);
+    return source.term->kind->element->block_nodes(&source, block, node);
 }
 
-static double value(const EvalPoint *at, const Element *element)
+static double slide_value(const EvalPoint *at, const Element *element)
 {
     return element->r * friction_value(element->s, friction_of(at)->e);
 }
 
-static void gradient(const EvalPoint *at, const Element *element, double g[4])
+static void slide_gradient(const EvalPoint *at, const Element *element,
+                           double g[4])
 {
-    double force =
-        at->w * element->r * friction_slope(element->s, friction_of(at)->e);
+    double force = at->weight * element->r *
+                   friction_slope(element->s, friction_of(at)->e);
     for (int i = 0; i < 4; i++)
         g[i] = force * element->v[i];
 }
 
 /* mu lambda f0'' t t^T, never negative */
-static bool hessian(const EvalPoint *at, const Element *element,
-                    Projection projection, double H[4][4])
+static bool slide_hessian(const EvalPoint *at, const Element *element,
+                          Projection projection, double H[4][4])
 {
-    double bend =
-        at->w * element->r * friction_curvature(element->s, friction_of(at)->e);
+    double bend = at->weight * element->r *
+                  friction_curvature(element->s, friction_of(at)->e);
     (void)projection;
     for (int i = 0; i < 4; i++)
         for (int k = i; k < 4; k++)
@@ -203,31 +204,48 @@ static bool hessian(const EvalPoint *at, const Element *element,
     return false;
 }
 
-static double remainder_along(const EvalPoint *at, const Element *element,
-                              const double P[4], double alpha)
+static double slide_line_remainder(const EvalPoint *at, const Element *element,
+                                   const double P[4], double alpha)
 {
     return element->r * friction_remainder(element->s,
                                            alpha * along(element, P),
                                            friction_of(at)->e);
 }
 
-static const ElementKind slides = {ELEMENT_FUNCTIONS, .blocks = blocks};
+static const ElementKind slides = {
+    .count = slide_count,
+    .get = slide_get,
+    .block_nodes = slide_block_nodes,
+    .value = slide_value,
+    .gradient = slide_gradient,
+    .hessian = slide_hessian,
+    .line_remainder = slide_line_remainder,
+    .block_count = slide_block_count,
+};
 
 const TermKind friction_energy = {
-    ELEMENTS(slides),        .name = "friction", .loss = "friction",
-    .place = PLACE_FRICTION, .begin = begin,     .end = end,
-    .end_of_step = true,
+    ELEMENTS(slides),
+    .name = "friction",
+    .loss = "friction",
+    .place = PLACE_FRICTION,
+    .begin_step = friction_begin_step,
+    .end_step = friction_end_step,
+    .backward_euler_only = true,
 };
 
 const TermKind self_friction_energy = {
-    ELEMENTS(slides),    .loss = "friction", .place = PLACE_FRICTION,
-    .begin = begin,      .end = end,         .internal = true,
-    .end_of_step = true,
+    ELEMENTS(slides),
+    .loss = "friction",
+    .place = PLACE_FRICTION,
+    .begin_step = friction_begin_step,
+    .end_step = friction_end_step,
+    .internal = true,
+    .backward_euler_only = true,
 };
 
 double friction_work_of_obstacles(const System *system, const double *u)
 {
-    const Friction *friction = system_data(system, &friction_energy);
+    const Friction *friction = system_term_data(system, &friction_energy);
     double sum = 0;
     for (int i = 0; friction && i < friction->slides; i++) {
         const Slide *slide = &friction->slide[i];
@@ -244,7 +262,7 @@ Status friction_set(System *system, const TermKind *kind, bool wanted,
         system_remove_term(system, kind);
         return STATUS_OK;
     }
-    Friction *friction = system_term(system, kind, sizeof *friction);
+    Friction *friction = system_add_term(system, kind, sizeof *friction);
     if (!friction)
         return STATUS_OUT_OF_MEMORY;
     friction->slip_speed = slip_speed;

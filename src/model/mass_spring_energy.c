@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-static double value(const EvalPoint *at)
+static double mass_spring_value(const EvalPoint *at)
 {
     const System *system = at->system;
     double sum = 0, d[2];
@@ -16,19 +16,20 @@ static double value(const EvalPoint *at)
     return sum;
 }
 
-static void gradient(const EvalPoint *at, double *g)
+static void mass_spring_gradient(const EvalPoint *at, double *g)
 {
     const System *system = at->system;
     for (int i = 0; i < system->springs; i++) {
         const int *e = system->e + 2 * i;
         double d[2], d2 = spring_vector(e, at->x, d);
         double s = spring_strain(d2, at->l2[i]);
-        spring_add_force(e, spring_pull(at->w * at->k[i], s), d, g);
+        spring_add_force(e, spring_gradient_factor(at->weight * at->k[i], s), d,
+                         g);
     }
 }
 
-static int hessian(const EvalPoint *at, Projection projection, const int *slot,
-                   const double *q, double *out)
+static int mass_spring_hessian(const EvalPoint *at, Projection projection,
+                               const int *slot, const double *q, double *out)
 {
     const System *system = at->system;
     int projected = 0;
@@ -37,7 +38,7 @@ static int hessian(const EvalPoint *at, Projection projection, const int *slot,
         double d[2], H[3];
         spring_vector(e, at->x, d);
         projected +=
-            spring_hessian(d, at->l2[s], at->w * at->k[s], projection, H);
+            spring_hessian(d, at->l2[s], at->weight * at->k[s], projection, H);
         mass_spring_add(H, e, s, slot, q, out);
     }
     return projected;
@@ -45,17 +46,18 @@ static int hessian(const EvalPoint *at, Projection projection, const int *slot,
 
 /* Along p the energy of a spring, c/4 (|d|^2 - l2)^2, becomes
  * c/4 (|d|^2 - l2 + alpha B + alpha^2 C)^2. */
-static void along(const EvalPoint *at, const double *p, double q[3])
+static void mass_spring_line_polynomial(const EvalPoint *at, const double *p,
+                                        double q[3])
 {
     const System *system = at->system;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         double d[2], change[2], l2 = at->l2[s];
-        double c = 0.25 * spring_c(l2, at->w * at->k[s]);
+        double c = 0.25 * spring_hessian_factor(l2, at->weight * at->k[s]);
         double d2 = spring_vector(e, at->x, d);
         double C = spring_vector(e, p, change);
         double B = 2 * (d[0] * change[0] + d[1] * change[1]);
-        q[0] += c * (B * B + 2 * spring_across(d2, l2) * C);
+        q[0] += c * (B * B + 2 * spring_eigenvalue_across(d2, l2) * C);
         q[1] += 2 * c * B * C;
         q[2] += c * C * C;
     }
@@ -80,18 +82,18 @@ double mass_spring_curvature_bound(const EvalPoint *at)
 {
     double most = 0;
     for (int s = 0; s < at->system->springs; s++)
-        most = larger_bound(most, at->k[s]);
+        most = max_or_nan(most, at->k[s]);
     return most;
 }
 
 const TermKind mass_spring_energy = {
     .energy = "elastic",
-    .value = value,
-    .gradient = gradient,
+    .value = mass_spring_value,
+    .gradient = mass_spring_gradient,
     .entries = mass_spring_entries,
     .pattern = mass_spring_pattern,
-    .hessian = hessian,
-    .along = along,
+    .hessian = mass_spring_hessian,
+    .line_polynomial = mass_spring_line_polynomial,
     .curvature_bound = mass_spring_curvature_bound,
     .internal = true,
 };

@@ -10,12 +10,12 @@
 #include "model/elements.h"
 #include "model/mass_spring_energy.h"
 
-static int count(const EvalPoint *at)
+static int neo_hookean_count(const EvalPoint *at)
 {
     return ((const NeoHookean *)at->term->data)->triangles;
 }
 
-static int nodes(const EvalPoint *at, int t, int node[3])
+static int neo_hookean_block_nodes(const EvalPoint *at, int t, int node[3])
 {
     const NeoHookean *data = at->term->data;
     memcpy(node, data->node[t], 3 * sizeof *node);
@@ -23,24 +23,25 @@ static int nodes(const EvalPoint *at, int t, int node[3])
 }
 
 /* 1/l^2 with the legs' length l at rest: a triangle is half a cell. */
-static double unit_of(const NeoHookean *data)
+static double inverse_square_leg(const NeoHookean *data)
 {
     return 1 / (2 * data->area);
 }
 
 /* a = e1, b = e2, s = J. */
-static bool get(const EvalPoint *at, int t, double way, Element *element)
+static bool neo_hookean_get(const EvalPoint *at, int t, double way,
+                            Element *element)
 {
     static const double legs[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const NeoHookean *data = at->term->data;
     (void)way; /* each triangle has a force */
     element->vectors = 2;
-    element->nodes = nodes(at, t, element->node);
+    element->nodes = neo_hookean_block_nodes(at, t, element->node);
     element->weight = legs;
     element->block = t;
-    element->factor = at->w;
+    element->factor = at->weight;
     element_vectors(element, at->x, element->v);
-    element->s = unit_of(data) * cross(element->v, element->v + 2);
+    element->s = inverse_square_leg(data) * cross(element->v, element->v + 2);
     return true;
 }
 
@@ -57,12 +58,12 @@ static double volume_value(double J)
 
 /* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2): with |F|^2 = 2 J +
  * 2 |F-|^2 it is the same W, but no two parts of it cancel. */
-static double value(const EvalPoint *at, const Element *element)
+static double neo_hookean_value(const EvalPoint *at, const Element *element)
 {
     const NeoHookean *data = at->term->data;
     double plus[2], minus[2], L = math_log(element->s);
-    area_parts(element->v, plus, minus);
-    double shear = 2 * unit_of(data) * square_of(minus);
+    area_split(element->v, plus, minus);
+    double shear = 2 * inverse_square_leg(data) * square_of(minus);
     return data->area * (data->mu * (shear + volume_value(element->s)) +
                          0.5 * data->lambda * L * L);
 }
@@ -78,10 +79,11 @@ static void stresses(const NeoHookean *data, double J, double *on_plus,
 /* P = on_plus F+ + on_minus F-.  Both parts of F vanish with the stress, or
  * their factor does: rounding is in proportion to the stress, where the parts
  * of mu F - mu F^-T are as large as mu, however small their difference. */
-static void gradient(const EvalPoint *at, const Element *element, double g[4])
+static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
+                                 double g[4])
 {
     double plus[2], minus[2], p, q;
-    area_parts(element->v, plus, minus);
+    area_split(element->v, plus, minus);
     stresses(at->term->data, element->s, &p, &q);
     g[0] = 0.5 * (p * plus[0] + q * minus[0]);
     g[1] = 0.5 * (p * plus[1] + q * minus[1]);
@@ -90,43 +92,46 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
 }
 
 static bool curvature(const EvalPoint *at, const Element *element,
-                      Projection projection, AreaCurvature *area)
+                      Projection projection, AreaHessian *area)
 {
     const NeoHookean *data = at->term->data;
     double J = element->s, p, q;
     double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
     stresses(data, J, &p, &q);
-    return area_curvature(element->v, unit_of(data), 0.5 * p, 0.5 * q,
-                          data->area * bend, projection, area);
+    return area_project_hessian(element->v, inverse_square_leg(data), 0.5 * p,
+                                0.5 * q, data->area * bend, projection, area);
 }
 
-static bool hessian(const EvalPoint *at, const Element *element,
-                    Projection projection, double H[4][4])
+static bool neo_hookean_hessian(const EvalPoint *at, const Element *element,
+                                Projection projection, double H[4][4])
 {
-    AreaCurvature area;
+    AreaHessian area;
     bool changed = curvature(at, element, projection, &area);
-    area_hessian(&area, H);
+    area_assemble_hessian(&area, H);
     return changed;
 }
 
-static bool product(const EvalPoint *at, const Element *element,
-                    Projection projection, const double v[4], double Hv[4])
+static bool neo_hookean_product(const EvalPoint *at, const Element *element,
+                                Projection projection, const double v[4],
+                                double Hv[4])
 {
-    AreaCurvature area;
+    AreaHessian area;
     bool changed = curvature(at, element, projection, &area);
-    area_product(&area, v, Hv);
+    area_multiply_hessian(&area, v, Hv);
     return changed;
 }
 
 /* With J + alpha J1 + alpha^2 J2 = J (1 + z), and ln(1 + z) less its part of
  * degree 1 in alpha, nothing cancels. */
-static double remainder_along(const EvalPoint *at, const Element *element,
-                              const double P[4], double alpha)
+static double neo_hookean_line_remainder(const EvalPoint *at,
+                                         const Element *element,
+                                         const double P[4], double alpha)
 {
     const NeoHookean *data = at->term->data;
-    double J1, J2, plus[2], minus[2], J = element->s, unit = unit_of(data);
-    area_along(element->v, unit, P, &J1, &J2);
-    area_parts(P, plus, minus);
+    double J1, J2, plus[2], minus[2], J = element->s,
+                                      unit = inverse_square_leg(data);
+    area_expand_along(element->v, unit, P, &J1, &J2);
+    area_split(P, plus, minus);
     double bent = alpha * alpha * J2 / J, z = alpha * J1 / J + bent;
     if (!(z > -1))
         return INFINITY;
@@ -137,35 +142,47 @@ static double remainder_along(const EvalPoint *at, const Element *element,
                          0.5 * data->lambda * (2 * math_log(J) * t + L * L));
 }
 
-static double reach(const EvalPoint *at, const Element *element,
-                    const double P[4])
+static double neo_hookean_max_step(const EvalPoint *at, const Element *element,
+                                   const double P[4])
 {
     const NeoHookean *data = at->term->data;
-    return area_reach(element->v, unit_of(data), ELEMENT_LIMIT * element->s, P);
+    return area_max_step(element->v, inverse_square_leg(data),
+                         ELEMENT_LIMIT * element->s, P);
 }
 
 /* At F = I the Hessian is mu (I - K) + (lambda + mu) (K f)(K f)^T; a node has
  * the weights 1/l of a triangle's height l. */
-static double curvature_bound(const EvalPoint *at)
+static double neo_hookean_curvature_bound(const EvalPoint *at)
 {
     const NeoHookean *data = at->term->data;
     return 8 * data->mu + 4 * data->lambda;
 }
 
-static const ElementKind triangle = {ELEMENT_FUNCTIONS, .blocks = count,
-                                     .reach = reach, .product = product};
+static const ElementKind triangle = {
+    .count = neo_hookean_count,
+    .get = neo_hookean_get,
+    .block_nodes = neo_hookean_block_nodes,
+    .value = neo_hookean_value,
+    .gradient = neo_hookean_gradient,
+    .hessian = neo_hookean_hessian,
+    .line_remainder = neo_hookean_line_remainder,
+    .block_count = neo_hookean_count,
+    .max_step = neo_hookean_max_step,
+    .product = neo_hookean_product,
+};
 
 /* Cuts each cell into two triangles.  Their sides stay as springs, which are
  * only drawn; the other diagonal gets k = 0. */
-static Status set(System *system, const SquareMesh *mesh, const double *number)
+static Status neo_hookean_set(System *system, const SquareMesh *mesh,
+                              const double *number)
 {
     static const int corner[2][2][3] = {{{1, 2, 0}, {3, 0, 2}},
                                         {{0, 1, 3}, {2, 3, 1}}};
     size_t triangles = 2 * (size_t)mesh->cells;
     double young = number[1], nu = number[2];
     NeoHookean *data =
-        system_term(system, &neo_hookean_energy,
-                    sizeof *data + triangles * sizeof *data->node);
+        system_add_term(system, &neo_hookean_energy,
+                        sizeof *data + triangles * sizeof *data->node);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->mu = young / (2 * (1 + nu));
@@ -177,7 +194,7 @@ static Status set(System *system, const SquareMesh *mesh, const double *number)
     data->node = (int(*)[3])(data + 1);
     for (int c = 0; c < mesh->cells; c++) {
         int node[4], spring[6], odd = square_mesh_is_half(mesh, 4 * c);
-        square_mesh_cell(mesh, c, node, spring);
+        square_mesh_get_cell(mesh, c, node, spring);
         system->k[spring[odd ? 4 : 5]] = 0;
         for (int t = 2 * c; t < 2 * c + 2; t++)
             for (int k = 0; k < 3; k++)
@@ -190,9 +207,9 @@ static Status set(System *system, const SquareMesh *mesh, const double *number)
 const TermKind neo_hookean_energy = {
     ELEMENTS(triangle),
     .name = "triangles",
-    .set = set,
+    .set = neo_hookean_set,
     .energy = "elastic",
-    .curvature_bound = curvature_bound,
+    .curvature_bound = neo_hookean_curvature_bound,
     .internal = true,
-    .end_of_step = true,
+    .backward_euler_only = true,
 };

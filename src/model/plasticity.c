@@ -40,7 +40,8 @@ static double flow_law_curvature(FlowLaw law, double e)
     return law.theta + (beyond(law, e) > 0 ? law.hard : 1);
 }
 
-double flow_law_along(FlowLaw law, double e, double d2, double across)
+double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
+                                 double across)
 {
     return 2 * flow_law_curvature(law, e) * d2 + across;
 }
@@ -57,9 +58,9 @@ static inline FlowLaw law_of(const Plasticity *data, int s)
                      .hard = 1 - flow};
 }
 
-FlowLaw plasticity_law(const System *system, int s)
+FlowLaw plasticity_get_law(const System *system, int s)
 {
-    const Plasticity *data = system_data(system, &plastic_energy);
+    const Plasticity *data = system_term_data(system, &plastic_energy);
     return data ? law_of(data, s) : (FlowLaw){.yield = INFINITY, .hard = 1};
 }
 
@@ -86,7 +87,7 @@ static inline FlowSpring flow_spring(const EvalPoint *at, int s)
     return spring;
 }
 
-static double value(const EvalPoint *at)
+static double plastic_value(const EvalPoint *at)
 {
     const Plasticity *data = at->term->data;
     double sum = 0;
@@ -101,28 +102,32 @@ static double value(const EvalPoint *at)
 }
 
 /* 2 k tau d */
-static void gradient(const EvalPoint *at, double *g)
+static void plastic_gradient(const EvalPoint *at, double *g)
 {
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
-        spring_add_force(spring.e,
-                         spring_pull(at->w * spring.k,
-                                     flow_law_slope(spring.law, spring.strain)),
-                         spring.d, g);
+        spring_add_force(
+            spring.e,
+            spring_gradient_factor(at->weight * spring.k,
+                                   flow_law_slope(spring.law, spring.strain)),
+            spring.d, g);
     }
 }
 
-static int hessian(const EvalPoint *at, Projection projection, const int *slot,
-                   const double *q, double *out)
+static int plastic_hessian(const EvalPoint *at, Projection projection,
+                           const int *slot, const double *q, double *out)
 {
     int projected = 0;
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
         const double *d = spring.d, d2 = spring.d2;
-        double k = at->w * spring.k, factor = spring_c(spring.l2, k);
+        double k = at->weight * spring.k,
+               factor = spring_hessian_factor(spring.l2, k);
         double across = spring.l2 * flow_law_slope(spring.law, spring.strain);
-        double along = flow_law_along(spring.law, spring.strain, d2, across);
-        projected += spring_project(projection, &along, &across) && k > 0;
+        double along =
+            flow_law_eigenvalue_along(spring.law, spring.strain, d2, across);
+        projected +=
+            spring_project_eigenvalues(projection, &along, &across) && k > 0;
         double difference = d2 > 0 ? (along - across) / d2 : 0;
         const double H[3] = {factor * (across + difference * d[0] * d[0]),
                              factor * difference * d[0] * d[1],
@@ -142,13 +147,14 @@ static inline void strain_along(const FlowSpring *spring, const double *p,
     *B = 2 * (spring->d[0] * change[0] + spring->d[1] * change[1]) / spring->l2;
 }
 
-static void along(const EvalPoint *at, const double *p, double q[3])
+static void plastic_line_polynomial(const EvalPoint *at, const double *p,
+                                    double q[3])
 {
     double B, C;
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = flow_spring(at, s);
         strain_along(&spring, p, &B, &C);
-        q[0] += at->w * spring.k * spring.l2 *
+        q[0] += at->weight * spring.k * spring.l2 *
                 flow_law_slope(spring.law, spring.strain) * C;
     }
 }
@@ -157,8 +163,8 @@ static void along(const EvalPoint *at, const double *p, double q[3])
  * ... t, mirrored so that t >= 0.  V'' is hard + theta everywhere, and flow
  * more where the spring is elastic.  Nothing is subtracted but ends of the way.
  */
-static double remainder_along(const EvalPoint *at, const double *p,
-                              double alpha)
+static double plastic_line_remainder(const EvalPoint *at, const double *p,
+                                     double alpha)
 {
     double sum = 0, B, C;
     for (int s = 0; s < at->system->springs; s++) {
@@ -175,11 +181,11 @@ static double remainder_along(const EvalPoint *at, const double *p,
         sum += spring.k * spring.l2 *
                (0.5 * (law.hard + law.theta) * t * t + law.flow * elastic);
     }
-    return at->w * sum;
+    return at->weight * sum;
 }
 
 /* What has flowed stays: ep moves by gamma, the yield strain grows. */
-static void end(const TermStep *step)
+static void plastic_end_step(const TermStep *step)
 {
     System *system = step->system;
     Plasticity *data = step->term->data;
@@ -193,22 +199,22 @@ static void end(const TermStep *step)
             continue;
         data->ep[s] += copysign(gamma, spring.strain);
         data->kappa[s] += gamma;
-        system_lose(system, &plastic_energy,
-                    spring.k * spring.l2 * data->yield * gamma);
+        system_book_loss(system, &plastic_energy,
+                         spring.k * spring.l2 * data->yield * gamma);
         changed = true;
     }
     if (changed)
-        system_changed(system, false);
+        system_mark_changed(system, false);
 }
 
 /* In the place of the elastic springs: yield and hardening, which stay. */
-static Status set(System *system, const struct SquareMesh *mesh,
-                  const double *number)
+static Status plastic_set(System *system, const struct SquareMesh *mesh,
+                          const double *number)
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
-    Plasticity *data = system_term(system, &plastic_energy,
-                                   sizeof *data + 2 * springs * sizeof(double));
+    Plasticity *data = system_add_term(
+        system, &plastic_energy, sizeof *data + 2 * springs * sizeof(double));
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->yield = number[0];
@@ -221,18 +227,18 @@ static Status set(System *system, const struct SquareMesh *mesh,
 
 const TermKind plastic_energy = {
     .name = "plastic springs",
-    .set = set,
+    .set = plastic_set,
     .energy = "elastic",
     .loss = "plastic",
-    .value = value,
-    .gradient = gradient,
+    .value = plastic_value,
+    .gradient = plastic_gradient,
     .entries = mass_spring_entries,
     .pattern = mass_spring_pattern,
-    .hessian = hessian,
-    .along = along,
-    .remainder = remainder_along,
-    .end = end,
+    .hessian = plastic_hessian,
+    .line_polynomial = plastic_line_polynomial,
+    .line_remainder = plastic_line_remainder,
+    .end_step = plastic_end_step,
     .curvature_bound = mass_spring_curvature_bound,
     .internal = true,
-    .end_of_step = true,
+    .backward_euler_only = true,
 };

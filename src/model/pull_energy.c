@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* k/2 |x - o|^2 */
-static double value(const EvalPoint *at)
+static double pull_value(const EvalPoint *at)
 {
     const Pull *pull = at->term->data;
     double sum = 0;
@@ -18,32 +18,32 @@ static double value(const EvalPoint *at)
 }
 
 /* w k (x - o); with a huge k, w keeps it below overflow. */
-static void gradient(const EvalPoint *at, double *g)
+static void pull_gradient(const EvalPoint *at, double *g)
 {
     const Pull *pull = at->term->data;
     for (int i = 0; i < 2; i++)
-        g[2 * pull->node + i] +=
-            at->w * pull->k * (at->x[2 * pull->node + i] - pull->target[i]);
+        g[2 * pull->node + i] += at->weight * pull->k *
+                                 (at->x[2 * pull->node + i] - pull->target[i]);
 }
 
-static long long entries(const EvalPoint *at)
+static long long pull_entries(const EvalPoint *at)
 {
     (void)at;
     return 2;
 }
 
-static void pattern(const EvalPoint *at, Triplets *triplets)
+static void pull_pattern(const EvalPoint *at, Triplets *triplets)
 {
     const Pull *pull = at->term->data;
     term_add_diagonal(at->system, pull->node, triplets);
 }
 
 /* It is never negative. */
-static int hessian(const EvalPoint *at, Projection projection, const int *slot,
-                   const double *q, double *out)
+static int pull_hessian(const EvalPoint *at, Projection projection,
+                        const int *slot, const double *q, double *out)
 {
     const Pull *pull = at->term->data;
-    double k = at->w * pull->k;
+    double k = at->weight * pull->k;
     (void)projection;
     for (int i = 0; i < 2; i++)
         if (q)
@@ -53,14 +53,15 @@ static int hessian(const EvalPoint *at, Projection projection, const int *slot,
     return 0;
 }
 
-static void along(const EvalPoint *at, const double *p, double q[3])
+static void pull_line_polynomial(const EvalPoint *at, const double *p,
+                                 double q[3])
 {
     const Pull *pull = at->term->data;
     for (int i = 2 * pull->node; i < 2 * pull->node + 2; i++)
-        q[0] += 0.5 * at->w * pull->k * p[i] * p[i];
+        q[0] += 0.5 * at->weight * pull->k * p[i] * p[i];
 }
 
-static double curvature_bound(const EvalPoint *at)
+static double pull_curvature_bound(const EvalPoint *at)
 {
     const Pull *pull = at->term->data;
     return fabs(pull->k);
@@ -68,25 +69,26 @@ static double curvature_bound(const EvalPoint *at)
 
 /* What both kinds share. */
 #define PULL                                                                   \
-    .value = value, .gradient = gradient, .entries = entries,                  \
-    .pattern = pattern, .hessian = hessian, .along = along,                    \
-    .curvature_bound = curvature_bound, .diagonal = true
+    .value = pull_value, .gradient = pull_gradient, .entries = pull_entries,   \
+    .pattern = pull_pattern, .hessian = pull_hessian,                          \
+    .line_polynomial = pull_line_polynomial,                                   \
+    .curvature_bound = pull_curvature_bound, .diagonal = true
 
 const TermKind central_field = {PULL, .energy = "elastic"};
 const TermKind hand_energy = {PULL, .place = PLACE_HAND};
 
 Status pull_set(System *system, const TermKind *kind, const Pull *pull)
 {
-    Pull *own = system_term(system, kind, sizeof *own);
+    Pull *own = system_add_term(system, kind, sizeof *own);
     if (!own)
         return STATUS_OUT_OF_MEMORY;
     *own = *pull;
-    system_changed(system, true);
+    system_mark_changed(system, true);
     return STATUS_OK;
 }
 
-void hand_follow(Pull *hand, const double *x, const double *v, double m,
-                 double h, const double *free)
+void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
+                     double h, const double *free)
 {
     static const double TIME = 0.06, MOST = 0.5, INERTIA = 10, LIMIT = 1e8;
     static const double CELL = 0.5, SPEED = 0.5, SIDE = 1.0 / 64;

@@ -44,8 +44,8 @@ static bool is_pressed(const Contact *contact, const System *system,
     int k = contact->push.obstacle;
     const Obstacle *obstacle = &contact->obstacle[k];
     for (int i = 0; i < system->nodes; i++) {
-        Gap gap = contact_gap(obstacle, obstacle->o, x + 2 * i,
-                              contact_node_radius(contact, i));
+        Gap gap = contact_measure_gap(obstacle, obstacle->o, x + 2 * i,
+                                      contact_node_radius(contact, i));
         if (gap.d < STRENGTH * contact->barrier.d_hat &&
             gap.n[0] * way[0] + gap.n[1] * way[1] > 0 &&
             contact_has_pair(contact, system, i, k))
@@ -65,15 +65,16 @@ static bool has_room(const Contact *contact, const System *system,
     for (int i = 0; i < system->nodes; i++) {
         if (!system->pinned[i] || contact_has_pair(contact, system, i, k))
             continue;
-        double before = contact_gap(obstacle, obstacle->o, x + 2 * i, 0).d;
-        double after = contact_gap(obstacle, o, x + 2 * i, 0).d;
+        double before =
+            contact_measure_gap(obstacle, obstacle->o, x + 2 * i, 0).d;
+        double after = contact_measure_gap(obstacle, o, x + 2 * i, 0).d;
         if (after < fmin(before, keep))
             return false;
     }
     const SquareMesh *shape = &contact->push.shape;
     return obstacle->kind == OBSTACLE_WALL ||
-           square_mesh_cell_at(shape, x, o, 0, shape->cells) < 0 ||
-           square_mesh_cell_at(shape, x, obstacle->o, 0, shape->cells) >= 0;
+           square_mesh_find_cell(shape, x, o, 0, shape->cells) < 0 ||
+           square_mesh_find_cell(shape, x, obstacle->o, 0, shape->cells) >= 0;
 }
 
 /* The largest part of the way that has room, up to the first place that has
@@ -99,8 +100,8 @@ static double free_part(const Contact *contact, const System *system,
     return free;
 }
 
-void push_begin(Contact *contact, const System *system, const double *x,
-                double h)
+void push_begin_step(Contact *contact, const System *system, const double *x,
+                     double h)
 {
     Push *push = &contact->push;
     double way[2];
@@ -118,7 +119,7 @@ void push_begin(Contact *contact, const System *system, const double *x,
         obstacle->v[c] = part * way[c] / h;
 }
 
-double push_most(const Contact *contact, double h)
+double push_max_step(const Contact *contact, double h)
 {
     const Obstacle *obstacle = &contact->obstacle[contact->push.obstacle];
     double length = h * math_hypot(obstacle->v[0], obstacle->v[1]);

@@ -14,14 +14,14 @@ static SelfContact *data_of(const EvalPoint *at)
     return at->term->data;
 }
 
-static double dot(const double a[2], const double b[2])
+static double dot2(const double a[2], const double b[2])
 {
     return a[0] * b[0] + a[1] * b[1];
 }
 
 /* ---- blocks of the matrix ----------------------------------------------- */
 
-static int compare(const void *one, const void *other)
+static int compare_pairs(const void *one, const void *other)
 {
     const SelfPair *a = one, *b = other;
     return a->node != b->node ? a->node - b->node : a->edge - b->edge;
@@ -33,9 +33,9 @@ static int block_of(const SelfContact *self, SelfPair pair)
     const SelfPair *found =
         self->pairs == 0 ? NULL
                          : bsearch(&pair, self->pair, (size_t)self->sorted,
-                                   sizeof pair, compare);
+                                   sizeof pair, compare_pairs);
     for (int i = self->sorted; i < self->pairs && !found; i++)
-        if (compare(&self->pair[i], &pair) == 0)
+        if (compare_pairs(&self->pair[i], &pair) == 0)
             found = &self->pair[i];
     return found ? (int)(found - self->pair) : -1;
 }
@@ -56,7 +56,7 @@ static Status add_pair(SelfContact *self, SelfPair pair)
 
 /* The pairs that come near if all go on as they do get blocks; the list is made
  * of x_n and v_n alone, so that a step knows nothing of those before it. */
-static Status begin(const TermStep *step)
+static Status self_contact_begin_step(const TermStep *step)
 {
     System *system = step->system;
     SelfContact *self = step->term->data;
@@ -74,10 +74,10 @@ static Status begin(const TermStep *step)
     self->pairs = old;
     if (status || count + old == 0)
         return status;
-    qsort(fresh, (size_t)count, sizeof *fresh, compare);
+    qsort(fresh, (size_t)count, sizeof *fresh, compare_pairs);
     size_t bytes = (size_t)count * sizeof *fresh;
     if (grown || count != old || memcmp(self->pair, fresh, bytes) != 0) {
-        system_changed(system, true);
+        system_mark_changed(system, true);
         boundary->version = system->version; /* the springs are as they were */
     }
     memmove(self->pair, fresh, bytes);
@@ -85,11 +85,11 @@ static Status begin(const TermStep *step)
     return STATUS_OK;
 }
 
-static Status grow(const EvalPoint *at, bool *grown)
+static Status self_contact_grow(const EvalPoint *at, bool *grown)
 {
     SelfContact *self = data_of(at);
     Status status = STATUS_OK;
-    for (ElementWalk walk = elements_from(at, NULL, 0);
+    for (ElementIterator walk = elements_begin(at, NULL, 0);
          !status && elements_next(&walk);)
         if (walk.element.block < 0) {
             *grown = true;
@@ -99,7 +99,7 @@ static Status grow(const EvalPoint *at, bool *grown)
     return status;
 }
 
-static int blocks(const EvalPoint *at)
+static int self_contact_block_count(const EvalPoint *at)
 {
     return data_of(at)->pairs;
 }
@@ -112,7 +112,7 @@ static int nodes_of(const System *system, SelfPair pair, int node[3])
     return 3;
 }
 
-static int nodes(const EvalPoint *at, int block, int node[3])
+static int self_contact_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     const SelfContact *self = data_of(at);
     return self->pairs == 0 ? 0 : nodes_of(at->system, self->pair[block], node);
@@ -120,23 +120,24 @@ static int nodes(const EvalPoint *at, int block, int node[3])
 
 /* ---- elements ----------------------------------------------------------- */
 
-static void look(const EvalPoint *at, const double *p, double alpha)
+static void gather_near_edges(const EvalPoint *at, const double *p,
+                              double alpha)
 {
     SelfContact *self = data_of(at);
     boundary_sort(&self->boundary, at->system, at->x, p, alpha,
                   0.5 * self->d_hat);
 }
 
-static int count(const EvalPoint *at)
+static int self_contact_count(const EvalPoint *at)
 {
     return data_of(at)->boundary.points;
 }
 
 /* d^2/d_hat^2, n and r from q and e. */
-static void measure(const SelfContact *self, Element *element)
+static void point_edge_distance(const SelfContact *self, Element *element)
 {
     const double *q = element->v, *e = element->v + 2;
-    double along = dot(q, e), length2 = dot(e, e), d;
+    double along = dot2(q, e), length2 = dot2(e, e), d;
     if (along > 0 && along < length2) {
         double length = sqrt(length2), side = cross(e, q);
         double sign = copysign(1 / length, side);
@@ -148,7 +149,7 @@ static void measure(const SelfContact *self, Element *element)
         element->r = along > 0;
         element->n[0] = q[0] - element->r * e[0];
         element->n[1] = q[1] - element->r * e[1];
-        d = sqrt(dot(element->n, element->n));
+        d = sqrt(dot2(element->n, element->n));
         element->n[0] /= d;
         element->n[1] /= d;
     }
@@ -170,7 +171,8 @@ static bool is_lost(const SelfContact *self, const Element *element,
 
 /* Point i and, where it is asked for again, the next edge.  `way` is in the
  * boxes; without one what is not near has no force. */
-static bool get(const EvalPoint *at, int i, double way, Element *element)
+static bool self_contact_get(const EvalPoint *at, int i, double way,
+                             Element *element)
 {
     static const double differences[2][3] = {{1, -1, 0}, {0, -1, 1}};
     SelfContact *self = data_of(at);
@@ -182,10 +184,10 @@ static bool get(const EvalPoint *at, int i, double way, Element *element)
         element->vectors = 2;
         element->nodes = nodes_of(at->system, pair, element->node);
         element->weight = differences;
-        element->factor = at->w;
+        element->factor = at->weight;
         element->from = edge;
         element_vectors(element, at->x, element->v);
-        measure(self, element);
+        point_edge_distance(self, element);
         if (!boundary->moves && element->s >= 1)
             continue;
         if (is_lost(self, element, at->x))
@@ -197,7 +199,7 @@ static bool get(const EvalPoint *at, int i, double way, Element *element)
     return false;
 }
 
-static double value(const EvalPoint *at, const Element *element)
+static double self_contact_value(const EvalPoint *at, const Element *element)
 {
     return data_of(at)->c * barrier_value(element->s);
 }
@@ -209,7 +211,8 @@ static double force(const SelfContact *self, double S)
 }
 
 /* d changes by n.(dq - r de). */
-static void gradient(const EvalPoint *at, const Element *element, double g[4])
+static void self_contact_gradient(const EvalPoint *at, const Element *element,
+                                  double g[4])
 {
     double F = force(data_of(at), element->s);
     for (int i = 0; i < 4; i++)
@@ -219,13 +222,13 @@ static void gradient(const EvalPoint *at, const Element *element, double g[4])
 /* With w = dq - r de, t along the edge and e_n = n.de: W'' w_n^2, which is
  * never negative, and beside the edge F (2 w_t e_n/|e| + d e_n^2/|e|^2), past
  * an end -F/d w_t^2: a 2x2 matrix in (w_t, e_n), which is projected. */
-static bool hessian(const EvalPoint *at, const Element *element,
-                    Projection projection, double H[4][4])
+static bool self_contact_hessian(const EvalPoint *at, const Element *element,
+                                 Projection projection, double H[4][4])
 {
     const SelfContact *self = data_of(at);
     const double *n = element->n, *e = element->v + 2;
     double S = element->s, r = element->r, d = sqrt(S) * self->d_hat;
-    double F = force(self, S), length = sqrt(dot(e, e));
+    double F = force(self, S), length = sqrt(dot2(e, e));
     double bend = self->c / (self->d_hat * self->d_hat) *
                   (4 * S * barrier_curvature(S) + 2 * barrier_slope(S));
     double sign = copysign(1, cross(e, n)); /* t = n turned back, along e */
@@ -267,18 +270,19 @@ static double ratio_change(Along2 top, Along2 l, bool always, double *first)
            end;
 }
 
-static double remainder_along(const EvalPoint *at, const Element *element,
-                              const double P[4], double alpha)
+static double self_contact_line_remainder(const EvalPoint *at,
+                                          const Element *element,
+                                          const double P[4], double alpha)
 {
     const SelfContact *self = data_of(at);
     const double *q = element->v, *e = element->v + 2;
     const double dq[2] = {alpha * P[0], alpha * P[1]};
     const double de[2] = {alpha * P[2], alpha * P[3]};
     double d_hat2 = self->d_hat * self->d_hat, first = 0;
-    const Along2 l = {dot(e, e), 2 * dot(e, de), dot(de, de)};
+    const Along2 l = {dot2(e, e), 2 * dot2(e, de), dot2(de, de)};
     const Along2 side = {cross(e, q), cross(de, q) + cross(e, dq),
                          cross(de, dq)};
-    const Along2 low = {-dot(q, e), -dot(dq, e) - dot(q, de), -dot(dq, de)};
+    const Along2 low = {-dot2(q, e), -dot2(dq, e) - dot2(q, de), -dot2(dq, de)};
     const Along2 high = {-low.N - l.N, -low.n1 - l.n1, -low.n2 - l.n2};
     double rest = ratio_change(side, l, true, &first) +
                   ratio_change(low, l, false, &first) +
@@ -294,8 +298,8 @@ static double remainder_along(const EvalPoint *at, const Element *element,
  * between its ends: a quadratic equation.  (Both at once along one line, which
  * no root tells, happens to edges beside each other: there another edge at the
  * same end tells.) */
-static double reach(const EvalPoint *at, const Element *element,
-                    const double P[4])
+static double self_contact_max_step(const EvalPoint *at, const Element *element,
+                                    const double P[4])
 {
     static const double ENDS = 1e-9; /* of an edge: rounding of its ends */
     const double *q = element->v, *e = element->v + 2, *dq = P, *de = P + 2;
@@ -311,7 +315,7 @@ static double reach(const EvalPoint *at, const Element *element,
         double alpha = root[i];
         const double Q[2] = {q[0] + alpha * dq[0], q[1] + alpha * dq[1]};
         const double E[2] = {e[0] + alpha * de[0], e[1] + alpha * de[1]};
-        double r = dot(Q, E) / dot(E, E);
+        double r = dot2(Q, E) / dot2(E, E);
         if (alpha > 0 && alpha < first && r >= -ENDS && r <= 1 + ENDS)
             first = alpha;
     }
@@ -319,8 +323,9 @@ static double reach(const EvalPoint *at, const Element *element,
 }
 
 /* mu F; slides with w_t. */
-static double rub(const EvalPoint *at, const Element *element, double t[4],
-                  double *carry)
+static double self_contact_friction_limit(const EvalPoint *at,
+                                          const Element *element, double t[4],
+                                          double *carry)
 {
     const SelfContact *self = data_of(at);
     const double *n = element->n;
@@ -332,14 +337,24 @@ static double rub(const EvalPoint *at, const Element *element, double t[4],
     return self->friction * force(self, element->s);
 }
 
-static const ElementKind near_pairs = {ELEMENT_FUNCTIONS, .blocks = blocks,
-                                       .look = look, .reach = reach,
-                                       .rub = rub};
+static const ElementKind near_pairs = {
+    .count = self_contact_count,
+    .get = self_contact_get,
+    .block_nodes = self_contact_block_nodes,
+    .value = self_contact_value,
+    .gradient = self_contact_gradient,
+    .hessian = self_contact_hessian,
+    .line_remainder = self_contact_line_remainder,
+    .block_count = self_contact_block_count,
+    .prepare = gather_near_edges,
+    .max_step = self_contact_max_step,
+    .friction_limit = self_contact_friction_limit,
+};
 
 /* ---- the term ----------------------------------------------------------- */
 
 /* The curvature where the barrier begins, 16 c/d_hat^2. */
-static double curvature_bound(const EvalPoint *at)
+static double self_contact_curvature_bound(const EvalPoint *at)
 {
     const SelfContact *self = data_of(at);
     return 16 * self->c / (self->d_hat * self->d_hat);
@@ -355,24 +370,24 @@ const TermKind self_contact_energy = {
     ELEMENTS(near_pairs),
     .energy = "contact",
     .place = PLACE_CONTACT,
-    .begin = begin,
-    .grow = grow,
-    .curvature_bound = curvature_bound,
+    .begin_step = self_contact_begin_step,
+    .grow = self_contact_grow,
+    .curvature_bound = self_contact_curvature_bound,
     .free = free_pairs,
     .internal = true,
-    .end_of_step = true,
+    .backward_euler_only = true,
 };
 
 SelfContact *self_contact_of(const System *system)
 {
-    return system_data(system, &self_contact_energy);
+    return system_term_data(system, &self_contact_energy);
 }
 
 Status self_contact_set(System *system, const SquareMesh *mesh,
                         const Barrier *barrier, double friction)
 {
-    SelfContact *self = system_term(system, &self_contact_energy,
-                                    sizeof *self + boundary_bytes(mesh));
+    SelfContact *self = system_add_term(system, &self_contact_energy,
+                                        sizeof *self + boundary_bytes(mesh));
     if (!self)
         return STATUS_OUT_OF_MEMORY;
     if (!self->boundary.box)

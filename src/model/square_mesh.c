@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies)
+SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
 {
     int springs = columns * (rows + 1) + rows * (columns + 1);
     return (SquareMesh){.segments = columns,
@@ -29,21 +29,21 @@ static int body_of(const SquareMesh *shape, int all, int *i)
 }
 
 /* The node of column i, row j: nodes are counted up each column. */
-static int node_at(const SquareMesh *shape, int i, int j)
+static int grid_node(const SquareMesh *shape, int i, int j)
 {
     return i * (shape->rows + 1) + j;
 }
 
-int square_mesh_body(const SquareMesh *shape, int *i)
+int square_mesh_locate_body(const SquareMesh *shape, int *i)
 {
     return body_of(shape, shape->nodes, i);
 }
 
 /* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
-void square_mesh_place(const SquareMesh *shape, int i, double x[2])
+void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 {
-    int stride = node_at(shape, 1, 0);
-    square_mesh_body(shape, &i);
+    int stride = grid_node(shape, 1, 0);
+    square_mesh_locate_body(shape, &i);
     double step = shape->spacing;
     double high =
         shape->rows == shape->segments ? shape->side : shape->rows * step;
@@ -51,35 +51,35 @@ void square_mesh_place(const SquareMesh *shape, int i, double x[2])
     x[1] = -high / 2 + i % stride * step;
 }
 
-int square_mesh_sides(const SquareMesh *shape, int i)
+int square_mesh_get_sides(const SquareMesh *shape, int i)
 {
-    square_mesh_body(shape, &i);
-    int stride = node_at(shape, 1, 0), column = i / stride, row = i % stride;
+    square_mesh_locate_body(shape, &i);
+    int stride = grid_node(shape, 1, 0), column = i / stride, row = i % stride;
     return (column == 0 ? MESH_LEFT : 0) |
            (column == shape->segments ? MESH_RIGHT : 0) |
            (row == 0 ? MESH_BOTTOM : 0) | (row == shape->rows ? MESH_TOP : 0);
 }
 
-void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
-                      int spring[6])
+void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
+                          int spring[6])
 {
     int columns = shape->segments, rows = shape->rows;
-    square_mesh_patch(shape, c, 1, node);
+    square_mesh_get_patch(shape, c, 1, node);
     int first = body_of(shape, shape->cells, &c);
     first *= shape->springs / shape->bodies;
     int a = first + c / rows * (rows + 1) + c % rows;
-    int upright = first + node_at(shape, columns, 0) + c;
+    int upright = first + grid_node(shape, columns, 0) + c;
     int diagonals = upright + (columns + 1) * rows + c;
     const int springs[6] = {a,       upright + rows, a + 1,
                             upright, diagonals,      diagonals + 1};
     memcpy(spring, springs, sizeof springs);
 }
 
-void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
-                          int side[3])
+void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
+                              int side[3])
 {
     int corner[4], spring[6], k = t % 4, before = (t + 3) % 4;
-    square_mesh_cell(shape, t / 4, corner, spring);
+    square_mesh_get_cell(shape, t / 4, corner, spring);
     node[0] = corner[k];
     node[1] = corner[(k + 1) % 4];
     node[2] = corner[before];
@@ -94,12 +94,12 @@ static double twice_area(const double *a, const double *b, const double *p)
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-int square_mesh_cell_at(const SquareMesh *shape, const double *x,
-                        const double *at, int cell, int end)
+int square_mesh_find_cell(const SquareMesh *shape, const double *x,
+                          const double *at, int cell, int end)
 {
     int node[3], side[3];
     for (int t = 4 * cell; t < 4 * end; t++) {
-        square_mesh_triangle(shape, t, node, side);
+        square_mesh_get_triangle(shape, t, node, side);
         const double *a = x + 2 * node[0], *b = x + 2 * node[1];
         const double *c = x + 2 * node[2];
         double turn = twice_area(a, b, c) < 0 ? -1 : 1;
@@ -118,7 +118,8 @@ bool square_mesh_is_half(const SquareMesh *shape, int t)
     return (c / shape->rows + c % shape->rows + t) % 2;
 }
 
-bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4])
+bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
+                           int node[4])
 {
     int columns = shape->segments, rows = shape->rows;
     int first = body_of(shape, shape->cells, &c);
@@ -126,10 +127,10 @@ bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4])
     int left = c / rows, low = c % rows;
     int right = left + cells < columns ? left + cells : columns;
     int up = low + cells < rows ? low + cells : rows;
-    node[0] = first + node_at(shape, left, low);
-    node[1] = first + node_at(shape, right, low);
-    node[2] = first + node_at(shape, right, up);
-    node[3] = first + node_at(shape, left, up);
+    node[0] = first + grid_node(shape, left, low);
+    node[1] = first + grid_node(shape, right, low);
+    node[2] = first + grid_node(shape, right, up);
+    node[3] = first + grid_node(shape, left, up);
     return cells == 1 || (left % cells == 0 && low % cells == 0);
 }
 
@@ -138,15 +139,15 @@ static int outline_node(const SquareMesh *shape, int k)
 {
     int columns = shape->segments, rows = shape->rows;
     if (k < columns)
-        return node_at(shape, k, 0);
+        return grid_node(shape, k, 0);
     if (k < columns + rows)
-        return node_at(shape, columns, k - columns);
+        return grid_node(shape, columns, k - columns);
     if (k < 2 * columns + rows)
-        return node_at(shape, 2 * columns + rows - k, rows);
+        return grid_node(shape, 2 * columns + rows - k, rows);
     return 2 * (columns + rows) - k;
 }
 
-void square_mesh_outline(const SquareMesh *shape, int k, int node[2])
+void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])
 {
     int first = body_of(shape, shape->outline, &k);
     first *= shape->nodes / shape->bodies;
@@ -162,14 +163,14 @@ static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
 {
     for (int i = 0; i + right <= shape->segments; i++)
         for (int j = 0; j + up <= shape->rows; j++) {
-            *e++ = first + node_at(shape, i, j);
-            *e++ = first + node_at(shape, i + right, j + up);
+            *e++ = first + grid_node(shape, i, j);
+            *e++ = first + grid_node(shape, i + right, j + up);
         }
     return e;
 }
 
 /* In the order of the slide: horizontal, vertical, both diagonals of a cell. */
-void square_mesh_springs(const SquareMesh *shape, int *e)
+void square_mesh_list_springs(const SquareMesh *shape, int *e)
 {
     int each = shape->nodes / shape->bodies, spring[6], c = 0;
     for (int first = 0; first < shape->nodes; first += each) {
@@ -177,7 +178,7 @@ void square_mesh_springs(const SquareMesh *shape, int *e)
         e = list_springs(shape, first, e, 0, 1);
         for (int end = c + shape->segments * shape->rows; c < end;
              c++, e += 4) {
-            square_mesh_cell(shape, c, e, spring); /* a b c d */
+            square_mesh_get_cell(shape, c, e, spring); /* a b c d */
             const int diagonals[4] = {e[0], e[2], e[1], e[3]};
             memcpy(e, diagonals, sizeof diagonals);
         }
@@ -212,11 +213,11 @@ static int dissect_grid(const SquareMesh *shape, GridPart part, int next,
     }
     for (int i = part.begin[0]; i < part.end[0]; i++)
         for (int j = part.begin[1]; j < part.end[1]; j++)
-            order[node_at(shape, i, j)] = next++;
+            order[grid_node(shape, i, j)] = next++;
     return next;
 }
 
-void square_mesh_order(const SquareMesh *shape, int *order)
+void square_mesh_order_nodes(const SquareMesh *shape, int *order)
 {
     const GridPart all = {{0, 0}, {shape->segments + 1, shape->rows + 1}};
     for (int next = 0; next < shape->nodes;)

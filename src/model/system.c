@@ -29,12 +29,12 @@ Status system_create(int nodes, int springs, System *system)
     for (int i = 0; i < nodes; i++)
         system->order[i] = i;
     system->pinned = (unsigned char *)(system->order + n);
-    return springs == 0 || system_term(system, &mass_spring_energy, 1)
+    return springs == 0 || system_add_term(system, &mass_spring_energy, 1)
                ? STATUS_OK
                : STATUS_OUT_OF_MEMORY;
 }
 
-void system_changed(System *system, bool pattern)
+void system_mark_changed(System *system, bool pattern)
 {
     system->version++;
     system->pattern += pattern;
@@ -65,16 +65,16 @@ Term *system_find_term(const System *system, const TermKind *kind)
     return NULL;
 }
 
-void *system_data(const System *system, const TermKind *kind)
+void *system_term_data(const System *system, const TermKind *kind)
 {
     const Term *term = system_find_term(system, kind);
     return term ? term->data : NULL;
 }
 
-void *system_term(System *system, const TermKind *kind, size_t bytes)
+void *system_add_term(System *system, const TermKind *kind, size_t bytes)
 {
     int place = system->terms;
-    void *data = system_data(system, kind);
+    void *data = system_term_data(system, kind);
     if (data || place == SYSTEM_MAX_TERMS || !(data = calloc(1, bytes)))
         return data;
     for (; place > 0 && system->term[place - 1].kind->place > kind->place;
@@ -82,7 +82,7 @@ void *system_term(System *system, const TermKind *kind, size_t bytes)
         system->term[place] = system->term[place - 1];
     system->term[place] = (Term){.kind = kind, .data = data};
     system->terms++;
-    system_changed(system, true);
+    system_mark_changed(system, true);
     return data;
 }
 
@@ -95,11 +95,11 @@ void system_remove_term(System *system, const TermKind *kind)
     Term *end = system->term + --system->terms;
     for (; term < end; term++)
         term[0] = term[1];
-    system_changed(system, true);
+    system_mark_changed(system, true);
 }
 
 /* Into the row of this name, or the free one behind. */
-void system_lose(System *system, const TermKind *kind, double energy)
+void system_book_loss(System *system, const TermKind *kind, double energy)
 {
     Loss *loss = system->lost;
     while (loss->name && strcmp(loss->name, kind->loss) != 0)
@@ -117,9 +117,9 @@ static bool is_positive(double value)
 EvalPoint eval_point_at(const System *system, const double *x_n,
                         const double *u, const double *x)
 {
-    const Damping *damped = u ? system_data(system, &damping) : NULL;
+    const Damping *damped = u ? system_term_data(system, &damping) : NULL;
     return (EvalPoint){.system = system,
-                       .w = 1,
+                       .weight = 1,
                        .x_n = x_n,
                        .u = u,
                        .x = x,
@@ -150,27 +150,27 @@ Status system_check(const System *system, const double *x)
     }
     for (int t = 0; valid && t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
-        valid = !kind->allowed || kind->allowed(&at);
+        valid = !kind->is_feasible || kind->is_feasible(&at);
     }
     return valid && isfinite(system_curvature_bound(system))
                ? STATUS_OK
                : STATUS_INVALID_INPUT;
 }
 
-double system_reach(EvalPoint at, const double *p, bool internal)
+double system_max_step(EvalPoint at, const double *p, bool internal)
 {
     double reach = INFINITY;
     for (int t = 0; t < at.system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
-        if (kind->reach && (kind->internal || !internal))
-            reach = fmin(reach, kind->reach(&at, p));
+        if (kind->max_step && (kind->internal || !internal))
+            reach = fmin(reach, kind->max_step(&at, p));
     }
     return reach;
 }
 
-bool system_lets_pass(const System *system, const double *x, const double *p)
+bool system_path_is_free(const System *system, const double *x, const double *p)
 {
-    return system_reach(eval_point_at(system, NULL, NULL, x), p, true) > 1;
+    return system_max_step(eval_point_at(system, NULL, NULL, x), p, true) > 1;
 }
 
 bool system_has_gravity(const System *system)
@@ -212,7 +212,7 @@ void system_clear_pinned(const System *system, double *g)
             g[2 * i] = g[2 * i + 1] = 0;
 }
 
-bool system_is_free(const System *system)
+bool system_falls_freely(const System *system)
 {
     for (int t = 0; t < system->terms; t++)
         if (!system->term[t].kind->internal)
@@ -223,7 +223,7 @@ bool system_is_free(const System *system)
 void system_acceleration(const System *system, const double *x, double *a)
 {
     EvalPoint at = eval_point_at(system, x, NULL, x);
-    at.w = -1;
+    at.weight = -1;
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
     for (int t = 0; t < system->terms; t++) {
@@ -243,7 +243,7 @@ double system_curvature_bound(const System *system)
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
         if (kind->curvature_bound)
-            most = larger_bound(most, kind->curvature_bound(&at));
+            most = max_or_nan(most, kind->curvature_bound(&at));
     }
     return most;
 }

@@ -64,7 +64,7 @@ static double triangle_value(const void *data, double J)
         f[i] += part * n[0];
         f[i + 1] += part * n[1];
     }
-    return gap_value(&there, J) / solid_of(there.at.system)->area;
+    return gap_value(&there, J) / neo_hookean_of(there.at.system)->area;
 }
 
 static double slip_value(const void *now, double v)
@@ -106,10 +106,10 @@ static const Law laws[] = {
 static void find_spring(LawNow *now, int s)
 {
     const System *system = now->at.system;
-    const Plasticity *flow = system_data(system, &plastic_energy);
-    const Fracture *tear = system_data(system, &fracture);
+    const Plasticity *flow = system_term_data(system, &plastic_energy);
+    const Fracture *tear = system_term_data(system, &fracture);
     double d[2];
-    now->spring = plasticity_law(system, s);
+    now->spring = plasticity_get_law(system, s);
     double d2 = spring_vector(system->e + 2 * s, now->at.x, d);
     now->x = spring_strain(d2, system->l2[s]);
     now->x /= tear ? fracture_strength(tear, s) : 1;
@@ -159,7 +159,7 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
     if (!law->source)
         return law;
     most->at.term = now.at.term = system_find_term(system, law->source);
-    for (ElementWalk walk = elements_from(&now.at, NULL, 0);
+    for (ElementIterator walk = elements_begin(&now.at, NULL, 0);
          elements_next(&walk);) {
         const Element *element = &walk.element;
         double t[4], w[4], slip, mean = now.pressed > 0 ? now.x : 0;
@@ -168,7 +168,7 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
         now.x = law->value == near_value ? sqrt(element->s) * now.reach
                                          : element->s;
         if (law->value == slip_value) {
-            now.felt = walk.kind->rub(&now.at, element, t, &slip);
+            now.felt = walk.kind->friction_limit(&now.at, element, t, &slip);
             element_vectors(element, v, w);
             for (int i = 0; i < 2 * element->vectors; i++)
                 slip -= t[i] * w[i];
@@ -219,7 +219,7 @@ static double force_of(const LawNow *now)
  * and fro, or not at all. */
 static bool flowed_one_way(const LawNow *now, double from[2], double to[2])
 {
-    const Plasticity *flow = system_data(now->at.system, &plastic_energy);
+    const Plasticity *flow = system_term_data(now->at.system, &plastic_energy);
     double ep = now->spring.ep, most = flow ? now->spring.yield : 0;
     double away = flow ? most - flow->yield - flow->hardening * fabs(ep) : 0;
     from[0] = from[1] = flow ? copysign(flow->yield, ep) : 0;

@@ -93,7 +93,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "raw", options->projection == PROJECTION_NONE);
     fact_when(facts, "whole", whole);
     fact(facts, "springs", simulation->system.springs);
-    fact_when(facts, "of a solid", solid_of(&simulation->system));
+    fact_when(facts, "of a solid", neo_hookean_of(&simulation->system));
     fact_when(facts, "done", simulation->done);
     fact_when(facts, "paused", show->paused);
     fact_when(facts, show->veiled ? "asked" : "told", true);

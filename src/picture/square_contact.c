@@ -13,10 +13,10 @@ static const double SLAB = 1;           /* ems, depth of a thin wall */
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 
-ElementWalk square_contacts(const SpringPen *pen)
+ElementIterator square_contacts(const SpringPen *pen)
 {
-    return pen->contact ? elements_from(&pen->contacts, NULL, 0)
-                        : (ElementWalk){0};
+    return pen->contact ? elements_begin(&pen->contacts, NULL, 0)
+                        : (ElementIterator){0};
 }
 
 Touch square_touch(const SpringPen *pen, const Element *element)
@@ -24,9 +24,9 @@ Touch square_touch(const SpringPen *pen, const Element *element)
     const Term *term = system_find_term(pen->system, &friction_energy);
     const double *n = element->n, h = pen->simulation->options.timestep;
     const ElementKind *kind = pen->contacts.term->kind->element;
-    double push = contact_force(&pen->contact->barrier, element->s);
+    double push = contact_normal_force(&pen->contact->barrier, element->s);
     double t[4], v[4], carry, rub = 0;
-    double grip = kind->rub(&pen->contacts, element, t, &carry);
+    double grip = kind->friction_limit(&pen->contacts, element, t, &carry);
     Touch touch = {.node = element->node[0], .rough = term && grip > 0};
     if (touch.rough) {
         double speed = ((const Friction *)term->data)->slip_speed;
@@ -45,7 +45,8 @@ void square_contact_forces(const SpringPen *pen, int runs)
     Plot *stage = pen->stage;
     double most = 0; /* the largest force, N */
     for (int r = 0; r < runs; r++)
-        for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
+        for (ElementIterator at = square_contacts(&pen[r]);
+             elements_next(&at);) {
             Touch touch = square_touch(&pen[r], &at.element);
             most = fmax(most, length_of(touch.force));
         }
@@ -54,7 +55,8 @@ void square_contact_forces(const SpringPen *pen, int runs)
     double round = plot_round_up(most);
     double factor = FORCE_ROOM * stage->em / stage->camera.scale[0] / round;
     for (int r = runs - 1; r >= 0; r--)
-        for (ElementWalk at = square_contacts(&pen[r]); elements_next(&at);) {
+        for (ElementIterator at = square_contacts(&pen[r]);
+             elements_next(&at);) {
             Touch touch = square_touch(&pen[r], &at.element);
             const double *x = pen[r].x + 2 * touch.node, *f = touch.force;
             double radius = fmax(pen[r].radius, 2);
@@ -135,7 +137,7 @@ void square_contact_obstacles(const SpringPen *pen)
     double reach = contact ? contact->barrier.d_hat : 0;
     for (int i = 0; contact && i < contact->obstacles; i++) {
         const Obstacle *obstacle = &contact->obstacle[i];
-        const double *at = obstacle_point(obstacle, pen->x);
+        const double *at = obstacle_origin(obstacle, pen->x);
         double radius = obstacle->radius * scale;
         if (obstacle->kind == OBSTACLE_WALL) {
             draw_wall(stage, obstacle, reach, apart);

@@ -26,7 +26,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     const double *at = pane_x(&stage->show->pane[stage->pane]);
     double spacing = stage->camera.scale[0] * mesh->spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
-    int springs = solid_of(system) ? 0 : system->springs;
+    int springs = neo_hookean_of(system) ? 0 : system->springs;
     Pick node = *pick;
     if (plot_pick(stage, system->nodes, at, fmax(reach, 0.75 * spacing), x, y,
                   PICK_NODE, &node))
@@ -51,8 +51,8 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     }
     if (pick->kind == PICK_SPRING) {
         const int *e = system->e + 2 * (size_t)pick->index;
-        int sides =
-            square_mesh_sides(mesh, e[0]) & square_mesh_sides(mesh, e[1]);
+        int sides = square_mesh_get_sides(mesh, e[0]) &
+                    square_mesh_get_sides(mesh, e[1]);
         if (stage->show->paused && simulation->steps == 0 &&
             options->bodies == 0 && sides & (MESH_LEFT | MESH_RIGHT)) {
             pick->kind = PICK_EDGE;
@@ -62,7 +62,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     }
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
-        if (contact_gap(obstacle, obstacle->o, pick->point, 0).d > 0)
+        if (contact_measure_gap(obstacle, obstacle->o, pick->point, 0).d > 0)
             continue;
         pick->kind = PICK_OBSTACLE;
         pick->index = k;
@@ -108,7 +108,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
     EvalPoint at = eval_point_at(system, pane_x(pane), NULL, pane_x(pane));
     Facts facts = {0};
-    at.w = -1;
+    at.weight = -1;
     for (int t = 0; f && t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
         if (kind->gradient)
@@ -140,15 +140,15 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
     Projection projection = pane->simulation->options.projection;
-    double k = solid_of(system) ? NAN : system->k[s]; /* NaN: no block */
+    double k = neo_hookean_of(system) ? NAN : system->k[s]; /* NaN: no block */
     double l2 = system->l2[s], d[2];
     double d2 = spring_vector(e, pane_x(pane), d);
-    const FlowLaw law = plasticity_law(system, s);
-    double s_e = spring_across(d2, l2) / l2 - law.ep;
+    const FlowLaw law = plasticity_get_law(system, s);
+    double s_e = spring_eigenvalue_across(d2, l2) / l2 - law.ep;
     double across = l2 * flow_law_slope(law, s_e);
-    double along = flow_law_along(law, s_e, d2, across);
-    across *= 2 * spring_c(l2, k);
-    along *= 2 * spring_c(l2, k);
+    double along = flow_law_eigenvalue_along(law, s_e, d2, across);
+    across *= 2 * spring_hessian_factor(l2, k);
+    along *= 2 * spring_hessian_factor(l2, k);
     Facts facts = {0};
     fact(&facts, "a", e[0]);
     fact(&facts, "b", e[1]);

@@ -36,7 +36,7 @@ static bool is_fixed(const SpringPen *pen, int node)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     return pen->fixed && node < mesh->nodes &&
-           pen->fixed >> square_mesh_body(mesh, &node) & 1;
+           pen->fixed >> square_mesh_locate_body(mesh, &node) & 1;
 }
 
 SpringPen square_pen(Plot *stage, int run)
@@ -46,7 +46,7 @@ SpringPen square_pen(Plot *stage, int run)
     const Simulation *simulation = stage->simulation;
     const Trace *trace = pane->trace;
     const System *system = simulation->run[run].system;
-    const Plasticity *plasticity = system_data(system, &plastic_energy);
+    const Plasticity *plasticity = system_term_data(system, &plastic_energy);
     const SquareMesh *mesh = &simulation->mesh;
     SpringPen pen = {.stage = stage,
                      .simulation = simulation,
@@ -66,7 +66,7 @@ SpringPen square_pen(Plot *stage, int run)
     for (int i = 0; pen.fixed && i < mesh->nodes; i++) {
         int node = i;
         if (!system->pinned[i])
-            pen.fixed &= ~(1u << square_mesh_body(mesh, &node));
+            pen.fixed &= ~(1u << square_mesh_locate_body(mesh, &node));
     }
     pen.contacts = eval_point_at(system, NULL, NULL, pen.x);
     pen.contacts.term = system_find_term(system, &contact_energy);
@@ -85,7 +85,7 @@ SpringPen square_pen(Plot *stage, int run)
     pen.projected = trace && trace->line >= LINE_PROJECT &&
                     trace->line <= LINE_SEARCH && !show->strain &&
                     simulation->options.projection != PROJECTION_NONE &&
-                    trace->projected != 0 && !solid_of(system);
+                    trace->projected != 0 && !neo_hookean_of(system);
     return pen;
 }
 
@@ -153,7 +153,7 @@ static bool is_folded(const double *x, const int node[4])
 static bool cell_is_whole(const Simulation *simulation, int cell, int node[4])
 {
     int spring[6], broken = 0;
-    square_mesh_cell(&simulation->mesh, cell, node, spring);
+    square_mesh_get_cell(&simulation->mesh, cell, node, spring);
     for (int k = 0; k < 6; k++)
         broken += spring_is_broken(&simulation->system, spring[k]);
     return broken == 0;
@@ -189,7 +189,7 @@ static Colour shade(double part)
  * darker where it is pressed. */
 int square_cells(const SpringPen *pen, bool all)
 {
-    const NeoHookean *solid = solid_of(pen->system);
+    const NeoHookean *solid = neo_hookean_of(pen->system);
     int folded = 0, node[4];
     for (int t = 0; solid && t < solid->triangles; t++) {
         const int *n = solid->node[t], face[4] = {n[0], n[1], n[2], n[2]};
@@ -222,7 +222,7 @@ static Colour face_colour(const SpringPen *pen, const int node[4], double side,
     double d2 = spring_vector((int[2]){node[2], node[0]}, pen->x, d);
     double strain = (sqrt(d2) + sqrt(other2)) / (2 * sqrt(l2)) - 1;
     if (pen->ep)
-        square_mesh_cell(&pen->simulation->mesh, cell, corner, spring);
+        square_mesh_get_cell(&pen->simulation->mesh, cell, corner, spring);
     for (int k = 0; pen->ep && k < 6; k++)
         if (fabs(pen->ep[spring[k]]) > fabs(plastic))
             plastic = pen->ep[spring[k]];
@@ -238,11 +238,12 @@ void square_faces(const SpringPen *pen)
     const SquareMesh *mesh = &pen->simulation->mesh;
     int wide = (int)fmin(fmax(FACE / pen->spacing, 1), mesh->cells), node[4];
     for (int cell = 0; cell < mesh->cells; cell++)
-        if (square_mesh_patch(mesh, cell, wide, node))
+        if (square_mesh_get_patch(mesh, cell, wide, node))
             fill_face(pen, node,
                       face_colour(pen, node, wide * mesh->spacing, cell));
     for (int cell = 0; cell < mesh->cells; cell++)
-        if (square_mesh_patch(mesh, cell, 1, node) && is_folded(pen->x, node))
+        if (square_mesh_get_patch(mesh, cell, 1, node) &&
+            is_folded(pen->x, node))
             fill_face(pen, node, COLOUR_FOLDED);
     square_outline(pen, pen->x, false, COLOUR_X);
 }
@@ -264,7 +265,7 @@ void square_nodes(const SpringPen *pen)
     }
     for (int k = 0; pen->fixed && k < pen->simulation->mesh.outline; k++) {
         int node[2];
-        square_mesh_outline(&pen->simulation->mesh, k, node);
+        square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);
         if (is_fixed(pen, node[0]))
             plot_line(pen->stage, node_at(pen, node[0]), node_at(pen, node[1]),
                       1.5, COLOUR_EDGE);
@@ -278,12 +279,12 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
     double phase = 0, end[2][2];
     for (int k = 0; k < mesh->outline; k++) {
         int node[2];
-        square_mesh_outline(mesh, k, node);
+        square_mesh_get_outline_edge(mesh, k, node);
         for (int i = 0; i < 2; i++)
             if (x)
                 memcpy(end[i], x + 2 * (size_t)node[i], sizeof end[i]);
             else
-                square_mesh_place(mesh, node[i], end[i]);
+                square_mesh_rest_position(mesh, node[i], end[i]);
         if (dashed)
             plot_dashes(pen->stage, end[0], end[1], 1.4, &phase, colour);
         else
@@ -293,7 +294,7 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
 
 void square_ghost(const SpringPen *pen, const double *x, Colour colour)
 {
-    bool torn = system_data(pen->system, &fracture);
+    bool torn = system_term_data(pen->system, &fracture);
     if (torn || pen->system->springs <= GHOST_SPRINGS)
         plot_springs(pen->stage, pen->system, x, 1,
                      (colour & 0xffffff) | 0x50000000u);

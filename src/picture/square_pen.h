@@ -57,9 +57,9 @@ void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 /* ---- contact: it follows from positions and velocities alone, so that a state
  * from the history is drawn as it was when it was new ---------------------- */
 
-/* The contacts of a run: for (ElementWalk at = square_contacts(pen);
+/* The contacts of a run: for (ElementIterator at = square_contacts(pen);
  * elements_next(&at);) square_touch(pen, &at.element). */
-ElementWalk square_contacts(const SpringPen *pen);
+ElementIterator square_contacts(const SpringPen *pen);
 
 /* One of them as it is now, with the normal force of now. */
 typedef struct Touch {

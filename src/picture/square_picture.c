@@ -116,7 +116,7 @@ static void add_obstacles(const Plot *stage, Extent *view)
     double air = 0.04 * fmin(view->size[0], view->size[1]);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
-        Gap gap = contact_gap(obstacle, obstacle->o, seen.middle, 0);
+        Gap gap = contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
             widen_view(&seen, obstacle->o, obstacle->radius + air, BALL_REACH,
@@ -278,8 +278,8 @@ static int draw_ground(const SpringPen *pen)
         if (pen->stage->pane == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
-    int folded =
-        square_cells(pen, pen->contact || system_data(pen->system, &fracture));
+    int folded = square_cells(
+        pen, pen->contact || system_term_data(pen->system, &fracture));
     if (pane->ghost) {
         square_ghost(pen, pane->ghost, COLOUR_GHOST);
         plot_legend(pen->stage, COLOUR_GHOST, "ghost: %.*s",
@@ -396,7 +396,7 @@ static void draw_arrows(const SpringPen *pen, const double *d, double factor,
 static void rest_places(const Simulation *simulation, double *x)
 {
     for (int i = 0; i < simulation->mesh.nodes; i++)
-        square_mesh_place(&simulation->mesh, i, x + 2 * i);
+        square_mesh_rest_position(&simulation->mesh, i, x + 2 * i);
 }
 
 /* The force on each node, or how far it is from there, where a page wants it.
@@ -569,7 +569,7 @@ void square_draw(Plot *stage)
         square_outline(pen, pen->x, false, COLOUR_X);
     else if (stage->told && layers & (LAYER_CUTS | LAYER_KINDS))
         draw_kinds(pen);
-    else if (pen->spacing >= LEAST_CELL || system_data(system, &fracture))
+    else if (pen->spacing >= LEAST_CELL || system_term_data(system, &fracture))
         square_springs(pen);
     else
         square_faces(pen);

@@ -37,7 +37,7 @@ static void add_states(Table *table, const Moment *at)
 static void add_springs(Table *table, const Moment *at)
 {
     const System *system = at->run->system;
-    const Plasticity *flow = system_data(system, &plastic_energy);
+    const Plasticity *flow = system_term_data(system, &plastic_energy);
     double d[2];
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;

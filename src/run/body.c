@@ -49,9 +49,9 @@ Status pins_read(const char *text, const SquareMesh *shape,
         if (!good || number > most || (text[end] && text[end] != ','))
             return STATUS_INVALID_INPUT;
         for (int i = 0; pinned && i < shape->nodes; i++) {
-            int own = i, sides = square_mesh_sides(shape, i);
-            bool here =
-                !digits[0] || square_mesh_body(shape, &own) + 1 == number;
+            int own = i, sides = square_mesh_get_sides(shape, i);
+            bool here = !digits[0] ||
+                        square_mesh_locate_body(shape, &own) + 1 == number;
             pinned[i] |= name[0] ? here && (sides & word->side) == word->side &&
                                        (!word->other || (sides & word->other))
                                  : i == number;
@@ -69,8 +69,8 @@ SquareMesh body_shape(const Options *options)
     double aspect = options->scene->body.aspect;
     double rows =
         aspect > 0 ? round(options->segments * aspect) : options->segments;
-    return square_mesh_shape((int)options->segments, (int)fmax(rows, 1),
-                             options->side, (int)fmax(options->bodies, 1));
+    return square_mesh_create((int)options->segments, (int)fmax(rows, 1),
+                              options->side, (int)fmax(options->bodies, 1));
 }
 
 /* Last node if it is the centre of a ball of the scene, else -1. */
@@ -106,11 +106,11 @@ static Status create_system(const Options *options, System *system)
     m *= (double)shape.rows / shape.segments;
     for (int i = 0; i < system->nodes; i++)
         system->m[i] = m;
-    square_mesh_springs(&shape, system->e);
+    square_mesh_list_springs(&shape, system->e);
     for (int s = 0; s < shape.springs; s++) {
         double xi[2], xj[2];
-        square_mesh_place(&shape, system->e[2 * s], xi);
-        square_mesh_place(&shape, system->e[2 * s + 1], xj);
+        square_mesh_rest_position(&shape, system->e[2 * s], xi);
+        square_mesh_rest_position(&shape, system->e[2 * s + 1], xj);
         double dx = xi[0] - xj[0], dy = xi[1] - xj[1];
         system->l2[s] = dx * dx + dy * dy;
         system->k[s] = options->stiffness;
@@ -118,7 +118,7 @@ static Status create_system(const Options *options, System *system)
     if (square && ball < 0 && shape.bodies == 1)
         system->segments = shape.segments;
     system->gravity[1] = -options->gravity;
-    square_mesh_order(&shape, system->order);
+    square_mesh_order_nodes(&shape, system->order);
     return options->pin ? pins_read(options->pin, &shape, system->pinned)
                         : STATUS_OK;
 }
@@ -281,10 +281,10 @@ static Status place_body(const Options *options, int run, double *x, double *v,
                                 count_runs(options), x, v, told);
     for (int i = 0; i < shape.nodes; i++) {
         double rest[2];
-        int node = i, body = square_mesh_body(&shape, &node);
+        int node = i, body = square_mesh_locate_body(&shape, &node);
         const double *start = options->bodies > 0 ? options->body[body] : only;
         double angle = start[2] * DEGREE, c = cos(angle), s = sin(angle);
-        square_mesh_place(&shape, i, rest);
+        square_mesh_rest_position(&shape, i, rest);
         rest[0] *= start[5];
         rest[1] *= start[6];
         x[2 * i] = c * rest[0] - s * rest[1] + start[0];
@@ -360,7 +360,7 @@ Status body_follow(Simulation *simulation, int run)
     for (int s = 0; s < system->springs; s++)
         if (!spring_is_broken(system, s))
             system->k[s] = options.stiffness;
-    system_changed(system, false);
+    system_mark_changed(system, false);
     return set_terms(&options, system);
 }
 
@@ -373,7 +373,8 @@ Status create_square(Simulation *simulation)
 const char *body_needs_end_of_step(const Options *options)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->term && row->term->end_of_step && option_is_on(row, options))
+        if (row->term && row->term->backward_euler_only &&
+            option_is_on(row, options))
             return row->term->name;
     return options->scene->body.moving_pins ? "moving pins" : NULL;
 }
@@ -427,9 +428,9 @@ static Status check_places(const Options *options, const System *system,
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
-        if (!kind->element || !kind->element->reach)
+        if (!kind->element || !kind->element->max_step)
             continue;
-        ElementWalk walk = elements_from(&at, NULL, 0);
+        ElementIterator walk = elements_begin(&at, NULL, 0);
         const Element *element = &walk.element;
         while (elements_next(&walk)) {
             bool own = kind == &contact_energy && element->from == number;
@@ -486,7 +487,7 @@ static Status check_balls(const Options *options, const SquareMesh *mesh,
                           const double *x, Refusal told)
 {
     for (int k = 0; k < options->balls; k++)
-        if (square_mesh_cell_at(mesh, x, options->ball[k], 0, mesh->cells) >= 0)
+        if (square_mesh_find_cell(mesh, x, options->ball[k], 0, mesh->cells) >= 0)
             return refuse_place(options, (int)options->grounds + k, NAN, told);
     return STATUS_OK;
 }
@@ -566,8 +567,8 @@ static Status check_inside(const Options *options, const SquareMesh *shape,
     for (int inner = 0; inner < shape->bodies && options->self_contact; inner++)
         for (int outer = 0; outer < shape->bodies; outer++)
             if (inner != outer &&
-                square_mesh_cell_at(shape, x, x + 2 * inner * nodes,
-                                    outer * cells, (outer + 1) * cells) >= 0)
+                square_mesh_find_cell(shape, x, x + 2 * inner * nodes,
+                                      outer * cells, (outer + 1) * cells) >= 0)
                 return refuse(told,
                               "--body: body %d would be inside body %d; move "
                               "one of them, or --self-contact off",
@@ -582,14 +583,14 @@ static Status check_overlap(const Options *options, const double *x,
     const SquareMesh shape = body_shape(options);
     int edge[2], other[2];
     for (int k = 0; k < shape.outline && options->self_contact; k++) {
-        square_mesh_outline(&shape, k, edge);
+        square_mesh_get_outline_edge(&shape, k, edge);
         for (int l = 0; l < k; l++) {
-            square_mesh_outline(&shape, l, other);
+            square_mesh_get_outline_edge(&shape, l, other);
             bool neighbours = other[1] == edge[0] || other[0] == edge[1];
             if (neighbours || !edges_cross(x, edge, other))
                 continue;
-            int a = square_mesh_body(&shape, &other[0]) + 1;
-            int b = square_mesh_body(&shape, &edge[0]) + 1;
+            int a = square_mesh_locate_body(&shape, &other[0]) + 1;
+            int b = square_mesh_locate_body(&shape, &edge[0]) + 1;
             return a == b ? refuse(told,
                                    "--self-contact: body %d would cross itself "
                                    "at the start; --self-contact off allows it",

@@ -26,7 +26,7 @@ static Control *make_control(int nodes)
 Control *control_of(const Simulation *simulation)
 {
     const System *system = &simulation->system;
-    const Pull *hand = system_data(system, &hand_energy);
+    const Pull *hand = system_term_data(system, &hand_energy);
     Control *control = make_control(system->nodes);
     if (!control)
         return NULL;
@@ -201,8 +201,8 @@ static Status use_hand(Simulation *simulation, const Control *control)
     memcpy(wanted.mouse, control->at, sizeof wanted.mouse);
     memcpy(wanted.target, simulation->run[0].x + 2 * wanted.node,
            sizeof wanted.target);
-    k = solid_of(system) ? simulation->options.young
-                         : mass_spring_curvature_bound(&at);
+    k = neo_hookean_of(system) ? simulation->options.young
+                               : mass_spring_curvature_bound(&at);
     wanted.strength = k > 0 ? TIMES * k : 1e5 * system->m[wanted.node];
     if (simulation->mesh.nodes > 0)
         wanted.cell = simulation->mesh.spacing;
@@ -238,7 +238,7 @@ Status simulation_use(Simulation *simulation, const Control *control)
     for (int i = 0; i < system->nodes; i++) {
         if (system->pinned[i] == control->pinned[i])
             continue;
-        system_changed(system, true);
+        system_mark_changed(system, true);
         for (int r = 0; r < simulation->runs; r++)
             if (simulation->run[r].system == system)
                 stop_node(&simulation->run[r], i);
@@ -268,7 +268,7 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
     Status status = system_check(run->system, run->x);
     for (size_t i = 0; i < run->size; i++)
         p[i] = run->x[i] - before[i];
-    if (!status && !system_lets_pass(run->system, before, p))
+    if (!status && !system_path_is_free(run->system, before, p))
         status = STATUS_INVALID_INPUT;
     if (status || !really) {
         memcpy(run->x, before, run->size * sizeof *before);

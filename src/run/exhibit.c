@@ -100,7 +100,7 @@ void exhibit_flip(Simulation *simulation, int number)
         for (int s = 0; s < system->springs; s++)
             if (exhibit_kind(simulation, s) == number)
                 system->k[s] = k;
-        system_changed(system, false);
+        system_mark_changed(system, false);
         simulation->ledger[0].work +=
             simulation_energies(simulation, 0).total - before;
         return;

@@ -323,7 +323,7 @@ bool simulation_projects_springs(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     return !system_find_term(system, &contact_energy) &&
-           !system_find_term(system, &cell_energy) && !solid_of(system) &&
+           !system_find_term(system, &cell_energy) && !neo_hookean_of(system) &&
            !self_contact_of(system);
 }
 

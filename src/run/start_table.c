@@ -246,7 +246,7 @@ static const char *take_spring(void *into, int i, const double *value)
 {
     const Springs *springs = into;
     System *system = springs->system;
-    Plasticity *flow = system_data(system, &plastic_energy);
+    Plasticity *flow = system_term_data(system, &plastic_energy);
     const int *e = system->e + 2 * i;
     bool broken = value[4] == 0, breaks = system_find_term(system, &fracture);
     if (value[3] - value[2] != e[1] - e[0])
@@ -280,6 +280,6 @@ Status start_springs_read(const Options *options, int run, int runs,
                        runs};
     Springs springs = {system, options->stiffness};
     Status status = read_part(&part, names, take_spring, &springs, told);
-    system_changed(system, false);
+    system_mark_changed(system, false);
     return status;
 }

@@ -33,7 +33,7 @@ static void pass(Cursor *cursor, void *piece, size_t size)
 static void pass_system(Cursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
-    Plasticity *plasticity = system_data(system, &plastic_energy);
+    Plasticity *plasticity = system_term_data(system, &plastic_energy);
     Contact *contact = contact_of(system);
     PASS(system->lost);
     if (plasticity) {
@@ -93,7 +93,7 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
         if (r == 0 || run->system != simulation->run[0].system)
             pass_system(cursor, run->system);
         if (cursor->restores)
-            system_changed(run->system, false);
+            system_mark_changed(run->system, false);
     }
 }
 

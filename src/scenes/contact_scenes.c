@@ -60,13 +60,13 @@ static void cut(Simulation *simulation, double x, double low, double high)
     System *system = &simulation->system;
     for (int s = 0; s < system->springs && simulation->options.tear > 0; s++) {
         double a[2], b[2];
-        square_mesh_place(&simulation->mesh, system->e[2 * s], a);
-        square_mesh_place(&simulation->mesh, system->e[2 * s + 1], b);
+        square_mesh_rest_position(&simulation->mesh, system->e[2 * s], a);
+        square_mesh_rest_position(&simulation->mesh, system->e[2 * s + 1], b);
         double middle = 0.5 * (a[1] + b[1]);
         if ((a[0] < x) != (b[0] < x) && middle > low && middle < high)
             system->k[s] = 0;
     }
-    system_changed(system, false);
+    system_mark_changed(system, false);
 }
 
 /* Pins of the left half move left and the others right, by 0.2 sides a second.
@@ -78,7 +78,7 @@ Status create_tear(Simulation *simulation)
     Status status = create_square(simulation);
     double rest[2];
     for (int i = 0; i < mesh->nodes && !status; i++) {
-        square_mesh_place(mesh, i, rest);
+        square_mesh_rest_position(mesh, i, rest);
         if (system->pinned[i]) /* pins that are set later stand still */
             system->pin_v[2 * i] = copysign(0.2 * mesh->side, rest[0]);
     }

@@ -50,8 +50,9 @@ static Local line_energy(const Simulation *simulation, double x)
     double d = x - x_tilde, k = h * h * LINE_STIFFNESS;
     double s = spring_strain(x * x, l2);
     double E = m / 2 * d * d + spring_energy(l2, k, s);
-    double g = m * d + spring_pull(k, s) * x;
-    double H = m + spring_c(l2, k) * spring_along(x * x, l2);
+    double g = m * d + spring_gradient_factor(k, s) * x;
+    double H =
+        m + spring_hessian_factor(l2, k) * spring_eigenvalue_along(x * x, l2);
     return (Local){.value = E, .g = {g}, .H = {H}};
 }
 
@@ -77,7 +78,8 @@ static Local landscape_at(const Simulation *simulation, unsigned parts,
         const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
         double l2 = system->l2[s], k = system->k[s], H[3];
         double d2 = d[0] * d[0] + d[1] * d[1];
-        double pull = spring_pull(w * k, spring_across(d2, l2) / l2);
+        double pull = spring_gradient_factor(
+            w * k, spring_eigenvalue_across(d2, l2) / l2);
         P += spring_energy(l2, k, spring_strain(d2, l2));
         for (int i = 0; i < 2; i++)
             E.g[i] += pull * d[i];

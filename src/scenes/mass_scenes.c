@@ -98,15 +98,16 @@ void mass_exact(const Simulation *simulation, double t, double x[2])
 SpringFacts spring_facts(const double d[2], double l2, double k)
 {
     double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
-    double s = spring_across(d2, l2) / l2, pull = spring_pull(k, s);
-    double c = spring_c(l2, k);
+    double s = spring_eigenvalue_across(d2, l2) / l2,
+           pull = spring_gradient_factor(k, s);
+    double c = spring_hessian_factor(l2, k);
     return (SpringFacts){
         .length = r,
         .strain = s,
         .energy = spring_energy(l2, k, s),
         .force = {-pull * d[0], -pull * d[1]},
-        .along = c * spring_along(d2, l2),
-        .across = c * spring_across(d2, l2),
+        .along = c * spring_eigenvalue_along(d2, l2),
+        .across = c * spring_eigenvalue_across(d2, l2),
         .root_energy = 2 * k * (r - l) * (r - l),
         .root_along = 4 * k,
         .root_across = 4 * k * (1 - l / r),

@@ -249,7 +249,7 @@ static void keep_momentum(Newton *newton)
     const System *system = newton->system;
     const double *u = newton->at.u, *u_tilde = newton->u_tilde;
     double *p = newton->at.p, mass = 0, missing[2] = {0, 0};
-    if (!system_is_free(system))
+    if (!system_falls_freely(system))
         return;
     for (int i = 0; i < 2 * system->nodes; i++) {
         mass += 0.5 * system->m[i / 2];

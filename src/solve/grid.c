@@ -128,7 +128,8 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
                    : b - a == rows->nodes ? RIGHT
                    : b - a > rows->nodes  ? DIAGONAL
                                           : ANTIDIAGONAL;
-        double c = spring_c(point.l2[s], at->E.weight * point.k[s]);
+        double c =
+            spring_hessian_factor(point.l2[s], at->E.weight * point.k[s]);
         grid->c[kind][q] = grid->mass / unit * c;
         grid->l2[kind][q] = unit * point.l2[s];
     }

@@ -13,7 +13,7 @@ static EvalPoint eval_point_of(const IncrementalPotential *E, const double *u,
                                const double *x)
 {
     EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
-    at.w = E->weight;
+    at.weight = E->weight;
     return at;
 }
 
@@ -166,9 +166,9 @@ Along incremental_potential_along(const Iterate *iterate)
     }
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
-        if (kind->along)
-            kind->along(&at, p, q + 1);
-        along.rough = along.rough || kind->remainder || kind->allowed;
+        if (kind->line_polynomial)
+            kind->line_polynomial(&at, p, q + 1);
+        along.rough = along.rough || kind->line_remainder || kind->is_feasible;
     }
     return along;
 }
@@ -183,8 +183,8 @@ double along_difference(const void *function, double alpha)
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     for (int t = 0; t < at.system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
-        if (kind->remainder)
-            sum += kind->remainder(&at, iterate->p, alpha);
+        if (kind->line_remainder)
+            sum += kind->line_remainder(&at, iterate->p, alpha);
     }
     return sum;
 }
@@ -192,7 +192,7 @@ double along_difference(const void *function, double alpha)
 double incremental_potential_reach(const Iterate *at)
 {
     EvalPoint point = eval_point_of(&at->E, at->u, at->x);
-    return fmin(1, system_reach(point, at->p, false));
+    return fmin(1, system_max_step(point, at->p, false));
 }
 
 bool incremental_potential_allowed(const IncrementalPotential *E,
@@ -201,7 +201,7 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
     EvalPoint at = eval_point_of(E, u, x);
     for (int t = 0; t < E->system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
-        if (kind->allowed && !kind->allowed(&at))
+        if (kind->is_feasible && !kind->is_feasible(&at))
             return false;
     }
     return true;

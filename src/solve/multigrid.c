@@ -283,7 +283,7 @@ static Status grid_test(Newton *newton, Status status)
     bool stuck = status != STATUS_OK || record->iteration >= HANDED_ITERATIONS;
     bool ends = newton->passes ||
                 (!stuck && mg->bound <= negligible_direction(newton));
-    if (ends && system_is_free(newton->system))
+    if (ends && system_falls_freely(newton->system))
         record->change += grid_keep_momentum(&mg->grid) / mg->grid.energy;
     if (ends || stuck || small || last ||
         newton->settings.observer) { /* else nobody looks at it */

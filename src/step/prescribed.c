@@ -80,7 +80,7 @@ bool prescribed_begin(TimeIntegrator *run)
             stop_obstacle(obstacle, run->h);
     }
     if (contact)
-        push_begin(contact, run->system, run->x, run->h);
+        push_begin_step(contact, run->system, run->x, run->h);
     for (int k = 0; contact && k < contact->obstacles; k++)
         any = any || moves(contact, k);
     return any;
@@ -114,8 +114,9 @@ static void carry(const System *system, const Contact *contact, double way,
             double now[2] = {x_n[2 * i] + u[2 * i],
                              x_n[2 * i + 1] + u[2 * i + 1]};
             double radius = contact_node_radius(contact, i);
-            Gap after = contact_gap(obstacle, obstacle->o, now, radius);
-            double gap = contact_gap(obstacle, back, before + 2 * i, radius).d;
+            Gap after = contact_measure_gap(obstacle, obstacle->o, now, radius);
+            double gap =
+                contact_measure_gap(obstacle, back, before + 2 * i, radius).d;
             double keep = fmin(gap, CARRIED_GAP * contact->barrier.d_hat);
             for (int c = 0; c < 2; c++)
                 u[2 * i + c] += fmax(0, keep - after.d) * after.n[c];
@@ -149,7 +150,7 @@ static bool make_part(TimeIntegrator *run, double part)
     IncrementalPotential E = {
         .system = system, .weight = run->h * run->h, .x_n = x_n};
     if (incremental_potential_allowed(&E, u, x) &&
-        system_lets_pass(system, before, p))
+        system_path_is_free(system, before, p))
         return true;
     move_obstacles(contact, -way);
     return false;
@@ -174,7 +175,7 @@ void prescribed_start(TimeIntegrator *run)
     Contact *contact = contact_of(run->system);
     double part = 0;
     if (hand_moves(contact)) {
-        part = make_most(run, fmin(run->left, push_most(contact, run->h)),
+        part = make_most(run, fmin(run->left, push_max_step(contact, run->h)),
                          HAND_HALVINGS, HAND_PARTS);
         contact->push.stopped = part == 0;
         contact->push.moved = run->moved;
@@ -237,7 +238,7 @@ double prescribed_work(const TimeIntegrator *run, double weight)
     const double *u = newton->at.u, *x = newton->at.x;
     EvalPoint at = eval_point_at(system, newton->at.E.x_n, u, x);
     double *g = run->new_x, pins = 0, sum = 0;
-    at.w = weight;
+    at.weight = weight;
     if (system->pin_v) {
         memset(g, 0, run->size * sizeof *g);
         inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,
@@ -253,13 +254,13 @@ double prescribed_work(const TimeIntegrator *run, double weight)
     }
     at.term = system_find_term(system, &contact_energy);
     if (at.term)
-        for (ElementWalk walk = elements_from(&at, NULL, 0);
+        for (ElementIterator walk = elements_begin(&at, NULL, 0);
              elements_next(&walk);) {
             int k = walk.element.from;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped = contact->push.stopped && k == contact->push.obstacle;
             sum += (stopped ? contact->push.moved : run->moved) *
-                   contact_force(&contact->barrier, walk.element.s) *
+                   contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }
     return pins + (run->h * sum + friction_work_of_obstacles(system, u));

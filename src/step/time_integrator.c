@@ -23,7 +23,7 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if (kind->end_of_step && !method->at_end)
+        if (kind->backward_euler_only && !method->at_end)
             return true;
     }
     return false;
@@ -90,8 +90,8 @@ static Status begin_terms(TimeIntegrator *run)
     System *system = run->system;
     Status status = STATUS_OK;
     for (int t = 0; t < system->terms && !status; t++)
-        if (system->term[t].kind->begin)
-            status = system->term[t].kind->begin(
+        if (system->term[t].kind->begin_step)
+            status = system->term[t].kind->begin_step(
                 &(TermStep){system, &system->term[t], run->x, run->v, run->h});
     return status;
 }
@@ -101,8 +101,8 @@ static void end_terms(TimeIntegrator *run)
 {
     System *system = run->system;
     for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->end)
-            system->term[t].kind->end(
+        if (system->term[t].kind->end_step)
+            system->term[t].kind->end_step(
                 &(TermStep){system, &system->term[t], run->x, run->v, run->h});
 }
 
@@ -110,7 +110,7 @@ static void end_terms(TimeIntegrator *run)
 static void begin_hand(TimeIntegrator *run)
 {
     System *system = run->system;
-    Pull *hand = system_data(system, &hand_energy);
+    Pull *hand = system_term_data(system, &hand_energy);
     if (!hand)
         return;
     size_t i = 2 * (size_t)hand->node;
@@ -119,9 +119,9 @@ static void begin_hand(TimeIntegrator *run)
         system_acceleration(system, run->x, run->new_x);
         run->memory_h = 0; /* it was another force */
     }
-    hand_follow(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
-                run->newton ? NULL : run->new_x + i);
-    system_changed(system, false);
+    hand_begin_step(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
+                    run->newton ? NULL : run->new_x + i);
+    system_mark_changed(system, false);
 }
 
 /* The minimisation of the present stage begins: u_tilde, gravity in it, and
@@ -154,7 +154,7 @@ static Status end_step(TimeIntegrator *run, Status status)
         run->memory_h = 0;
         return run->status = STATUS_NOT_FINITE;
     }
-    const Pull *hand = system_data(run->system, &hand_energy);
+    const Pull *hand = system_term_data(run->system, &hand_energy);
     if (hand)
         run->work += hand_work(hand, run->x + 2 * hand->node,
                                run->new_x + 2 * hand->node);

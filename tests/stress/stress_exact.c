@@ -32,7 +32,7 @@ static Jet energy(const Moment *moment, const double *u, const double *way,
                  .p = way,
                  .moved = moment->moved,
                  .jitter = jitter};
-    at.w = E->weight;
+    at.weight = E->weight;
     return oracle_step(&spot, E->u_tilde);
 }
 

@@ -88,8 +88,9 @@ static void spring(Spot *spot, Jet *sum, const void *data, int s)
 {
     const System *system = spot->at->system;
     const Plasticity *flow =
-        data == system_data(system, &plastic_energy) ? data : NULL;
-    const Damping *damped = spot->at->u ? system_data(system, &damping) : NULL;
+        data == system_term_data(system, &plastic_energy) ? data : NULL;
+    const Damping *damped =
+        spot->at->u ? system_term_data(system, &damping) : NULL;
     Real theta = damped ? damped->eta / spot->h : 0;
     Jet E = {.f = -1}, V;
     for (int axis = 0; axis < 2; axis++) {
@@ -650,7 +651,7 @@ Real oracle_clamping(Spot *spot)
             sum += clamping(spot, row, data, i, zero, zero + 2 * system->nodes);
     }
     free(zero);
-    return spot->at->w * sum;
+    return spot->at->weight * sum;
 }
 
 Jet oracle_energy(Spot *spot, const TermKind *only)
@@ -669,8 +670,8 @@ Jet oracle_energy(Spot *spot, const TermKind *only)
         for (int i = 0; i < count; i++)
             formulas[row].part(spot, &sum, data, i);
     }
-    spot->size = plus((Jet){0}, spot->at->w, spot->size);
-    return plus((Jet){0}, spot->at->w, sum);
+    spot->size = plus((Jet){0}, spot->at->weight, spot->size);
+    return plus((Jet){0}, spot->at->weight, sum);
 }
 
 Jet oracle_step(Spot *spot, const double *u_tilde)
@@ -703,7 +704,7 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
     double p[MOST_UNKNOWNS] = {0}, q[MOST_UNKNOWNS] = {0};
     EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
     Spot spot = {.at = &at, .h = 1, .p = p, .q = q};
-    at.w = E->weight;
+    at.weight = E->weight;
     CHECK(size <= MOST_UNKNOWNS);
     for (int i = 0; i < size * (H ? size : 1); i++) {
         int row = H ? i / size : i, column = i % size;
@@ -765,8 +766,9 @@ static void add_lift(const Spot *spot, int row, const void *data, int part,
         int k = i / 36, r = i / 6 % 6, c = i % 6;
         if (lift[k] > 0)
             to->H[to->n * frame_coordinate(&frame, r) +
-                  frame_coordinate(&frame, c)] +=
-                to->lifts * spot->at->w * lift[k] * rows[k][r] * rows[k][c];
+                  frame_coordinate(&frame, c)] += to->lifts * spot->at->weight *
+                                                  lift[k] * rows[k][r] *
+                                                  rows[k][c];
     }
 }
 
@@ -776,7 +778,7 @@ static void add_part(Spot *spot, int row, const void *data, int part,
 {
     int node[3];
     long booked = spot->booked;
-    Real w = spot->at->w;
+    Real w = spot->at->weight;
     Jet W = {0};
     formulas[row].part(spot, &W, data, part);
     if (spot->booked == booked) /* there is nothing */
@@ -875,7 +877,7 @@ double exact_rise(const IncrementalPotential *E, const double *from,
     Real energy[2];
     for (int i = 0; i < 2; i++) {
         EvalPoint at = eval_point_at(E->system, E->x_n, i ? to : from, NULL);
-        at.w = E->weight;
+        at.weight = E->weight;
         Spot spot = {.at = &at, .h = sqrtl(E->weight), .moved = moved};
         energy[i] = oracle_step(&spot, E->u_tilde).f;
     }
@@ -921,7 +923,7 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
     Random random = {1};
     CHECK(p != NULL && g != NULL);
     EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
-    at.w = E->weight;
+    at.weight = E->weight;
     const Spot spot = {
         .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
     const Assembly to = {g, g + n, g + 2 * n, p, p + n, (int)n, lifts};
@@ -1063,8 +1065,8 @@ double smallest_gap(const System *system, const double *x)
 
 double smallest_cell(const System *system, const double *x)
 {
-    const Cells *cells = system_data(system, &cell_energy);
-    const NeoHookean *solid = solid_of(system);
+    const Cells *cells = system_term_data(system, &cell_energy);
+    const NeoHookean *solid = neo_hookean_of(system);
     EvalPoint at = eval_point_at(system, x, NULL, x);
     Spot spot = {.at = &at};
     double smallest = INFINITY;

@@ -196,12 +196,12 @@ TEST(broken_springs_do_nothing)
     const double apart[4] = {-0.5, 0, 0.5, 0}, v[4] = {-30, 0, 30, 0};
     few_masses(2, 1);
     CHECK_OK(plastic_energy.set(&few, NULL, (double[]){0.1, 0}));
-    const Plasticity *flow = system_data(&few, &plastic_energy);
-    plastic_energy.end(&(TermStep){&few, few.term, x, x, 1});
+    const Plasticity *flow = system_term_data(&few, &plastic_energy);
+    plastic_energy.end_step(&(TermStep){&few, few.term, x, x, 1});
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14); /* it does while it is whole */
     few.k[0] = 0;
     unsigned version = few.version;
-    plastic_energy.end(&(TermStep){&few, few.term, far, far, 1});
+    plastic_energy.end_step(&(TermStep){&few, few.term, far, far, 1});
     CHECK(few.version == version);
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14);
     CHECK_NEAR(flow->kappa[0], 8 - 0.1, 1e-14);
@@ -724,7 +724,7 @@ TEST(triangles_have_no_torque)
         at.term = system_find_term(system, &neo_hookean_energy);
         Real torque = 0, size = 0;
         double own[4];
-        for (ElementWalk walk = elements_from(&at, NULL, 0);
+        for (ElementIterator walk = elements_begin(&at, NULL, 0);
              elements_next(&walk);) {
             const double *e = walk.element.v;
             walk.kind->gradient(&at, &walk.element, own);

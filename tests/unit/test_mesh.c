@@ -17,16 +17,16 @@ TEST(nodes_and_springs_are_the_slides)
     static int order[71 * 71], springs[2 * 4 * 70 * 71];
     static bool seen[71 * 71];
     for (int n = 1; n <= 70; n++) {
-        const SquareMesh mesh = square_mesh_shape(n, n, 0.5 * n, 1);
+        const SquareMesh mesh = square_mesh_create(n, n, 0.5 * n, 1);
         int row = n + 1, s = 0;
-        square_mesh_order(&mesh, order);
-        square_mesh_springs(&mesh, springs);
+        square_mesh_order_nodes(&mesh, order);
+        square_mesh_list_springs(&mesh, springs);
         CHECK(mesh.nodes == row * row && mesh.segments == n);
         CHECK(mesh.springs == 2 * n * row + 2 * n * n);
         memset(seen, 0, sizeof seen);
         for (int node = 0; node < mesh.nodes; node++) {
             double x[2];
-            square_mesh_place(&mesh, node, x);
+            square_mesh_rest_position(&mesh, node, x);
             CHECK(x[0] == 0.5 * (node / row) - 0.25 * n);
             CHECK(x[1] == 0.5 * (node % row) - 0.25 * n);
             CHECK(order[node] >= 0 && order[node] < mesh.nodes);
@@ -63,20 +63,20 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     enum { COLUMNS = 5, ROWS = 3, BODIES = 2 };
     int node[4], spring[6], seen = 0, e[300];
     double x[100];
-    const SquareMesh mesh = square_mesh_shape(COLUMNS, ROWS, 2.5, BODIES);
-    square_mesh_springs(&mesh, e);
+    const SquareMesh mesh = square_mesh_create(COLUMNS, ROWS, 2.5, BODIES);
+    square_mesh_list_springs(&mesh, e);
     for (int i = 0; i < mesh.nodes; i++)
-        square_mesh_place(&mesh, i, x + 2 * i);
+        square_mesh_rest_position(&mesh, i, x + 2 * i);
     CHECK(mesh.cells == 30 && mesh.spacing == 0.5);
     for (int t = 0; t < 4 * mesh.cells; t++) {
-        square_mesh_triangle(&mesh, t, node, spring);
+        square_mesh_get_triangle(&mesh, t, node, spring);
         const double *a = x + 2 * node[0], *b = x + 2 * node[1];
         const double *c = x + 2 * node[2];
         CHECK((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) ==
               0.25);
         for (int k = 0; k < 3; k++)
             CHECK(joins(e + 2 * spring[k], node[k], node[(k + 1) % 3]));
-        square_mesh_cell(&mesh, t / 4, node, spring);
+        square_mesh_get_cell(&mesh, t / 4, node, spring);
         for (int k = 0; k < 4; k++)
             CHECK(joins(e + 2 * spring[k], node[k], node[(k + 1) % 4]));
         CHECK(joins(e + 2 * spring[4], node[0], node[2]) &&
@@ -84,12 +84,12 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     }
     double twice = 0;
     for (int k = 0; k < mesh.outline; k++) {
-        square_mesh_outline(&mesh, k, node);
+        square_mesh_get_outline_edge(&mesh, k, node);
         int i = node[0], j = node[1];
         const double *a = x + 2 * i, *b = x + 2 * j;
-        CHECK(i / 24 == j / 24 && square_mesh_body(&mesh, &i) == k / 16);
+        CHECK(i / 24 == j / 24 && square_mesh_locate_body(&mesh, &i) == k / 16);
         CHECK(fabs(a[0] - b[0]) + fabs(a[1] - b[1]) == 0.5);
-        CHECK(square_mesh_sides(&mesh, i) ==
+        CHECK(square_mesh_get_sides(&mesh, i) ==
               (a[0] == -1.25 ? MESH_LEFT : 0) +
                   (a[0] == 1.25 ? MESH_RIGHT : 0) +
                   (a[1] == -0.75 ? MESH_BOTTOM : 0) +
@@ -99,7 +99,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     CHECK(mesh.outline == 32 && twice == BODIES * 2 * 2.5 * 1.5);
     twice = 0;
     for (int c = 0; c < mesh.cells; c++) /* 2 x 2, cut at the edges */
-        if (square_mesh_patch(&mesh, c, 2, node)) {
+        if (square_mesh_get_patch(&mesh, c, 2, node)) {
             const double *low = x + 2 * node[0], *up = x + 2 * node[2];
             twice += 2 * (up[0] - low[0]) * (up[1] - low[1]);
             seen++;
@@ -158,7 +158,7 @@ TEST(a_start_is_stretched_turned_and_moved)
                  "3,-4 --velocity 5,6");
     for (int i = 0; i < 9; i++) {
         double rest[2];
-        square_mesh_place(&simulation->mesh, i, rest);
+        square_mesh_rest_position(&simulation->mesh, i, rest);
         const double *x = simulation->run[0].x + 2 * i;
         const double *v = simulation->run[0].v + 2 * i;
         CHECK_NEAR(x[0], 3 - rest[1], 1e-15);
@@ -185,7 +185,7 @@ TEST(the_words_of_pin_name_their_nodes)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         unsigned char pinned[9] = {0};
         const SquareMesh shape =
-            square_mesh_shape(cases[i].columns, cases[i].rows, 1, 1);
+            square_mesh_create(cases[i].columns, cases[i].rows, 1, 1);
         CHECK_OK(pins_read(cases[i].text, &shape, pinned));
         for (int node = 0; cases[i].pinned[node]; node++)
             CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
@@ -198,7 +198,7 @@ TEST(the_words_of_pin_name_their_nodes)
         "+1",  "top left",   "0x1",
         "1e0", "4294967296", "99999999999999999999999999999999",
     };
-    const SquareMesh shape = square_mesh_shape(2, 2, 1, 1);
+    const SquareMesh shape = square_mesh_create(2, 2, 1, 1);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         CHECK_STATUS(pins_read(bad[i], &shape, NULL), STATUS_INVALID_INPUT);
 }

@@ -65,7 +65,7 @@ static void disturb(Random *random, bool pins)
         if (random_below(random, 10) == 0)
             body->k[s] = 0;
     }
-    system_changed(body, true);
+    system_mark_changed(body, true);
 }
 
 /* A hand that pulls the node in the middle, as stiffly as `times` its mass. */
@@ -191,7 +191,7 @@ TEST(bits_depend_on_the_step_alone)
             for (int s = 0; stiffer && s < body->springs; s++)
                 body->k[s] *= s % 2 ? 1.1 : 1.2;
             if (stiffer)
-                system_changed(body, false);
+                system_mark_changed(body, false);
             CHECK_OK(multigrid_create(64, &multigrid[1]));
             for (int i = 0; i < 2; i++) {
                 newton->multigrid = multigrid[i];

@@ -725,7 +725,7 @@ static int turned_over(const Simulation *simulation)
     int turned = 0, node[3], side[3];
     const double *x = simulation->run[0].x;
     for (int t = 0; t < 4 * simulation->mesh.cells; t++) {
-        square_mesh_triangle(&simulation->mesh, t, node, side);
+        square_mesh_get_triangle(&simulation->mesh, t, node, side);
         const double *a = x + 2 * node[0], *b = x + 2 * node[1];
         const double *c = x + 2 * node[2];
         turned += !(
@@ -800,8 +800,8 @@ static double held_part(const Simulation *simulation)
     const double *x = simulation->run[2].x, *v = simulation->run[2].v;
     double pressed = 0, held = 0, angle = acos(-1) / 9;
     for (int i = 0; i < simulation->system.nodes; i++) {
-        double d = contact_gap(slope, slope->o, x + 2 * i, 0).d;
-        double force = contact_force(&contact->barrier, d);
+        double d = contact_measure_gap(slope, slope->o, x + 2 * i, 0).d;
+        double force = contact_normal_force(&contact->barrier, d);
         double slip = cos(angle) * v[2 * i] + sin(angle) * v[2 * i + 1];
         double a = fmin(fabs(slip) / 1e-3, 1);
         pressed += force;
@@ -879,7 +879,7 @@ TEST(claim_inelastic)
             nearest = fmin(nearest, hypot(x[i], x[i + 1] + 0.75) - 0.35);
     }
     const Plasticity *plasticity =
-        system_data(&simulation->system, &plastic_energy);
+        system_term_data(&simulation->system, &plastic_energy);
     assert_non_null(plasticity);
     for (int s = 0; s < simulation->system.springs; s++)
         most = fmax(most, fabs(plasticity->ep[s]));

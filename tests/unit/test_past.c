@@ -549,10 +549,10 @@ TEST(the_hand_wins)
                 CHECK_AT_MOST(hypot(x[0] - to[0], x[1] - to[1]), 0.02 * way);
         }
         CHECK_AT_MOST(furthest, 1.001 * cell); /* 4e-5 more: the tolerance */
-        const Pull *hand = system_data(&simulation->system, &hand_energy);
+        const Pull *hand = system_term_data(&simulation->system, &hand_energy);
         CHECK(system_curvature_bound(&simulation->system) >= hand->k);
         edit(COMMAND_RELEASE, 0, 0, 0);
-        CHECK(!system_data(&simulation->system, &hand_energy));
+        CHECK(!system_term_data(&simulation->system, &hand_energy));
         past_free(&past);
     }
 }

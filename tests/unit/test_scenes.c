@@ -273,7 +273,8 @@ TEST(scenes_are_rows_of_options)
         for (int k = 0; k < 2; k++)
             CHECK(!simulation_set(other, OPTION_SLOT(damping),
                                   k ? rows[i].damping : 0.1));
-        CHECK(!system_data(&other->system, &damping) == !(rows[i].damping > 0));
+        CHECK(!system_term_data(&other->system, &damping) ==
+              !(rows[i].damping > 0));
         make_steps(one, rows[i].steps);
         make_steps(other, rows[i].steps);
         CHECK(state_hash(one, 1) == state_hash(other, 1));

@@ -506,7 +506,7 @@ TEST(contacts_are_drawn_sliding_or_holding)
     for (int r = 0; r < 3; r++) {
         const SpringPen pen = square_pen(&stage, r);
         double lowest = 0, at[2];
-        for (ElementWalk to = square_contacts(&pen); elements_next(&to);) {
+        for (ElementIterator to = square_contacts(&pen); elements_next(&to);) {
             Touch touch = square_touch(&pen, &to.element);
             CHECK(touch.rough && touch.slides == (r < 2));
             plot_place(&stage, pen.x + 2 * touch.node, at);

@@ -102,11 +102,11 @@ static void set_option(const OptionRow *option, Random *random,
 static void make_grid(const Row *row, Random *random, Case *c)
 {
     int n = row->shape == CORNER ? 1 : 2;
-    const SquareMesh mesh = square_mesh_shape(n, n, 1, 1);
+    const SquareMesh mesh = square_mesh_create(n, n, 1, 1);
     CHECK_OK(system_create(mesh.nodes, mesh.springs, &c->system));
     for (int i = 0; i < mesh.nodes; i++)
-        square_mesh_place(&mesh, i, c->x_n + 2 * i);
-    square_mesh_springs(&mesh, c->system.e);
+        square_mesh_rest_position(&mesh, i, c->x_n + 2 * i);
+    square_mesh_list_springs(&mesh, c->system.e);
     for (int s = 0; s < mesh.springs; s++) {
         c->system.l2[s] = (s < 2 * n * (n + 1) ? 1.0 : 2.0) / (n * n);
         c->system.k[s] = 2;
@@ -134,9 +134,9 @@ static void make_grid(const Row *row, Random *random, Case *c)
 static void make_pair(const Row *row, Random *random, Case *c)
 {
     const Barrier barrier = {.d_hat = 0.2, .c = 24};
-    const SquareMesh mesh = square_mesh_shape(1, 1, 1, 2);
+    const SquareMesh mesh = square_mesh_create(1, 1, 1, 2);
     CHECK_OK(system_create(mesh.nodes, mesh.springs, &c->system));
-    square_mesh_springs(&mesh, c->system.e);
+    square_mesh_list_springs(&mesh, c->system.e);
     for (int s = 0; s < mesh.springs; s++)
         c->system.k[s] = c->system.l2[s] = 1;
     system_remove_term(&c->system, &mass_spring_energy);
@@ -145,7 +145,7 @@ static void make_pair(const Row *row, Random *random, Case *c)
     double away = 0.2 * random_logarithmic(random, 1e-2, 1.3);
     for (int i = 0; i < mesh.nodes; i++) {
         double *x = c->x_n + 2 * i;
-        square_mesh_place(&mesh, i, x);
+        square_mesh_rest_position(&mesh, i, x);
         if (i < 4)
             continue;
         double right = x[0] + 0.5, high = x[1] - 0.5; /* of its corner */
@@ -206,7 +206,7 @@ static void add_terms(const Row *row, Random *random, System *system)
         set_pulls(random, row->pull, system);
     if (row->yield > 0) {
         CHECK_OK(plastic_energy.set(system, NULL, &row->yield));
-        Plasticity *flow = system_data(system, &plastic_energy);
+        Plasticity *flow = system_term_data(system, &plastic_energy);
         for (int s = 0; s < system->springs; s++) {
             flow->ep[s] = random_uniform(random, -0.3, 0.3);
             flow->kappa[s] = random_uniform(random, 0, 0.5);
@@ -238,8 +238,8 @@ static void make_place(const Row *row, Random *random, Case *c)
         }
         for (int t = 0; t < c->system.terms; t++) {
             c->at.term = &c->system.term[t];
-            if (c->at.term->kind->allowed)
-                good = good && c->at.term->kind->allowed(&c->at) &&
+            if (c->at.term->kind->is_feasible)
+                good = good && c->at.term->kind->is_feasible(&c->at) &&
                        exact_crossings(&c->system, c->x) == 0;
         }
     }
@@ -257,11 +257,11 @@ static void make_case(const Row *row, Random *random, Case *c)
     c->size = 2 * system->nodes;
     c->h = random_logarithmic(random, 1e-3, 1);
     for (int i = 0; i < system->terms; i++)
-        if (system->term[i].kind->begin)
-            CHECK_OK(system->term[i].kind->begin(
+        if (system->term[i].kind->begin_step)
+            CHECK_OK(system->term[i].kind->begin_step(
                 &(TermStep){system, &system->term[i], c->x_n, c->u, c->h}));
     c->at = eval_point_at(system, c->x_n, c->u, c->x);
-    c->at.w = random_logarithmic(random, 0.1, 10);
+    c->at.weight = random_logarithmic(random, 0.1, 10);
     make_place(row, random, c);
 }
 
@@ -346,8 +346,8 @@ static void derivatives(Case *c, const TermKind *kind)
     noise.pq += entries_noise(c, kind);
     times_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
     times_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
-    if (!(system_data(&c->system, &damping) && kind->internal))
-        near("value", c->at.w * kind->value(&c->at), formula.f, noise.f);
+    if (!(system_term_data(&c->system, &damping) && kind->internal))
+        near("value", c->at.weight * kind->value(&c->at), formula.f, noise.f);
     near("gradient", dot(c, g, c->p), formula.p, noise.p);
     near("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
     near("symmetry", dot(c, Hp, c->q), formula.pq, noise.pq);
@@ -378,8 +378,8 @@ static void derivatives(Case *c, const TermKind *kind)
 static void line(Case *c, const TermKind *kind, Random *random)
 {
     double q[3] = {0}, g[SIZE] = {0}, reach = INFINITY;
-    if (kind->reach)
-        reach = kind->reach(&c->at, c->p);
+    if (kind->max_step)
+        reach = kind->max_step(&c->at, c->p);
     double most = fmin(reach, row->far);
     if (random_below(random, 2))
         most *= random_logarithmic(random, 1e-6, 1);
@@ -389,11 +389,11 @@ static void line(Case *c, const TermKind *kind, Random *random)
     Jet noise[2], start = exact(c, kind, 0, &noise[0]);
     Jet end = exact(c, kind, alpha, &noise[1]);
     kind->gradient(&c->at, g);
-    if (kind->along)
-        kind->along(&c->at, c->p, q);
+    if (kind->line_polynomial)
+        kind->line_polynomial(&c->at, c->p, q);
     double got = alpha * (alpha * (q[0] + alpha * (q[1] + alpha * q[2])));
-    if (kind->remainder)
-        got += kind->remainder(&c->at, c->p, alpha);
+    if (kind->line_remainder)
+        got += kind->line_remainder(&c->at, c->p, alpha);
     Real expected = end.f - start.f - alpha * start.p;
     near("change", got, expected,
          1e-13L * (fabsl(expected) + fabsl(end.f) + alpha * fabsl(start.p)) +
@@ -422,7 +422,8 @@ static double part_left(const Case *c, const double *x)
 /* Before the limit every place is allowed; there a tenth is left. */
 static void limit(Case *c, const TermKind *kind)
 {
-    double x[SIZE], alpha = kind->reach ? kind->reach(&c->at, c->p) : INFINITY;
+    double x[SIZE],
+        alpha = kind->max_step ? kind->max_step(&c->at, c->p) : INFINITY;
     Case other = *c;
     if (!isfinite(alpha))
         return;
@@ -430,7 +431,8 @@ static void limit(Case *c, const TermKind *kind)
         for (int i = 0; i < c->size; i++)
             x[i] = c->x[i] + alpha * k / 20 * c->p[i];
         other.at.x = x;
-        CHECK(kind->allowed(&other.at) && exact_crossings(&c->system, x) == 0);
+        CHECK(kind->is_feasible(&other.at) &&
+              exact_crossings(&c->system, x) == 0);
     }
     long crossings = 0;
     for (int k = 2; k < 8; k++) { /* soon the other tenth is gone, too */
@@ -449,7 +451,7 @@ static void limit(Case *c, const TermKind *kind)
  * eigenvalues cut or mirrored. */
 static void projection(Case *c, Random *random)
 {
-    IncrementalPotential E = {&c->system, c->at.w, c->x_n, c->u};
+    IncrementalPotential E = {&c->system, c->at.weight, c->x_n, c->u};
     Iterate iterate = {.E = E, .u = c->u, .x = c->x};
     static double plain[SIZE * SIZE], H[SIZE * SIZE];
     int n = c->size, *slot;
@@ -501,7 +503,7 @@ static void whole_step(Case *c, Random *random)
     double u_tilde[SIZE], g[SIZE], Hq[SIZE];
     for (int i = 0; i < c->size; i++)
         u_tilde[i] = random_uniform(random, -1, 1);
-    IncrementalPotential E = {&c->system, c->at.w, c->x_n, u_tilde};
+    IncrementalPotential E = {&c->system, c->at.weight, c->x_n, u_tilde};
     Spot spot = {.at = &c->at, .h = c->h, .p = c->p, .q = c->q};
     Jet noise, part = oracle_step(&spot, u_tilde), size = spot.size;
     exact(c, NULL, 0, &noise);
@@ -511,7 +513,7 @@ static void whole_step(Case *c, Random *random)
     near("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
     near("E's Hessian", dot(c, Hq, c->p), part.pq,
          noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
-    if (!system_data(&c->system, &damping))
+    if (!system_term_data(&c->system, &damping))
         near("E", incremental_potential_value(&E, c->u, c->x), part.f,
              noise.f + 1e-13L * size.f);
     const Along along = incremental_potential_along(&iterate);

@@ -265,6 +265,6 @@ double *rest_of(const Simulation *simulation)
     static double rest[2 * 2048];
     CHECK(simulation->mesh.nodes <= 2048);
     for (int i = 0; i < simulation->mesh.nodes; i++)
-        square_mesh_place(&simulation->mesh, i, rest + 2 * i);
+        square_mesh_rest_position(&simulation->mesh, i, rest + 2 * i);
     return rest;
 }
