@@ -1,12 +1,12 @@
-/* clock.h - seconds that only go forward: those of the wall, and those that
- * this program has worked.
+/* clock.h - two clocks in seconds: elapsed time and processor time.  Only
+ * differences of two readings of the same clock have a meaning.
  */
 #ifndef ELASTO_CLOCK_H
 #define ELASTO_CLOCK_H
 
 #include <time.h>
 
-/* s since some moment; only differences mean something. */
+/* Elapsed time, s.  The clock never goes back. */
 static inline double clock_now(void)
 {
     struct timespec now;
@@ -14,8 +14,8 @@ static inline double clock_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* The same, of the processor's time, as far as the system tells it: whatever
- * else the computer does is not in it. */
+/* Processor time that this program has used, s, so other programs do not count.
+ * A system without such a clock gives the elapsed time. */
 static inline double clock_processor(void)
 {
     struct timespec now;

@@ -1,24 +1,26 @@
-/* mathematics.h - functions whose bits are the same everywhere.  The libraries
- * of C round hypot, log and log1p differently (glibc and musl in 14, 0.01 and
- * 0.2 % of arguments), so what a time step calls stands here.  sqrt and frexp
- * are exact in every library.  Errors are below 1.5 units in the last place.
+/* mathematics.h - hypot, log and log1p with the same bits on every machine.
+ *
+ * The C libraries round these functions differently: glibc and musl differ for
+ * 14, 0.01 and 0.2 % of the arguments.  A time step therefore calls the
+ * functions of this header.  sqrt and frexp are exact in every library.  Errors
+ * are below 1.5 units in the last place.
  */
 #ifndef ELASTO_MATHEMATICS_H
 #define ELASTO_MATHEMATICS_H
 
-/* Input is refused and runs end where a number is NaN or infinite; sums keep
- * their order, so that a run has one hash. */
+/* The program tests for NaN and infinity, and its sums must keep their order so
+ * that a run has one hash.  Fast-math options break both. */
 #if defined __FAST_MATH__ || __FINITE_MATH_ONLY__ || __ASSOCIATIVE_MATH__
 #error "elasto needs NaN, infinity and sums in order: no -ffast-math, no -Ofast"
 #endif
 
-/* sqrt(x^2 + y^2), without overflow on the way. */
+/* Returns sqrt(x^2 + y^2); the squares do not overflow. */
 double math_hypot(double x, double y);
 
-/* The natural logarithm of x; -inf for 0, NaN below.  */
+/* Returns the natural logarithm of x: -infinity for 0, NaN for x < 0. */
 double math_log(double x);
 
-/* log(1 + x), accurate for small x as well. */
+/* Returns log(1 + x), accurate for small x as well. */
 double math_log1p(double x);
 
 #endif

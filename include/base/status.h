@@ -1,16 +1,17 @@
 /* status.h - every way in which a call can end, each with a text.
  *
- * What can fail returns a Status.  STATUS_OK is 0, so `if (status)` reads
- * "if it did not work".  Numeric kernels cannot fail and return nothing.
+ * A function that can fail returns a Status.  STATUS_OK is 0, so `if (status)`
+ * reads "if the call failed".  Numeric kernels cannot fail and return no
+ * Status.
  */
 #ifndef ELASTO_STATUS_H
 #define ELASTO_STATUS_H
 
 #include <stdbool.h>
 
-/* The constant without its prefix, its name in logs, and a sentence without
- * full stop, for people.  From ITERATION_LIMIT to DIVERGED: see
- * status_is_unconverged. */
+/* Each row: the constant without its prefix, the name in logs, and a sentence
+ * for messages, without full stop.  The rows from ITERATION_LIMIT to DIVERGED
+ * are those of status_is_unconverged. */
 #define STATUSES(F)                                                            \
     F(OK, ok, "converged")                                                     \
     F(RUNNING, running, "not at the end yet")                                  \
@@ -24,7 +25,7 @@
     F(NOT_POSITIVE_DEFINITE, not_positive_definite,                            \
       "the Hessian is not positive definite")                                  \
     F(SINGULAR, singular, "the Hessian is singular")                           \
-    F(BLOCKED, blocked, "what is moved found no room to go on")                \
+    F(BLOCKED, blocked, "a moving obstacle or pin found no room")              \
     F(DIVERGED, diverged, "E ended above where it began")                      \
     F(NOT_FINITE, not_finite, "a number became NaN or infinite")               \
     F(INTERRUPTED, interrupted, "interrupted")                                 \
@@ -37,12 +38,14 @@
 #define STATUS_CONSTANT(name, lower, text) STATUS_##name,
 typedef enum Status { STATUSES(STATUS_CONSTANT) STATUS_COUNT } Status;
 
-/* The sentence; the name. */
+/* The sentence for messages. */
 const char *status_text(Status status);
+
+/* The name in logs. */
 const char *status_name(Status status);
 
-/* True where a step ended with a usable state that is not the minimiser:
- * finite, and E not raised, but for DIVERGED.  The run goes on, and says so. */
+/* Whether a step ended in a finite state that is not the minimiser.  E did not
+ * rise, except for DIVERGED.  The run continues and reports the status. */
 bool status_is_unconverged(Status status);
 
 #endif

@@ -1,18 +1,20 @@
-/* boundary.h - the boundary of all that is solid, and which of its points come
- * near which of its edges.
+/* boundary.h - points and edges on the boundary of the bodies, and a search for
+ * the edges that come near a point.
  *
- *     d-----c      A cell gives both triangles of a diagonal where both are
- *     |   / |      solid (their three springs are whole): abd and cdb, else bca
- *     | /   |      and dac; else abd or cdb alone.  A side that has one
- *     a-----b      triangle is an edge; its ends, and nodes of no triangle, are
- *                  points.  Springs without triangles are threads: nothing
- *                  meets them.
+ *     d-----c      A triangle is solid if its three springs are whole.  A cell
+ *     |   / |      counts as the two triangles abd and cdb if both are solid,
+ *     | /   |      else as bca and dac if both are solid, else as abd or cdb
+ *     a-----b      alone.  An edge of the boundary is a side with one solid
+ *                  triangle.  The points are the ends of the edges and the
+ *                  nodes without a solid triangle.  Springs without a solid
+ *                  triangle (threads) are no edges.
  *
- * What is solid only becomes less as springs break: where no cell turns over,
- * edges that a break brings to light cross none.
+ * Springs only break, so solid triangles only become fewer.  As long as no cell
+ * turns over, the edges that a break exposes cross no other edge.
  *
- * Boxes hold what points and edges pass; the edges' are sorted by their left
- * side, and a point looks from the widest edge before it to its own right side.
+ * Search: a box holds what a point or an edge covers on its way.  The boxes of
+ * the edges are sorted by their left side.  A point visits the edges from the
+ * first one that may reach it to the right side of its own box.
  */
 #ifndef ELASTO_BOUNDARY_H
 #define ELASTO_BOUNDARY_H
@@ -20,46 +22,56 @@
 #include "model/square_mesh.h"
 #include "model/system.h"
 
-/* m, what a point or an edge fills on its way; the coordinate along which all
- * together are longer comes first. */
+/* The rectangle that a point or an edge covers on its way, m.  Coordinate 0 is
+ * the one along which the bodies are longer (Boundary.sorts_by_y). */
 typedef struct Box2 {
     double low[2], high[2];
-    int edge; /* whose it is, a spring; -1 of points */
+    int edge; /* spring of the edge; -1: the box of a point */
 } Box2;
 
 typedef struct Boundary {
     SquareMesh shape;
-    unsigned version;     /* of the system, that it is of */
-    int points, edges;    /* how many */
-    int *point;           /* [nodes] nodes */
-    Box2 *box;            /* [springs] of the edges, sorted */
-    Box2 *way;            /* [nodes] of the points */
-    unsigned char *sides; /* [springs] triangles on it */
-    unsigned char *role;  /* [nodes] */
-    /* The way that the boxes are of: from x along alpha p less its mean, and
-     * this much more around; widest of the edges' boxes. */
-    bool known, moves; /* whether it is the present one; p counts */
-    double *x, *p;     /* [2n] */
-    double alpha, mean[2], margin, widest;
-    bool upright;     /* the boxes' first coordinate is y */
-    bool listed;      /* there was room for what is near: of point i it is */
-    int *near, *last; /* near[last[i - 1]] and on, until near[last[i]] */
+    unsigned version;     /* System.version for which the boundary was found */
+    int points, edges;    /* numbers of points and edges */
+    int *point;           /* [nodes] node of each point */
+    Box2 *edge_box;       /* [springs] boxes of the edges, sorted */
+    Box2 *point_box;      /* [nodes] box of each point, by node */
+    unsigned char *sides; /* [springs] number of solid triangles at it */
+    unsigned char *role;  /* [nodes] in a triangle, on an edge, both, neither */
+
+    /* Motion for which the boxes were made: from x by alpha (p - mean). */
+    bool boxes_valid; /* whether the boxes belong to the present boundary */
+    bool has_motion;  /* false: the boxes are those of x alone */
+    double *x, *p;    /* [2n] m */
+    double alpha;     /* part of p that is covered */
+    double mean[2];   /* m, mean of p over the points */
+    double margin;    /* m, each box is wider by it at all sides */
+    double widest;    /* m, largest extent of an edge's box, coordinate 0 */
+    bool sorts_by_y;  /* whether coordinate 0 of the boxes is y */
+    bool lists_near;  /* whether `near` had room for all near edges */
+    int *near;        /* [8 nodes] near edges, point by point */
+    int *near_end;    /* [nodes] end of each point's edges in `near` */
 } Boundary;
 
-/* Bytes of all arrays; and puts them there. */
+/* Bytes that boundary_place_arrays needs for its arrays. */
 size_t boundary_bytes(const SquareMesh *mesh);
-void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary);
 
-/* Makes the boxes of x [2n] along alpha p [2n], NULL: of x alone, each wider by
- * `margin`, m, at all sides; and finds the boundary, if springs have changed.
- */
-void boundary_sort(Boundary *boundary, const System *system, const double *x,
-                   const double *p, double alpha, double margin);
+/* Initialises the struct.  Its arrays lie in `bytes`, of boundary_bytes. */
+void boundary_place_arrays(const SquareMesh *mesh, void *bytes,
+                           Boundary *boundary);
 
-/* The next edge that point i (a number of `point`) may meet.
- *   place  in/out, 0: before the first
- * Returns a spring; or -1, and place is 0 again. */
-int boundary_next(const Boundary *boundary, const System *system, int i,
-                  int *place);
+/* Finds the boundary again if springs have changed, and the near edges of each
+ * point on the way from x to x + alpha p.
+ *   x       [2n] m, in
+ *   p       [2n] m, in; NULL: no motion
+ *   margin  m, added to each box at all sides */
+void boundary_update(Boundary *boundary, const System *system, const double *x,
+                     const double *p, double alpha, double margin);
+
+/* The next edge that point i, 0 ... points-1, may meet.
+ *   place  in/out, 0 before the first edge and after the last one
+ * Returns the spring of the edge; -1 after the last edge. */
+int boundary_next_edge(const Boundary *boundary, const System *system, int i,
+                       int *place);
 
 #endif

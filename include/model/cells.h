@@ -1,15 +1,16 @@
-/* cells.h - cells that cannot turn over.
+/* cells.h - barrier energy that keeps the cells of the square from turning
+ * over.
  *
- *     d-----c     Springs do not know inside from outside: a cell that was
- *     |\   /|     pushed through itself stays so.  Each cell's four corner
- *     |  X  |     triangles (any three nodes that are joined pairwise) get a
- *     |/   \|     barrier in the area: J = (e1 x e2)/(2 A0), e1 = x_b - x_a,
- *     a-----b     e2 = x_c - x_a, is 1 at rest and 0 when it is flat;
- *                 W = c f(J/J_hat), c = A0 k_c in J.
+ *     d-----c     A spring has the same energy in a cell that is turned inside
+ *     |\   /|     out, which therefore stays so.  This term gives each of the
+ *     |  X  |     four corner triangles of a cell a barrier in its area.  With
+ *     |/   \|     e1 = x_b - x_a and e2 = x_c - x_a,
+ *     a-----b       J = (e1 x e2)/(2 A0)   1 at rest, 0 if flat
+ *                   W = c f(J/J_hat)       J, c = A0 k_c, f of barrier.h
  *
- * J_hat = 0.4: no effect before a triangle is squeezed below 40 %.  The same
- * with |d| of all edges is in Smith et al.: Stable Neo-Hookean Flesh
- * Simulation, 2018; the eigenvectors of J's Hessian are from there too.
+ * J_hat is 0.4: a triangle with more than 40 % of its area has no force.  The
+ * eigenvectors of the Hessian of J are those of Smith et al.: Stable
+ * Neo-Hookean Flesh Simulation, 2018.
  */
 #ifndef ELASTO_CELLS_H
 #define ELASTO_CELLS_H
@@ -17,24 +18,25 @@
 #include "model/square_mesh.h"
 #include "model/system.h"
 
-#define CELL_J_HAT 0.4
+#define CELL_J_HAT 0.4 /* area over rest area at which the barrier begins */
 
-/* ---- the term -------------------------------------------------------- */
-
-/* The term's data. */
+/* The data of the term is a struct of this type. */
 typedef struct Cells {
     int triangles;
-    int *node;   /* [3 triangles] a, b, c */
-    int *spring; /* [3 triangles] its sides; it breaks with any of them */
-    double area; /* m^2, A0 of all */
+    int *node;   /* [3 triangles] nodes a, b, c of each triangle */
+    int *spring; /* [3 triangles] its sides; the triangle ends with any of them
+                  */
+    double area; /* m^2, A0 of each triangle */
     double c;    /* J, A0 k_c */
 } Cells;
 
-/* sum of W over the triangles whose springs are whole; data: Cells. */
+/* The sum of W over the triangles whose three springs are whole; data: Cells.
+ */
 extern const TermKind cell_energy;
 
-/* Adds all triangles of the mesh, or gives those that are there this stiffness,
- * J/m^2, k_c.  Returns OK, OUT_OF_MEMORY. */
+/* Adds the term with all triangles of the mesh, or changes its stiffness.
+ *   stiffness  J/m^2, k_c
+ * Returns OK or OUT_OF_MEMORY. */
 Status cells_set(System *system, const SquareMesh *shape, double stiffness);
 
 #endif

@@ -1,16 +1,17 @@
-/* contact.h - nodes against walls and balls (slides: contact; lesson "Boundary
- * Treatments" of the lecture's author; Li et al.: Incremental Potential
- * Contact, 2020).
+/* contact.h - contact of nodes with walls and balls (slides: contact; lesson
+ * "Boundary Treatments" of the lecture's author; Li et al.: Incremental
+ * Potential Contact, 2020).
  *
- *          n                    A node i keeps the gap d to an obstacle:
+ *          n                    The gap d between node i and an obstacle is
  *          ^    o x_i             wall  d = n.(x_i - o)
  *          |    |                 ball  d = |x_i - x_b| - R
- *          |    | d             with n the direction from the obstacle to the
- *    ------o----+--------       node.  Below d_hat it is pushed away by the
- *    //////////////////////     barrier W = c f(s), s = d/d_hat.
+ *          |    | d             with n the unit vector from the obstacle to the
+ *    ------o----+--------       node.  For d < d_hat the barrier energy
+ *    //////////////////////       W = c f(d/d_hat), f of barrier.h
+ *                               pushes the node away.
  *
- * c = A d_hat kappa/2 in J, A the length of boundary that a node stands for.
- * Every node is tested: those inside become boundary where springs break.
+ * c = A d_hat kappa/2 in J, where A is the length of boundary for each node.
+ * Every node is tested, also inside: it is on the boundary once springs break.
  */
 #ifndef ELASTO_CONTACT_H
 #define ELASTO_CONTACT_H
@@ -20,112 +21,114 @@
 
 typedef enum ObstacleKind { OBSTACLE_WALL, OBSTACLE_BALL } ObstacleKind;
 
-/* How an obstacle is moved: phase after phase, then it stands still. */
+/* Prescribed motion of an obstacle: phases of constant velocity, then rest. */
 enum { MOTION_MAX_PHASES = 4 };
 
 typedef struct Motion {
     int phases;
     double until[MOTION_MAX_PHASES]; /* s, end of the phase */
-    double v[MOTION_MAX_PHASES][2];  /* m/s in it */
+    double v[MOTION_MAX_PHASES][2];  /* m/s, velocity in the phase */
     bool stops;                      /* whether the obstacle stops at `stop` */
-    double stop[2]; /* m, last place of the obstacle's point o */
+    double stop[2]; /* m, last position of the obstacle's point o */
 } Motion;
 
 typedef struct Obstacle {
     ObstacleKind kind;
-    double o[2];   /* m, a point of the wall's surface, or the ball's centre;
-                      not used where the ball is a node */
-    double n[2];   /* the wall's unit normal, out of it; balls: not used */
-    double radius; /* m, R > 0; walls: not used */
+    double o[2];   /* m, point on the surface of a wall, centre of a ball; not
+                      used for the free ball */
+    double n[2];   /* outward unit normal of a wall; not used for balls */
+    double radius; /* m, R > 0; not used for walls */
     Motion motion;
-    double v[2];     /* m/s, its velocity in the present step */
-    double friction; /* mu >= 0 */
-    int node;        /* the ball's centre is this free node; -1: it is o */
-    double given[2]; /* m, o as the options last gave it; a hand may have moved
-                        the obstacle from there */
+    double v[2];     /* m/s, velocity in the present step */
+    double friction; /* coefficient of friction mu >= 0 */
+    int node;        /* node at the centre of the free ball; -1: fixed */
+    double given[2]; /* m, o as the options last set it; a hand may have moved
+                        the obstacle since */
 } Obstacle;
 
-/* How the barrier acts. */
+/* Width and strength of the barrier. */
 typedef struct Barrier {
-    double d_hat; /* m, gap at which it begins */
+    double d_hat; /* m, gap at which the barrier begins */
     double c;     /* J, A d_hat kappa/2 */
 } Barrier;
 
-/* Where a node stands to an obstacle. */
+/* Gap between a node and an obstacle. */
 typedef struct Gap {
-    double d;    /* m; <= 0: penetration */
+    double d;    /* m; d <= 0: the node is inside the obstacle */
     double n[2]; /* unit vector from the obstacle to the node */
-    double r;    /* m, |x_i - x_b|; a wall: infinite */
+    double r;    /* m, |x_i - x_b| for a ball, infinite for a wall */
 } Gap;
 
-/* The point that the obstacle's gaps are measured from, in positions x [2n] m:
- * o, or the free node. */
+/* The point o of an obstacle, or the node at the centre of the free ball.
+ * x [2n] m, in. */
 const double *obstacle_origin(const Obstacle *obstacle, const double *x);
 
-/* The gap of a node with this radius (a point: 0) at x_i [2] to an obstacle
- * whose point is at o [2]. */
+/* The gap between a node and an obstacle.
+ *   o       [2] m, in, position of the obstacle's point
+ *   x_i     [2] m, in, position of the node
+ *   radius  m, of the node; 0 for a point */
 Gap contact_measure_gap(const Obstacle *obstacle, const double *o,
                         const double *x_i, double radius);
 
-/* -dW/dd >= 0, N, at the gap d > 0: the force that pushes the node along n. */
+/* The force -dW/dd >= 0, N, on the node along n at the gap d > 0, m. */
 double contact_normal_force(const Barrier *barrier, double d);
 
 /* ---- the term -------------------------------------------------------- */
 
-/* Walls and balls of the command line, and a few that a scene moves. */
+/* Enough for all obstacles of the command line and those that a scene adds. */
 enum { CONTACT_MAX_OBSTACLES = 20 };
 
-/* An obstacle that a hand draws to a point (push.c). */
+/* An obstacle that a hand pulls to a point (push.c). */
 typedef struct Push {
-    bool on;          /* Whether a hand holds an obstacle. */
-    int obstacle;     /* Number of the obstacle. */
-    double to[2];     /* m, where the hand wants the obstacle's point o. */
-    SquareMesh shape; /* Of the bodies: no ball enters their cells. */
-    bool stopped;     /* Whether the obstacle was stopped in this step. */
-    double moved;     /* Part of its way that it had made then. */
+    bool on;          /* whether a hand holds an obstacle */
+    int obstacle;     /* number of the obstacle */
+    double to[2];     /* m, target of the obstacle's point o */
+    SquareMesh shape; /* mesh of the bodies, whose cells no ball may enter */
+    bool stopped;     /* whether the obstacle was stopped in this step */
+    double moved;     /* part of the way in this step, when it was stopped */
 } Push;
 
-/* The term's data. */
+/* The data of the term is a struct of this type. */
 typedef struct Contact {
     Barrier barrier;
     int obstacles;
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
-    int ball; /* the obstacle whose centre is a node, at most one; -1 */
+    int ball; /* number of the free ball, whose centre is a node; -1: none */
     Push push;
 } Contact;
 
-/* sum of W over all pairs of nodes and obstacles, its elements, of which s is
- * the gap, n and r those of Gap; data: Contact. */
+/* The sum of W over all pairs of a node and an obstacle; data: Contact.  A pair
+ * is an Element with s = d, and n and r as in Gap. */
 extern const TermKind contact_energy;
 
-/* Puts the term in, gives it these obstacles, of which at most one has a node,
- * or takes it out where there are none.  Returns OK, OUT_OF_MEMORY. */
+/* Adds the term or replaces its obstacles; removes it if there are none.
+ *   obstacle  [obstacles] in, at most one of them with a node
+ * Returns OK or OUT_OF_MEMORY. */
 Status contact_set(System *system, const Barrier *barrier, int obstacles,
                    const Obstacle *obstacle);
 
-/* The system's obstacles, or NULL. */
+/* Data of the term; NULL: the system has no obstacles. */
 Contact *contact_of(const System *system);
 
-/* Whether this node and this obstacle can touch: a ball does not touch itself,
- * nor a pinned node an obstacle that cannot give way. */
+/* Whether the energy of this node and this obstacle counts.  The free ball's
+ * own node does not count, nor a fixed node at a fixed obstacle. */
 bool contact_has_pair(const Contact *contact, const System *system, int node,
                       int obstacle);
 
-/* m, of a node: 0, a point, but for the centre of the free ball. */
+/* Radius of a node, m: R for the node of the free ball, 0 for all others. */
 double contact_node_radius(const Contact *contact, int node);
 
-/* ---- an obstacle that a hand moves (push.c) ---------------------------- */
+/* ---- obstacle moved by a hand (push.c) --------------------------------- */
 
-/* Before a step of h seconds from x [2n] m: sets the velocity of the obstacle
- * that a hand holds.  The obstacle goes a part of the way to the hand, with a
- * bounded speed.  It stands still where a node in front of it is pressed as
- * strongly as the hand can, and stops before pinned nodes that do not give way
- * and before its centre enters a cell. */
+/* Sets the velocity of the held obstacle before a step of h seconds from x [2n]
+ * m.  The obstacle moves part of the way to its target, with a bounded speed.
+ * It rests if a node in front of it is pressed with the hand's full force.  It
+ * stops in front of fixed nodes, and before its centre enters a cell. */
 void push_begin_step(Contact *contact, const System *system, const double *x,
                      double h);
 
-/* The largest part of a step's way that the held obstacle may make at once: a
- * ball half of its radius, so that it jumps over no node. */
+/* The largest part of a step's way that the held obstacle may move at once: a
+ * ball moves at most half its radius, so that it skips no node. */
 double push_max_step(const Contact *contact, double h);
 
 #endif

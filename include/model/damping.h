@@ -1,36 +1,36 @@
-/* damping.h - springs that resist the rate of their strain (Kelvin-Voigt).
+/* damping.h - Kelvin-Voigt damping: springs resist the rate of their strain.
  *
- * A spring with the strain E = |d|^2/l2 - 1 has beside its k l2 E^2/2 the force
- * of k l2 eta dE/dt on E.  Turning changes no E, so it costs nothing; the
- * forces act along the springs, so they keep momentum and angular momentum.  In
- * a step of backward Euler dE/dt = (E - E_n)/h, and with theta = eta/h the
- * spring's energy becomes
+ * The elastic energy of a spring is k l2 E^2/2 with the strain
+ * E = |d|^2/l2 - 1.  Damping adds the stress k l2 eta dE/dt.  A rotation does
+ * not change E, so it is not damped.  The forces act along the springs, so they
+ * conserve momentum and angular momentum.  In a step of backward Euler dE/dt is
+ * (E - E_n)/h.  With theta = eta/h the energy of the spring becomes
  *
  *   k l2 [E^2 + theta (E - E_n)^2]/2
  *       = k' l2' (|d|^2/l2' - 1)^2/2 + constant,
  *   l2' = (l2 + theta |d_n|^2)/(1 + theta),  k' = k (1 + theta) l2'/l2
  *
- * by completing the square: the slides' spring with other numbers, which stand
- * for one step.  Springs that flow have their own law (plasticity.h) and take
- * theta and E_n instead.
+ * by completing the square: a spring of the slides with other numbers for this
+ * step.  Springs that flow (plasticity.h) use theta and E_n in their own law.
  */
 #ifndef ELASTO_DAMPING_H
 #define ELASTO_DAMPING_H
 
 #include "model/system.h"
 
-/* The term's data. */
+/* The data of the term is a struct of this type. */
 typedef struct Damping {
-    double eta;   /* s, >= 0 */
+    double eta;   /* s, damping time >= 0 */
     double theta; /* eta/h in this step */
-    double *E_n;  /* [springs] strain at its start */
-    double *k;    /* [springs] J/m^2, k' */
-    double *l2;   /* [springs] m^2, l2' > 0 */
+    double *E_n;  /* [springs] strain at the start of this step */
+    double *k;    /* [springs] J/m^2, stiffness k' in this step */
+    double *l2;   /* [springs] m^2, squared rest length l2' in this step */
 } Damping;
 
-/* No energy of its own: what damping does to the springs' energy is in their
- * term.  It books k l2 theta (E - E_n)^2 as lost: the power k l2 eta (dE/dt)^2
- * over the step.  data: Damping; its number is eta. */
+/* Damping as a term; data: Damping; number of its option: eta.  The term has no
+ * value: its energy is part of the springs' term, which reads k' and l2'. After
+ * a step it books the dissipated energy k l2 theta (E - E_n)^2, which is the
+ * power k l2 eta (dE/dt)^2 times h. */
 extern const TermKind damping;
 
 #endif

@@ -1,41 +1,45 @@
-/* elements.h - terms that are sums over elements of a few nodes.
+/* elements.h - terms whose energy is a sum over elements of a few nodes.
  *
- * An element's energy W depends on one or two vectors a, b, each a weighted
- * sum of the positions of up to three nodes:
+ * The energy W of an element depends on one or two vectors a and b.  Each
+ * vector is a weighted sum of the positions of up to three nodes:
  *
  *   node and wall       a = x_i
  *   node and free ball  a = x_i - x_ball
  *   triangle            a = x_j - x_i,  b = x_k - x_i
  *   point and edge      a = x_p - x_0,  b = x_1 - x_0
  *
- * The source of a term says what W, its gradient and its Hessian are in (a, b);
- * the loops over the elements, the way to the nodes and the entries of the
- * matrix are here.
+ * The source of a term has W, its gradient and its Hessian in (a, b).  The
+ * loops over the elements, the step from (a, b) to the nodes and the entries of
+ * the matrix are in elements.c.
  */
 #ifndef ELASTO_ELEMENTS_H
 #define ELASTO_ELEMENTS_H
 
 #include "model/system.h"
 
-/* Part of a gap or an area that one step of the minimisation may use up. */
+/* Part of a gap or an area that one Newton update may use up. */
 #define ELEMENT_LIMIT 0.9
 
-/* One of them, at one place. */
+/* An element at given positions. */
 typedef struct Element {
-    int nodes, vectors; /* 1 ... 3, 1 or 2 */
-    int node[3];
-    const double (*weight)[3]; /* [vectors] of the nodes in a and in b */
-    int block;                 /* it has the entries of this block */
-    int from; /* whom it is from, a number of the term: contact's obstacle */
-    int more; /* > 0: get is asked for the same i again, and goes on there */
-    double factor;  /* of gradient and Hessian: 1, or w where the term's
-                       functions leave it out */
-    double v[4];    /* m, a and b, for terms that want them */
-    double s;       /* what W is about: a gap, an area, a way */
-    double n[2], r; /* what else the term's functions want to know */
+    int nodes;                 /* 1 ... 3 */
+    int vectors;               /* 1: a alone, 2: a and b */
+    int node[3];               /* [nodes] */
+    const double (*weight)[3]; /* [vectors] of the nodes in a and b */
+    int block;      /* block of the matrix with its entries; -1: none yet */
+    int source;     /* contact: its obstacle; self-contact: its edge */
+    int next_place; /* > 0: the next call of get has the same i and continues
+                       here */
+    double factor;  /* factor on gradient and Hessian: 1, or EvalPoint.weight
+                       if the kind's functions do not multiply by it */
+    double v[4];    /* m, a and b; set by kinds that use it */
+    double s;       /* argument of W: a gap, a ratio of areas or a slip */
+    double n[2], r; /* further numbers of the kind, see its TermKind */
 } Element;
 
-/* a and b, or how they change: v [4] out, of x or p [2n]. */
+/* Computes a and b, or their change along a direction.
+ *   x  [2n] m, in, positions or a direction
+ *   v  [4] m, out, a and b */
 static inline void element_vectors(const Element *element, const double *x,
                                    double v[4])
 {
@@ -49,66 +53,78 @@ static inline void element_vectors(const Element *element, const double *x,
     }
 }
 
-/* What a term says.  Elements are counted from 0. */
+/* The functions of one kind of element.  Elements are numbered from 0. */
 struct ElementKind {
-    /* Looks for elements before they are counted: those at x, and with p [2n]
-     * those that come up until x + alpha p.  NULL: all are known. */
+    /* Finds the elements before count is called: those at x and, with p [2n],
+     * those on the way to x + alpha p.  NULL: the elements never change. */
     void (*prepare)(const EvalPoint *at, const double *p, double alpha);
+
+    /* Number of elements. */
     int (*count)(const EvalPoint *at);
 
-    /* Element i at x.  Returns false where there is nothing, or W is 0 and
-     * stays so while a and b change by less than `way`, m, each. */
+    /* Computes element i at x.  Returns false if i has no element, or if W is 0
+     * for all changes of a and of b by less than `way`, m. */
     bool (*get)(const EvalPoint *at, int i, double way, Element *element);
 
-    /* The blocks of the matrix, each with all entries of 1 to 3 nodes: how many
-     * there are; the nodes of one, out, and how many.  x is not known. */
+    /* Number of blocks of the matrix.  A block has all entries of 1 to 3 nodes.
+     * Blocks do not depend on x, which may be NULL. */
     int (*block_count)(const EvalPoint *at);
+
+    /* Writes the nodes of a block and returns their number. */
     int (*block_nodes)(const EvalPoint *at, int block, int node[3]);
 
-    /* W, J, and its gradient g [4] out; H [4][4] out, projected (TermKind's
-     * hessian), returns whether it was changed. */
+    /* Returns W, J. */
     double (*value)(const EvalPoint *at, const Element *element);
+
+    /* Writes the gradient of W in (a, b) to g. */
     void (*gradient)(const EvalPoint *at, const Element *element, double g[4]);
+
+    /* Writes the projected Hessian of W in (a, b) to H.  Returns whether the
+     * projection changed it. */
     bool (*hessian)(const EvalPoint *at, const Element *element,
                     Projection projection, double H[4][4]);
 
-    /* Hv [4] = H v, out, where that has more digits than H itself; returns as
-     * hessian.  NULL: it has not. */
+    /* Writes Hv = H v with more digits than the numbers of H allow.  Returns
+     * whether the projection changed H.  NULL: the product with H is enough. */
     bool (*product)(const EvalPoint *at, const Element *element,
                     Projection projection, const double v[4], double Hv[4]);
 
-    /* With P [4], the change of a and b along p: W at alpha minus W minus
-     * alpha grad W.P, J, without cancellation; and the alpha that uses up
-     * ELEMENT_LIMIT of s, which must stay above 0, where W is not.  NULL: any s
-     * will do. */
+    /* Returns W at alpha minus W minus alpha grad W.P, J, without cancellation.
+     * P [4] is the change of a and b along p. */
     double (*line_remainder)(const EvalPoint *at, const Element *element,
                              const double P[4], double alpha);
+
+    /* Returns the alpha along P at which s has lost the part ELEMENT_LIMIT.
+     * NULL: W exists for every s; else s must stay above 0. */
     double (*max_step)(const EvalPoint *at, const Element *element,
                        const double P[4]);
 
-    /* Of what friction acts on: mu times the normal force, N.  It slides by
-     * t.(da, db), t [4] out, on what goes along at `carry`, m/s, out. */
+    /* Returns mu times the normal force, N: the largest force of friction.
+     *   t      [4] out, tangent: the contact slides by t.(da, db)
+     *   carry  m/s, out, speed of the obstacle along t
+     * NULL: no friction acts on these elements. */
     double (*friction_limit)(const EvalPoint *at, const Element *element,
                              double t[4], double *carry);
 };
 
-/* From element to element: for (ElementIterator walk = elements_begin(at, NULL,
- * 0); elements_next(&walk);).  With p [2n] also those whose W begins until
- * alpha p.
+/* A loop over the elements with W > 0 at x and, with p [2n], also those with
+ * W > 0 on the way to x + alpha p:
+ *   for (ElementIterator walk = elements_begin(at, p, alpha);
+ *        elements_next(&walk);)
  */
 typedef struct ElementIterator {
     const EvalPoint *at;
     const ElementKind *kind;
-    double way;
-    int i, count;
-    Element element;
+    double way;      /* m, bound on the change of a and of b on the way */
+    int i, count;    /* present element, number of elements */
+    Element element; /* present element, out */
 } ElementIterator;
 
 ElementIterator elements_begin(const EvalPoint *at, const double *p,
                                double alpha);
 bool elements_next(ElementIterator *walk);
 
-/* Functions of a TermKind with elements. */
+/* TermKind's functions for terms with elements (term.h). */
 double elements_value(const EvalPoint *at);
 void elements_gradient(const EvalPoint *at, double *g);
 long long elements_entries(const EvalPoint *at);
@@ -120,7 +136,7 @@ double elements_line_remainder(const EvalPoint *at, const double *p,
 double elements_max_step(const EvalPoint *at, const double *p);
 bool elements_are_feasible(const EvalPoint *at);
 
-/* All of them, for its row. */
+/* These functions in the TermKind of a term with elements. */
 #define ELEMENTS(kind)                                                         \
     .element = &(kind), .value = elements_value,                               \
     .gradient = elements_gradient, .entries = elements_entries,                \

@@ -1,37 +1,40 @@
 /* fracture.h - springs that break (slides: fracture).
  *
- * After a step the springs whose strain E = |d|^2/l2 - 1 exceeds their strength
- * are candidates.  The most overstretched goes first, and at most one a node a
- * step: its neighbours get its load and the next step to carry it; else whole
- * rows would shatter at once.  A broken spring has k = 0; it stays in all lists
- * and in the pattern of the Hessian.
+ * After a step, a spring is a candidate if its strain E = |d|^2/l2 - 1 exceeds
+ * its strength.  The candidate with the largest load breaks first, and at most
+ * one spring at each node breaks in a step.  Its neighbours then have the next
+ * step to take over the load; otherwise whole rows would break at once.  A
+ * broken spring has k = 0 and stays in all lists and in the pattern of the
+ * Hessian.
  *
- * Strengths differ by up to a tenth, by a hash of the spring's number: in a
- * symmetric scene rounding would choose otherwise.
+ * The strengths differ by up to a tenth, by a hash of the spring's number.
+ * Without this, rounding would choose the springs of a symmetric scene.
  */
 #ifndef ELASTO_FRACTURE_H
 #define ELASTO_FRACTURE_H
 
 #include "model/system.h"
 
-/* A spring that may break. */
+/* A spring that may break after this step. */
 typedef struct Candidate {
-    double load; /* strain over strength, > 1 */
+    double load; /* strain divided by strength, > 1 */
     int spring;
 } Candidate;
 
 typedef struct Fracture {
-    double strength;      /* s_c > 0, a strain */
-    Candidate *candidate; /* [springs] room */
-    unsigned char *taken; /* [nodes] one of its springs broke in this step */
+    double strength;      /* s_c > 0, mean strain at which springs break */
+    Candidate *candidate; /* [springs] workspace */
+    unsigned char
+        *taken; /* [nodes] 1: a spring of the node broke in this step */
 } Fracture;
 
-/* No energy of its own; at a step's end it breaks springs and books the energy
- * that goes with them.  data: Fracture; its number is s_c.  It must stand last
- * in the list. */
+/* Fracture as a term; data: Fracture; number of its option: s_c.  The term has
+ * no value.  After a step it breaks springs and books the energy that they and
+ * their cells had.  It is last in the list, so that the other terms have ended
+ * the step. */
 extern const TermKind fracture;
 
-/* The strain at which spring s breaks. */
+/* Returns the strain at which spring s breaks. */
 double fracture_strength(const Fracture *fracture, int s);
 
 #endif

@@ -1,51 +1,60 @@
 /* friction.h - Coulomb's law as an energy (slides: friction; lesson "Frictional
- * Contact" of the lecture's author; Li et al. 2020): at a contact with the
- * normal force lambda of the step's start and the tangent t,
+ * Contact" of the lecture's author; Li et al. 2020).
  *
- *   W = mu lambda f0(y),  y = t.(u_i - u_b) or t.u_i - h t.v_wall,
- *                         y = t.(u_p - (1-r) u_0 - r u_1) between bodies,
+ * A contact has the normal force lambda and the tangent t of the step's start.
+ * Its energy is
  *
- * y being how far the node has slid in this step, and r the place on the edge
- * that it is nearest to at the step's start.  With e = eps_v h
+ *   W = mu lambda f0(y)
+ *   y = t.u_i - h t.v_wall                 slip at a wall or fixed ball, m
+ *   y = t.(u_i - u_b)                      slip at the free ball, m
+ *   y = t.(u_p - (1-r) u_0 - r u_1)        slip between bodies, m
+ *
+ * where y is how far the node has slid in this step, and r is the position on
+ * the edge that was nearest to the node at the step's start.  With e = eps_v h
  *   f0 = y^2/e (1 - |y|/(3e)) for |y| < e, else |y| - e/3
  *   f0' = sign(y) a (2 - a),  a = min(|y|/e, 1)
  *   f0'' = 2/e max(0, 1 - |y|/e)
- * so below the speed eps_v the contact sticks (it creeps), above it slides with
- * the force mu lambda.
+ * Below the speed eps_v the contact sticks, apart from a slow creep.  Above
+ * eps_v it slides with the force mu lambda.
  */
 #ifndef ELASTO_FRICTION_H
 #define ELASTO_FRICTION_H
 
 #include "model/contact.h"
 
-/* f0'.  e > 0, m */
+/* Returns f0'(y), without unit.  e > 0, m. */
 double friction_slope(double y, double e);
 
 /* ---- the term -------------------------------------------------------- */
 
-/* One contact in this step: whatever pushes with a normal force. */
+/* One contact with a normal force in this step. */
 typedef struct Slide {
-    Element row;  /* its nodes at x_n; t in a and b is v, mu lambda is r, N */
-    double carry; /* h t.v_wall, m: how far the obstacle goes along t */
+    Element element; /* v is t in (a, b), r is mu lambda, N */
+    double carry;    /* m, h t.v_wall: travel of the obstacle along t */
 } Slide;
 
-/* The term's data. */
+/* The data of the term is a struct of this type. */
 typedef struct Friction {
-    double slip_speed; /* eps_v, m/s > 0 */
+    double slip_speed; /* m/s, eps_v > 0 */
     double e;          /* m, eps_v h */
-    int slides, room;  /* contacts of this step */
-    Slide slide[];     /* [room] */
+    int slides;        /* number of contacts with a normal force in this step */
+    int room;          /* allocated contacts */
+    Slide slide[];     /* [room] contacts of this step */
 } Friction;
 
-/* sum of W over the contacts at x_n, with obstacles and between bodies; data:
- * Friction.  The system must have these contacts. */
+/* The sum of W over the contacts of the step's start: with obstacles
+ * (friction_energy), and between bodies (self_friction_energy).  data:
+ * Friction. The system must have the term of these contacts. */
 extern const TermKind friction_energy, self_friction_energy;
 
-/* J, what obstacles that move have done by friction in the step u [2n] m. */
+/* Work that moving obstacles did by friction in this step, J.
+ * u [2n] m, in, displacement of the step. */
 double friction_work_of_obstacles(const System *system, const double *u);
 
-/* Adds one of the two, gives it this number, or takes it out.  Returns OK,
- * OUT_OF_MEMORY. */
+/* Adds one of the two terms, changes its eps_v, or removes it.
+ *   wanted      false: remove
+ *   slip_speed  m/s, eps_v
+ * Returns OK or OUT_OF_MEMORY. */
 Status friction_set(System *system, const TermKind *kind, bool wanted,
                     double slip_speed);
 

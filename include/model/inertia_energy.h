@@ -1,8 +1,8 @@
 /* inertia_energy.h - E_I(x) = sum m_i |x_i - x_tilde_i|^2 / 2
  * (slide InertiaEnergy.py).
  *
- * Only the difference x - x_tilde enters, so both may be displacements from
- * x_n instead of positions: that is how the stepper calls it.
+ * E_I depends on x - x_tilde alone.  Time steps therefore pass displacements
+ * from x_n as x and x_tilde, which have smaller rounding errors.
  *   n        nodes
  *   x        [2n] m, in
  *   x_tilde  [2n] m, in

@@ -1,5 +1,5 @@
-/* mass_spring_energy.h - the energy of all springs (slide MassSpringEnergy.py),
- * and the loops that other energies of springs share with it.
+/* mass_spring_energy.h - energy of all springs (slide MassSpringEnergy.py), and
+ * functions that other energies of springs share with it.
  */
 #ifndef ELASTO_MASS_SPRING_ENERGY_H
 #define ELASTO_MASS_SPRING_ENERGY_H
@@ -7,20 +7,20 @@
 #include "model/spring_law.h"
 #include "model/system.h"
 
-/* The springs of the system as a term; they need no data. */
+/* The sum of spring_energy over all springs; the term has no data. */
 extern const TermKind mass_spring_energy;
 
-/* Entries of a spring in one triangle of the Hessian: ii: xx xy yy,
+/* Entries of a spring in the lower triangle of the Hessian: ii: xx xy yy,
  * jj: xx xy yy, ij: xx xy yx yy. */
 enum { SPRING_ENTRIES = 10 };
 
-/* The functions entries, pattern and curvature_bound (max k) of a term with a
- * block for each spring. */
+/* TermKind's functions for a term with one block for each spring.  The bound of
+ * the curvature is the largest k. */
 long long mass_spring_entries(const EvalPoint *at);
 void mass_spring_pattern(const EvalPoint *at, Triplets *triplets);
 double mass_spring_curvature_bound(const EvalPoint *at);
 
-/* g += factor d at node e[0] and minus that at node e[1]. */
+/* Adds factor d to g at node e[0] and subtracts it at node e[1].  g [2n]. */
 static inline void spring_add_force(const int e[2], double factor,
                                     const double d[2], double *g)
 {
@@ -30,9 +30,9 @@ static inline void spring_add_force(const int e[2], double factor,
     }
 }
 
-/* The block [[H, -H], [-H, H]] of the nodes e[0] and e[1], number `spring` of
- * such blocks: added to a matrix through its slots, or, where q is given,
- * out += block q (TermKind's hessian). */
+/* Adds the block B = [[H, -H], [-H, H]] of a spring with the nodes e[0], e[1]:
+ *   q = NULL   entries of B go to out[slot[...]] of a matrix
+ *   otherwise  out += B q; q, out [2n] */
 static inline void mass_spring_add(const double H[3], const int e[2],
                                    int spring, const int *slot, const double *q,
                                    double *out)

@@ -1,57 +1,61 @@
-/* plasticity.h - springs that flow (slides: inelasticity), in Green strain.
+/* plasticity.h - springs that flow plastically (slides: inelasticity).
  *
- * A spring has E = |d|^2/l2 - 1, of which ep stays when it is unloaded.  It
- * stores k l2 (E - ep)^2/2; beyond the yield strain Y it flows instead.  How
- * far it will flow in this step is minimised out (Ortiz, Stainier 1999: the
- * condensed incremental potential), so that the step stays one minimisation:
+ * A spring has the Green strain E = |d|^2/l2 - 1.  The plastic strain ep is the
+ * part of E that remains after unloading.  The elastic energy is
+ * k l2 (E - ep)^2/2; beyond the yield strain Y the spring flows.  W is the
+ * condensed incremental potential of Ortiz and Stainier (1999), in which the
+ * flow of this step is already minimised out, so that a step is one
+ * minimisation:
  *
  *   W = k l2 V(e),  e = E - ep_n
  *   V = e^2/2 - (|e| - Y_n)_+^2 flow/2,  flow = 1/(1 + H)
  *   tau = V' = e - sign(e) flow (|e| - Y_n)_+,  tau' = 1 or 1 - flow
  *
- * with Y_n = Y + H kappa_n, the yield strain after the hardening so far.  With
- * H = 0 V is Huber's function; below Y_n it is the elastic spring.
+ * with Y_n = Y + H kappa_n, the yield strain after the hardening so far.  For
+ * |e| < Y_n the spring is elastic.  For H = 0 V is Huber's function.
  */
 #ifndef ELASTO_PLASTICITY_H
 #define ELASTO_PLASTICITY_H
 
 #include "model/system.h"
 
-/* How a spring answers in this step; with damping (damping.h) V has
- * theta (e - e_n)^2/2 more. */
+/* The function V of one spring in this step.  With damping (damping.h) V has
+ * the further summand theta (e - e_n)^2/2. */
 typedef struct FlowLaw {
-    double ep;    /* plastic strain, e = E - ep */
-    double yield; /* Y_n > 0 */
-    double flow;  /* 1/(1 + H), 0 < flow <= 1 */
+    double ep;    /* plastic strain at the step's start, e = E - ep */
+    double yield; /* yield strain Y_n > 0 */
+    double flow;  /* 1/(1 + H), in (0, 1] */
     double hard;  /* 1 - flow */
-    double theta; /* eta/h; 0: no damping */
+    double theta; /* damping eta/h; 0: none */
     double e_n;   /* e at the step's start */
 } FlowLaw;
 
+/* Returns tau = V'(e). */
 double flow_law_slope(FlowLaw law, double e);
 
-/* The block H of the spring (spring_law.h) is c (l2 tau I + 2 tau' d d^T).
- * Returns its eigenvalue along d, divided by c, m^2.
- *   across  l2 tau, the eigenvalue across d, divided by c */
+/* Returns the eigenvalue along d of H/c, m^2.  H = c (l2 tau I + 2 tau' d d^T)
+ * is the spring's block of the Hessian (spring_law.h). d2      m^2, |d|^2
+ *   across  m^2, l2 tau, the eigenvalue of H/c across d */
 double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
                                  double across);
 
 /* ---- the term -------------------------------------------------------- */
 
-/* The term's data. */
+/* The data of the term is a struct of this type. */
 typedef struct Plasticity {
-    double yield;     /* Y > 0 */
-    double hardening; /* H >= 0 */
+    double yield;     /* yield strain Y > 0 */
+    double hardening; /* hardening modulus H >= 0, relative to k */
     double *ep;       /* [springs] plastic strain */
-    double *kappa;    /* [springs] sum of its changes' sizes */
+    double *kappa;    /* [springs] accumulated |change of ep| */
 } Plasticity;
 
-/* sum of W over the springs, in the place of mass_spring_energy; data:
- * Plasticity; its numbers are Y and H.  Its value has what hardening stores, k
- * l2 H kappa^2/2; what flowing costs, k l2 Y gamma, is booked as lost. */
+/* The sum of W over the springs; data: Plasticity; numbers of its option: Y and
+ * H.  The term replaces mass_spring_energy.  Its value includes the energy of
+ * hardening, k l2 H kappa^2/2.  After a step in which ep changes by gamma it
+ * books the dissipated energy k l2 Y gamma. */
 extern const TermKind plastic_energy;
 
-/* The law of spring s without damping, elastic where nothing flows. */
+/* Returns V of spring s without damping; elastic without this term. */
 FlowLaw plasticity_get_law(const System *system, int s);
 
 #endif

@@ -1,7 +1,8 @@
-/* psd.h - projection of a Hessian's blocks to positive semi-definite ones
- * (slide utils.py, make_PSD).  Each energy has few negative eigenvalues whose
- * vectors are known, so none needs the slide's eigenvalue routine: springs have
- * spring_hessian in spring_law.h.
+/* psd.h - projection of the Hessian's blocks to positive semi-definite ones
+ * (slide utils.py, make_PSD).
+ *
+ * The eigenvectors of each energy are known, so no energy needs the eigenvalue
+ * routine of the slide.  Springs use spring_hessian (spring_law.h).
  */
 #ifndef ELASTO_PSD_H
 #define ELASTO_PSD_H
@@ -11,7 +12,7 @@
 
 #include "base/mathematics.h"
 
-/* What is done with the negative eigenvalues of a block. */
+/* How the negative eigenvalues of a block are treated. */
 typedef enum Projection {
     PROJECTION_CLAMP,     /* replaced by 0, as on the slides */
     PROJECTION_NONE,      /* kept */
@@ -27,17 +28,17 @@ static inline bool projects_blocks(Projection projection)
     return projection == PROJECTION_CLAMP || projection == PROJECTION_ABS;
 }
 
-/* An eigenvalue after CLAMP or ABS. */
+/* Returns an eigenvalue after CLAMP or ABS. */
 static inline double project_eigenvalue(Projection projection, double value)
 {
     return value >= 0 ? value : projection == PROJECTION_ABS ? -value : 0;
 }
 
-/* Does so with any symmetric 2x2 matrix; one without negative eigenvalues stays
- * as it is, to the last bit.  They are mean +- radius; (H - low I)/(high - low)
- * is the projector on the eigenvector of the higher one.
+/* Projects a symmetric 2x2 matrix.  Its eigenvalues are mean +- radius, and
+ * (H - low I)/(high - low) projects on the eigenvector of `high`.  A matrix
+ * without negative eigenvalues keeps its bits.
  *   H  [3] in/out: H_xx, H_xy, H_yy
- * Returns whether one was changed. */
+ * Returns whether an eigenvalue was changed. */
 static inline bool project_psd_2x2(Projection projection, double H[3])
 {
     double mean = 0.5 * (H[0] + H[2]);

@@ -1,9 +1,10 @@
-/* pull_energy.h - a node that is drawn to a point: P(x) = k/2 |x_i - o|^2.
+/* pull_energy.h - pull of one node to a point o: P(x) = k/2 |x_i - o|^2.
  *
- * Central field: o = 0; with k = m omega2 the node has the acceleration -omega2
- * x.  Hand: a spring without rest length that is far stiffer than those of the
- * square.  Its end o goes ahead of the node, step by step, towards the mouse:
- * what it does in a step is its work, and between steps it stores nothing.
+ * Central field: o = 0 and k = m omega2, so the acceleration is -omega2 x.
+ * Hand: the mouse pulls a node by a spring of rest length 0, far stiffer than
+ * the springs of the square.  Before each step its end o moves ahead of the
+ * node towards the mouse.  The change of P in the step is the work of the hand;
+ * no energy is stored between steps.
  */
 #ifndef ELASTO_PULL_ENERGY_H
 #define ELASTO_PULL_ENERGY_H
@@ -12,34 +13,35 @@
 
 extern const TermKind central_field, hand_energy;
 
-/* The data of both. */
+/* Data of both terms. */
 typedef struct Pull {
-    int node;         /* that is pulled */
-    double k;         /* J/m^2 */
+    int node;         /* pulled node i */
+    double k;         /* J/m^2, stiffness */
     double target[2]; /* m, o */
-    /* Of a hand: */
-    double mouse[2]; /* m, where it wants the node; */
-    double strength; /* J/m^2, how strongly it insists; */
-    double cell;     /* m, side of a cell, and */
-    double side;     /* m, of the body that it pulls at */
+
+    /* The rest is for the hand alone. */
+    double mouse[2]; /* m, position of the mouse */
+    double strength; /* J/m^2, stiffness with which the mouse pulls */
+    double cell;     /* m, side of a cell of the pulled body */
+    double side;     /* m, side of the pulled body */
 } Pull;
 
-/* Adds a pull of one of these kinds, or changes the one that there is.
- * Returns OK, OUT_OF_MEMORY. */
+/* Adds the term of this kind, or changes its data.  Returns OK or
+ * OUT_OF_MEMORY. */
 Status pull_set(System *system, const TermKind *kind, const Pull *pull);
 
-/* Before a step of h s from x, v [2] of its node with the mass m, kg: its k and
- * target.  The node then goes a part of the way, half of it at most, and in
- * short steps so much that the distance falls by e in 0.06 s; but not beyond
- * half a cell or, where cells are small, half a side in a second: at twice that
- * the cells at a corner turn over.
- *   free  [2] m/s^2, the node's acceleration without the hand, of an explicit
- *         method, in which the force has to be that which leads there; NULL:
- *         an implicit one, in which a stiff spring does */
+/* Sets k and target of the hand before a step.  The node moves part of the way
+ * to the mouse: its distance falls by the factor e in 0.06 s, by at most half
+ * in one step.  The node also moves at most half a cell or, if cells are small,
+ * half a side a second.  Twice that speed turns cells at a corner over. x, v
+ * [2] m, m/s, in, of the node m     kg, mass of the node h     s, time step
+ *   free  [2] m/s^2, in, acceleration of the node without the hand, for an
+ *         explicit integrator: the force then moves the node by this way
+ * exactly. NULL: an implicit integrator, whose stiff spring does so */
 void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
                      double h, const double *free);
 
-/* J, the work it did in a step from x to y [2]. */
+/* Work of the hand, J, in a step that moved its node from x [2] to y [2], m. */
 double hand_work(const Pull *hand, const double *x, const double *y);
 
 #endif

@@ -1,6 +1,6 @@
-/* spring_law.h - the law of one spring (slide MassSpringEnergy.py), which other
- * files ask.  Two have a law of their own: grid_spring.h the same in the grid's
- * loops, plasticity.h that of springs that flow.
+/* spring_law.h - energy, gradient and Hessian of one spring (slide
+ * MassSpringEnergy.py).  grid_spring.h has the same law for loops over the
+ * grid, and plasticity.h has another one for springs that flow.
  *
  *   d = x_i - x_j             m; |d|^2 is d2
  *   s = |d|^2/l2 - 1          strain; l2, m^2, is |d|^2 at rest
@@ -9,18 +9,18 @@
  *   H = c (2 d d^T + (|d|^2 - l2) I),  c = 2k/l2
  *   [[H, -H], [-H, H]]        Hessian of the nodes i and j
  *
- * The eigenvectors of H are d, and the vector across.  The Hessian has the
- * eigenvalues 0, 0 and twice those of H: so a projection of H is the slide's
- * make_PSD, without any eigenvalue routine.  A stretched spring has no negative
- * eigenvalue; one that is shorter than its rest length over sqrt(3) has two,
- * also where |d| = 0.
+ * The eigenvectors of H are d and the vector across d.  The Hessian of both
+ * nodes has the eigenvalues 0, 0 and twice those of H, so projecting H is the
+ * slide's make_PSD without an eigenvalue routine.  A stretched spring has no
+ * negative eigenvalue, a compressed spring has one, and a spring shorter than
+ * its rest length over sqrt(3) has two.
  */
 #ifndef ELASTO_SPRING_LAW_H
 #define ELASTO_SPRING_LAW_H
 
 #include "model/psd.h"
 
-/* d [2] m out, between the nodes e[0] and e[1] at x [2n] m; returns |d|^2. */
+/* Writes d of the nodes e[0] and e[1] at x [2n] m and returns |d|^2, m^2. */
 static inline double spring_vector(const int e[2], const double *x, double d[2])
 {
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
@@ -37,37 +37,38 @@ static inline double spring_strain(double d2, double l2)
     return d2 / l2 - 1;
 }
 
+/* Returns the energy P, J. */
 static inline double spring_energy(double l2, double k, double s)
 {
     return 0.5 * l2 * k * s * s;
 }
 
-/* The gradient at node i, divided by d. */
+/* Returns 2 k s, J/m^2: the gradient at node i is this times d. */
 static inline double spring_gradient_factor(double k, double s)
 {
     return 2 * k * s;
 }
 
-/* c = 2k/l2, J/m^4 */
+/* Returns c = 2k/l2, J/m^4. */
 static inline double spring_hessian_factor(double l2, double k)
 {
     return 2 * k / l2;
 }
 
-/* The eigenvalue of H along d, divided by c, m^2. */
+/* Returns the eigenvalue of H/c along d, m^2. */
 static inline double spring_eigenvalue_along(double d2, double l2)
 {
     return 3 * d2 - l2;
 }
 
-/* The eigenvalue of H across d, divided by c, m^2. */
+/* Returns the eigenvalue of H/c across d, m^2. */
 static inline double spring_eigenvalue_across(double d2, double l2)
 {
     return d2 - l2;
 }
 
-/* Both eigenvalues projected: a negative one becomes what the projection says.
- * Returns whether there was one; that across d is the smaller one. */
+/* Projects both eigenvalues, in/out.  `across` is the smaller one.  Returns
+ * whether an eigenvalue was changed. */
 static inline bool spring_project_eigenvalues(Projection projection,
                                               double *along, double *across)
 {
@@ -78,15 +79,16 @@ static inline bool spring_project_eigenvalues(Projection projection,
     return true;
 }
 
-/* H [3] out (xx, xy, yy), with its negative eigenvalues treated as the
- * projection says.  Returns whether there was a negative one that was changed;
- * a broken spring, k = 0, has none. */
+/* Writes the projected H.
+ *   H  [3] out: H_xx, H_xy, H_yy
+ * Returns whether the projection changed an eigenvalue; never for a broken
+ * spring, k = 0. */
 static inline bool spring_hessian(const double d[2], double l2, double k,
                                   Projection projection, double H[3])
 {
     double c = spring_hessian_factor(l2, k), d2 = d[0] * d[0] + d[1] * d[1];
-    double along = spring_eigenvalue_along(d2, l2),
-           across = spring_eigenvalue_across(d2, l2);
+    double along = spring_eigenvalue_along(d2, l2);
+    double across = spring_eigenvalue_across(d2, l2);
     if (!spring_project_eigenvalues(projection, &along, &across)) {
         H[0] = c * (2 * d[0] * d[0] + across);
         H[1] = c * (2 * d[0] * d[1]);

@@ -1,12 +1,12 @@
-/* square_mesh.h - the square of masses and springs (slide square_mesh.py), and
- * its shape: cells, their triangles, the outline, the sides.  There may be
- * several alike: their nodes, springs and cells stand one body after another.
+/* square_mesh.h - mesh of the square (slide square_mesh.py): nodes, springs,
+ * cells, triangles, outline and sides.  A mesh has one or more equal bodies;
+ * their nodes, springs and cells are stored one body after another.
  *
- * (columns+1) (rows+1) nodes on a grid centred at the origin.  Node
- * i*(rows+1)+j is column i, row j, counted from the lower left.  Springs, in
- * this order: horizontal, vertical, then the two diagonals of each cell.  Who
- * wants the springs of a cell or the nodes of the outline asks here: nobody
- * else counts them out, but for multigrid and the grid's planes.
+ * A body has (columns+1) (rows+1) nodes on a grid centred at the origin.  Node
+ * i*(rows+1)+j is column i, row j, counted from the lower left.  The springs of
+ * a body are in this order: horizontal, vertical, the two diagonals of each
+ * cell. Only multigrid and the planes of the grid use these numbers directly;
+ * all other code calls the functions below.
  */
 #ifndef ELASTO_SQUARE_MESH_H
 #define ELASTO_SQUARE_MESH_H
@@ -20,71 +20,75 @@ enum {
 };
 
 typedef struct SquareMesh {
-    int segments;   /* segments per side; of a beam: columns of cells */
-    int rows;       /* of cells */
-    int bodies;     /* so many of them; what follows is of all together */
-    double side;    /* m */
-    double spacing; /* m, between neighbours: side/segments */
-    int nodes;      /* n = (segments+1) (rows+1), of each */
-    int springs;    /* in a square 2 segments (segments+1) + 2 segments^2 */
-    int cells;      /* segments rows; each has four triangles */
-    int outline;    /* edges on it, 2 (segments + rows) */
+    int segments;   /* segments per side of the square; columns of a beam */
+    int rows;       /* rows of cells */
+    int bodies;     /* number of bodies */
+    double side;    /* m, width of a body */
+    double spacing; /* m, distance of neighbouring nodes, side/segments */
+    int nodes;      /* n, nodes of all bodies */
+    int springs;    /* springs of all bodies */
+    int cells;      /* cells of all bodies; each has four triangles */
+    int outline;    /* outer edges of all bodies */
 } SquareMesh;
 
-/* The sides that a node is on, added up. */
+/* Sides of a body; square_mesh_get_sides adds them up. */
 enum { MESH_LEFT = 1, MESH_RIGHT = 2, MESH_BOTTOM = 4, MESH_TOP = 8 };
 
-/* Its numbers.
- *   columns, rows  of cells, 1 ... SQUARE_MESH_MAX_SEGMENTS; equal: the square,
- *                  else a beam of square cells
- *   side           m, of all columns
- *   bodies         1 ... SQUARE_MESH_MAX_BODIES */
+/* Returns the mesh with these numbers.
+ *   columns  of cells, 1 ... SQUARE_MESH_MAX_SEGMENTS
+ *   rows     of cells; equal to columns: a square, else a beam of square cells
+ *   side     m, width of a body
+ *   bodies   1 ... SQUARE_MESH_MAX_BODIES */
 SquareMesh square_mesh_create(int columns, int rows, double side, int bodies);
 
-/* The nodes of each spring, e [2 springs] out; and the place of each node in
- * the elimination order, by nested dissection: a Cholesky factor has O(n log n)
- * entries.  order [n] out */
+/* Writes the two nodes of each spring.  e [2 springs] out. */
 void square_mesh_list_springs(const SquareMesh *shape, int *e);
+
+/* Writes the place of each node in the elimination order.  By nested dissection
+ * a Cholesky factor has O(n log n) entries.  order [n] out. */
 void square_mesh_order_nodes(const SquareMesh *shape, int *order);
 
-/* The body of node i, which becomes its number there. */
+/* Returns the body of node i, and replaces i by its number in that body. */
 int square_mesh_locate_body(const SquareMesh *shape, int *i);
 
-/* Where node i is at rest, x [2] m, out; and the sides that it is on. */
+/* Writes the position of node i at rest.  x [2] m, out. */
 void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2]);
+
+/* Returns the sum of the sides on which node i lies, MESH_LEFT + ... */
 int square_mesh_get_sides(const SquareMesh *shape, int i);
 
-/* What cell c, 0 ... cells-1, is made of.
+/* Writes the nodes and springs of cell c, 0 ... cells-1.
  *   node    [4] out, its corners a b c d, anticlockwise from the lower left
  *   spring  [6] out: ab bc dc ad ac bd */
 void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
                           int spring[6]);
 
-/* Triangle t = 4 c + k is corner k of cell c with the neighbours of that
- * corner.
+/* Writes the nodes and springs of triangle t = 4 c + k: corner k of cell c and
+ * the two neighbours of that corner.
  *   node  [3] out, anticlockwise from the corner
  *   side  [3] out, springs */
 void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
                               int side[3]);
 
-/* The first of the cells cell ... end - 1 that the point at [2] is in or on the
- * border of, m, where the nodes are at x [2n] m; -1: none.  Contact sees nodes
- * alone: a small ball may have none near it in a cell. */
+/* Returns the first of the cells cell ... end-1 that contains a point; -1:
+ * none. x   [2n] m, in, positions of the nodes at  [2] m, in, the point Contact
+ * tests nodes only, so a small ball could be inside a cell unnoticed. */
 int square_mesh_find_cell(const SquareMesh *shape, const double *x,
                           const double *at, int cell, int end);
 
-/* Whether triangle t is one of the two that a cell is cut into, by one or the
- * other diagonal in turn: ac where column + row is even. */
+/* Whether triangle t is one of the two halves of its cell.  The cut is ac if
+ * column + row is even, else bd. */
 bool square_mesh_is_half(const SquareMesh *shape, int t);
 
-/* The corners of so many times so many cells of which c is the lower left one;
- * fewer at the edges.  node [4] out, anticlockwise.  Returns false where no
- * such patch begins at c: with all others they cover the square once. */
+/* Writes the corners of the patch of cells x cells cells whose lower left cell
+ * is c; patches at the right and upper side may be smaller.  The patches cover
+ * the square once. node  [4] out, anticlockwise from the lower left Returns
+ * whether a patch begins at c. */
 bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
                            int node[4]);
 
-/* Both nodes of edge k of the outlines, 0 ... outline-1: anticlockwise from the
- * lower left, one edge after another. */
+/* Writes the nodes of edge k of the outline, 0 ... outline-1.  The edges of a
+ * body go anticlockwise from its lower left corner. */
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2]);
 
 #endif

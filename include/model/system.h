@@ -1,13 +1,14 @@
-/* system.h - what is simulated: masses, springs, gravity, pins, and the list
+/* system.h - the simulated system: masses, springs, gravity, pins, and the list
  * of energy terms.
  *
- * Its potential is P(x) = sum of the terms in its list (term.h).  Gravity is
- * none of them: an implicit step takes it into its target u_tilde, an explicit
- * one adds it to the acceleration, and so free fall is exact in both.  Arrays
- * change only between steps, in a term's begin and end.
+ * The potential P(x) is the sum of the terms in the list (term.h).  Gravity is
+ * not a term: an implicit step adds it to its target u_tilde, an explicit step
+ * to the acceleration, so free fall is exact in both.  Arrays change between
+ * steps only, in begin_step and end_step of a term.
  *
- * Whoever changes it says so (system_mark_changed): what solvers have computed
- * from it carries the version it was computed for.
+ * Code that changes a system calls system_mark_changed, which raises its
+ * version. Solvers store with their results the version for which they are
+ * valid.
  */
 #ifndef ELASTO_SYSTEM_H
 #define ELASTO_SYSTEM_H
@@ -18,7 +19,7 @@
 
 enum { SYSTEM_MAX_TERMS = 12 };
 
-/* What was taken out of a system for good, by its name in the ledger. */
+/* Energy that a system lost for good, for one column of the ledger. */
 typedef struct Loss {
     const char *name; /* TermKind.loss */
     double energy;    /* J */
@@ -26,102 +27,109 @@ typedef struct Loss {
 
 struct System {
     int nodes;         /* n */
-    int springs;       /* 0: no springs */
+    int springs;       /* number of springs */
     int *e;            /* [2 springs] nodes of each spring */
-    double *m;         /* [n] kg, > 0; l2 and k are in the same piece */
+    double *m;         /* [n] kg, > 0; m, l2 and k share one allocation */
     double *l2;        /* [springs] m^2, rest length squared, > 0 */
     double *k;         /* [springs] J/m^2, stiffness; 0: broken, or not there */
     double gravity[2]; /* m/s^2, acceleration of every node */
     int *order;        /* [n] place of each node in the elimination order */
-    unsigned char *pinned; /* [n] 1: the node never moves; both are behind e */
-    double *pin_v;         /* [2n] m/s, how pins are moved; NULL: not at all */
+    unsigned char *pinned; /* [n] 1: pinned; e, order, pinned share one
+                              allocation */
+    double *pin_v;         /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
     int segments; /* n, where nodes and springs are those of square_mesh.h */
     unsigned version; /* goes up with every change of numbers or terms */
     unsigned pattern; /* goes up where the entries of the Hessian change too */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* the springs first, if there are any */
-    Loss lost[SYSTEM_MAX_TERMS]; /* up to a name that is NULL; they stay when
-                                    their term goes */
+    Loss lost[SYSTEM_MAX_TERMS]; /* up to a name that is NULL; a loss stays when
+                                    its term is removed */
 };
 
-/* Allocates the arrays, all zero, the order that of the nodes; the list has the
- * springs' term where there are springs. Returns OK, INVALID_INPUT,
- * OUT_OF_MEMORY. */
+/* Allocates the arrays, filled with 0, and sets order[i] = i.  The list has the
+ * springs' term if springs > 0.  Returns OK, INVALID_INPUT or OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
-/* Whether spring s is broken, or was cut before the start. */
+/* Whether spring s broke or was cut before the start. */
 static inline bool spring_is_broken(const System *system, int s)
 {
     return system->k[s] == 0;
 }
 
-/* After numbers were changed; with `pattern` also pins, or which nodes a term
- * is about. */
+/* Raises the version after numbers have changed; with `pattern` also the
+ * version of the Hessian's pattern, after pins or the nodes of a term have
+ * changed. */
 void system_mark_changed(System *system, bool pattern);
 
-/* Accepts a zeroed struct. */
+/* Frees all arrays and terms.  Accepts a zeroed struct. */
 void system_free(System *system);
 
-/* The data of the first term of this kind; where there is none, one is put at
- * its place of the list, with so many bytes that are 0.  NULL: no memory, or
- * the list is full. */
+/* Returns the data of the first term of this kind.  If there is none, adds one
+ * at its place in the list, with `bytes` bytes of data, all 0.  NULL: no
+ * memory, or the list is full. */
 void *system_add_term(System *system, const TermKind *kind, size_t bytes);
 
-/* The first term of this kind, and its data, or NULL. */
+/* Returns the first term of this kind, or NULL. */
 Term *system_find_term(const System *system, const TermKind *kind);
+
+/* Returns the data of the first term of this kind, or NULL. */
 void *system_term_data(const System *system, const TermKind *kind);
 
-/* Takes it out of the list and frees its data; nothing where there is none. */
+/* Removes the first term of this kind, if there is one, and frees its data. */
 void system_remove_term(System *system, const TermKind *kind);
 
-/* Books what a term of this kind has taken out, J. */
+/* Adds `energy`, J, to the loss of this kind's column of the ledger. */
 void system_book_loss(System *system, const TermKind *kind, double energy);
 
-/* Checks what the struct promises: every number finite and in its range, every
- * spring between two different nodes, every bound of a term finite.  x [2n] m,
- * in: must be finite and a place that all terms allow.
- * Returns OK or INVALID_INPUT. */
+/* Checks the system at x: every number is finite and in its range, every spring
+ * joins two different nodes, every bound of a term is finite, and x [2n] m, in,
+ * is finite and feasible for all terms.  Returns OK or INVALID_INPUT. */
 Status system_check(const System *system, const double *x);
 
-/* The smallest reach of all terms, or only of internal ones, along p at a
- * place; and whether nothing would be passed or turned over, and a tenth of
- * each distance and area would stay, if all nodes went straight from x to x +
- * p. x, p [2n] m, in. */
+/* Returns the smallest max_step of all terms, or only of internal ones, along p
+ * [2n] m, in. */
 double system_max_step(EvalPoint at, const double *p, bool internal);
+
+/* Whether all nodes can move straight from x to x + p so that no body passes
+ * through another one, no cell turns over, and a tenth of each distance and
+ * area remains.  x, p [2n] m, in. */
 bool system_path_is_free(const System *system, const double *x,
                          const double *p);
 
-/* P(x), J, the sum of the terms.  x [2n] m, in. */
+/* Returns P(x), J, the sum of the terms.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
 
-/* -sum m g.x, J, and whether there is gravity. */
+/* Whether gravity is not 0. */
 bool system_has_gravity(const System *system);
+
+/* Returns -sum m g.x, J; 0 if it is only rounding.  x [2n] m, in. */
 double system_gravity_potential(const System *system, const double *x);
 
-/* g = 0 for pinned nodes.  g [2n] in/out. */
+/* Sets g to 0 at pinned nodes.  g [2n] in/out. */
 void system_clear_pinned(const System *system, double *g);
 
-/* a = gravity - M^-1 grad P(x), m/s^2; 0 for pinned nodes.  x [2n] m in, a [2n]
- * out. */
+/* Writes a = gravity - M^-1 grad P(x), and 0 at pinned nodes.
+ *   x  [2n] m, in
+ *   a  [2n] m/s^2, out */
 void system_acceleration(const System *system, const double *x, double *a);
 
-/* Whether only gravity and internal forces act: the centre of mass falls
- * freely. */
+/* Whether the centre of mass falls freely: no node is pinned, and all terms are
+ * internal. */
 bool system_falls_freely(const System *system);
 
-/* sum m |v|^2 / 2, J.  v [2n] m/s, in. */
+/* Returns the kinetic energy sum m |v|^2/2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
 
-/* The larger bound; NaN if one of them is. */
+/* Returns the larger of two numbers; NaN if one of them is NaN. */
 static inline double max_or_nan(double a, double b)
 {
     return b <= a || isnan(a) ? a : b;
 }
 
-/* Bound of the curvature of all terms at rest, J/m^2: the largest of theirs. */
+/* Returns the largest curvature_bound of all terms, J/m^2. */
 double system_curvature_bound(const System *system);
 
-/* |g|_(M^-1) = sqrt(sum |g_i|^2 / m_i).  g [2n] in. */
+/* Returns |g|_(M^-1) = sqrt(sum |g_i|^2/m_i).  g [2n] in. */
 double system_inverse_mass_norm(const System *system, const double *g);
 
 #endif

@@ -1,11 +1,11 @@
-/* term.h - one summand of the potential: P(x) = sum of a scene's terms.
+/* term.h - one summand of the potential: P(x) is the sum of a system's terms.
  *
- * A scene's System holds a list of terms; what a scene lacks is not in its
- * list.  Every function goes over whole arrays: a term costs one indirect call
- * and its loop stays tight.  A term is one source file with one row of
- * functions (a TermKind); a function that is NULL has nothing to add there.
- * Terms need not look at pins: whoever calls them takes the gradient of pinned
- * nodes out of g and their entries out of the Hessian.
+ * A System holds a list of terms.  A term that a scene lacks is not in its list
+ * and costs nothing.  A term is one source file with one constant TermKind. All
+ * functions loop over whole arrays, so a term costs one indirect call a pass.
+ *
+ * A function pointer that is NULL means: this term adds nothing here.  Terms
+ * ignore pins: the caller clears pinned nodes in g and in the Hessian.
  */
 #ifndef ELASTO_TERM_H
 #define ELASTO_TERM_H
@@ -25,147 +25,146 @@ typedef struct EvalPoint {
     const Term *term;  /* term that is evaluated; NULL: none is selected yet */
     double weight;     /* s^2, factor on everything that is added to an array;
                           h^2 for implicit Euler */
-    const double *x_n; /* [2n] m, start of the step */
-    const double *u;   /* [2n] m, displacement from x_n; NULL: no step */
-    const double *x;   /* [2n] m, x_n + u */
+    const double *x_n; /* [2n] m, positions at the start of the step */
+    const double *u;   /* [2n] m, displacement since then; NULL: no step */
+    const double *x;   /* [2n] m, current positions, x_n + u */
     const struct Damping *damping; /* damping of this step; NULL: none */
-    const double *k, *l2; /* [springs] stiffness and rest length of this step:
-                             those of the system, or what damping makes of
-                             them */
+    const double *k;  /* [springs] J/m^2, stiffness in this step (damping.h) */
+    const double *l2; /* [springs] m^2, squared rest length in this step */
 } EvalPoint;
 
-/* A point with w = 1 and no term selected. */
+/* Returns a point with weight 1 and no term selected. */
 EvalPoint eval_point_at(const System *system, const double *x_n,
                         const double *u, const double *x);
 
-/* Selects term t of the system's list; returns its functions.  A loop over
+/* Selects term t of the system's list and returns its kind.  A loop over
  * 0 <= t < system->terms evaluates all terms. */
 const TermKind *eval_point_term(EvalPoint *at, int t);
 
-/* A step's begin or end. */
+/* begin_step and end_step have this argument. */
 typedef struct TermStep {
     System *system;
     Term *term;
-    const double *x, *v; /* [2n] m, m/s */
-    double h;            /* s */
+    const double *x; /* [2n] m, positions at the start or end of the step */
+    const double *v; /* [2n] m/s, velocities there */
+    double h;        /* s, time step */
 } TermStep;
 
 struct TermKind {
-    /* In messages; NULL: no option brings it. */
+    /* Name in messages, for example "friction".  NULL: no option adds the term.
+     */
     const char *name;
 
-    /* Puts the term in with the numbers of its option, of which one at least is
-     * not 0, or gives them to the one that is there; NULL: it asks for more
-     * than these.  Returns OK, OUT_OF_MEMORY. */
+    /* Adds the term with the numbers of its option, at least one of them not 0,
+     * or changes the numbers of a term that is in the list.  NULL: the term
+     * needs more than these numbers.  Returns OK or OUT_OF_MEMORY. */
     Status (*set)(System *system, const struct SquareMesh *mesh,
                   const double *number);
 
-    /* What the ledger calls the energy that it stores, and what it takes out
-     * for good (system_book_loss); NULL: neither. */
+    /* Columns of the energy ledger: for value(), and for the energy that the
+     * term dissipates (system_book_loss).  NULL: no such column. */
     const char *energy, *loss;
 
-    /* In the list it stands behind all with the same or a smaller number: sums
-     * and steps' ends keep their order, however late a term comes. */
+    /* Order of the list.  Equal places keep the order in which they were added.
+     * Sums and end_step thus keep their order when a term is added later. */
     enum TermPlace {
-        PLACE_FORCE, /* springs, fields, what is not named here */
+        PLACE_FORCE, /* springs, fields and all others */
         PLACE_DAMPING,
         PLACE_CONTACT,
         PLACE_FRICTION,
         PLACE_CELLS,
-        PLACE_FRACTURE, /* it takes the energy of all the others */
+        PLACE_FRACTURE, /* last: books the energy that all others lose */
         PLACE_HAND,
     } place;
 
-    /* Where the term is a sum over elements: what one of them is (elements.h),
-     * which gives the functions from here down to allowed, but along. */
+    /* Kind of the elements, if the term is a sum over elements (elements.h).
+     * The functions from value to is_feasible are then elements.c's. */
     const ElementKind *element;
 
-    /* P(x), J, without w.  NULL: the term has no energy, only begin, end or
-     * bounds, and none of the functions of one. */
+    /* Returns P(x), J, not multiplied by weight.  NULL: the term has no energy
+     * and none of the functions up to is_feasible. */
     double (*value)(const EvalPoint *at);
 
-    /* g += w grad P.  g [2n] in/out.  Explicit methods use it too, with w = -1
-     * and at->x alone (u NULL). */
+    /* Adds weight grad P(x) to g [2n].  Explicit integrators call it with
+     * weight -1 and u NULL to collect forces. */
     void (*gradient)(const EvalPoint *at, double *g);
 
-    /* The entries of the Hessian, the same ones all step long but for grow: how
-     * many, and the triplets in rows and columns of the matrix
-     * (term_add_block). A force that is the same everywhere has none: these and
-     * hessian are NULL.
-     */
+    /* Number of triplets of the Hessian.  The triplets stay the same during a
+     * step, except for grow.  NULL: the Hessian is 0. */
     long long (*entries)(const EvalPoint *at);
+
+    /* Appends the triplets, by term_add_block. */
     void (*pattern)(const EvalPoint *at, Triplets *triplets);
 
-    /* Where x wants entries that the matrix lacks (bodies that come near each
-     * other inside a step): there are more from now on, and *grown is true; no
-     * others change their places in the pattern.  NULL: never.  Returns OK,
-     * OUT_OF_MEMORY. */
+    /* Appends the triplets that the Hessian at x needs and the pattern lacks,
+     * for example of bodies that came near each other during the step; *grown
+     * is then set to true.  All other triplets keep their places.  NULL: never
+     * needed.  Returns OK or OUT_OF_MEMORY. */
     Status (*grow)(const EvalPoint *at, bool *grown);
 
-    /* out[slot[t]] += w entry t of the Hessian at x; or, where q is given,
-     * out += w Hessian q, without a matrix: out and q are then [2n].  Each
-     * block is projected: with CLAMP and ABS what is added must be positive
-     * semi-definite; NONE and ON_DEMAND mean the Hessian as it is.  Returns how
-     * many blocks were changed by the projection. */
+    /* Adds weight times the projected Hessian of P at x:
+     *   slot  [entries] place of each triplet in the matrix
+     *   q     NULL: out[slot[t]] += entry t
+     *         [2n]: out += Hessian q without a matrix, out [2n]
+     * CLAMP and ABS make each block positive semi-definite; NONE and ON_DEMAND
+     * leave it.  Returns the number of blocks that the projection changed. */
     int (*hessian)(const EvalPoint *at, Projection projection, const int *slot,
                    const double *q, double *out);
 
-    /* What w P(x + alpha p) is along a line, without its terms of degree 0 and
-     * 1: the slope of all terms together is g.p.
-     *   along      adds the exact coefficients of alpha^2, alpha^3, alpha^4 to
-     *              q [3]: of a term that is no polynomial, of the part that is
-     *              one.  NULL: no part is.
-     *   remainder  the rest, where there is one: w [P(x + alpha p) - P(x)
-     *              - alpha grad P.p] without cancellation, minus what along
-     *              gave; asked once for each trial.  NULL: a polynomial of
-     *              degree 4 or less in x. */
+    /* Adds the coefficients of alpha^2, alpha^3 and alpha^4 of weight
+     * P(x + alpha p) to q [3].  NULL: no part of P is a polynomial of degree
+     * four or less along a line. */
     void (*line_polynomial)(const EvalPoint *at, const double *p, double q[3]);
+
+    /* Returns weight (P(x + alpha p) - P(x) - alpha grad P.p), less what
+     * line_polynomial has added, without cancellation.  NULL: P is such a
+     * polynomial. */
     double (*line_remainder)(const EvalPoint *at, const double *p,
                              double alpha);
 
-    /* The largest alpha that p may be followed, > 0 (contact, cells); NULL, or
-     * infinite: any up to 1.  Backtracking starts at the smallest of all terms
-     * and 1. */
+    /* Returns the largest alpha > 0 along p that keeps every distance and area
+     * positive.  The line search starts at the smallest one of all terms, at
+     * most 1.  NULL: infinite. */
     double (*max_step)(const EvalPoint *at, const double *p);
 
-    /* Whether x is a place where the energy exists: every distance and area
-     * > 0.  Asked after rounding, for starts and for updates; NULL: always. */
+    /* Returns whether P exists at x: every distance and area is positive.
+     * Tested for starts and, after rounding, for iterates.  NULL: always. */
     bool (*is_feasible)(const EvalPoint *at);
 
-    /* Before a step, from x_n and v_n [2n]: what it freezes (the normal forces
-     * of friction).  After a step to x, v [2n] was accepted: what it changes
-     * for good (plastic lengths, broken springs); it books what that cost in
-     * system_book_loss.  Both say so (system_mark_changed) where arrays of the
-     * system or of a term have changed, or entries of the Hessian: factors and
-     * bounds that were made with them are then dropped.  begin returns OK,
-     * OUT_OF_MEMORY. */
+    /* Freezes what stays constant during the step from x and v, for example the
+     * normal forces of friction.  Calls system_mark_changed if it changed
+     * arrays of the system or of a term.  Returns OK or OUT_OF_MEMORY. */
     Status (*begin_step)(const TermStep *step);
+
+    /* Applies what an accepted step to x and v changes for good: plastic
+     * strain, broken springs.  Books the energy lost (system_book_loss), and
+     * calls system_mark_changed like begin_step. */
     void (*end_step)(const TermStep *step);
 
-    /* Bound of the curvature's size at rest, J/m^2.  A bound that is not finite
-     * is refused. */
+    /* Returns a bound of |Hessian| at rest, J/m^2; it must be finite. */
     double (*curvature_bound)(const EvalPoint *at);
-    /* Frees what data points to; NULL: nothing. */
+
+    /* Frees the allocations that data points to, not data itself. */
     void (*free)(void *data);
 
-    bool diagonal; /* quadratic, and each node stands alone: c/2 |x - o|^2 */
-    bool internal; /* its forces add up to 0: the centre of mass is free */
-    bool backward_euler_only; /* right only where x_(n+1) is the minimiser
-                         itself: in backward Euler; other methods refuse it by
-                         name */
+    bool diagonal;            /* P is c/2 |x_i - o|^2 of single nodes */
+    bool internal;            /* the forces add up to 0: the centre of mass does
+                                 not feel them */
+    bool backward_euler_only; /* other integrators refuse the term by name,
+                                 since x_(n+1) must be the minimiser itself */
 };
 
 struct Term {
     const TermKind *kind;
-    void *data; /* the kind's own numbers and arrays, in one piece of malloc;
-                   what is not in it, free frees */
+    void *data; /* numbers and arrays of the kind, one piece of malloc; the
+                   kind's `free` frees further pieces */
 };
 
-/* Triplets of the 2x2 block of nodes i and j: xx xy yx yy, and on the diagonal
- * (i = j) only xx xy yy. */
+/* Appends the triplets of the 2x2 block of nodes i and j: xx xy yx yy, or
+ * xx xy yy if i = j. */
 void term_add_block(const System *system, int i, int j, Triplets *triplets);
 
-/* Triplets xx and yy of node i alone. */
+/* Appends the triplets xx and yy of node i. */
 void term_add_diagonal(const System *system, int i, Triplets *triplets);
 
 #endif

@@ -1,9 +1,11 @@
-/* area.h - energies of a triangle's area: what cells.c and neo_hookean.c share.
+/* area.h - energies that depend on the area of a triangle, for cells.c and
+ * neo_hookean.c.
  *
- * The area of two vectors f = (f1, f2) is J = f1 x f2; its Hessian is
- * K = [[0, S], [-S, 0]] with S v = (v_y, -v_x), and grad J = K f.  K has the
+ * Two vectors f = (f1, f2) have the area J = f1 x f2.  grad J = K f, and the
+ * Hessian of J is K = [[0, S], [-S, 0]] with S v = (v_y, -v_x).  K has the
  * eigenvalues 1 and -1, twice each (Smith et al.: Stable Neo-Hookean Flesh
- * Simulation, 2018).
+ * Simulation, 2018).  In the functions below `unit` is a factor on J: unit J is
+ * 1 at rest.
  */
 #ifndef ELASTO_AREA_H
 #define ELASTO_AREA_H
@@ -15,10 +17,10 @@ static inline double cross(const double a[2], const double b[2])
     return a[0] * b[1] - a[1] * b[0];
 }
 
-/* f = f+ + f-, the parts in the eigenspaces of K for 1 and -1:
+/* Splits f = f+ + f- into its parts in the eigenspaces of K for 1 and -1:
  *   f+ = (a0, a1, -a1, a0), a rotation times a number; a = plus [2], out
  *   f- = (b0, b1, b1, -b0), a reflection times a number; b = minus [2], out
- * J is |a|^2 - |b|^2. */
+ * J = |a|^2 - |b|^2. */
 static inline void area_split(const double f[4], double plus[2],
                               double minus[2])
 {
@@ -28,32 +30,37 @@ static inline void area_split(const double f[4], double plus[2],
     minus[1] = 0.5 * (f[1] + f[2]);
 }
 
-/* Along P unit J becomes unit J + alpha J1 + alpha^2 J2, both out. */
+/* Writes J1 and J2 such that unit J at f + alpha P is unit J + alpha J1 +
+ * alpha^2 J2.  f, P [4] in. */
 void area_expand_along(const double f[4], double unit, const double P[4],
                        double *J1, double *J2);
 
-/* The alpha > 0 that uses up `most` of unit J along P; infinite: none does. */
+/* Returns the smallest alpha > 0 at which unit J along P has decreased by
+ * `most`; infinite if there is none.  f, P [4] in. */
 double area_max_step(const double f[4], double unit, double most,
                      const double P[4]);
 
-/* H = on_plus on the space of f+, on_minus on that of f-, plus
- * second (unit K f)(unit K f)^T, by its eigenvectors: Q in the plane of a and
- * b, on_plus and on_minus across.  All have length 1. */
+/* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in
+ * the space of f-, plus second (unit K f)(unit K f)^T.  It maps the plane of
+ * a = f+/|f+| and b = f-/|f-| to itself, with the matrix Q.  The other two
+ * eigenvectors are across_a in the space of f+ and across_b in that of f-. */
 typedef struct AreaHessian {
-    double a[4], b[4], across_a[4], across_b[4];
-    double Q[3]; /* aa, ab, bb */
-    double on_plus, on_minus;
+    double a[4], b[4], across_a[4], across_b[4]; /* length 1 */
+    double Q[3];                                 /* Q_aa, Q_ab, Q_bb */
+    double on_plus, on_minus; /* eigenvalues of across_a and across_b */
 } AreaHessian;
 
-/* The same, projected.  Returns whether an eigenvalue was changed. */
+/* Writes H at f [4], projected.  Returns whether an eigenvalue was changed. */
 bool area_project_hessian(const double f[4], double unit, double on_plus,
                           double on_minus, double second, Projection projection,
                           AreaHessian *area);
 
-/* H [4][4], out; and Hv [4] = H v, out.  A turn v = S f has only the curvature
- * across a in the product, however small that is; in the numbers of H it is
- * lost in the last digits of the larger ones. */
+/* Writes the numbers of H.  H [4][4] out. */
 void area_assemble_hessian(const AreaHessian *area, double H[4][4]);
+
+/* Writes Hv = H v without the numbers of H.  A rotation v = S f is then
+ * multiplied by on_plus alone, which may be smaller than the rounding of these
+ * numbers. v, Hv  [4] in, out */
 void area_multiply_hessian(const AreaHessian *area, const double v[4],
                            double Hv[4]);
 

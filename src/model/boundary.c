@@ -1,5 +1,5 @@
-/* boundary.c - the outline of all solid cells, and pairs of its points and
- * edges that are near.
+/* boundary.c - finds the boundary of the bodies and the edges near each of its
+ * points.
  */
 #include "model/boundary.h"
 
@@ -7,36 +7,38 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for so many near edges for each node of the mesh. */
-enum { NEAR_A_NODE = 8 };
+/* Room in Boundary.near for each node of the mesh. */
+enum { NEAR_PER_NODE = 8 };
 
 size_t boundary_bytes(const SquareMesh *mesh)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
     return 4 * nodes * sizeof(double) + (nodes + springs) * sizeof(Box2) +
-           (2 + NEAR_A_NODE) * nodes * sizeof(int) + springs + nodes;
+           (2 + NEAR_PER_NODE) * nodes * sizeof(int) + springs + nodes;
 }
 
-void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
+void boundary_place_arrays(const SquareMesh *mesh, void *bytes,
+                           Boundary *boundary)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
     *boundary = (Boundary){.shape = *mesh, .version = ~0u, .x = bytes};
     boundary->p = boundary->x + 2 * nodes;
-    boundary->box = (Box2 *)(boundary->p + 2 * nodes);
-    boundary->way = boundary->box + springs;
-    boundary->point = (int *)(boundary->way + nodes);
-    boundary->last = boundary->point + nodes;
-    boundary->near = boundary->last + nodes;
-    boundary->sides = (unsigned char *)(boundary->near + NEAR_A_NODE * nodes);
+    boundary->edge_box = (Box2 *)(boundary->p + 2 * nodes);
+    boundary->point_box = boundary->edge_box + springs;
+    boundary->point = (int *)(boundary->point_box + nodes);
+    boundary->near_end = boundary->point + nodes;
+    boundary->near = boundary->near_end + nodes;
+    boundary->sides = (unsigned char *)(boundary->near + NEAR_PER_NODE * nodes);
     boundary->role = boundary->sides + springs;
 }
 
-/* ---- what is solid ------------------------------------------------------ */
+/* ---- points and edges --------------------------------------------------- */
 
 enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 
-/* Triangle 4 c + k is corner k of cell c: opposite corners share a diagonal.
- * None that is alone, or overlaps another, ever takes the place of another. */
+/* Triangle 4 c + k is corner k of cell c; corners k and k + 2 share a diagonal.
+ * A single triangle is taken from the first diagonal only, so that the solid
+ * part of a cell only shrinks when springs break. */
 static void find_boundary(Boundary *boundary, const System *system)
 {
     const SquareMesh *shape = &boundary->shape;
@@ -62,7 +64,7 @@ static void find_boundary(Boundary *boundary, const System *system)
     for (int s = 0; s < shape->springs; s++) {
         if (boundary->sides[s] != 1)
             continue;
-        boundary->box[boundary->edges++].edge = s;
+        boundary->edge_box[boundary->edges++].edge = s;
         for (int end = 0; end < 2; end++)
             boundary->role[system->e[2 * s + end]] |= ON_AN_EDGE;
     }
@@ -70,20 +72,22 @@ static void find_boundary(Boundary *boundary, const System *system)
         if (boundary->role[i] != IN_A_TRIANGLE)
             boundary->point[boundary->points++] = i;
     boundary->version = system->version;
-    boundary->known = false;
+    boundary->boxes_valid = false;
 }
 
-/* ---- who comes near whom ------------------------------------------------ */
+/* ---- search for near edges ---------------------------------------------- */
 
-static void widen(Box2 *box, int k, double from, double to)
+static void extend_box(Box2 *box, int k, double from, double to)
 {
     box->low[k] = from < box->low[k] ? from : box->low[k];
     box->high[k] = to > box->high[k] ? to : box->high[k];
 }
 
-static const Box2 nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
+static const Box2 empty_box = {
+    {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
 
-/* Equal ones by number: the order is one of x alone. */
+/* Orders boxes for qsort.  Equal boxes go by their spring, so the order depends
+ * on x alone. */
 static int by_left_side(const void *one, const void *other)
 {
     const Box2 *a = one, *b = other;
@@ -92,54 +96,58 @@ static int by_left_side(const void *one, const void *other)
     return a->edge - b->edge;
 }
 
-/* What points and edges pass, without the motion that all have in common. */
-static void make_boxes(Boundary *boundary, const System *system)
+/* Makes and sorts the boxes.  The mean motion of all points is left out: it
+ * brings no two of them nearer. */
+static void bound_motions(Boundary *boundary, const System *system)
 {
-    const double *x = boundary->x, *p = boundary->moves ? boundary->p : NULL;
+    const double *x = boundary->x,
+                 *p = boundary->has_motion ? boundary->p : NULL;
     double *mean = boundary->mean;
     boundary->widest = mean[0] = mean[1] = 0;
-    Box2 all = nothing;
+    Box2 all = empty_box;
     for (int i = 0; i < boundary->points; i++) {
         int node = boundary->point[i];
         for (int c = 0; c < 2; c++) {
-            widen(&all, c, x[2 * node + c], x[2 * node + c]);
+            extend_box(&all, c, x[2 * node + c], x[2 * node + c]);
             if (p)
                 mean[c] += p[2 * node + c] / boundary->points;
         }
     }
-    boundary->upright = all.high[1] - all.low[1] > all.high[0] - all.low[0];
+    boundary->sorts_by_y = all.high[1] - all.low[1] > all.high[0] - all.low[0];
     for (int i = 0; i < boundary->points; i++) {
         int node = boundary->point[i];
-        Box2 *box = &boundary->way[node];
-        *box = nothing;
+        Box2 *box = &boundary->point_box[node];
+        *box = empty_box;
         for (int c = 0; c < 2; c++) {
             double way = p ? boundary->alpha * (p[2 * node + c] - mean[c]) : 0;
-            widen(box, boundary->upright ? 1 - c : c,
-                  x[2 * node + c] - boundary->margin + (way < 0 ? way : 0),
-                  x[2 * node + c] + boundary->margin + (way > 0 ? way : 0));
+            extend_box(box, boundary->sorts_by_y ? 1 - c : c,
+                       x[2 * node + c] - boundary->margin + (way < 0 ? way : 0),
+                       x[2 * node + c] + boundary->margin +
+                           (way > 0 ? way : 0));
         }
     }
     for (int k = 0; k < boundary->edges; k++) {
-        Box2 *box = &boundary->box[k];
+        Box2 *box = &boundary->edge_box[k];
         int s = box->edge;
-        const Box2 *other = &boundary->way[system->e[2 * s + 1]];
-        *box = boundary->way[system->e[2 * s]];
+        const Box2 *other = &boundary->point_box[system->e[2 * s + 1]];
+        *box = boundary->point_box[system->e[2 * s]];
         box->edge = s;
         for (int c = 0; c < 2; c++)
-            widen(box, c, other->low[c], other->high[c]);
+            extend_box(box, c, other->low[c], other->high[c]);
         double wide = box->high[0] - box->low[0];
         boundary->widest = wide > boundary->widest ? wide : boundary->widest;
     }
-    qsort(boundary->box, (size_t)boundary->edges, sizeof(Box2), by_left_side);
+    qsort(boundary->edge_box, (size_t)boundary->edges, sizeof(Box2),
+          by_left_side);
 }
 
-/* The first edge that may end behind this. */
-static int first_edge(const Boundary *boundary, double left)
+/* Returns the first sorted edge whose box may reach the coordinate `left`. */
+static int find_first_edge(const Boundary *boundary, double left)
 {
     int low = 0, high = boundary->edges;
     while (low < high) {
         int middle = (low + high) / 2;
-        if (boundary->box[middle].low[0] < left - boundary->widest)
+        if (boundary->edge_box[middle].low[0] < left - boundary->widest)
             low = middle + 1;
         else
             high = middle;
@@ -147,16 +155,16 @@ static int first_edge(const Boundary *boundary, double left)
     return low;
 }
 
-/* boundary_next, by the boxes. */
-static int next_box(const Boundary *boundary, const System *system, int i,
-                    int *place)
+/* boundary_next_edge by a search through the boxes. */
+static int find_next_box(const Boundary *boundary, const System *system, int i,
+                         int *place)
 {
     int node = boundary->point[i];
-    const Box2 *own = &boundary->way[node];
-    int k = *place > 0 ? *place : first_edge(boundary, own->low[0]);
-    for (; k < boundary->edges && boundary->box[k].low[0] <= own->high[0];
+    const Box2 *own = &boundary->point_box[node];
+    int k = *place > 0 ? *place : find_first_edge(boundary, own->low[0]);
+    for (; k < boundary->edges && boundary->edge_box[k].low[0] <= own->high[0];
          k++) {
-        const Box2 *box = &boundary->box[k];
+        const Box2 *box = &boundary->edge_box[k];
         const int *end = system->e + 2 * box->edge;
         if (box->low[1] > own->high[1] || box->high[1] < own->low[1] ||
             box->high[0] < own->low[0] || end[0] == node || end[1] == node)
@@ -168,43 +176,44 @@ static int next_box(const Boundary *boundary, const System *system, int i,
     return -1;
 }
 
-void boundary_sort(Boundary *boundary, const System *system, const double *x,
-                   const double *p, double alpha, double margin)
+void boundary_update(Boundary *boundary, const System *system, const double *x,
+                     const double *p, double alpha, double margin)
 {
     size_t bytes = 2 * (size_t)boundary->shape.nodes * sizeof *x;
-    int room = NEAR_A_NODE * boundary->shape.nodes, count = 0, place = 0, edge;
+    int room = NEAR_PER_NODE * boundary->shape.nodes, count = 0, place = 0,
+        edge;
     if (boundary->version != system->version)
         find_boundary(boundary, system);
-    if (boundary->known && boundary->moves == (p != NULL) &&
+    if (boundary->boxes_valid && boundary->has_motion == (p != NULL) &&
         boundary->alpha == alpha && boundary->margin == margin &&
         memcmp(boundary->x, x, bytes) == 0 &&
         (!p || memcmp(boundary->p, p, bytes) == 0))
         return;
-    boundary->known = true;
-    boundary->moves = p != NULL;
+    boundary->boxes_valid = true;
+    boundary->has_motion = p != NULL;
     boundary->alpha = alpha;
     boundary->margin = margin;
     memcpy(boundary->x, x, bytes);
     if (p)
         memcpy(boundary->p, p, bytes);
-    make_boxes(boundary, system);
-    boundary->listed = true;
-    for (int i = 0; i < boundary->points && boundary->listed; i++) {
-        while ((edge = next_box(boundary, system, i, &place)) >= 0 &&
+    bound_motions(boundary, system);
+    boundary->lists_near = true;
+    for (int i = 0; i < boundary->points && boundary->lists_near; i++) {
+        while ((edge = find_next_box(boundary, system, i, &place)) >= 0 &&
                count < room)
             boundary->near[count++] = edge;
-        boundary->last[i] = count;
-        boundary->listed = edge < 0;
+        boundary->near_end[i] = count;
+        boundary->lists_near = edge < 0;
     }
 }
 
-int boundary_next(const Boundary *boundary, const System *system, int i,
-                  int *place)
+int boundary_next_edge(const Boundary *boundary, const System *system, int i,
+                       int *place)
 {
-    if (!boundary->listed)
-        return next_box(boundary, system, i, place);
-    int first = i > 0 ? boundary->last[i - 1] : 0;
+    if (!boundary->lists_near)
+        return find_next_box(boundary, system, i, place);
+    int first = i > 0 ? boundary->near_end[i - 1] : 0;
     int k = *place > 0 ? *place : first;
-    *place = k < boundary->last[i] ? k + 1 : 0;
+    *place = k < boundary->near_end[i] ? k + 1 : 0;
     return *place > 0 ? boundary->near[k] : -1;
 }

@@ -87,7 +87,7 @@ static bool contact_get(const EvalPoint *at, int i, double way,
     element->nodes = other->node < 0 ? 1 : 2;
     element->node[0] = element->block = node;
     element->node[1] = other->node;
-    element->from = obstacle;
+    element->source = obstacle;
     element->weight = difference;
     element->factor = 1;
     element->s = gap.d;
@@ -203,7 +203,7 @@ static double contact_friction_limit(const EvalPoint *at,
                                      double *carry)
 {
     const Contact *contact = at->term->data;
-    const Obstacle *obstacle = &contact->obstacle[element->from];
+    const Obstacle *obstacle = &contact->obstacle[element->source];
     t[0] = -element->n[1];
     t[1] = element->n[0];
     *carry = t[0] * obstacle->v[0] + t[1] * obstacle->v[1];

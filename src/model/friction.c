@@ -81,8 +81,8 @@ static double along(const Element *row, const double vectors[4])
 static double slid(const Slide *slide, const double *u)
 {
     double vectors[4];
-    element_vectors(&slide->row, u, vectors);
-    return along(&slide->row, vectors) - slide->carry;
+    element_vectors(&slide->element, u, vectors);
+    return along(&slide->element, vectors) - slide->carry;
 }
 
 /* The same point for the term whose elements rub here. */
@@ -107,12 +107,12 @@ static Status friction_begin_step(const TermStep *step)
     for (ElementIterator walk = elements_begin(&at, NULL, 0);
          elements_next(&walk);) {
         Slide slide = {walk.element, 0};
-        slide.row.r = walk.kind->friction_limit(&at, &walk.element, slide.row.v,
-                                                &slide.carry);
-        slide.row.factor = 1;
-        slide.row.more = 0;
+        slide.element.r = walk.kind->friction_limit(
+            &at, &walk.element, slide.element.v, &slide.carry);
+        slide.element.factor = 1;
+        slide.element.next_place = 0;
         slide.carry *= step->h;
-        if (!(slide.row.r > 0))
+        if (!(slide.element.r > 0))
             continue;
         if (friction->slides == friction->room) {
             int room = 2 * friction->room + 64;
@@ -135,10 +135,10 @@ static void friction_end_step(const TermStep *step)
     for (int i = 0; i < friction->slides; i++) {
         const Slide *slide = &friction->slide[i];
         double vectors[4];
-        element_vectors(&slide->row, step->v, vectors);
-        double y = step->h * along(&slide->row, vectors) - slide->carry;
+        element_vectors(&slide->element, step->v, vectors);
+        double y = step->h * along(&slide->element, vectors) - slide->carry;
         system_book_loss(step->system, step->term->kind,
-                         slide->row.r * friction_slope(y, friction->e) * y);
+                         slide->element.r * friction_slope(y, friction->e) * y);
     }
 }
 
@@ -159,7 +159,7 @@ static bool slide_get(const EvalPoint *at, int i, double way, Element *element)
     (void)way;
     if (!at->u)
         return false;
-    *element = slide->row;
+    *element = slide->element;
     element->s = slid(slide, at->u);
     return true;
 }
@@ -250,7 +250,7 @@ double friction_work_of_obstacles(const System *system, const double *u)
     for (int i = 0; friction && i < friction->slides; i++) {
         const Slide *slide = &friction->slide[i];
         double y = slid(slide, u);
-        sum -= slide->row.r * friction_slope(y, friction->e) * slide->carry;
+        sum -= slide->element.r * friction_slope(y, friction->e) * slide->carry;
     }
     return sum;
 }

@@ -64,10 +64,10 @@ static Status self_contact_begin_step(const TermStep *step)
     int old = self->pairs, edge, place = 0;
     bool grown = old > self->sorted;
     Status status = STATUS_OK;
-    boundary_sort(boundary, system, step->x, step->v, step->h, self->d_hat);
+    boundary_update(boundary, system, step->x, step->v, step->h, self->d_hat);
     for (int i = 0; i < boundary->points && !status; i++)
         while (!status &&
-               (edge = boundary_next(boundary, system, i, &place)) >= 0)
+               (edge = boundary_next_edge(boundary, system, i, &place)) >= 0)
             status = add_pair(self, (SelfPair){boundary->point[i], edge});
     int count = self->pairs - old;
     SelfPair *fresh = self->pair + old;
@@ -94,7 +94,7 @@ static Status self_contact_grow(const EvalPoint *at, bool *grown)
         if (walk.element.block < 0) {
             *grown = true;
             status = add_pair(
-                self, (SelfPair){walk.element.node[0], walk.element.from});
+                self, (SelfPair){walk.element.node[0], walk.element.source});
         }
     return status;
 }
@@ -124,8 +124,8 @@ static void gather_near_edges(const EvalPoint *at, const double *p,
                               double alpha)
 {
     SelfContact *self = data_of(at);
-    boundary_sort(&self->boundary, at->system, at->x, p, alpha,
-                  0.5 * self->d_hat);
+    boundary_update(&self->boundary, at->system, at->x, p, alpha,
+                    0.5 * self->d_hat);
 }
 
 static int self_contact_count(const EvalPoint *at)
@@ -178,21 +178,21 @@ static bool self_contact_get(const EvalPoint *at, int i, double way,
     SelfContact *self = data_of(at);
     Boundary *boundary = &self->boundary;
     int edge;
-    while ((edge = boundary_next(boundary, at->system, i, &element->more)) >=
-           0) {
+    while ((edge = boundary_next_edge(boundary, at->system, i,
+                                      &element->next_place)) >= 0) {
         const SelfPair pair = {boundary->point[i], edge};
         element->vectors = 2;
         element->nodes = nodes_of(at->system, pair, element->node);
         element->weight = differences;
         element->factor = at->weight;
-        element->from = edge;
+        element->source = edge;
         element_vectors(element, at->x, element->v);
         point_edge_distance(self, element);
-        if (!boundary->moves && element->s >= 1)
+        if (!boundary->has_motion && element->s >= 1)
             continue;
         if (is_lost(self, element, at->x))
             element->s = 0;
-        element->block = boundary->moves ? -1 : block_of(self, pair);
+        element->block = boundary->has_motion ? -1 : block_of(self, pair);
         return true;
     }
     (void)way;
@@ -390,8 +390,8 @@ Status self_contact_set(System *system, const SquareMesh *mesh,
                                         sizeof *self + boundary_bytes(mesh));
     if (!self)
         return STATUS_OUT_OF_MEMORY;
-    if (!self->boundary.box)
-        boundary_lay_out(mesh, self + 1, &self->boundary);
+    if (!self->boundary.edge_box)
+        boundary_place_arrays(mesh, self + 1, &self->boundary);
     self->d_hat = barrier->d_hat;
     self->c = barrier->c / 8;
     self->friction = friction;

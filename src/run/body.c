@@ -433,7 +433,7 @@ static Status check_places(const Options *options, const System *system,
         ElementIterator walk = elements_begin(&at, NULL, 0);
         const Element *element = &walk.element;
         while (elements_next(&walk)) {
-            bool own = kind == &contact_energy && element->from == number;
+            bool own = kind == &contact_energy && element->source == number;
             if (element->s > (own ? apart : 0))
                 continue;
             return kind == &contact_energy

@@ -256,7 +256,7 @@ double prescribed_work(const TimeIntegrator *run, double weight)
     if (at.term)
         for (ElementIterator walk = elements_begin(&at, NULL, 0);
              elements_next(&walk);) {
-            int k = walk.element.from;
+            int k = walk.element.source;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped = contact->push.stopped && k == contact->push.obstacle;
             sum += (stopped ? contact->push.moved : run->moved) *
