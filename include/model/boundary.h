@@ -56,7 +56,7 @@ typedef struct Boundary {
 /* Bytes that boundary_place_arrays needs for its arrays. */
 size_t boundary_bytes(const SquareMesh *mesh);
 
-/* Initialises the struct.  Its arrays lie in `bytes`, of boundary_bytes. */
+/* Initialises the struct with arrays in `bytes`, which has boundary_bytes. */
 void boundary_place_arrays(const SquareMesh *mesh, void *bytes,
                            Boundary *boundary);
 

@@ -11,7 +11,8 @@
  *                               pushes the node away.
  *
  * c = A d_hat kappa/2 in J, where A is the length of boundary for each node.
- * Every node is tested, also inside: it is on the boundary once springs break.
+ * Every node is tested, since springs that break turn inner nodes into
+ * boundary.
  */
 #ifndef ELASTO_CONTACT_H
 #define ELASTO_CONTACT_H
@@ -122,8 +123,9 @@ double contact_node_radius(const Contact *contact, int node);
 
 /* Sets the velocity of the held obstacle before a step of h seconds from x [2n]
  * m.  The obstacle moves part of the way to its target, with a bounded speed.
- * It rests if a node in front of it is pressed with the hand's full force.  It
- * stops in front of fixed nodes, and before its centre enters a cell. */
+ * The obstacle rests if a node in front of it is pressed with the hand's full
+ * force.  The obstacle stops in front of fixed nodes, and before its centre
+ * enters a cell. */
 void push_begin_step(Contact *contact, const System *system, const double *x,
                      double h);
 

@@ -28,7 +28,7 @@ typedef struct Damping {
 } Damping;
 
 /* Damping as a term; data: Damping; number of its option: eta.  The term has no
- * value: its energy is part of the springs' term, which reads k' and l2'. After
+ * value, since the springs' term evaluates their energy with k' and l2'. After
  * a step it books the dissipated energy k l2 theta (E - E_n)^2, which is the
  * power k l2 eta (dE/dt)^2 times h. */
 extern const TermKind damping;

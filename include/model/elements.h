@@ -55,8 +55,8 @@ static inline void element_vectors(const Element *element, const double *x,
 
 /* The functions of one kind of element.  Elements are numbered from 0. */
 struct ElementKind {
-    /* Finds the elements before count is called: those at x and, with p [2n],
-     * those on the way to x + alpha p.  NULL: the elements never change. */
+    /* Finds the elements before count is called, at x and, with p [2n], on the
+     * way to x + alpha p.  NULL: the elements never change. */
     void (*prepare)(const EvalPoint *at, const double *p, double alpha);
 
     /* Number of elements. */
@@ -136,7 +136,7 @@ double elements_line_remainder(const EvalPoint *at, const double *p,
 double elements_max_step(const EvalPoint *at, const double *p);
 bool elements_are_feasible(const EvalPoint *at);
 
-/* These functions in the TermKind of a term with elements. */
+/* The TermKind of a term with elements begins with these functions. */
 #define ELEMENTS(kind)                                                         \
     .element = &(kind), .value = elements_value,                               \
     .gradient = elements_gradient, .entries = elements_entries,                \

@@ -2,8 +2,8 @@
  *
  * After a step, a spring is a candidate if its strain E = |d|^2/l2 - 1 exceeds
  * its strength.  The candidate with the largest load breaks first, and at most
- * one spring at each node breaks in a step.  Its neighbours then have the next
- * step to take over the load; otherwise whole rows would break at once.  A
+ * one spring at each node breaks in a step.  The springs beside it then take
+ * over its load in the next step; otherwise whole rows would break at once.  A
  * broken spring has k = 0 and stays in all lists and in the pattern of the
  * Hessian.
  *
@@ -30,8 +30,8 @@ typedef struct Fracture {
 
 /* Fracture as a term; data: Fracture; number of its option: s_c.  The term has
  * no value.  After a step it breaks springs and books the energy that they and
- * their cells had.  It is last in the list, so that the other terms have ended
- * the step. */
+ * their cells had.  Fracture is last in the list, after all other terms have
+ * ended the step. */
 extern const TermKind fracture;
 
 /* Returns the strain at which spring s breaks. */

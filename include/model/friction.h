@@ -27,7 +27,7 @@ double friction_slope(double y, double e);
 
 /* ---- the term -------------------------------------------------------- */
 
-/* One contact with a normal force in this step. */
+/* A contact with a normal force in this step. */
 typedef struct Slide {
     Element element; /* v is t in (a, b), r is mu lambda, N */
     double carry;    /* m, h t.v_wall: travel of the obstacle along t */

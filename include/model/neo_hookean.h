@@ -17,8 +17,8 @@
  *
  * A flat triangle, J = 0, has infinite energy, so no triangle turns over.
  * Lame's parameters in plane strain: mu = E/(2 (1 + nu)), lambda = E nu/((1 +
- * nu) (1 - 2 nu)).  For nu < 0, lambda is negative and W has no lower bound;
- * such nu are refused.
+ * nu) (1 - 2 nu)).  For nu < 0, lambda is negative and W has no lower bound, so
+ * options refuse nu < 0.
  */
 #ifndef ELASTO_NEO_HOOKEAN_H
 #define ELASTO_NEO_HOOKEAN_H

@@ -50,7 +50,7 @@ typedef struct Plasticity {
 } Plasticity;
 
 /* The sum of W over the springs; data: Plasticity; numbers of its option: Y and
- * H.  The term replaces mass_spring_energy.  Its value includes the energy of
+ * H.  The term replaces mass_spring_energy.  The value includes the energy of
  * hardening, k l2 H kappa^2/2.  After a step in which ep changes by gamma it
  * books the dissipated energy k l2 Y gamma. */
 extern const TermKind plastic_energy;

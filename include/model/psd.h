@@ -34,7 +34,7 @@ static inline double project_eigenvalue(Projection projection, double value)
     return value >= 0 ? value : projection == PROJECTION_ABS ? -value : 0;
 }
 
-/* Projects a symmetric 2x2 matrix.  Its eigenvalues are mean +- radius, and
+/* Projects a symmetric 2x2 matrix.  The eigenvalues are mean +- radius, and
  * (H - low I)/(high - low) projects on the eigenvector of `high`.  A matrix
  * without negative eigenvalues keeps its bits.
  *   H  [3] in/out: H_xx, H_xy, H_yy

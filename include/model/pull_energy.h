@@ -31,7 +31,7 @@ typedef struct Pull {
 Status pull_set(System *system, const TermKind *kind, const Pull *pull);
 
 /* Sets k and target of the hand before a step.  The node moves part of the way
- * to the mouse: its distance falls by the factor e in 0.06 s, by at most half
+ * to the mouse: the distance falls by the factor e in 0.06 s, by at most half
  * in one step.  The node also moves at most half a cell or, if cells are small,
  * half a side a second.  Twice that speed turns cells at a corner over. x, v
  * [2] m, m/s, in, of the node m     kg, mass of the node h     s, time step

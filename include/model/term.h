@@ -98,7 +98,7 @@ struct TermKind {
 
     /* Appends the triplets that the Hessian at x needs and the pattern lacks,
      * for example of bodies that came near each other during the step; *grown
-     * is then set to true.  All other triplets keep their places.  NULL: never
+     * is then set to true.  The triplets so far keep their places.  NULL: never
      * needed.  Returns OK or OUT_OF_MEMORY. */
     Status (*grow)(const EvalPoint *at, bool *grown);
 
@@ -141,7 +141,7 @@ struct TermKind {
      * calls system_mark_changed like begin_step. */
     void (*end_step)(const TermStep *step);
 
-    /* Returns a bound of |Hessian| at rest, J/m^2; it must be finite. */
+    /* Returns a finite bound of |Hessian| at rest, J/m^2. */
     double (*curvature_bound)(const EvalPoint *at);
 
     /* Frees the allocations that data points to, not data itself. */
@@ -150,8 +150,8 @@ struct TermKind {
     bool diagonal;            /* P is c/2 |x_i - o|^2 of single nodes */
     bool internal;            /* the forces add up to 0: the centre of mass does
                                  not feel them */
-    bool backward_euler_only; /* other integrators refuse the term by name,
-                                 since x_(n+1) must be the minimiser itself */
+    bool backward_euler_only; /* refused by all other integrators, since
+                                 x_(n+1) must be the minimiser itself */
 };
 
 struct Term {

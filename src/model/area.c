@@ -1,5 +1,5 @@
-/* area.c - energies that depend on a triangle's area: derivatives,
- * projection, largest step.
+/* area.c - derivatives, projection and largest step of energies that depend on
+ * the area of a triangle.
  */
 #include "model/area.h"
 
@@ -12,7 +12,7 @@ void area_expand_along(const double f[4], double unit, const double P[4],
     *J2 = unit * cross(P, P + 2);
 }
 
-/* most + alpha J1 + alpha^2 J2 = 0 */
+/* Solves most + alpha J1 + alpha^2 J2 = 0. */
 double area_max_step(const double f[4], double unit, double most,
                      const double P[4])
 {
@@ -25,7 +25,7 @@ double area_max_step(const double f[4], double unit, double most,
     return denominator > 0 ? 2 * most / denominator : INFINITY;
 }
 
-/* v [4] made a unit vector; `instead` where it is 0.  Returns its length. */
+/* Divides v [4] by its length, which is returned; v = 0 becomes `instead`. */
 static double make_unit(double v[4], const double instead[4])
 {
     double length = math_hypot(math_hypot(v[0], v[1]), math_hypot(v[2], v[3]));
@@ -34,10 +34,9 @@ static double make_unit(double v[4], const double instead[4])
     return length;
 }
 
-/* With g = unit K f: f+ and f- are f's parts in the eigenspaces of K, so the
- * Hessian maps the plane of a = f+/|f+| and b = f-/|f-| to itself, and what
- * lies across, S of their halves, are eigenvectors with on_plus and on_minus.
- * In that plane a 2x2 matrix Q is projected. */
+/* unit K f lies in the plane of a = f+/|f+| and b = f-/|f-|, so H maps this
+ * plane to itself, and its 2x2 matrix Q is projected.  S applied to both halves
+ * of a and of b gives the other two eigenvectors, with on_plus and on_minus. */
 bool area_project_hessian(const double f[4], double unit, double on_plus,
                           double on_minus, double second, Projection projection,
                           AreaHessian *area)

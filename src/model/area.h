@@ -41,7 +41,7 @@ double area_max_step(const double f[4], double unit, double most,
                      const double P[4]);
 
 /* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in
- * the space of f-, plus second (unit K f)(unit K f)^T.  It maps the plane of
+ * the space of f-, plus second (unit K f)(unit K f)^T.  H maps the plane of
  * a = f+/|f+| and b = f-/|f-| to itself, with the matrix Q.  The other two
  * eigenvectors are across_a in the space of f+ and across_b in that of f-. */
 typedef struct AreaHessian {

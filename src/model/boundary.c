@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room in Boundary.near for each node of the mesh. */
+/* Boundary.near has room for this many edges for each node of the mesh. */
 enum { NEAR_PER_NODE = 8 };
 
 size_t boundary_bytes(const SquareMesh *mesh)
@@ -96,8 +96,8 @@ static int by_left_side(const void *one, const void *other)
     return a->edge - b->edge;
 }
 
-/* Makes and sorts the boxes.  The mean motion of all points is left out: it
- * brings no two of them nearer. */
+/* Makes and sorts the boxes.  The mean motion of all points is left out, since
+ * it changes no distance. */
 static void bound_motions(Boundary *boundary, const System *system)
 {
     const double *x = boundary->x,

@@ -1,4 +1,4 @@
-/* cells.c - the energy that keeps each cell of the square from turning over. */
+/* cells.c - barrier energy that keeps the cells from turning over. */
 #include "model/cells.h"
 
 #include <math.h>
@@ -20,8 +20,9 @@ static int cell_block_nodes(const EvalPoint *at, int t, int node[3])
     return 3;
 }
 
-/* Of a triangle that still has its three springs: a = e1, b = e2, s = J, which
- * a way changes by q way (|e1| + |e2| + way) at most, q = 1/(2 A0). */
+/* A triangle whose three springs are whole, with a = e1, b = e2, s = J.  If e1
+ * and e2 change by `way` at most, J changes by q way (|e1| + |e2| + way) at
+ * most, q = 1/(2 A0). */
 static bool cell_get(const EvalPoint *at, int t, double way, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
@@ -54,7 +55,7 @@ static double cell_value(const EvalPoint *at, const Element *element)
     return cells->c * barrier_value(element->s / CELL_J_HAT);
 }
 
-/* grad J in e1 and e2 is (S e2, -S e1)/(2 A0) with S v = (v_y, -v_x). */
+/* The gradient of J in (e1, e2) is (S e2, -S e1)/(2 A0), S v = (v_y, -v_x). */
 static void cell_gradient(const EvalPoint *at, const Element *element,
                           double g[4])
 {
@@ -102,8 +103,7 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
                        barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
 }
 
-/* The curvature where the barrier begins, by g = K e with sides of the rest
- * length. */
+/* The curvature at the start of the barrier, for sides of the rest length. */
 static double cell_curvature_bound(const EvalPoint *at)
 {
     const Cells *cells = at->term->data;

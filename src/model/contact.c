@@ -1,4 +1,4 @@
-/* contact.c - the energy of contact between nodes and walls or balls. */
+/* contact.c - barrier energy of nodes near walls and balls. */
 #include "model/contact.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ double contact_normal_force(const Barrier *barrier, double d)
     return -barrier->c / barrier->d_hat * barrier_slope(d / barrier->d_hat);
 }
 
-/* ---- which node and which obstacle -------------------------------------- */
+/* ---- pairs of a node and an obstacle ------------------------------------ */
 
 Contact *contact_of(const System *system)
 {
@@ -97,9 +97,9 @@ static bool contact_get(const EvalPoint *at, int i, double way,
     return true;
 }
 
-/* A node has its own block, and where there is a free ball shares it with the
- * ball; the ball itself shares it with a neighbour, so that all have as many
- * entries. */
+/* Each node has one block.  With a free ball the block has two nodes, the node
+ * and the ball's.  The ball's own block has a neighbour as its second node, so
+ * that all blocks have equally many entries. */
 static int contact_block_count(const EvalPoint *at)
 {
     return at->system->nodes;
@@ -123,7 +123,8 @@ static double contact_value(const EvalPoint *at, const Element *element)
     return barrier->c * barrier_value(element->s / barrier->d_hat);
 }
 
-/* The force pushes the node along n and a free ball back. */
+/* The force pushes the node along n, and the free ball in the opposite
+ * direction. */
 static void contact_gradient(const EvalPoint *at, const Element *element,
                              double g[4])
 {
@@ -133,8 +134,8 @@ static void contact_gradient(const EvalPoint *at, const Element *element,
     g[1] = factor * element->n[1];
 }
 
-/* c f''/d_hat^2 n n^T, and where nothing is projected the ball's curvature
- * (c/d_hat) f'/r (I - n n^T), which is negative. */
+/* H = (c/d_hat^2) f'' n n^T + (c/d_hat) f'/r (I - n n^T).  The second summand
+ * is 0 for a wall, and negative for a ball. */
 static bool contact_hessian(const EvalPoint *at, const Element *element,
                             Projection projection, double H[4][4])
 {
@@ -153,9 +154,9 @@ static bool contact_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-/* A ball: |D + alpha P| = r - F d is the quadratic equation
- * a alpha^2 + 2 b alpha + c0 = 0, whose smaller root is written so that nothing
- * cancels. */
+/* For a ball |D + alpha P| = r - F d is the quadratic equation
+ * a alpha^2 + 2 b alpha + c0 = 0.  The smaller root is computed without
+ * cancellation. */
 static double contact_max_step(const EvalPoint *at, const Element *element,
                                const double P[4])
 {
@@ -172,8 +173,8 @@ static double contact_max_step(const EvalPoint *at, const Element *element,
     return discriminant > 0 ? c0 / (-b + sqrt(discriminant)) : INFINITY;
 }
 
-/* Along P the distance of a ball's centre changes by pn + k, where k is what
- * the motion across adds: sqrt((r + pn)^2 + pt^2) - (r + pn). */
+/* Along P the distance to the centre of a ball changes by pn + k.  The motion
+ * across n contributes k = sqrt((r + pn)^2 + pt^2) - (r + pn). */
 static double contact_line_remainder(const EvalPoint *at,
                                      const Element *element, const double P[4],
                                      double alpha)
@@ -191,7 +192,7 @@ static double contact_line_remainder(const EvalPoint *at,
                          barrier_remainder(s, (pn + k) / barrier->d_hat));
 }
 
-/* The curvature where the barrier begins, 2 c/d_hat^2. */
+/* The curvature at the start of the barrier, 2 c/d_hat^2. */
 static double contact_curvature_bound(const EvalPoint *at)
 {
     const Barrier *barrier = contact_barrier(at);

@@ -1,13 +1,11 @@
-/* damping.c - damping of each spring in proportion to the rate of its
- * strain.
- */
+/* damping.c - Kelvin-Voigt damping of the springs. */
 #include "model/damping.h"
 
 #include <string.h>
 
 #include "model/mass_spring_energy.h"
 
-/* The springs of the step from x_n.  A broken one stays broken. */
+/* Computes k' and l2' for the step from x_n.  A broken spring keeps k' = 0. */
 static Status damping_begin_step(const TermStep *step)
 {
     System *system = step->system;
@@ -38,7 +36,7 @@ static void damping_end_step(const TermStep *step)
     system_book_loss(system, &damping, sum);
 }
 
-/* The bound of springs, with the numbers of the last step. */
+/* The bound of the springs with k' and l2' of the last step. */
 static double damping_curvature_bound(const EvalPoint *at)
 {
     const Damping *data = at->term->data;

@@ -1,5 +1,5 @@
-/* elements.c - sums over elements: values, gradients and Hessians of terms
- * that are made of them.
+/* elements.c - value, gradient, Hessian and largest step of terms that are sums
+ * over elements.
  */
 #include "model/elements.h"
 
@@ -14,8 +14,8 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
         most = fabs(p[i]) > most ? fabs(p[i]) : most;
     if (kind->prepare)
         kind->prepare(at, p, alpha);
-    /* So much may a and b change: |sum w_k p_k| with sum |w_k| <= 2, and |p_k|
-     * <= 1.5 of its larger coordinate. */
+    /* a changes by alpha |sum w_k p_k|, with sum |w_k| <= 2 and |p_k| at
+     * most 1.5 times its larger coordinate. */
     double way = 3 * alpha * most;
     return (ElementIterator){at, kind, way, -1, kind->count(at), {0}};
 }
@@ -28,9 +28,9 @@ bool elements_next(ElementIterator *walk)
     return false;
 }
 
-/* out [2n] += factor g, g [4] in a and b. */
-static void element_add(const Element *element, double factor,
-                        const double g[4], double *out)
+/* Adds factor g to out [2n], where g [4] is a gradient in (a, b). */
+static void element_add_vector(const Element *element, double factor,
+                               const double g[4], double *out)
 {
     for (int i = 0; i < 2 * element->nodes; i++) {
         double sum = 0;
@@ -55,17 +55,17 @@ void elements_gradient(const EvalPoint *at, double *g)
     for (ElementIterator walk = elements_begin(at, NULL, 0);
          elements_next(&walk);) {
         walk.kind->gradient(at, &walk.element, own);
-        element_add(&walk.element, walk.element.factor, own, g);
+        element_add_vector(&walk.element, walk.element.factor, own, g);
     }
 }
 
-/* The parts of a block, by nodes: those on the diagonal come first. */
+/* The 2x2 parts of a block by the numbers of their nodes, diagonal parts first.
+ */
 enum { PARTS = 6 };
 static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
                                    {0, 1}, {0, 2}, {1, 2}};
 
-/* Of a block in one triangle of the Hessian; all have room for the most nodes.
- */
+/* Returns the number of triplets of a block; all blocks have equally many. */
 static int entries_of_a_block(const EvalPoint *at)
 {
     int node[3], nodes = at->term->kind->element->block_nodes(at, 0, node);
@@ -91,9 +91,9 @@ void elements_pattern(const EvalPoint *at, Triplets *triplets)
     }
 }
 
-/* Entry (r, c) of the part of nodes k and l is factor sum w_k w_l H_(r,c) over
- * the pairs of vectors.  The compiler makes a function of its own for each
- * number of vectors. */
+/* Adds the entries of an element.  Entry (r, c) of the part of nodes k and l is
+ * factor sum w_k w_l H_(r,c) over the pairs of vectors.  The function is inline
+ * so that the compiler unrolls the loops for each number of vectors. */
 static inline void element_add_block(const Element *element, int vectors,
                                      double H[4][4], const int *slot,
                                      double *out)
@@ -117,7 +117,7 @@ static inline void element_add_block(const Element *element, int vectors,
     }
 }
 
-/* out += Hessian q of an element. */
+/* Adds the product of an element's Hessian with q [2n] to out [2n]. */
 static bool add_product(const ElementIterator *walk, Projection projection,
                         const double *q, double *out)
 {
@@ -133,7 +133,7 @@ static bool add_product(const ElementIterator *walk, Projection projection,
             for (int c = 0; c < 2 * element->vectors; c++)
                 Hv[r] += H[r][c] * v[c];
     }
-    element_add(element, element->factor, Hv, out);
+    element_add_vector(element, element->factor, Hv, out);
     return changed;
 }
 

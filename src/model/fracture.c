@@ -1,4 +1,4 @@
-/* fracture.c - the rule that breaks overstretched springs after a step. */
+/* fracture.c - breaks overstretched springs after a step. */
 #include "model/fracture.h"
 
 #include <stdint.h>
@@ -7,11 +7,10 @@
 
 #include "model/spring_law.h"
 
-/* Part by which the strengths of springs differ. */
+/* The strengths differ from their mean by at most this part of it. */
 static const double SCATTER = 0.1;
 
-/* With a number from -1 to 1 for each spring: SplitMix64 (Steele et al. 2014).
- */
+/* SplitMix64 (Steele et al. 2014) gives each spring a number from -1 to 1. */
 double fracture_strength(const Fracture *fracture, int s)
 {
     uint64_t z = ((uint64_t)s + 1) * 0x9e3779b97f4a7c15u;
@@ -22,7 +21,7 @@ double fracture_strength(const Fracture *fracture, int s)
     return fracture->strength * (1 + SCATTER * scatter);
 }
 
-/* The most loaded candidates first; equal loads by number. */
+/* Orders candidates for qsort: largest load first, equal loads by spring. */
 static int compare_loads(const void *one, const void *other)
 {
     const Candidate *a = one, *b = other;
@@ -31,8 +30,8 @@ static int compare_loads(const void *one, const void *other)
     return a->spring - b->spring;
 }
 
-/* Collects and sorts them, once for all breaks of a step, for thousands may
- * break at once; returns how many. */
+/* Collects and sorts the candidates, which may be thousands in one step.
+ * Returns their number. */
 static int find_candidates(Fracture *fracture, const System *system,
                            const double *x)
 {
@@ -49,8 +48,8 @@ static int find_candidates(Fracture *fracture, const System *system,
     return count;
 }
 
-/* Breaks them; the energy that was in them, and in cells that end with them, is
- * what the potential has less afterwards. */
+/* Breaks springs.  The energy lost is the decrease of the potential, which
+ * includes the cells that end with these springs. */
 static void fracture_end_step(const TermStep *step)
 {
     System *system = step->system;

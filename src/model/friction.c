@@ -1,6 +1,4 @@
-/* friction.c - Coulomb friction of contacts, as an energy of the sliding
- * distance.
- */
+/* friction.c - Coulomb friction as an energy of the slip. */
 #include "model/friction.h"
 
 #include <math.h>
@@ -8,7 +6,7 @@
 
 #include "model/self_contact.h"
 
-/* f0, m. */
+/* Returns f0(y), m. */
 static double friction_value(double y, double e)
 {
     double a = fabs(y);
@@ -21,21 +19,21 @@ double friction_slope(double y, double e)
     return copysign(a * (2 - a), y);
 }
 
-/* f0'', 1/m. */
+/* Returns f0''(y), 1/m. */
 static double friction_curvature(double y, double e)
 {
     return 2 / e * fmax(0, 1 - fabs(y) / e);
 }
 
-/* On one piece, [0, e] mirrored or not, f0'' is linear: the remainder of a step
- * t from y to z is t^2 (2 f0''(y) + f0''(z))/6. */
+/* On [0, e] and on [-e, 0] f0'' is linear, so the remainder of the step t from
+ * y to z is t^2 (2 f0''(y) + f0''(z))/6. */
 static double remainder_on_piece(double y, double t, double z, double e)
 {
     return t * t * (2 * friction_curvature(y, e) + friction_curvature(z, e)) /
            6;
 }
 
-/* From y >= 0 to y + t >= 0, in either direction. */
+/* The remainder from y >= 0 to y + t >= 0; t may be negative. */
 static double remainder_on_side(double y, double t, double e)
 {
     double z = y + t;
@@ -43,16 +41,16 @@ static double remainder_on_side(double y, double t, double e)
         return remainder_on_piece(y, t, z, e);
     if (y > e && z > e)
         return 0;
-    if (y > e) /* into the piece: the slope at y is the one at e */
+    if (y > e) /* from outside to inside [0, e]: slopes at y and e are equal */
         return remainder_on_piece(e, z - e, z, e);
-    /* out of it: from e on the slope is larger by `missing` than it was at y */
+    /* from inside to outside: beyond e the slope is 1, larger by `missing` */
     double missing = 1 - y / e;
     return remainder_on_piece(y, e - y, e, e) + missing * missing * (z - e);
 }
 
-/* f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy:
- * R(a -> c) = R(a -> b) + (f'(b) - f'(a)) (c - b) + R(b -> c) with b = 0 where
- * the way passes it. */
+/* Returns f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy.  A
+ * step that passes 0 is split there, by
+ * R(a -> c) = R(a -> b) + (f'(b) - f'(a)) (c - b) + R(b -> c). */
 static double friction_remainder(double y, double t, double e)
 {
     double z = y + t;
@@ -69,8 +67,8 @@ static double friction_remainder(double y, double t, double e)
 
 /* ---- the term ------------------------------------------------------------ */
 
-/* t.(a, b), where these are made of displacements u or a direction. */
-static double along(const Element *row, const double vectors[4])
+/* Returns t.(a, b), where a and b are those of displacements or a direction. */
+static double tangent_part(const Element *row, const double vectors[4])
 {
     double sum = 0;
     for (int i = 0; i < 2 * row->vectors; i++)
@@ -78,15 +76,15 @@ static double along(const Element *row, const double vectors[4])
     return sum;
 }
 
-static double slid(const Slide *slide, const double *u)
+static double slip_of(const Slide *slide, const double *u)
 {
     double vectors[4];
     element_vectors(&slide->element, u, vectors);
-    return along(&slide->element, vectors) - slide->carry;
+    return tangent_part(&slide->element, vectors) - slide->carry;
 }
 
-/* The same point for the term whose elements rub here. */
-static EvalPoint point_of_source(const EvalPoint *at)
+/* Returns the point for the contact term whose elements have this friction. */
+static EvalPoint point_of_contact_term(const EvalPoint *at)
 {
     bool obstacles = at->term->kind == &friction_energy;
     EvalPoint source = *at;
@@ -95,13 +93,13 @@ static EvalPoint point_of_source(const EvalPoint *at)
     return source;
 }
 
-/* Normal forces and tangents at x_n. */
+/* Freezes the normal forces and tangents at x_n. */
 static Status friction_begin_step(const TermStep *step)
 {
     Friction *friction = step->term->data;
     EvalPoint at = eval_point_at(step->system, step->x, NULL, step->x);
     at.term = step->term;
-    at = point_of_source(&at);
+    at = point_of_contact_term(&at);
     friction->e = friction->slip_speed * step->h;
     friction->slides = 0;
     for (ElementIterator walk = elements_begin(&at, NULL, 0);
@@ -128,7 +126,7 @@ static Status friction_begin_step(const TermStep *step)
     return STATUS_OK;
 }
 
-/* What was rubbed off in this step. */
+/* Books the energy that friction dissipated in this step. */
 static void friction_end_step(const TermStep *step)
 {
     const Friction *friction = step->term->data;
@@ -136,7 +134,8 @@ static void friction_end_step(const TermStep *step)
         const Slide *slide = &friction->slide[i];
         double vectors[4];
         element_vectors(&slide->element, step->v, vectors);
-        double y = step->h * along(&slide->element, vectors) - slide->carry;
+        double y =
+            step->h * tangent_part(&slide->element, vectors) - slide->carry;
         system_book_loss(step->system, step->term->kind,
                          slide->element.r * friction_slope(y, friction->e) * y);
     }
@@ -152,7 +151,7 @@ static int slide_count(const EvalPoint *at)
     return friction_of(at)->slides;
 }
 
-/* s is y.  Nothing of it is stored: outside of a step (u NULL) it is 0. */
+/* s is the slip y.  Outside a step (u NULL) friction has no energy. */
 static bool slide_get(const EvalPoint *at, int i, double way, Element *element)
 {
     const Slide *slide = &friction_of(at)->slide[i];
@@ -160,20 +159,20 @@ static bool slide_get(const EvalPoint *at, int i, double way, Element *element)
     if (!at->u)
         return false;
     *element = slide->element;
-    element->s = slid(slide, at->u);
+    element->s = slip_of(slide, at->u);
     return true;
 }
 
-/* The blocks are those of the contact. */
+/* Friction uses the blocks of its contact term. */
 static int slide_block_count(const EvalPoint *at)
 {
-    EvalPoint source = point_of_source(at);
+    EvalPoint source = point_of_contact_term(at);
     return source.term->kind->element->block_count(&source);
 }
 
 static int slide_block_nodes(const EvalPoint *at, int block, int node[3])
 {
-    EvalPoint source = point_of_source(at);
+    EvalPoint source = point_of_contact_term(at);
     return source.term->kind->element->block_nodes(&source, block, node);
 }
 
@@ -191,7 +190,7 @@ static void slide_gradient(const EvalPoint *at, const Element *element,
         g[i] = force * element->v[i];
 }
 
-/* mu lambda f0'' t t^T, never negative */
+/* H = mu lambda f0'' t t^T, which has no negative eigenvalue. */
 static bool slide_hessian(const EvalPoint *at, const Element *element,
                           Projection projection, double H[4][4])
 {
@@ -208,7 +207,7 @@ static double slide_line_remainder(const EvalPoint *at, const Element *element,
                                    const double P[4], double alpha)
 {
     return element->r * friction_remainder(element->s,
-                                           alpha * along(element, P),
+                                           alpha * tangent_part(element, P),
                                            friction_of(at)->e);
 }
 
@@ -249,7 +248,7 @@ double friction_work_of_obstacles(const System *system, const double *u)
     double sum = 0;
     for (int i = 0; friction && i < friction->slides; i++) {
         const Slide *slide = &friction->slide[i];
-        double y = slid(slide, u);
+        double y = slip_of(slide, u);
         sum -= slide->element.r * friction_slope(y, friction->e) * slide->carry;
     }
     return sum;

@@ -22,19 +22,19 @@ static int neo_hookean_block_nodes(const EvalPoint *at, int t, int node[3])
     return 3;
 }
 
-/* 1/l^2 with the legs' length l at rest: a triangle is half a cell. */
+/* Returns 1/l^2 with the rest length l of the legs: A0 = l^2/2. */
 static double inverse_square_leg(const NeoHookean *data)
 {
     return 1 / (2 * data->area);
 }
 
-/* a = e1, b = e2, s = J. */
+/* Every triangle is an element, with a = e1, b = e2, s = J. */
 static bool neo_hookean_get(const EvalPoint *at, int t, double way,
                             Element *element)
 {
     static const double legs[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const NeoHookean *data = at->term->data;
-    (void)way; /* each triangle has a force */
+    (void)way;
     element->vectors = 2;
     element->nodes = neo_hookean_block_nodes(at, t, element->node);
     element->weight = legs;
@@ -50,14 +50,14 @@ static double square_of(const double a[2])
     return a[0] * a[0] + a[1] * a[1];
 }
 
-/* J - 1 - ln J >= 0, without cancellation near 1. */
+/* Returns J - 1 - ln J >= 0, without cancellation near 1. */
 static double volume_value(double J)
 {
     return J > 0.5 ? -log1p_minus(J - 1) : J - 1 - math_log(J);
 }
 
-/* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2): with |F|^2 = 2 J +
- * 2 |F-|^2 it is the same W, but no two parts of it cancel. */
+/* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2) follows from
+ * |F|^2 = 2 J + 2 |F-|^2.  All summands are positive, so none cancel. */
 static double neo_hookean_value(const EvalPoint *at, const Element *element)
 {
     const NeoHookean *data = at->term->data;
@@ -68,7 +68,8 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
                          0.5 * data->lambda * L * L);
 }
 
-/* The stress on F+, which is all of dW/dJ over A0, and on F-. */
+/* Writes s and 2 mu - s, the factors of F+ and F- in dW/dF.  s is dW/dJ over
+ * A0. */
 static void stresses(const NeoHookean *data, double J, double *on_plus,
                      double *on_minus)
 {
@@ -76,9 +77,9 @@ static void stresses(const NeoHookean *data, double J, double *on_plus,
     *on_minus = 2 * data->mu - *on_plus;
 }
 
-/* P = on_plus F+ + on_minus F-.  Both parts of F vanish with the stress, or
- * their factor does: rounding is in proportion to the stress, where the parts
- * of mu F - mu F^-T are as large as mu, however small their difference. */
+/* dW/dF = on_plus F+ + on_minus F-.  Both summands are 0 where the stress is 0,
+ * so rounding is proportional to the stress.  In mu F - mu F^-T rounding would
+ * be proportional to mu, however small the difference. */
 static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
                                  double g[4])
 {
@@ -121,8 +122,8 @@ static bool neo_hookean_product(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-/* With J + alpha J1 + alpha^2 J2 = J (1 + z), and ln(1 + z) less its part of
- * degree 1 in alpha, nothing cancels. */
+/* J + alpha J1 + alpha^2 J2 = J (1 + z).  Subtracting the part of degree 1 from
+ * ln(1 + z) by log1p_minus avoids cancellation. */
 static double neo_hookean_line_remainder(const EvalPoint *at,
                                          const Element *element,
                                          const double P[4], double alpha)
@@ -150,8 +151,8 @@ static double neo_hookean_max_step(const EvalPoint *at, const Element *element,
                          ELEMENT_LIMIT * element->s, P);
 }
 
-/* At F = I the Hessian is mu (I - K) + (lambda + mu) (K f)(K f)^T; a node has
- * the weights 1/l of a triangle's height l. */
+/* The bound at F = I, where the Hessian in F is
+ * mu (I - K) + (lambda + mu) (K f)(K f)^T. */
 static double neo_hookean_curvature_bound(const EvalPoint *at)
 {
     const NeoHookean *data = at->term->data;
@@ -171,8 +172,8 @@ static const ElementKind triangle = {
     .product = neo_hookean_product,
 };
 
-/* Cuts each cell into two triangles.  Their sides stay as springs, which are
- * only drawn; the other diagonal gets k = 0. */
+/* Cuts each cell into two triangles.  Their sides stay springs, which are drawn
+ * but have no energy; the other diagonal gets k = 0. */
 static Status neo_hookean_set(System *system, const SquareMesh *mesh,
                               const double *number)
 {

@@ -1,4 +1,4 @@
-/* plasticity.c - springs that flow beyond their yield strain. */
+/* plasticity.c - energy of springs that flow beyond their yield strain. */
 #include "model/plasticity.h"
 
 #include <math.h>
@@ -6,24 +6,24 @@
 #include "model/damping.h"
 #include "model/mass_spring_energy.h"
 
-/* (|e| - Y)_+, and what of |e| is within Y: without fmin and fmax, which are
- * calls of the library, for each spring is asked. */
-static double beyond(FlowLaw law, double e)
+/* Returns (|e| - Y)_+.  fmax would be a slow library call for each spring. */
+static double strain_beyond(FlowLaw law, double e)
 {
     return fabs(e) > law.yield ? fabs(e) - law.yield : 0;
 }
 
-static double inside(FlowLaw law, double e)
+/* Returns min(|e|, Y). */
+static double strain_within(FlowLaw law, double e)
 {
     return fabs(e) < law.yield ? fabs(e) : law.yield;
 }
 
-/* Where |e| is far beyond Y, e^2 and the square of what is beyond are nearly
- * the same: so Y and what is beyond are looked at apart. */
+/* Returns V(e).  For |e| far beyond Y, e^2/2 and (|e| - Y)^2 flow/2 would
+ * cancel, so the parts of |e| within and beyond Y are computed separately. */
 static double flow_law_value(FlowLaw law, double e)
 {
-    double over = beyond(law, e), change = e - law.e_n;
-    double within = inside(law, e);
+    double over = strain_beyond(law, e), change = e - law.e_n;
+    double within = strain_within(law, e);
     double sum =
         within * (fabs(e) - 0.5 * within) + 0.5 * law.hard * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
@@ -31,13 +31,14 @@ static double flow_law_value(FlowLaw law, double e)
 
 double flow_law_slope(FlowLaw law, double e)
 {
-    double tau = copysign(inside(law, e) + law.hard * beyond(law, e), e);
+    double tau =
+        copysign(strain_within(law, e) + law.hard * strain_beyond(law, e), e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
 static double flow_law_curvature(FlowLaw law, double e)
 {
-    return law.theta + (beyond(law, e) > 0 ? law.hard : 1);
+    return law.theta + (strain_beyond(law, e) > 0 ? law.hard : 1);
 }
 
 double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
@@ -48,7 +49,7 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
 
 /* ---- the term -------------------------------------------------------- */
 
-/* Of spring s, without damping. */
+/* Returns V of spring s without damping. */
 static inline FlowLaw law_of(const Plasticity *data, int s)
 {
     double H = data->hardening, flow = 1 / (1 + H);
@@ -64,7 +65,7 @@ FlowLaw plasticity_get_law(const System *system, int s)
     return data ? law_of(data, s) : (FlowLaw){.yield = INFINITY, .hard = 1};
 }
 
-/* One spring, as all functions need it. */
+/* A spring at the point of evaluation. */
 typedef struct FlowSpring {
     const int *e;
     double k, l2;
@@ -101,7 +102,7 @@ static double plastic_value(const EvalPoint *at)
     return sum;
 }
 
-/* 2 k tau d */
+/* The gradient at node i is 2 k tau d. */
 static void plastic_gradient(const EvalPoint *at, double *g)
 {
     for (int s = 0; s < at->system->springs; s++) {
@@ -137,8 +138,9 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
     return projected;
 }
 
-/* Along p its strain changes by D = alpha B + alpha^2 C, and k l2 V, but for
- * its slope, by k l2 (tau alpha^2 C + R_V(e, D)): the first is a polynomial. */
+/* Along p the strain changes by D = alpha B + alpha^2 C.  Apart from its linear
+ * part, W changes by k l2 (tau alpha^2 C + R_V(e, D)): the first summand is the
+ * line polynomial, R_V the line remainder.  Writes B and C. */
 static inline void strain_along(const FlowSpring *spring, const double *p,
                                 double *B, double *C)
 {
@@ -159,10 +161,10 @@ static void plastic_line_polynomial(const EvalPoint *at, const double *p,
     }
 }
 
-/* V(e + t) - V(e) - V'(e) t >= 0: the integral of (t - s) V''(e + s) over s = 0
- * ... t, mirrored so that t >= 0.  V'' is hard + theta everywhere, and flow
- * more where the spring is elastic.  Nothing is subtracted but ends of the way.
- */
+/* R_V(e, t) = V(e + t) - V(e) - V'(e) t >= 0 is the integral of (t - s) V''(e +
+ * s) over s from 0 to t, mirrored so that t >= 0.  V'' is hard + theta, plus
+ * flow where the spring is elastic.  Only the limits of the integral are
+ * subtracted from each other. */
 static double plastic_line_remainder(const EvalPoint *at, const double *p,
                                      double alpha)
 {
@@ -184,7 +186,7 @@ static double plastic_line_remainder(const EvalPoint *at, const double *p,
     return at->weight * sum;
 }
 
-/* What has flowed stays: ep moves by gamma, the yield strain grows. */
+/* Adds the flow gamma of the step to ep and kappa. */
 static void plastic_end_step(const TermStep *step)
 {
     System *system = step->system;
@@ -194,7 +196,8 @@ static void plastic_end_step(const TermStep *step)
     at.term = step->term;
     for (int s = 0; s < system->springs; s++) {
         FlowSpring spring = flow_spring(&at, s);
-        double gamma = spring.law.flow * beyond(spring.law, spring.strain);
+        double gamma =
+            spring.law.flow * strain_beyond(spring.law, spring.strain);
         if (!(gamma > 0) || spring_is_broken(system, s))
             continue;
         data->ep[s] += copysign(gamma, spring.strain);
@@ -207,7 +210,7 @@ static void plastic_end_step(const TermStep *step)
         system_mark_changed(system, false);
 }
 
-/* In the place of the elastic springs: yield and hardening, which stay. */
+/* Replaces the elastic springs.  number: Y and H. */
 static Status plastic_set(System *system, const struct SquareMesh *mesh,
                           const double *number)
 {

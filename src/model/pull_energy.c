@@ -1,6 +1,4 @@
-/* pull_energy.c - springs that draw one node to a point: the central field,
- * and the hand.
- */
+/* pull_energy.c - pull of one node to a point: central field and hand. */
 #include "model/pull_energy.h"
 
 #include <math.h>
@@ -17,7 +15,7 @@ static double pull_value(const EvalPoint *at)
     return sum;
 }
 
-/* w k (x - o); with a huge k, w keeps it below overflow. */
+/* The factor weight k comes first, so that a huge k does not overflow. */
 static void pull_gradient(const EvalPoint *at, double *g)
 {
     const Pull *pull = at->term->data;
@@ -38,7 +36,7 @@ static void pull_pattern(const EvalPoint *at, Triplets *triplets)
     term_add_diagonal(at->system, pull->node, triplets);
 }
 
-/* It is never negative. */
+/* The Hessian k I has no negative eigenvalue. */
 static int pull_hessian(const EvalPoint *at, Projection projection,
                         const int *slot, const double *q, double *out)
 {
@@ -67,7 +65,7 @@ static double pull_curvature_bound(const EvalPoint *at)
     return fabs(pull->k);
 }
 
-/* What both kinds share. */
+/* The functions of both terms. */
 #define PULL                                                                   \
     .value = pull_value, .gradient = pull_gradient, .entries = pull_entries,   \
     .pattern = pull_pattern, .hessian = pull_hessian,                          \
@@ -98,7 +96,7 @@ void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
     double slow = fmin(MOST, h / TIME), part = slow;
     if (part * away > reach)
         part = reach / away;
-    /* Where the node is at rest the force is that of k part = strength. */
+    /* A node at rest feels the force strength times its distance. */
     hand->k = fmin(fmax(hand->strength / slow, INERTIA * m / (h * h)),
                    LIMIT * hand->strength);
     if (free)

@@ -1,30 +1,29 @@
-/* push.c - an obstacle that a hand moves: how far it goes in a step. */
+/* push.c - how far an obstacle held by a hand moves in a step. */
 #include <math.h>
 #include <string.h>
 
 #include "base/mathematics.h"
 #include "model/contact.h"
 
-/* The distance falls by e in TIME s, but at most by MOST of itself in a step;
- * the speed is at least SLOW and at most FAST sides in a second. */
+/* The distance to the hand falls by the factor e in TIME s, by at most the part
+ * MOST in a step.  The speed is SLOW to FAST sides of the body a second. */
 static const double TIME = 0.06, MOST = 0.5, SLOW = 0.1, FAST = 5;
 
-/* Sides that the obstacle goes in a step at most, and may go however short the
- * step is. */
+/* The limit of the way in a step is between SHORTEST and LONGEST sides,
+ * whatever h is. */
 static const double LONGEST = 0.25, SHORTEST = 0.005;
 
-/* The hand is as strong as the barrier at this part of its width: there a wall
- * has pressed springs flat long ago. */
+/* The hand is as strong as the barrier at this part of its width, where a wall
+ * has long pressed the springs flat. */
 static const double STRENGTH = 0.1;
 
-/* The part of the barrier's width that is kept before pinned nodes. */
+/* The obstacle keeps this part of the barrier's width from pinned nodes. */
 static const double KEPT = 0.3;
 
-enum { HALVINGS = 8, MOST_LOOKS = 16 };
+enum { HALVINGS = 8, MAX_PARTS = 16 };
 
-/* The way of a free obstacle in a step of h seconds. */
-static void wanted_way(const Push *push, const double *o, double h,
-                       double way[2])
+/* Writes the way of the obstacle in a step of h seconds if nothing stops it. */
+static void plan_way(const Push *push, const double *o, double h, double way[2])
 {
     double side = push->shape.side;
     double d[2] = {push->to[0] - o[0], push->to[1] - o[1]};
@@ -36,8 +35,9 @@ static void wanted_way(const Push *push, const double *o, double h,
         way[c] = away > 0 ? go / away * d[c] : 0;
 }
 
-/* Whether a node in front of the obstacle is pressed as strongly as the hand
- * can. */
+/* Whether a node in front of the obstacle is pressed with the hand's full
+ * force.
+ */
 static bool is_pressed(const Contact *contact, const System *system,
                        const double *x, const double way[2])
 {
@@ -54,8 +54,9 @@ static bool is_pressed(const Contact *contact, const System *system,
     return false;
 }
 
-/* Whether the obstacle may be at o [2]: no pinned node that it does not push
- * comes nearer than it was and than is kept, and no ball enters a cell. */
+/* Whether the obstacle may move to o [2].  It may not come nearer than KEPT to
+ * a pinned node without contact, unless it was nearer before, and the centre of
+ * a ball may not enter a cell. */
 static bool has_room(const Contact *contact, const System *system,
                      const double *x, const double o[2])
 {
@@ -77,15 +78,15 @@ static bool has_room(const Contact *contact, const System *system,
            square_mesh_find_cell(shape, x, obstacle->o, 0, shape->cells) >= 0;
 }
 
-/* The largest part of the way that has room, up to the first place that has
- * none. */
-static double free_part(const Contact *contact, const System *system,
-                        const double *x, const double way[2])
+/* Returns the part of the way before the first place without room, by steps
+ * that are halved there. */
+static double find_free_part(const Contact *contact, const System *system,
+                             const double *x, const double way[2])
 {
     const Obstacle *obstacle = &contact->obstacle[contact->push.obstacle];
     double length = math_hypot(way[0], way[1]), free = 0, step = 1;
     if (obstacle->kind == OBSTACLE_BALL)
-        step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MOST_LOOKS), 1);
+        step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MAX_PARTS), 1);
     for (int i = 0; i < HALVINGS && free < 1;) {
         double part = fmin(free + step, 1);
         const double o[2] = {obstacle->o[0] + part * way[0],
@@ -111,10 +112,10 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
     if (!push->on)
         return;
     Obstacle *obstacle = &contact->obstacle[push->obstacle];
-    wanted_way(push, obstacle->o, h, way);
+    plan_way(push, obstacle->o, h, way);
     double part = is_pressed(contact, system, x, way)
                       ? 0
-                      : free_part(contact, system, x, way);
+                      : find_free_part(contact, system, x, way);
     for (int c = 0; c < 2; c++)
         obstacle->v[c] = part * way[c] / h;
 }

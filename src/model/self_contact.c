@@ -1,4 +1,4 @@
-/* self_contact.c - contact of bodies with each other and with themselves. */
+/* self_contact.c - barrier energy of points near edges of the boundary. */
 #include "model/self_contact.h"
 
 #include <float.h>
@@ -9,7 +9,7 @@
 #include "model/area.h"
 #include "model/barrier.h"
 
-static SelfContact *data_of(const EvalPoint *at)
+static SelfContact *self_contact_data(const EvalPoint *at)
 {
     return at->term->data;
 }
@@ -27,7 +27,7 @@ static int compare_pairs(const void *one, const void *other)
     return a->node != b->node ? a->node - b->node : a->edge - b->edge;
 }
 
-/* The block of a pair, or -1: it has none. */
+/* Returns the block of a pair; -1: none. */
 static int block_of(const SelfContact *self, SelfPair pair)
 {
     const SelfPair *found =
@@ -54,8 +54,9 @@ static Status add_pair(SelfContact *self, SelfPair pair)
     return STATUS_OK;
 }
 
-/* The pairs that come near if all go on as they do get blocks; the list is made
- * of x_n and v_n alone, so that a step knows nothing of those before it. */
+/* Makes blocks for the pairs that come near if all nodes keep their velocities.
+ * The list depends on x_n and v_n alone, so a step does not depend on the steps
+ * before it. */
 static Status self_contact_begin_step(const TermStep *step)
 {
     System *system = step->system;
@@ -78,7 +79,7 @@ static Status self_contact_begin_step(const TermStep *step)
     size_t bytes = (size_t)count * sizeof *fresh;
     if (grown || count != old || memcmp(self->pair, fresh, bytes) != 0) {
         system_mark_changed(system, true);
-        boundary->version = system->version; /* the springs are as they were */
+        boundary->version = system->version; /* the springs did not change */
     }
     memmove(self->pair, fresh, bytes);
     self->pairs = self->sorted = count;
@@ -87,7 +88,7 @@ static Status self_contact_begin_step(const TermStep *step)
 
 static Status self_contact_grow(const EvalPoint *at, bool *grown)
 {
-    SelfContact *self = data_of(at);
+    SelfContact *self = self_contact_data(at);
     Status status = STATUS_OK;
     for (ElementIterator walk = elements_begin(at, NULL, 0);
          !status && elements_next(&walk);)
@@ -101,7 +102,7 @@ static Status self_contact_grow(const EvalPoint *at, bool *grown)
 
 static int self_contact_block_count(const EvalPoint *at)
 {
-    return data_of(at)->pairs;
+    return self_contact_data(at)->pairs;
 }
 
 static int nodes_of(const System *system, SelfPair pair, int node[3])
@@ -114,7 +115,7 @@ static int nodes_of(const System *system, SelfPair pair, int node[3])
 
 static int self_contact_block_nodes(const EvalPoint *at, int block, int node[3])
 {
-    const SelfContact *self = data_of(at);
+    const SelfContact *self = self_contact_data(at);
     return self->pairs == 0 ? 0 : nodes_of(at->system, self->pair[block], node);
 }
 
@@ -123,17 +124,17 @@ static int self_contact_block_nodes(const EvalPoint *at, int block, int node[3])
 static void gather_near_edges(const EvalPoint *at, const double *p,
                               double alpha)
 {
-    SelfContact *self = data_of(at);
+    SelfContact *self = self_contact_data(at);
     boundary_update(&self->boundary, at->system, at->x, p, alpha,
                     0.5 * self->d_hat);
 }
 
 static int self_contact_count(const EvalPoint *at)
 {
-    return data_of(at)->boundary.points;
+    return self_contact_data(at)->boundary.points;
 }
 
-/* d^2/d_hat^2, n and r from q and e. */
+/* Writes s = d^2/d_hat^2, n and r of an element from its q and e. */
 static void point_edge_distance(const SelfContact *self, Element *element)
 {
     const double *q = element->v, *e = element->v + 2;
@@ -156,11 +157,11 @@ static void point_edge_distance(const SelfContact *self, Element *element)
     element->s = (d / self->d_hat) * (d / self->d_hat);
 }
 
-/* Whether so little is left of d that the rounding of positions may already
- * have put the point on the other side, which d does not tell: such a place is
- * not allowed. */
-static bool is_lost(const SelfContact *self, const Element *element,
-                    const double *x)
+/* Whether d is smaller than the rounding of the positions.  The point may then
+ * be on the other side of the edge, which d does not show, so x is infeasible.
+ */
+static bool is_below_rounding(const SelfContact *self, const Element *element,
+                              const double *x)
 {
     double size = 0;
     for (int i = 0; i < 6; i++)
@@ -169,13 +170,12 @@ static bool is_lost(const SelfContact *self, const Element *element,
     return !(element->s > least * least);
 }
 
-/* Point i and, where it is asked for again, the next edge.  `way` is in the
- * boxes; without one what is not near has no force. */
+/* Point i with its next near edge.  The boxes of the boundary include `way`. */
 static bool self_contact_get(const EvalPoint *at, int i, double way,
                              Element *element)
 {
     static const double differences[2][3] = {{1, -1, 0}, {0, -1, 1}};
-    SelfContact *self = data_of(at);
+    SelfContact *self = self_contact_data(at);
     Boundary *boundary = &self->boundary;
     int edge;
     while ((edge = boundary_next_edge(boundary, at->system, i,
@@ -190,7 +190,7 @@ static bool self_contact_get(const EvalPoint *at, int i, double way,
         point_edge_distance(self, element);
         if (!boundary->has_motion && element->s >= 1)
             continue;
-        if (is_lost(self, element, at->x))
+        if (is_below_rounding(self, element, at->x))
             element->s = 0;
         element->block = boundary->has_motion ? -1 : block_of(self, pair);
         return true;
@@ -201,34 +201,35 @@ static bool self_contact_get(const EvalPoint *at, int i, double way,
 
 static double self_contact_value(const EvalPoint *at, const Element *element)
 {
-    return data_of(at)->c * barrier_value(element->s);
+    return self_contact_data(at)->c * barrier_value(element->s);
 }
 
-/* -dW/dd >= 0, N */
-static double force(const SelfContact *self, double S)
+/* Returns the force -dW/dd >= 0, N. */
+static double pair_force(const SelfContact *self, double S)
 {
     return -self->c * barrier_slope(S) * 2 * sqrt(S) / self->d_hat;
 }
 
-/* d changes by n.(dq - r de). */
+/* The change of d is n.(dq - r de). */
 static void self_contact_gradient(const EvalPoint *at, const Element *element,
                                   double g[4])
 {
-    double F = force(data_of(at), element->s);
+    double F = pair_force(self_contact_data(at), element->s);
     for (int i = 0; i < 4; i++)
         g[i] = F * element->n[i % 2] * (i < 2 ? -1 : element->r);
 }
 
-/* With w = dq - r de, t along the edge and e_n = n.de: W'' w_n^2, which is
- * never negative, and beside the edge F (2 w_t e_n/|e| + d e_n^2/|e|^2), past
- * an end -F/d w_t^2: a 2x2 matrix in (w_t, e_n), which is projected. */
+/* With w = dq - r de, the unit vector t along the edge and e_n = n.de, the
+ * second derivative is W'' w_n^2 >= 0, plus F (2 w_t e_n/|e| + d e_n^2/|e|^2)
+ * if p is beside the edge, -F/d w_t^2                         if p is beyond an
+ * end. This sum is a 2x2 matrix in (w_t, e_n), which is projected. */
 static bool self_contact_hessian(const EvalPoint *at, const Element *element,
                                  Projection projection, double H[4][4])
 {
-    const SelfContact *self = data_of(at);
+    const SelfContact *self = self_contact_data(at);
     const double *n = element->n, *e = element->v + 2;
     double S = element->s, r = element->r, d = sqrt(S) * self->d_hat;
-    double F = force(self, S), length = sqrt(dot2(e, e));
+    double F = pair_force(self, S), length = sqrt(dot2(e, e));
     double bend = self->c / (self->d_hat * self->d_hat) *
                   (4 * S * barrier_curvature(S) + 2 * barrier_slope(S));
     double sign = copysign(1, cross(e, n)); /* t = n turned back, along e */
@@ -248,14 +249,15 @@ static bool self_contact_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-/* A number along a line: N + n1 + n2, of degree 0, 1 and 2. */
-typedef struct Along2 {
-    double N, n1, n2;
-} Along2;
+/* A quadratic along a line with the value N + n1 + n2 at the end. */
+typedef struct Quadratic {
+    double N, n1, n2; /* parts of degree 0, 1 and 2 */
+} Quadratic;
 
-/* (N^2/l)' - N^2/l, N or the end of it counting only where it is > 0 or
- * `always`: what is of degree 1 is added to *first, the rest returned. */
-static double ratio_change(Along2 top, Along2 l, bool always, double *first)
+/* The change of N^2/l along the line, where a negative N counts as 0 unless
+ * `always`.  Adds the part of degree 1 to *first and returns the rest. */
+static double ratio_change(Quadratic top, Quadratic l, bool always,
+                           double *first)
 {
     double N = top.N, change = top.n1 + top.n2, end = l.N + l.n1 + l.n2;
     bool starts = always || N > 0, ends = always || N + change > 0;
@@ -274,34 +276,34 @@ static double self_contact_line_remainder(const EvalPoint *at,
                                           const Element *element,
                                           const double P[4], double alpha)
 {
-    const SelfContact *self = data_of(at);
+    const SelfContact *self = self_contact_data(at);
     const double *q = element->v, *e = element->v + 2;
     const double dq[2] = {alpha * P[0], alpha * P[1]};
     const double de[2] = {alpha * P[2], alpha * P[3]};
     double d_hat2 = self->d_hat * self->d_hat, first = 0;
-    const Along2 l = {dot2(e, e), 2 * dot2(e, de), dot2(de, de)};
-    const Along2 side = {cross(e, q), cross(de, q) + cross(e, dq),
-                         cross(de, dq)};
-    const Along2 low = {-dot2(q, e), -dot2(dq, e) - dot2(q, de), -dot2(dq, de)};
-    const Along2 high = {-low.N - l.N, -low.n1 - l.n1, -low.n2 - l.n2};
+    const Quadratic l = {dot2(e, e), 2 * dot2(e, de), dot2(de, de)};
+    const Quadratic side = {cross(e, q), cross(de, q) + cross(e, dq),
+                            cross(de, dq)};
+    const Quadratic low = {-dot2(q, e), -dot2(dq, e) - dot2(q, de),
+                           -dot2(dq, de)};
+    const Quadratic high = {-low.N - l.N, -low.n1 - l.n1, -low.n2 - l.n2};
     double rest = ratio_change(side, l, true, &first) +
                   ratio_change(low, l, false, &first) +
                   ratio_change(high, l, false, &first);
     double S = element->s, slope = barrier_slope(S);
-    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* no W is left */
+    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* W is 0 at the end */
         return self->c * (-barrier_value(S) - slope * first / d_hat2);
     return self->c * (slope * rest / d_hat2 +
                       barrier_remainder(S, (first + rest) / d_hat2));
 }
 
-/* The first alpha > 0 at which p is on the line of the edge, e x q = 0, and
- * between its ends: a quadratic equation.  (Both at once along one line, which
- * no root tells, happens to edges beside each other: there another edge at the
- * same end tells.) */
+/* Finds the first alpha > 0 at which p lies on the edge: e x q = 0, a quadratic
+ * equation, and r in [0, 1].  If p moves along the line of the edge, no root
+ * shows the contact with its end; another edge at this end does. */
 static double self_contact_max_step(const EvalPoint *at, const Element *element,
                                     const double P[4])
 {
-    static const double ENDS = 1e-9; /* of an edge: rounding of its ends */
+    static const double ENDS = 1e-9; /* allowance for rounding of r */
     const double *q = element->v, *e = element->v + 2, *dq = P, *de = P + 2;
     double c0 = cross(e, q), c1 = cross(de, q) + cross(e, dq);
     double c2 = cross(de, dq), discriminant = c1 * c1 - 4 * c2 * c0;
@@ -322,19 +324,19 @@ static double self_contact_max_step(const EvalPoint *at, const Element *element,
     return ELEMENT_LIMIT * first;
 }
 
-/* mu F; slides with w_t. */
+/* The limit is mu F, the slip is w_t. */
 static double self_contact_friction_limit(const EvalPoint *at,
                                           const Element *element, double t[4],
                                           double *carry)
 {
-    const SelfContact *self = data_of(at);
+    const SelfContact *self = self_contact_data(at);
     const double *n = element->n;
     t[0] = -n[1];
     t[1] = n[0];
     t[2] = element->r * n[1];
     t[3] = -element->r * n[0];
     *carry = 0;
-    return self->friction * force(self, element->s);
+    return self->friction * pair_force(self, element->s);
 }
 
 static const ElementKind near_pairs = {
@@ -353,10 +355,10 @@ static const ElementKind near_pairs = {
 
 /* ---- the term ----------------------------------------------------------- */
 
-/* The curvature where the barrier begins, 16 c/d_hat^2. */
+/* The curvature at the start of the barrier, 16 c/d_hat^2. */
 static double self_contact_curvature_bound(const EvalPoint *at)
 {
-    const SelfContact *self = data_of(at);
+    const SelfContact *self = self_contact_data(at);
     return 16 * self->c / (self->d_hat * self->d_hat);
 }
 

@@ -19,7 +19,8 @@ SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
                         .outline = bodies * 2 * (columns + rows)};
 }
 
-/* The body that number i of so many in all is of; i becomes its number there.
+/* Returns the body of node, cell or edge i of `all`; i becomes its number
+ * there.
  */
 static int body_of(const SquareMesh *shape, int all, int *i)
 {
@@ -28,7 +29,7 @@ static int body_of(const SquareMesh *shape, int all, int *i)
     return body;
 }
 
-/* The node of column i, row j: nodes are counted up each column. */
+/* Returns the node of column i, row j; nodes are numbered column by column. */
 static int grid_node(const SquareMesh *shape, int i, int j)
 {
     return i * (shape->rows + 1) + j;
@@ -88,7 +89,7 @@ void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
     side[2] = spring[before];
 }
 
-/* m^2, twice the area of the triangle abp, below 0 where it is clockwise. */
+/* Returns twice the area of the triangle abp, m^2; negative if clockwise. */
 static double twice_area(const double *a, const double *b, const double *p)
 {
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
@@ -134,7 +135,7 @@ bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
     return cells == 1 || (left % cells == 0 && low % cells == 0);
 }
 
-/* Node k of a body's outline. */
+/* Returns node k of a body's outline, anticlockwise from the lower left. */
 static int outline_node(const SquareMesh *shape, int k)
 {
     int columns = shape->segments, rows = shape->rows;
@@ -156,8 +157,8 @@ void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])
     node[1] = first + outline_node(shape, next);
 }
 
-/* Springs between each node (i, j) and (i + right, j + up); returns the place
- * of the next one. */
+/* Writes the springs from each node (i, j) to (i + right, j + up).  Returns the
+ * place in e for the next spring. */
 static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
                          int up)
 {
@@ -169,7 +170,7 @@ static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
     return e;
 }
 
-/* In the order of the slide: horizontal, vertical, both diagonals of a cell. */
+/* The order is that of the slide: horizontal, vertical, diagonals by cell. */
 void square_mesh_list_springs(const SquareMesh *shape, int *e)
 {
     int each = shape->nodes / shape->bodies, spring[6], c = 0;
@@ -185,19 +186,19 @@ void square_mesh_list_springs(const SquareMesh *shape, int *e)
     }
 }
 
-/* A rectangle of grid nodes: columns begin[0] ... end[0]-1, rows begin[1] ...
+/* A rectangle of nodes: columns begin[0] ... end[0]-1, rows begin[1] ...
  * end[1]-1. */
 typedef struct GridPart {
     int begin[2], end[2];
 } GridPart;
 
-/* Parts of at most this many nodes are not cut any further. */
+/* Dissection stops at parts of at most this many nodes. */
 enum { GRID_LEAF = 9 };
 
-/* Nested dissection (George 1973): numbers the nodes of a part from `next` on,
- * the two halves first, the line between them last; returns the next free
- * number.  The longer side is cut, so the line is the shorter one.
- *   order  out, of the part's body */
+/* Nested dissection (George 1973).  Numbers the nodes of a part from `next` on:
+ * both halves first, then the line between them, which cuts the longer side.
+ * Returns the next free number.
+ *   order  out, place of each node of this body */
 static int dissect_grid(const SquareMesh *shape, GridPart part, int next,
                         int *order)
 {

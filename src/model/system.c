@@ -98,7 +98,7 @@ void system_remove_term(System *system, const TermKind *kind)
     system_mark_changed(system, true);
 }
 
-/* Into the row of this name, or the free one behind. */
+/* A kind without a row yet gets the first free one. */
 void system_book_loss(System *system, const TermKind *kind, double energy)
 {
     Loss *loss = system->lost;
@@ -108,7 +108,7 @@ void system_book_loss(System *system, const TermKind *kind, double energy)
     loss->energy += energy;
 }
 
-/* A normal number > 0: not 0, denormal, infinite or NaN. */
+/* Whether value is positive and normal, that is, not denormal or infinite. */
 static bool is_positive(double value)
 {
     return isnormal(value) && value > 0;
@@ -178,8 +178,8 @@ bool system_has_gravity(const System *system)
     return system->gravity[0] != 0 || system->gravity[1] != 0;
 }
 
-/* What n roundings leave, about sqrt(n) of one, is 0: a square whose middle is
- * at the height 0 has no energy there. */
+/* A sum smaller than its rounding, sqrt(n) times that of one summand, counts as
+ * 0: a square with its centre at height 0 has no gravity potential. */
 double system_gravity_potential(const System *system, const double *x)
 {
     const double *a = system->gravity;
