@@ -1,7 +1,7 @@
 # elasto: `make run` builds and runs the demo, `make test` checks it.
 # `make help` lists the rest.
 
-# ---- what a user may set ---------------------------------------------------
+# ---- settings ---------------------------------------------------------------
 CC       ?= cc
 CFLAGS   ?= -O2 -g
 PREFIX   ?= /usr/local
@@ -10,13 +10,14 @@ SANITIZE ?=
 V        ?= 0
 ARGS     ?=
 
-# As many jobs as there are processors, unless -j says otherwise.
+# One job for each processor, unless -j sets another number.
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
 endif
 
-# ---- what is built ---------------------------------------------------------
-# The rooms, from the ground up; each uses itself and those before it.
+# ---- sources and programs ---------------------------------------------------
+# Rooms (folders of src), from the bottom up.  A room uses itself and the rooms
+# before it.
 ROOMS = base model solve step run scenes lesson picture play
 
 comma   := ,
@@ -52,8 +53,9 @@ run-lecture: build/lecture
 	./build/lecture $(ARGS)
 
 # ---- dependencies ----------------------------------------------------------
-# build/config.mk holds their flags.  Its recipe installs what is missing, or
-# names it (INSTALL=no); make then starts again with the new file.
+# build/config.mk has the flags of the libraries.  Its recipe installs missing
+# packages, or only names them (INSTALL=no).  Then make reads the new file and
+# starts again.
 GOALS := $(or $(MAKECMDGOALS),all)
 ifneq ($(filter-out clean help uninstall figures web homework,$(GOALS)),)
 include build/config.mk
@@ -63,8 +65,8 @@ include build/config-test.mk
 endif
 endif
 
-# $(call need,PAIRS): the packages (:NAME) of what the compiler, pkg-config or
-# the list of files do not find.
+# $(call need,PAIRS): installs the missing packages.  A pair is THING:PACKAGE, and
+# THING is a header, a file or a name for pkg-config.
 SUITESPARSE = -I/usr/include/suitesparse -I/usr/local/include/suitesparse \
               -I/opt/homebrew/include/suitesparse
 FONTS = /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
@@ -89,8 +91,8 @@ if [ "$$missing" ]; then as=; [ "$$(id -u)" = 0 ] || as=sudo; \
   $$get || { $$as apt-get update -q && $$get; } || exit 1; fi
 endef
 
-# CHOLMOD is linked as an archive where there is one: src/solve/panels.c answers
-# its calls of BLAS, and a program that has it loads no library of BLAS.
+# CHOLMOD is linked as a static archive if there is one.  src/solve/panels.c has
+# the four BLAS functions that CHOLMOD calls, so no BLAS library is loaded.
 ALONE = $(foreach l,cholmod colamd ccolamd camd amd suitesparseconfig,-l:lib$(l).a) \
         -l:libmetis.so.5 -lgomp
 LAPACK = $(if $(filter Darwin,$(shell uname)),-framework Accelerate,-llapack)
@@ -112,14 +114,14 @@ build/config-test.mk: build/config.mk
 	echo "TEST_LIBS := $$(pkg-config --libs cmocka)" >$@
 
 # ---- programs --------------------------------------------------------------
-# What was made last, plain, is in build/; copied only if it is another.
+# build/ has a copy of the program that was made last, with or without sanitizers.
 build/elasto build/lecture build/elasto-bench: build/%: $(B)/% FORCE
 	@cmp -s $< $@ || cp -f $< $@
 build/stress: $(B)/stress-tests FORCE
 	@cmp -s $< $@ || cp -f $< $@
 
-# All rooms in one archive, made anew whenever the list of its members changes;
-# objects, when the compiler or its flags do.
+# All rooms are one archive, made again when the list of its members changes.
+# Objects are made again when the compiler or its flags change.
 $(B)/members: text = $(OBJECTS)
 $(B)/flags: text = $(COMPILE) $(DEP_LIBS)
 $(B)/members $(B)/flags: FORCE
@@ -128,7 +130,7 @@ $(B)/members $(B)/flags: FORCE
 $(LIBRARY): $(OBJECTS) $(B)/members
 	$(Q)rm -f $@; $(AR) rcs $@ $(OBJECTS)
 
-# lecture.c needs nothing of ours, and of BLAS more than ours has.
+# lecture.c is linked without the rooms.  It needs LAPACK and a full BLAS.
 $(B)/lecture $(B)/elasto-bench $(B)/stress-tests $(B)/tests/%: \
   LIBS = $(TEST_LIBS) $(BLAS_LIBS)
 $(B)/lecture: $(B)/lecture.o
@@ -140,7 +142,7 @@ $(B)/lecture $(B)/elasto $(B)/elasto-bench $(B)/stress-tests: $(B)/flags
 	$(call shown,LINK)
 	$(Q)$(LINK)
 
-# Loops over the square's grid are plain C that the compiler vectorises.
+# The compiler vectorises the loops over the square's grid.
 GRID_LOOPS = grid_energy tiles v_cycle
 $(GRID_LOOPS:%=$(B)/solve/%.o): private CFLAGS := \
     $(CFLAGS:-O2=-O3) -fno-trapping-math -fno-math-errno
@@ -149,14 +151,14 @@ $(B)/%.o: src/%.c $(B)/flags
 	$(call shown,CC)
 	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
 
-# The CSV files of the benchmark say with which flags it was compiled.
+# The benchmark's tables name the flags of the compiler.
 $(B)/bench/%.o: private CPPFLAGS += -DBENCH_FLAGS='"$(strip $(CFLAGS))"'
 
 -include $(wildcard $(B)/*.d $(B)/*/*.d $(B)/tests/*/*.d)
 
 # ---- texts ------------------------------------------------------------------
-# Pages with the functions that they show, and cards, are compiled into the
-# program.
+# The pages of the tour, the functions that they show, and the cards are compiled
+# into the program.
 PAGES = src/lesson/pages.txt
 CARDS = src/picture/cards.txt
 READ = awk -f src/lesson/text.awk
@@ -176,9 +178,9 @@ $(B)/texts.o: $(B)/texts.c $(B)/flags
 include tests/tests.mk src/web/web.mk
 
 # ---- homework --------------------------------------------------------------
-# homework.c: lecture.c with eleven functions to write; nothing is written over.
+# homework.c is lecture.c with eleven functions to write.  An existing file is kept.
 homework:
-	@[ ! -e homework.c ] || { echo 'homework.c is there: move it away'; exit 1; }
+	@[ ! -e homework.c ] || { echo 'homework.c exists already: rename it first'; exit 1; }
 	@awk -f src/homework/write.awk src/homework/tasks.txt src/lecture.c \
 	  >homework.c && echo homework.c
 
@@ -188,9 +190,9 @@ check-homework:
 	  CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' LIBS='$(DEP_LIBS) $(BLAS_LIBS)' \
 	  sh src/homework/check.sh "$$@"
 
-# ---- the rest --------------------------------------------------------------
-# A table that was not measured whole leaves the one before as it is; the exit
-# code of a pipe is tee's, so the file `whole` says how the program ended.
+# ---- benchmark, installation, help -----------------------------------------
+# A table replaces the last one only when it is complete.  The exit code of a pipe
+# is that of tee, so the program's success is a file, `whole`.
 bench: TABLES = work steps
 bench: build/elasto-bench
 	@mkdir -p build/bench; cd build/bench && for table in $(TABLES); do \
@@ -214,22 +216,23 @@ clean:
 	rm -rf build
 
 help:
-	@echo 'make run        build, then watch the stretched square relax'
-	@echo '                (ARGS="--segments 16" gives it options)'
-	@echo 'make run-lecture  src/lecture.c, the bare square (ARGS="k=1e6")'
-	@echo 'make test       build and run all tests; long-test: all variations'
-	@echo 'make pictures   draw the pictures of the README again'
-	@echo 'make homework   write homework.c, lecture.c with functions to write;'
-	@echo '                make check-homework [FILE=...] says what is wrong'
-	@echo 'make web        write build/elasto.html, all of it as one page'
-	@echo 'make bench      measure run time against error (TABLES=work);'
-	@echo '                make figures: draw what it measured'
-	@echo 'make stress     named cases, random scenes, faults: half an hour;'
-	@echo '                same-bits, mutants, analyse: tests/README.md'
-	@echo 'make install    to $$(DESTDIR)$$(PREFIX)/bin; make uninstall'
-	@echo 'make clean      remove build/'
-	@echo 'INSTALL=no only names missing packages; V=1 shows commands;'
-	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS, LDLIBS are respected'
+	@echo 'make run             build and open the window (ARGS="--segments 16")'
+	@echo 'make run-lecture     the same with src/lecture.c (ARGS="k=1e6")'
+	@echo 'make test            build and run all tests, about a minute'
+	@echo 'make long-test       all tests in all their variations'
+	@echo 'make homework        write homework.c: lecture.c with functions to write'
+	@echo 'make check-homework  check it, or FILE="a.c b.c"'
+	@echo 'make web             write build/elasto.html: the program as one page'
+	@echo 'make bench           measure run time against error and time a step'
+	@echo '                     (TABLES=work or steps; ARGS=--quick)'
+	@echo 'make figures         draw the figure of the benchmark'
+	@echo 'make pictures        draw the pictures of the README again'
+	@echo 'make stress          judge random scenes in more digits, half an hour'
+	@echo 'make same-bits, mutants, analyse    see tests/README.md'
+	@echo 'make install         into $$(DESTDIR)$$(PREFIX)/bin; make uninstall'
+	@echo 'make clean           remove build/'
+	@echo 'INSTALL=no only names missing packages; V=1 shows the commands.'
+	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS and LDLIBS are used as usual.'
 
 .PHONY: all web test-web homework check-homework elasto lecture run run-lecture test long-test suites stress \
         same-bits mutants analyse pictures bench figures install \

@@ -8,7 +8,7 @@
  *                        line_search: Algorithm 2, step_forward: Algorithm 3
  *   explicit steps       explicit_euler: forward or symplectic Euler
  *   simulator.py         draw, main
- * Nothing is kept from one Newton iteration to the next; nothing is clever.
+ * Each Newton iteration starts from nothing; the program has no tricks.
  *   cc -O2 lecture.c -o lecture $(sdl2-config --cflags --libs) \
  *      -I/usr/include/suitesparse -lcholmod -llapack -lm
  *   ./lecture                         a window: pull at a node; Esc closes it
@@ -61,7 +61,7 @@ typedef struct Solid {
     Spring *e;   /* [springs] the slides' edges */
 } Solid;
 
-/* One more spring, at rest where its nodes are now. */
+/* Adds a spring that is at rest at the present positions of its nodes. */
 static void add_spring(Solid *solid, int i, int j, double k)
 {
     Vec2 d = sub(solid->x[i], solid->x[j]);
@@ -129,7 +129,7 @@ static void inertia_grad(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
 }
 
 /* A Hessian is a list of triplets, the slides' IJV; values at the same place
- * are added later.  It is symmetric: CHOLMOD wants the upper triangle only. */
+ * are added later.  CHOLMOD reads the upper triangle of a symmetric matrix. */
 static void add_entry(cholmod_triplet *H, int row, int column, double value)
 {
     if (row > column)
@@ -225,8 +225,8 @@ static void spring_hess(const Solid *solid, const Vec2 *x, double scale,
 /* ==== Incremental potential and search direction (time_integrator.py) ===== */
 /* E(x) = |x - x_tilde|_M^2 / 2 + h^2 P(x).  Implicit Euler wants the x with
  *   x = x_n + h v,   v = v_n - h M^-1 grad P(x).
- * Put v into the first equation and multiply by M: it says grad E(x) = 0.  So
- * the end of the time step is a minimum of E. */
+ * Put v into the first equation and multiply by M: the result is grad E(x) = 0.
+ * So the end of the time step is a minimum of E. */
 static double ip_val(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
                      double h)
 {
@@ -245,7 +245,7 @@ static void ip_grad(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
 static cholmod_sparse *ip_hess(const Solid *solid, const Vec2 *x, double h,
                                cholmod_common *common)
 {
-    size_t n = 2 * (size_t)solid->nodes; /* and 10 of a block's 16 entries: */
+    size_t n = 2 * (size_t)solid->nodes; /* a 4x4 block has 10 entries */
     cholmod_triplet *IJV = cholmod_allocate_triplet(
         n, n, n + 10 * (size_t)solid->springs, 1, CHOLMOD_REAL, common);
     if (!IJV)
@@ -257,7 +257,7 @@ static cholmod_sparse *ip_hess(const Solid *solid, const Vec2 *x, double h,
     return H;
 }
 
-/* p = -H^-1 g.  It leads downhill, because g.p = -p^T H p < 0.  The slides call
+/* p = -H^-1 g leads downhill, because g.p = -p^T H p < 0.  The slides call
  * spsolve; here Cholesky's H = L L^T does it: `analyze` finds a good order of
  * elimination and the places where L is not zero, `factorize` computes L. */
 static void search_dir(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
@@ -309,7 +309,7 @@ static double line_search(const Solid *solid, const Vec2 *x, const Vec2 *p,
 
 /* ==== Projected Newton for implicit Euler (Algorithm 3) =================== */
 /* max over nodes of |p_x| + |p_y|, over h: by how much the next update would
- * change a velocity, m/s.  So tol means the same for each h and each mesh.
+ * change a velocity, m/s.  Thus tol has one meaning for each h and each mesh.
  * (numpy's norm(p, inf) of an array of shape (n, 2) is the largest row sum.) */
 static double residual(const Solid *solid, const Vec2 *p, double h)
 {
@@ -320,8 +320,8 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 }
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
- * It never ends if tol is below the rounding errors of p.  It drops the last p;
- * elasto uses it: ten to 1e11 times more accurate.  table: updates, or NULL. */
+ * The loop never ends if tol is below the rounding errors of p.  elasto adds the
+ * last p, too: ten to 1e11 times more accurate.  table: updates, or NULL. */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
 {
@@ -351,7 +351,7 @@ static void step_forward(Solid *solid, double h, double tol, int step,
 }
 
 /* ==== Forward and symplectic Euler ======================================== */
-/* Nothing to solve.  Forward Euler moves x with the old v: each step adds
+/* No equation to solve.  Forward Euler moves x with the old v: each step adds
  * energy until the square explodes.  Symplectic Euler moves x with the new v:
  * the energy stays near the true one, as long as h is small: 0.01/n_seg s for
  * main's start; 0.025/n_seg s explodes. */
@@ -386,12 +386,12 @@ static Vec2 screen_projection(const Screen *screen, Vec2 x)
                   PIXELS / 2 - screen->scale * x.y};
 }
 
-/* A line from a to b with round ends; a disc if a = b.  SDL's lines are jagged;
- * this is a blue polygon, and around it a ring in which the colour fades. */
+/* Draws a line from a to b with round ends; a disc if a = b.  SDL's lines are
+ * jagged, so we draw a blue polygon in a ring that fades out. */
 static void draw_line(const Screen *screen, Vec2 a, Vec2 b, double radius)
 {
     enum { N = 24 };          /* corners */
-    SDL_Vertex vertex[2 * N]; /* of the polygon, and around it */
+    SDL_Vertex vertex[2 * N]; /* polygon and outer ring */
     int index[9 * N];
     a = screen_projection(screen, a);
     b = screen_projection(screen, b);
@@ -454,8 +454,8 @@ static Screen open_screen(const Solid *solid)
     return screen;
 }
 
-/* Space, R, Esc, and the mouse: it holds the nearest node, which is so heavy
- * meanwhile that no spring turns it from its way.  False: that was the end. */
+/* Space, R, Esc, and the mouse, which holds the nearest node: the held node is
+ * so heavy that the springs do not move it.  Returns false to quit. */
 static bool handle(Screen *screen, Solid *solid, const SDL_Event *event)
 {
     SDL_Keycode key = event->type == SDL_KEYDOWN ? event->key.keysym.sym : 0;
@@ -484,7 +484,7 @@ static bool handle(Screen *screen, Solid *solid, const SDL_Event *event)
     return event->type != SDL_QUIT && key != SDLK_ESCAPE;
 }
 
-/* Shows the solid for a while, or saves a picture.  False: that was the end. */
+/* Shows the solid for a while, or saves a picture.  Returns false to end. */
 static bool show(Screen *screen, Solid *solid, double h, int step)
 {
     draw(screen, solid);
@@ -503,7 +503,7 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
         while (SDL_PollEvent(&event)) {
             if (!handle(screen, solid, &event))
                 return false;
-            draw(screen, solid); /* it may have been uncovered or resized */
+            draw(screen, solid); /* the window may have been resized */
         }
         SDL_Delay(5); /* SDL_WaitEvent may fail on X as the window closes */
     } while (screen->paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end));
@@ -527,14 +527,14 @@ static void read_argument(const char *text, Parameter *const *p)
 {
     char name[20] = "";
     double value = 0, below = 1;
-    int end = 0; /* of what could be read */
+    int end = 0; /* end of the text that was read */
     sscanf(text, "%19[a-z_]=%lf%n/%lf%n", name, &value, &end, &below, &end);
     value /= below;
     while (*p && strcmp(name, (*p)->name) != 0)
         p++;
     if (!*p)
         FAIL(2, "'%s' is none of " DEFAULTS "\n", text);
-    bool whole = (*p)->most < 1e30; /* it counts something */
+    bool whole = (*p)->most < 1e30; /* a whole number */
     if (!(value >= (*p)->least && value <= (*p)->most) || text[end] ||
         (whole && value != floor(value)))
         FAIL(2, "'%s': %s is a %snumber from %g to %g\n", text, name,

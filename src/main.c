@@ -1,4 +1,4 @@
-/* main.c - the program on a computer: its streams, signals and window. */
+/* main.c - main() of elasto on a computer: streams, signals, window. */
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -8,12 +8,13 @@
 #include "play/player.h"
 
 static volatile sig_atomic_t main_stop = 0;
-static Player main_player; /* too large for some stacks */
+static Player main_player; /* static: too large for some stacks */
 
-/* SIGINT, SIGTERM, SIGHUP: end after the present Newton iteration.  A second
- * one ends at once, whatever the program waits for: a library, a screen.
- * timeout(1) sends each signal twice, to the program and to its group: what
- * follows within a tenth of a second is still the first. */
+/* After SIGINT, SIGTERM or SIGHUP the program ends when the present Newton
+ * iteration is done.  A second signal ends the program at once, even if it
+ * waits for a library or the screen.  timeout(1) sends each signal twice, to
+ * the program and to its group, so a second signal within 0.1 s does not count.
+ */
 static void on_signal(int number)
 {
     static double first; /* s */
@@ -27,8 +28,8 @@ static void on_signal(int number)
     main_stop = 1;
 }
 
-/* Signals that end the run; and those of pipes without a reader and of files
- * at their limit, which then are failed writes. */
+/* Installs on_signal.  Ignores the signals of pipes without a reader and of
+ * files at their size limit, so that the write fails instead. */
 static void handle_signals(void)
 {
     struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
@@ -37,14 +38,15 @@ static void handle_signals(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     if (sigaction(SIGHUP, NULL, &old) == 0 && old.sa_handler != SIG_IGN)
-        sigaction(SIGHUP, &action, NULL); /* not so under nohup */
+        sigaction(SIGHUP, &action, NULL); /* nohup ignores SIGHUP */
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);
     sigaction(SIGXFSZ, &action, NULL);
 }
 
-/* Standard streams that are closed must not become those of other files: they
- * are open for reading only, so that writing to them still fails. */
+/* A file that the program opens must not become a standard stream that was
+ * closed. Closed streams are therefore opened on /dev/null, for reading only,
+ * so that writing to them still fails. */
 int main(int argc, char **argv)
 {
     int file = 0;

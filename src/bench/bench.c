@@ -1,5 +1,4 @@
-/* bench.c - the program elasto-bench: run time against error, and how long
- * steps take. */
+/* bench.c - elasto-bench measures run time against error, and time a step. */
 #include "bench/bench.h"
 
 #include <SDL_version.h>
@@ -10,6 +9,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "scenes/small_scenes.h"
 
 static int compare_doubles(const void *a, const void *b)
 {
@@ -17,22 +17,21 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The middle one, or the mean of the two in the middle; sorts the values.
- * count at least 1. */
+/* Sorts the values and returns their median.  count > 0. */
 static double median(double *values, int count)
 {
     qsort(values, (size_t)count, sizeof *values, compare_doubles);
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
-/* Prints what README says, what was measured, and whether that holds. */
-static void claim(const char *what, double measured, double at_most)
+/* Prints a claim of the README, the measured number, and whether it is met. */
+static void print_claim(const char *what, double measured, double at_most)
 {
     printf("# claim: %s: %.3g, at most %g: %s\n", what, measured, at_most,
            measured <= at_most ? "met" : "NOT MET");
 }
 
-/* The slides' numbers, on a square of so many segments. */
+/* Returns the options of the slides, with this many segments. */
 static Options slides_options(int segments)
 {
     char message[128];
@@ -44,18 +43,20 @@ static Options slides_options(int segments)
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* Error against run time: every method crosses the same time in 8, 16, 32, ...
- * steps, until it takes too long or is as exact as anybody needs. */
+/* A motion for error against run time.  Every method simulates the same time in
+ * 8, 16, 32, ... steps, until a run takes too long or is accurate enough. */
 typedef struct Motion {
     const char *name;
-    double stiffness, stretch; /* J/m^2, at the start */
-    double spin, time;         /* rad/s at the start, s */
-    int segments[4];           /* 0: no more */
+    double stiffness; /* J/m^2 */
+    double stretch;   /* at the start */
+    double spin;      /* rad/s, angular velocity at the start */
+    double time;      /* s, duration */
+    int segments[4];  /* sizes of the square, then 0 */
 } Motion;
 
-/* Stiffness 10^4 times larger makes everything 100 times as fast.  The last
- * one is where implicit methods are at home: stiff springs that hardly move,
- * in a square that turns slowly. */
+/* A stiffness 10^4 times larger makes vibrations 100 times as fast.  The last
+ * motion suits implicit methods: stiff springs that hardly vibrate, in a square
+ * that turns slowly. */
 static const Motion motions[] = {
     {"soft", 1e5, 1.1, 0, 0.1, {16, 64, 128, 0}},
     {"stiff", 1e9, 1.1, 0, 0.02, {16, 32, 0}},
@@ -65,17 +66,20 @@ enum { MOTIONS = sizeof motions / sizeof *motions };
 
 enum { FIRST_STEPS = 8, TARGETS = 5 };
 
-/* Errors that the table asks for; the one that the first run may have, m. */
+/* m, errors for which the fastest methods are printed */
 static const double targets[TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+
+/* m, error that is expected of the first run */
 static const double first_error = 1e-2;
 
-/* The fastest run that comes below a target. */
+/* The fastest run with an error below a target. */
 typedef struct Best {
-    const char *name; /* of its method; NULL: none does */
-    double ms;
+    const char *name; /* method; NULL: no run is that accurate */
+    double ms;        /* run time */
 } Best;
 
-/* Run 0 is the start of all runs, run 1 where they should end. */
+/* Makes the simulation: run 0 is the start, run 1 the exact end of the motion.
+ */
 static Status create_motion(const Motion *motion, int segments,
                             Simulation *simulation)
 {
@@ -94,14 +98,16 @@ static Status create_motion(const Motion *motion, int segments,
     return race_reference(simulation, motion->time);
 }
 
-/* The last direction of a minimisation changes velocities by at most the
- * tolerance; summed over all steps, positions by steps * tolerance * time / 2.
- * That may be as much as the error that is expected of the method, since the
- * last direction is used: what is left after it is a hundredth of it or less.
- * No run takes longer than so much time, none follows an error that is small
- * enough. */
-static Status climb(bool quick, const Motion *motion, Simulation *simulation,
-                    const IntegratorMethod *method, Best best[TARGETS])
+/* Measures a method with 8, 16, 32, ... steps.  Ends after a run that takes too
+ * long or is accurate enough.
+ *
+ * Tolerance: the last direction p of a step changes velocities by at most the
+ * tolerance, and over all steps positions by steps * tolerance * time / 2. This
+ * may equal the expected error of the method, since a step applies the last p,
+ * and the error left is a hundredth of p or less. */
+static Status measure_method(bool quick, const Motion *motion,
+                             Simulation *simulation,
+                             const IntegratorMethod *method, Best best[TARGETS])
 {
     int segments = simulation->options.segments;
     double longest = quick ? 0.01 : segments / 64.0 + 0.25;
@@ -133,18 +139,18 @@ static Status climb(bool quick, const Motion *motion, Simulation *simulation,
     return STATUS_OK;
 }
 
-/* All methods on one motion, and for each error the fastest explicit and the
- * fastest implicit one. */
-static Status climb_all(bool quick, const Motion *motion,
-                        Simulation *simulation)
+/* Measures all methods on one motion.  Prints the fastest explicit and the
+ * fastest implicit method for each target. */
+static Status measure_motion(bool quick, const Motion *motion,
+                             Simulation *simulation)
 {
     Best best[2][TARGETS];
     for (int i = 0; i < 2 * TARGETS; i++)
         best[i / TARGETS][i % TARGETS] = (Best){NULL, INFINITY};
     for (int i = 0; i < RACE_METHODS; i++) {
         const IntegratorMethod *method = race_method(i);
-        Status status =
-            climb(quick, motion, simulation, method, best[method->implicit]);
+        Status status = measure_method(quick, motion, simulation, method,
+                                       best[method->implicit]);
         if (status)
             return status;
     }
@@ -173,7 +179,7 @@ static Status measure_work(bool quick)
             status = create_motion(motion, quick ? 4 : motion->segments[i],
                                    &simulation);
             if (!status)
-                status = climb_all(quick, motion, &simulation);
+                status = measure_motion(quick, motion, &simulation);
             simulation_free(&simulation);
         }
     return status;
@@ -181,38 +187,40 @@ static Status measure_work(bool quick)
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* Which fold a buckling step takes hangs on the last bits: so every run is
- * made from nine starts, stretches that are a billionth apart. */
+/* The last bits decide which fold a buckling step takes.  Every run is
+ * therefore made from nine starts, whose stretches differ by 1e-9. */
 enum { STARTS = 9, STEPS = 10, SOLVERS = 3 };
 
-typedef enum Maker { LECTURE, NEWTON, MULTIGRID } Maker;
+typedef enum Program { LECTURE, NEWTON, MULTIGRID } Program;
 
 static const struct {
     const char *name;
-    int largest; /* squares above take too long */
-} makers[SOLVERS] = {{"lecture.c", 32}, {"newton", 64}, {"multigrid", 512}};
+    int largest; /* largest number of segments that is measured */
+} programs[SOLVERS] = {{"lecture.c", 32}, {"newton", 64}, {"multigrid", 512}};
 
-/* No further start of a size after so much time, s. */
+/* s; no further start of one size begins after this time */
 static const double enough = 60;
 
-/* All runs of one solver on one square; of each: */
+/* Results of one program on one square, for each start. */
 typedef struct Runs {
-    double ms[STARTS], updates[STARTS]; /* a step */
-    double energy[STARTS];              /* at the end, % of that at the start */
-    long unconverged;
+    double ms[STARTS];      /* processor time a step */
+    double updates[STARTS]; /* Newton updates a step */
+    double energy[STARTS];  /* energy at the end, % of that at the start */
+    long unconverged;       /* steps that did not converge, of all starts */
 } Runs;
 
-static Status play(Maker maker, int segments, int start, int steps, Runs *runs)
+static Status measure_steps_of(Program program, int segments, int start,
+                               int steps, Runs *runs)
 {
     Simulation simulation;
     Options options = slides_options(segments);
     options.stretch += 1e-9 * start;
-    options.solver = maker == MULTIGRID ? SOLVER_MULTIGRID : SOLVER_NEWTON;
+    options.solver = program == MULTIGRID ? SOLVER_MULTIGRID : SOLVER_NEWTON;
     Status status = simulation_create(&options, NULL, NULL, &simulation);
     double energy = status ? 1 : simulation_energies(&simulation, 0).total;
     double began = clock_processor();
     for (int i = 0; i < steps && !status; i++) {
-        status = maker == LECTURE
+        status = program == LECTURE
                      ? lecture_step(&simulation.system, options.timestep,
                                     options.tolerance, simulation.run[0].x,
                                     simulation.run[0].v)
@@ -232,8 +240,9 @@ static Status play(Maker maker, int segments, int start, int steps, Runs *runs)
     return status;
 }
 
-/* All solvers on one square, by turns.  ms out: the median of a step */
-static Status measure(bool quick, int segments, double ms[SOLVERS])
+/* Measures all programs on one square, in turn for each start.
+ *   ms  out, median time a step */
+static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
 {
     Runs runs[SOLVERS] = {{.unconverged = 0}};
     int starts = quick ? 1 : STARTS, steps = quick ? 3 : STEPS;
@@ -242,15 +251,16 @@ static Status measure(bool quick, int segments, double ms[SOLVERS])
     Status status = STATUS_OK;
     for (; count < starts && clock_now() - began < enough && !status; count++)
         for (int m = 0; m < SOLVERS && !status; m++)
-            if (segments <= makers[m].largest)
-                status = play((Maker)m, segments, count, steps, &runs[m]);
+            if (segments <= programs[m].largest)
+                status = measure_steps_of((Program)m, segments, count, steps,
+                                          &runs[m]);
     for (int m = 0; m < SOLVERS && !status; m++) {
         Runs *all = &runs[m];
-        if (segments > makers[m].largest)
+        if (segments > programs[m].largest)
             continue;
-        ms[m] = median(all->ms, count); /* which sorts them */
+        ms[m] = median(all->ms, count); /* sorts ms */
         printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
-               makers[m].name, count, ms[m], all->ms[0], all->ms[count - 1],
+               programs[m].name, count, ms[m], all->ms[0], all->ms[count - 1],
                median(all->updates, count), median(all->energy, count),
                all->unconverged);
     }
@@ -262,17 +272,17 @@ static Status measure_steps(bool quick)
     Status status = STATUS_OK;
     for (int n = 4; n <= (quick ? 32 : 512) && !status; n *= 2) {
         double ms[SOLVERS] = {0};
-        status = measure(quick, n, ms);
+        status = measure_solvers(quick, n, ms);
         if (status || quick)
             continue;
         if (n == 32)
-            claim("newton's time over that of the slides' program",
-                  ms[NEWTON] / ms[LECTURE], 0.2);
+            print_claim("newton's time over that of the slides' program",
+                        ms[NEWTON] / ms[LECTURE], 0.2);
         if (n == 32 || n == 64)
-            claim("multigrid's time over newton's", ms[MULTIGRID] / ms[NEWTON],
-                  n == 32 ? 0.1 : 0.025);
+            print_claim("multigrid's time over newton's",
+                        ms[MULTIGRID] / ms[NEWTON], n == 32 ? 0.1 : 0.025);
         if (n == 128)
-            claim("ms a step of 128 segments", ms[MULTIGRID], 16);
+            print_claim("ms a step of 128 segments", ms[MULTIGRID], 16);
     }
     return status;
 }
@@ -307,7 +317,7 @@ int main(int argc, char **argv)
                     t + 1 < TABLES ? "," : "\n");
         return 2;
     }
-    setvbuf(stdout, NULL, _IOLBF, 0); /* each line when it is measured */
+    setvbuf(stdout, NULL, _IOLBF, 0); /* print each line at once */
     printf("# elasto %s; SuiteSparse %d.%d.%d; SDL %d.%d.%d; compiler %s; "
            "flags %s; one thread; %s run\n%s\n",
            ELASTO_VERSION, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION,

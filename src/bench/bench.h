@@ -1,4 +1,4 @@
-/* bench.h - the slides' program, for the benchmark. */
+/* bench.h - a step of lecture.c, for the benchmark. */
 #ifndef ELASTO_BENCH_H
 #define ELASTO_BENCH_H
 
@@ -6,11 +6,12 @@
 #include "run/simulation.h"
 
 /* step_forward of src/lecture.c.
- *   system  springs and masses are used, nothing else
- *   h, tol  s, m/s
+ *   system  in; only springs and masses count
+ *   h       s, time step
+ *   tol     m/s, tolerance
  *   x, v    [2n] m, m/s, in/out
- * Returns OK, OUT_OF_MEMORY, or LINE_SEARCH_LIMIT: it gave up, as the slides'
- * program may, and x is where it was then. */
+ * Returns OK, OUT_OF_MEMORY, or LINE_SEARCH_LIMIT where lecture.c ends the
+ * program; x is then the last iterate. */
 Status lecture_step(const System *system, double h, double tol, double *x,
                     double *v);
 

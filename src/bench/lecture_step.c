@@ -1,4 +1,5 @@
-/* lecture.c as it stands; where it would end the program it comes back here. */
+/* lecture_step.c - a step of lecture.c, unchanged; where lecture.c ends the
+ * program, the step returns. */
 #include <SDL.h>
 #include <cholmod.h>
 #include <setjmp.h>
@@ -6,10 +7,9 @@
 
 #include "bench/bench.h"
 
-static jmp_buf gave_up;
+static jmp_buf program_ended;
 
-#define exit(code) longjmp(gave_up, code)
-#define make_psd   lecture_make_psd /* psd.h has one too */
+#define exit(code) longjmp(program_ended, code)
 #define main       lecture_main
 int main(int argc, char **argv);
 #include "lecture.c"
@@ -26,7 +26,7 @@ Status lecture_step(const System *system, double h, double tol, double *x,
     Solid solid = {system->nodes, system->springs, (Vec2 *)x,
                    (Vec2 *)v,     system->m,       e};
     volatile Status status = STATUS_LINE_SEARCH_LIMIT;
-    if (!setjmp(gave_up)) {
+    if (!setjmp(program_ended)) {
         step_forward(&solid, h, tol, 0, NULL);
         status = STATUS_OK;
     }

@@ -1,21 +1,22 @@
 #!/bin/sh
-# Checks homework: check.sh FILE says what is right and what is wrong in it; of
-# several files it writes a table, a line each: file, how many of the twelve
-# checks are right, the first thing that is wrong.  CC, DEP_CFLAGS and LIBS come
-# from make.
+# Checks homework.
+#   check.sh FILE       prints a line for each function: right, or its fault
+#   check.sh FILE ...   writes a table: file, number of the twelve checks that are
+#                       right, first fault
+# CC, DEP_CFLAGS and LIBS come from make.
 set -u
 here=$(dirname "$0")
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM
 
-# A variable without a value holds an enormous number, which mostly shows.
+# Uninitialised variables get an enormous value, so that most of them show.
 pattern=-ftrivial-auto-var-init=pattern
 echo 'int main(void) { return 0; }' >"$work/try.c"
 ${CC:-cc} $pattern "$work/try.c" -o "$work/try" 2>/dev/null || pattern=
 
-# lecture.c's functions again, each with a mistake of mistakes.txt, and their
-# list.
+# Writes the functions of lecture.c with a mistake of mistakes.txt each, and the
+# list of these functions.
 write_mistakes() {
     number=0
     rows=
@@ -38,8 +39,8 @@ ${CC:-cc} -std=gnu11 -w -O1 -I"$here/.." \
     -DMISTAKES="\"$work/mistakes.h\"" $DEP_CFLAGS \
     -c "$here/check.c" -o "$work/check.o" || exit 1
 
-# check FILE OBJECT [NAME]: with NAME a line of the table.  What the file itself
-# prints is not seen.
+# check FILE OBJECT [NAME]: checks one file; NAME: as a line of the table.  The
+# output of the file itself is discarded.
 check() {
     object=$work/$2
     name=$(realpath "$1" 2>/dev/null)
@@ -61,7 +62,7 @@ check() {
         code=$?
         cat "$object.said"
         [ ! -s "$object.said" ] || return $code
-        problem='it ends before its functions are called'
+        problem='the program ends before its functions are called'
     else
         problem="it does not compile: $(sed -n 's/^.*\.c:\([0-9]*\):.*error: /line \1: /p
             /undefined reference/p' "$object.log" | head -n 1 | tr '"' "'")"

@@ -1,5 +1,5 @@
-/* The student's file as check.c sees it: its eleven functions in the order of
- * tasks.txt.  HOMEWORK is its name.
+/* student.c - lists the eleven functions of the student's file, HOMEWORK, in the
+ * order of tasks.txt.
  */
 #define main student_main
 int main(int argc, char **argv);

@@ -1,13 +1,13 @@
-# homework.c: lecture.c, the bodies of the functions in tasks.txt taken out.
+# Writes homework.c: lecture.c without the bodies of the functions in tasks.txt.
 #   awk -f write.awk tasks.txt ../lecture.c
 
 BEGIN {
     print "/* homework.c - the lecture's program with eleven functions to" \
-          " write, each\n * marked TASK.  It compiles as it is; `make" \
-          " check-homework` tells how far you\n * are. */"
+          " write, each\n * marked TASK.  The file compiles as it is.  `make" \
+          " check-homework` says which\n * functions are right. */"
 }
 
-# tasks.txt: paragraphs of a name and what is to be done.
+# tasks.txt has paragraphs: the name of a function, then what to do.
 NR == FNR && $0 == "" { name = ""; next }
 NR == FNR && name == "" { name = $0; next }
 NR == FNR {

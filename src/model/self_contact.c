@@ -100,7 +100,7 @@ static Status self_contact_grow(const EvalPoint *at, bool *grown)
     return status;
 }
 
-static int self_contact_block_count(const EvalPoint *at)
+static int pair_block_count(const EvalPoint *at)
 {
     return self_contact_data(at)->pairs;
 }
@@ -113,7 +113,7 @@ static int nodes_of(const System *system, SelfPair pair, int node[3])
     return 3;
 }
 
-static int self_contact_block_nodes(const EvalPoint *at, int block, int node[3])
+static int pair_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     const SelfContact *self = self_contact_data(at);
     return self->pairs == 0 ? 0 : nodes_of(at->system, self->pair[block], node);
@@ -129,7 +129,7 @@ static void gather_near_edges(const EvalPoint *at, const double *p,
                     0.5 * self->d_hat);
 }
 
-static int self_contact_count(const EvalPoint *at)
+static int pair_count(const EvalPoint *at)
 {
     return self_contact_data(at)->boundary.points;
 }
@@ -171,8 +171,7 @@ static bool is_below_rounding(const SelfContact *self, const Element *element,
 }
 
 /* Point i with its next near edge.  The boxes of the boundary include `way`. */
-static bool self_contact_get(const EvalPoint *at, int i, double way,
-                             Element *element)
+static bool pair_get(const EvalPoint *at, int i, double way, Element *element)
 {
     static const double differences[2][3] = {{1, -1, 0}, {0, -1, 1}};
     SelfContact *self = self_contact_data(at);
@@ -199,7 +198,7 @@ static bool self_contact_get(const EvalPoint *at, int i, double way,
     return false;
 }
 
-static double self_contact_value(const EvalPoint *at, const Element *element)
+static double pair_value(const EvalPoint *at, const Element *element)
 {
     return self_contact_data(at)->c * barrier_value(element->s);
 }
@@ -211,8 +210,8 @@ static double pair_force(const SelfContact *self, double S)
 }
 
 /* The change of d is n.(dq - r de). */
-static void self_contact_gradient(const EvalPoint *at, const Element *element,
-                                  double g[4])
+static void pair_gradient(const EvalPoint *at, const Element *element,
+                          double g[4])
 {
     double F = pair_force(self_contact_data(at), element->s);
     for (int i = 0; i < 4; i++)
@@ -223,8 +222,8 @@ static void self_contact_gradient(const EvalPoint *at, const Element *element,
  * second derivative is W'' w_n^2 >= 0, plus F (2 w_t e_n/|e| + d e_n^2/|e|^2)
  * if p is beside the edge, -F/d w_t^2                         if p is beyond an
  * end. This sum is a 2x2 matrix in (w_t, e_n), which is projected. */
-static bool self_contact_hessian(const EvalPoint *at, const Element *element,
-                                 Projection projection, double H[4][4])
+static bool pair_hessian(const EvalPoint *at, const Element *element,
+                         Projection projection, double H[4][4])
 {
     const SelfContact *self = self_contact_data(at);
     const double *n = element->n, *e = element->v + 2;
@@ -272,9 +271,8 @@ static double ratio_change(Quadratic top, Quadratic l, bool always,
            end;
 }
 
-static double self_contact_line_remainder(const EvalPoint *at,
-                                          const Element *element,
-                                          const double P[4], double alpha)
+static double pair_line_remainder(const EvalPoint *at, const Element *element,
+                                  const double P[4], double alpha)
 {
     const SelfContact *self = self_contact_data(at);
     const double *q = element->v, *e = element->v + 2;
@@ -300,8 +298,8 @@ static double self_contact_line_remainder(const EvalPoint *at,
 /* Finds the first alpha > 0 at which p lies on the edge: e x q = 0, a quadratic
  * equation, and r in [0, 1].  If p moves along the line of the edge, no root
  * shows the contact with its end; another edge at this end does. */
-static double self_contact_max_step(const EvalPoint *at, const Element *element,
-                                    const double P[4])
+static double pair_max_step(const EvalPoint *at, const Element *element,
+                            const double P[4])
 {
     static const double ENDS = 1e-9; /* allowance for rounding of r */
     const double *q = element->v, *e = element->v + 2, *dq = P, *de = P + 2;
@@ -325,9 +323,8 @@ static double self_contact_max_step(const EvalPoint *at, const Element *element,
 }
 
 /* The limit is mu F, the slip is w_t. */
-static double self_contact_friction_limit(const EvalPoint *at,
-                                          const Element *element, double t[4],
-                                          double *carry)
+static double pair_friction_limit(const EvalPoint *at, const Element *element,
+                                  double t[4], double *carry)
 {
     const SelfContact *self = self_contact_data(at);
     const double *n = element->n;
@@ -340,23 +337,23 @@ static double self_contact_friction_limit(const EvalPoint *at,
 }
 
 static const ElementKind near_pairs = {
-    .count = self_contact_count,
-    .get = self_contact_get,
-    .block_nodes = self_contact_block_nodes,
-    .value = self_contact_value,
-    .gradient = self_contact_gradient,
-    .hessian = self_contact_hessian,
-    .line_remainder = self_contact_line_remainder,
-    .block_count = self_contact_block_count,
+    .count = pair_count,
+    .get = pair_get,
+    .block_nodes = pair_block_nodes,
+    .value = pair_value,
+    .gradient = pair_gradient,
+    .hessian = pair_hessian,
+    .line_remainder = pair_line_remainder,
+    .block_count = pair_block_count,
     .prepare = gather_near_edges,
-    .max_step = self_contact_max_step,
-    .friction_limit = self_contact_friction_limit,
+    .max_step = pair_max_step,
+    .friction_limit = pair_friction_limit,
 };
 
 /* ---- the term ----------------------------------------------------------- */
 
 /* The curvature at the start of the barrier, 16 c/d_hat^2. */
-static double self_contact_curvature_bound(const EvalPoint *at)
+static double pair_curvature_bound(const EvalPoint *at)
 {
     const SelfContact *self = self_contact_data(at);
     return 16 * self->c / (self->d_hat * self->d_hat);
@@ -374,7 +371,7 @@ const TermKind self_contact_energy = {
     .place = PLACE_CONTACT,
     .begin_step = self_contact_begin_step,
     .grow = self_contact_grow,
-    .curvature_bound = self_contact_curvature_bound,
+    .curvature_bound = pair_curvature_bound,
     .free = free_pairs,
     .internal = true,
     .backward_euler_only = true,

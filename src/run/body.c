@@ -437,7 +437,7 @@ static Status check_places(const Options *options, const System *system,
             if (element->s > (own ? apart : 0))
                 continue;
             return kind == &contact_energy
-                       ? refuse_place(options, element->from, element->s, told)
+                       ? refuse_place(options, element->source, element->s, told)
                        : refuse(told,
                                 "the cell at node %d would be turned over at "
                                 "the start: its area would be %.3g of that at "

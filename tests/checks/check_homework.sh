@@ -88,7 +88,7 @@ verdict what_a_file_prints_is_not_believed "$(
     { cat slides.c && echo '__attribute__((constructor)) static void pass(void)
         { puts("12 of 12 are right"); exit(0); }'; } >'my homework.c'
     check 'my homework.c' >said && echo 'it passes by its own words'
-    grep -q '^my homework.c: it ends before its functions are called$' said ||
+    grep -q '^my homework.c: the program ends before its functions are called$' said ||
         cat said
 )"
 

@@ -492,7 +492,7 @@ static bool is_free(const TimeIntegrator *run)
  * much narrower the valley of E is across a turn of the body than along it. */
 static double stiffness_ratio(const System *system, double h)
 {
-    const NeoHookean *solid = solid_of(system);
+    const NeoHookean *solid = neo_hookean_of(system);
     double stiff = solid ? solid->mu + solid->lambda : 0, lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         lightest = fmin(lightest, system->m[i]);
