@@ -11,11 +11,8 @@
 /* The mesh of the options; in scenes with a beam it has fewer rows. */
 SquareMesh body_shape(const Options *options);
 
-/* Words that --pin accepts besides node numbers. */
-#define PINS_WORDS "top-corners, top, bottom, left, right, all"
-
-/* Reads node numbers and words, separated by commas; "top:2" is the top of the
- * second body.
+/* Reads node numbers and PINS_WORDS, separated by commas; "top:2" is the top of
+ * the second body.
  *   pinned  [nodes] in/out: 1 for each node that is named; NULL: the text is
  *           only checked
  * Returns OK or INVALID_INPUT. */

@@ -29,10 +29,6 @@ Control *control_copy(const Control *from);
 /* Whether the mouse holds a node or an obstacle. */
 bool control_holds(const Control *control);
 
-/* Place of an obstacle in the options, [2] m.
- *   number  of the obstacle: grounds first, then balls */
-double *obstacle_at(Options *options, int number);
-
 /* Finds where an obstacle of a run is now; in slope, where grounds differ by
  * their run, without that difference.
  *   at  [2] out, m */

@@ -44,6 +44,9 @@ enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 /* Numbers of --body: centre X, Y; turn; velocity X, Y; stretch X, Y. */
 enum { BODY_NUMBERS = 7 };
 
+/* Words that --pin accepts besides node numbers. */
+#define PINS_WORDS "top-corners, top, bottom, left, right, all"
+
 static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
 /* Capacity of Options.number; the static assertion below fails if more numbers
@@ -229,6 +232,10 @@ int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST]);
  * of 10 and whole steps end on 1, 1.5, 2, 3, 5, 7; names follow each other in a
  * circle.  A drag gives fractions of a step, and a value of three digits. */
 double option_paced(const OptionRow *row, const Options *options, double paces);
+
+/* Place of an obstacle in the options, [2] m.
+ *   number  of the obstacle: grounds first, then balls */
+double *obstacle_at(Options *options, int number);
 
 /* The chosen integrator, or the first of the table. */
 const IntegratorMethod *options_method(const Options *options);

@@ -749,17 +749,16 @@ static Status check_pins(const Line *line, const SquareMesh *shape)
     return STATUS_OK;
 }
 
-/* Checks what depends on several options: pins, options without effect, and
- * whether the body can start; chooses self-contact, cells and projection where
- * they are not given. */
-static Status check_body(Line *line)
+/* Refuses options that have no effect beside the others. */
+static Status check_effects(Line *line)
 {
+    static const char *const minimising[] = {"tolerance", "solver",
+                                             "projection", "line-search", NULL};
     Options *options = line->options;
-    const SquareMesh shape = body_shape(options);
-    if (!(options->scene->needs & NEEDS_BODY))
-        return STATUS_OK;
-    if (check_pins(line, &shape))
-        return STATUS_INVALID_INPUT;
+    const IntegratorMethod *method = options_method(options);
+    const Word *chosen = given(line, option_find("integrator"));
+    bool fixed = options->headless && !options->script; /* until the end */
+    bool explicit = chosen && !chosen->list && !method->implicit;
     if (options->bodies > 1 && !given(line, option_find("self-contact")))
         options->self_contact = 1;
     for (int i = 0; i < line->words; i++) {
@@ -768,7 +767,24 @@ static Status check_body(Line *line)
             return refuse(line->told, "--%s: %s", row->name,
                           row->idle(options));
     }
-    if (check_integrator(line))
+    for (int i = 0; fixed && explicit && minimising[i]; i++)
+        if (given(line, option_find(minimising[i])))
+            return refuse(line->told,
+                          "--%s: '%s' minimises nothing; choose an implicit "
+                          "--integrator such as backward-euler",
+                          minimising[i], method->name);
+    return STATUS_OK;
+}
+
+/* Checks that the body can start; chooses cells and projection where they are
+ * not given. */
+static Status check_body(Line *line)
+{
+    Options *options = line->options;
+    const SquareMesh shape = body_shape(options);
+    if (!(options->scene->needs & NEEDS_BODY))
+        return STATUS_OK;
+    if (check_pins(line, &shape) || check_integrator(line))
         return STATUS_INVALID_INPUT;
     if (options->material != 0)
         options->cells = 0; /* triangles do not turn over anyway */
@@ -782,40 +798,6 @@ static Status check_body(Line *line)
         !given(line, option_find("projection")))
         options->projection = PROJECTION_ON_DEMAND;
     return body_check(options, line->told);
-}
-
-/* Refuses options without effect if there is neither a window nor a script that
- * could change something later. */
-static Status check_headless(Line *line)
-{
-    static const char *const minimising[] = {"tolerance", "solver",
-                                             "projection", "line-search", NULL};
-    const Options *options = line->options;
-    const IntegratorMethod *method = options_method(options);
-    const Word *chosen = given(line, option_find("integrator"));
-    bool explicit = chosen && !chosen->list && !method->implicit;
-    if (options->headless && options->fullscreen)
-        return refuse(line->told, "--fullscreen: with --headless there is no "
-                                  "window; leave one of them out");
-    if (!options->headless || options->script)
-        return STATUS_OK;
-    if (options->paused)
-        return refuse(line->told,
-                      "--paused: with --headless no key can end the pause; "
-                      "--steps 0 gives the start alone");
-    if (options->speed > 1)
-        return refuse(line->told, "--speed: with --headless each step is a "
-                                  "frame; below 1 a film is slower");
-    if (given(line, option_find("size")) && !options->frames && !options->film)
-        return refuse(line->told, "--size: with --headless only --frames and "
-                                  "--film are drawn");
-    for (int i = 0; explicit && minimising[i]; i++)
-        if (given(line, option_find(minimising[i])))
-            return refuse(line->told,
-                          "--%s: '%s' minimises nothing; choose an implicit "
-                          "--integrator such as backward-euler",
-                          minimising[i], method->name);
-    return STATUS_OK;
 }
 
 /* Puts the words of a line into the options of a pane. */
@@ -835,7 +817,7 @@ static Status apply_words(Line *line, int pane)
             (check_scene(line, row) || apply(line, row, line->word[i].text)))
             return STATUS_INVALID_INPUT;
     }
-    return check_headless(line) ? STATUS_INVALID_INPUT : check_body(line);
+    return check_effects(line) ? STATUS_INVALID_INPUT : check_body(line);
 }
 
 Status options_parse(int argc, char **argv, int pane, Options *options,

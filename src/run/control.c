@@ -54,12 +54,6 @@ Control *control_copy(const Control *from)
     return control;
 }
 
-double *obstacle_at(Options *options, int number)
-{
-    int ball = number - (int)options->grounds;
-    return ball < 0 ? options->ground[number] + 2 : options->ball[ball];
-}
-
 bool control_holds(const Control *control)
 {
     return control->hand >= 0 || control->push >= 0;

@@ -20,7 +20,6 @@
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
 #include "model/square_mesh.h"
-#include "run/body.h"
 #include "run/scene.h"
 
 static const char *const solvers[] = {"newton", "multigrid", "auto", NULL};
@@ -55,7 +54,9 @@ REASON(no_self_contact, options->self_contact != 0,
 REASON(start_is_said, options->bodies == 0 && !options->state,
        options->state ? "the table of --state gives the start"
                       : "each --body has its own; add it there")
-REASON(has_its_own, options->scene->create == create_square,
+REASON(has_its_own,
+       !options->scene->body.obstacle && !options->scene->body.moving_pins &&
+           options->scene->body.runs == 0,
        "this scene has its own bodies; --body works in square")
 REASON(no_springs, options->material == 0,
        "the body has no springs; --material springs gives it some")
@@ -65,6 +66,17 @@ REASON(no_state, options->state,
        "there is no table to start from; --state FILE names it")
 REASON(nothing_flows, options->yield > 0,
        "the springs do not yield; --yield lets them")
+REASON(no_window, !options->headless,
+       "with --headless there is no window; leave one of them out")
+REASON(no_key, !options->headless || options->script,
+       "with --headless no key can end the pause; --steps 0 gives the start "
+       "alone")
+REASON(no_frames, !options->headless || options->script || options->speed < 1,
+       "with --headless each step is a frame; below 1 a film is slower")
+REASON(nothing_drawn,
+       !options->headless || options->script || options->frames ||
+           options->film,
+       "with --headless only --frames and --film are drawn")
 
 /* The beginning of a row: field, placeholder of the value, description; then
  * for numbers the unit, default, and range. */
@@ -241,13 +253,15 @@ const OptionRow option_rows[] = {
     {SECTION("the run, its window and its files:")},
     {RANGE(WHOLE, "steps", steps, "N",
            "end after N steps; without a window after 100", "", -1, 0, 1e15)},
-    {SWITCH(paused, "wait at the start until a key is pressed")},
+    {SWITCH(paused, "wait at the start until a key is pressed"), IDLE(no_key)},
     {NUMBER(speed, "S", "steps a frame; a second has 60 frames", "", 0,
-            1.0 / 64, 1024)},
+            1.0 / 64, 1024),
+     IDLE(no_frames)},
     {WHOLE(size, "WxH", "size of the window or of the frames, pixels", "", 0,
            16, 8192),
-     .count = 2, .between = 'x'},
-    {SWITCH(fullscreen, "fill the screen; F11 or Esc leaves it")},
+     .count = 2, .between = 'x', IDLE(nothing_drawn)},
+    {SWITCH(fullscreen, "fill the screen; F11 or Esc leaves it"),
+     IDLE(no_window)},
     {SWITCH(headless, "open no window")},
     {TEXT(frames, "DIR",
           "write a PNG picture of every drawn step into a folder")},
@@ -318,6 +332,12 @@ int names_count(Names names)
 const IntegratorMethod *options_method(const Options *options)
 {
     return &integrator_methods[(int)fmax(options->integrator, 0)];
+}
+
+double *obstacle_at(Options *options, int number)
+{
+    int ball = number - (int)options->grounds;
+    return ball < 0 ? options->ground[number] + 2 : options->ball[ball];
 }
 
 /* ---- numbers as text ---------------------------------------------------- */

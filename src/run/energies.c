@@ -1,0 +1,52 @@
+/* energies.c - computes the energies of a run and their balance. */
+#include <string.h>
+
+#include "run/simulation.h"
+
+/* Adds a value to the row with this name, which is created if necessary. */
+static void add_energy(Energies *energies, const char *name, double value)
+{
+    int i = 0;
+    while (i < energies->rows && strcmp(energies->row[i].name, name) != 0)
+        i++;
+    if (i == energies->rows)
+        energies->row[energies->rows++] = (Energy){name, 0};
+    energies->row[i].value += value;
+}
+
+Energies simulation_energies(const Simulation *simulation, int run)
+{
+    const TimeIntegrator *integrator = &simulation->run[run];
+    const System *system = integrator->system;
+    const double *x = integrator->x;
+    Energies energies = {.kinetic = system_kinetic(system, integrator->v),
+                         .gravity = system_gravity_potential(system, x),
+                         .work =
+                             simulation->ledger[run].work + integrator->work};
+    double lost = 0;
+    energies.total = energies.kinetic + energies.gravity;
+    add_energy(&energies, "total", 0);
+    add_energy(&energies, "kinetic", energies.kinetic);
+    EvalPoint at = eval_point_at(system, NULL, NULL, x);
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = eval_point_term(&at, t);
+        double value = kind->energy ? kind->value(&at) : 0;
+        energies.total += value;
+        if (kind->energy)
+            add_energy(&energies, kind->energy, value);
+    }
+    add_energy(&energies, "gravity", energies.gravity);
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind->loss)
+            add_energy(&energies, system->term[t].kind->loss, 0);
+    for (int i = 0; i < SYSTEM_MAX_TERMS && system->lost[i].name; i++) {
+        add_energy(&energies, system->lost[i].name, system->lost[i].energy);
+        lost += system->lost[i].energy;
+    }
+    energies.row[0].value = energies.total;
+    energies.dissipated =
+        simulation->ledger[run].start + energies.work - energies.total - lost;
+    add_energy(&energies, "work", energies.work);
+    add_energy(&energies, "dissipated", energies.dissipated);
+    return energies;
+}
