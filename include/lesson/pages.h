@@ -19,7 +19,7 @@ typedef struct LecturePage {
     const char *look;    /* what to look at */
     const char *touch;   /* what to change, and how */
     const char *ask;     /* what to guess before the rest is shown; or NULL */
-    const char *answer;  /* a fact (facts.h): the number that is guessed;
+    const char *answer;  /* a fact (live_values.h): the number that is guessed;
                             "click": the place to which the next step leads;
                             NULL: words */
     const char *veils; /* cards that wait for the guess, with blanks between */
@@ -43,8 +43,8 @@ typedef struct LecturePage {
     int pause;               /* step at which playing pauses; 0: none */
 } LecturePage;
 
-/* Text, formulas, look and touch are texts of facts.h: live numbers stand in
- * braces.  The table; it ends with a NULL name. */
+/* Text, formulas, look and touch are texts of live_values.h: live numbers stand
+ * in braces.  The table; it ends with a NULL name. */
 extern const LecturePage lecture_pages[];
 
 /* How many pages there are. */

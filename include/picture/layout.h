@@ -1,6 +1,8 @@
-/* layout.h - where everything in the window is: a function of its size alone
- * and of what is open, never of the numbers shown, so that zones stay put.
- * show_layout (show.h) fills it.
+/* layout.h - where everything in the window is.
+ *
+ * The layout is a function of the window's size and of what is open, never of
+ * the numbers that are shown, so that the zones do not move.  show_layout
+ * (show.h) fills it.
  *
  *     +------------------------------------------------------+
  *     | strip: topic, sentence                  method, state |
@@ -9,14 +11,14 @@
  *     |                                  | one page (help,   |
  *     |                                  | code)             |
  *     +----------------------------------+-------------------+
- *     | row of settings                                      |
+ *     | settings                                             |
  *     | time line                                            |
- *     | last line: chips                                     |
+ *     | chips                                                |
  *     +------------------------------------------------------+
  *
- * Small windows fold: first the column goes, then the settings, then the last
- * line.  Bare: the stage fills the window and nothing else is there.  Pixels
- * are those of the canvas, y down.
+ * A small window leaves zones out: first the column, then the settings, then
+ * the chips.  In a bare window the stage is alone.  Pixels are those of the
+ * canvas, y down.
  */
 #ifndef ELASTO_LAYOUT_H
 #define ELASTO_LAYOUT_H
@@ -29,25 +31,25 @@ enum {
     LAYOUT_SETTINGS = 16,
     LAYOUT_CHIPS = 16,
     LAYOUT_CELLS = 32,
-    LAYOUT_ROWS = 128 /* of a list */
+    LAYOUT_ROWS = 128 /* rows of a list */
 };
 
-/* A box without width is not there. */
+/* A box without width is not drawn. */
 typedef struct Layout {
-    int width, height; /* pixels of the whole */
+    int width, height; /* pixels of the window */
     double em;         /* pixels, size of the texts */
-    Box strip, stage, column, row, time, last;
+    Box strip, stage, column, settings_row, time_line, chip_row;
     int panes, cards, settings, chips;
-    bool page;              /* help or code is in the column, no cards */
+    bool page;              /* help or code is in the column instead of cards */
     Box pane[LAYOUT_PANES]; /* inside the stage */
     Box card[LAYOUT_CARDS]; /* inside the column, or on the stage */
     Box setting[LAYOUT_SETTINGS];
-    Box chip[LAYOUT_CHIPS]; /* without width: there is no room for it */
-    int chips_left_out;     /* so many of them, all before the last one */
-    Box bars;               /* inside time: where the bars of the steps are */
+    Box chip[LAYOUT_CHIPS]; /* a chip that does not fit has no width */
+    int chips_left_out;     /* chips that do not fit, all before the last one */
+    Box bars;               /* the bars of the steps, inside the time line */
     int cells;
-    Box cell[LAYOUT_CELLS]; /* a square, and below it a line for its name; above
-                               the first of a group a line for the heading */
+    Box cell[LAYOUT_CELLS]; /* a square with a line below it for its name; the
+                               group's heading is above its first cell */
 } Layout;
 
 typedef enum Zone {
@@ -55,9 +57,9 @@ typedef enum Zone {
     ZONE_STRIP,
     ZONE_STAGE,      /* index: the pane */
     ZONE_CARD,       /* index: the card */
-    ZONE_CARD_CLOSE, /* index: the card; its cross was hit */
+    ZONE_CARD_CLOSE, /* index: the card whose cross was hit */
     ZONE_PAGE,       /* help or code */
-    ZONE_PAGE_CLOSE, /* its cross */
+    ZONE_PAGE_CLOSE, /* the cross of that page */
     ZONE_SETTING,    /* index: the setting */
     ZONE_TIME,
     ZONE_CHIP, /* index: the chip */
@@ -67,35 +69,36 @@ typedef enum Zone {
 typedef struct Hit {
     Zone zone;
     int index;
-    double at[2]; /* pixels, where the mouse is */
+    double at[2]; /* pixels, position of the mouse */
 } Hit;
 
-/* What is at this pixel: of things above each other the upper one. */
+/* Finds the topmost part of the window at this pixel. */
 Hit layout_hit(const Layout *layout, double x, double y);
 
-/* The cross that closes a card, or -1: the page in their place. */
+/* Box of the cross that closes a card; card -1: the page in the column. */
 Box layout_close_box(const Layout *layout, int card);
 
 /* ---- stage and world ---------------------------------------------------- */
 
-/* From the world to pixels: pixel = origin + (scale[0] x, -scale[1] y). */
+/* Maps the world to pixels: pixel = origin + (scale[0] x, -scale[1] y). */
 typedef struct Camera {
     double scale[2];  /* pixels a metre, > 0 */
-    double origin[2]; /* pixels, where (0, 0) is */
+    double origin[2]; /* pixels, image of the point (0, 0) */
 } Camera;
 
-/* What the user did with the camera; {1, {0, 0}} fits. */
+/* Zoom and pan by the user, relative to the view that fits the scene. */
 typedef struct Lens {
-    double zoom;   /* > 1: closer */
-    double pan[2]; /* how far the middle was moved, in parts of the width and
-                      height that fit */
+    double zoom;   /* magnification; 1 fits the scene */
+    double pan[2]; /* shift of the middle, as a part of the width and height of
+                      the view that fits */
 } Lens;
 
 extern const Lens LENS_FITS;
 
-/* The camera that shows bounds [4] (left, bottom, right, top; m) in the middle
- * of the box, then looked at through the lens.
- *   stretched  x and y have scales of their own, and fill the box */
+/* Makes the camera that shows bounds [4] (left, bottom, right, top; m) in the
+ * middle of the box, with the user's zoom and pan.
+ *   stretched  x and y have different scales, so that the bounds fill the box
+ */
 Camera camera_create(Box box, const double bounds[4], bool stretched,
                      const Lens *lens);
 static inline void camera_pixel(const Camera *camera, const double world[2],
@@ -106,9 +109,10 @@ static inline void camera_pixel(const Camera *camera, const double world[2],
 }
 void camera_world(const Camera *camera, double x, double y, double world[2]);
 
-/* Zooms by a factor so that the point under pixel (x, y) stays there; moves by
- * (dx, dy) pixels.  The zoom stays in 1e-3 ... 1e6. */
+/* Zooms by a factor around pixel (x, y).  The zoom stays in 1e-3 ... 1e6. */
 void lens_zoom(Lens *lens, Box box, double x, double y, double factor);
+
+/* Pans by (dx, dy) pixels. */
 void lens_move(Lens *lens, Box box, double dx, double dy);
 
 #endif

@@ -1,8 +1,8 @@
-/* paper.h - what a frame is drawn on: a canvas and texts in a size that fits
- * it.
+/* paper.h - the surface of a frame: a canvas, and texts in a size that fits the
+ * window.
  *
- * Sizes are in ems, the size of plain texts; layout.h says how many pixels one
- * has.  A line is `unit` pixels wide, 1 where the em has 14 pixels.
+ * Sizes are in ems.  One em is the size of plain text; show_layout chooses how
+ * many pixels it has.  Widths of lines are in units; one unit is 1/14 em.
  */
 #ifndef ELASTO_PAPER_H
 #define ELASTO_PAPER_H
@@ -11,48 +11,48 @@
 
 typedef struct Paper {
     Canvas canvas;
-    Text *text;   /* NULL: no font, nothing is written */
-    double em;    /* pixels */
-    double unit;  /* pixels */
-    double least; /* ems, no letter but scripts is smaller */
+    Text *text;        /* NULL: no font was found, and texts are not drawn */
+    double em;         /* pixels */
+    double unit;       /* pixels */
+    double min_letter; /* ems; only scripts may be smaller */
 } Paper;
 
-/* White paper of this size in pixels, ready for the em that its layout has;
- * free it also after a failure.
- * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
+/* Creates white paper of this size in pixels.  The caller frees it, also after
+ * a failure.  Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status paper_create(int width, int height, Paper *paper);
 void paper_free(Paper *paper);
 
-/* Ems to whole pixels. */
+/* Converts ems to whole pixels. */
 int paper_pixels(const Paper *paper, double ems);
 
-/* One line of markup, made as printf does; y is its upper edge.  Returns its
- * width in pixels. */
+/* Draws one line of markup, formatted as by printf; y is its upper edge.
+ * Returns its width in pixels. */
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 
-/* Takes last words away, with an ellipsis in their place, until the rest is at
- * most so many pixels wide.
+/* Replaces the last words by an ellipsis until the line has at most this width
+ * in pixels.
  *   words  [room] in/out, markup */
 void paper_shorten(Paper *paper, Face face, double size, int width, char *words,
                    size_t room);
 
-/* In the middle of a box's height; smaller, to 0.6 of the size, where it is
- * wider than the box. */
+/* Draws a line in the middle of a box's height.  A line that is wider than the
+ * box shrinks to at least 0.6 of the size.  Returns its width. */
 int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
               Align align, const char *markup);
 
-/* On a piece of thin white, so that it can be read on a picture. */
+/* Draws a line on a translucent white ground, so that the line is legible on a
+ * picture.  Returns its width. */
 int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *markup);
 
-/* The width it would have. */
+/* Width of a line in pixels. */
 int paper_width(Paper *paper, Face face, double size, const char *markup);
 
-/* In at most `lines` lines of the box's width, each as high as what stands in
- * it, broken at blanks outside of braces; the last one ends with an ellipsis if
- * there is more.  lines 0: nothing is drawn, as many as it takes.  Returns the
- * pixels it took, downwards. */
+/* Draws a paragraph in the width of the box, broken at blanks outside of
+ * braces. The last line ends with an ellipsis if text is left.  Returns the
+ * height in pixels. lines  the most lines to draw; 0: only measures the whole
+ * paragraph */
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup);
 

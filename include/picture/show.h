@@ -57,22 +57,22 @@ typedef struct Trace {
     bool accepted; /* taken, else it was refused like those before */
 } Trace;
 
-/* What is known of a pane, by name: see facts.h. */
-enum { FACTS_MOST = 160, FACTS_RUNS = 3 };
+/* What is known of a pane, by name: see live_values.h. */
+enum { VALUES_MOST = 160, VALUES_RUNS = 3 };
 
-typedef struct Fact {
+typedef struct LiveValue {
     const char *name;
     int run;           /* 1, 2, 3: it is known of this one alone; 0: of all */
     const char *words; /* NULL: numbers */
     double value[2];
     bool point; /* both: "(1, 0.5)" */
-} Fact;
+} LiveValue;
 
-typedef struct Facts {
+typedef struct LiveValues {
     int count, run; /* those that are added now are of this one */
-    Colour colour[FACTS_RUNS + 1]; /* of a run; [0] of what is of all */
-    Fact fact[FACTS_MOST];
-} Facts;
+    Colour colour[VALUES_RUNS + 1]; /* of a run; [0] of what is of all */
+    LiveValue entry[VALUES_MOST];
+} LiveValues;
 
 /* ---- the stage ---------------------------------------------------------- */
 
@@ -112,8 +112,8 @@ typedef struct Pane {
     const Trace *trace;
     const char *label; /* over the pane where there are several */
     Status trouble;    /* how the shown step ended */
-    /* What show_know fills. */
-    Facts facts;
+    /* What show_fill_values fills. */
+    LiveValues values;
     DescentTrace descent;
     const Trace *update; /* the trace, or that of a descent; or NULL */
 } Pane;
@@ -302,10 +302,10 @@ long show_step_at(const Show *show, const Layout *layout, double x);
  * open.  Before show_describe. */
 void show_lecture(Column column, const struct LecturePage *left, Show *show);
 
-/* Fills the facts of all panes. */
-void show_know(Show *show);
+/* Fills the values of all panes. */
+void show_fill_values(Show *show);
 
-/* The last thing before a frame: fills the facts, and from those of the active
+/* The last thing before a frame: fills the values, and from those of the active
  * pane topic, sentence, method and state, as far as they are empty. */
 void show_describe(Show *show);
 

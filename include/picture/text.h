@@ -1,15 +1,15 @@
 /* text.h - words and formulas: FreeType with DejaVu Sans.
  *
- * Fonts are opened and letters drawn once for each size; after that a letter
- * costs as much as its pixels.  Texts are UTF-8.  Marks such as U+0303 stand
- * over the middle of the letter before them.  In markup
- *     ^{...} _{...}            are superscripts and subscripts,
- *     frac{a over b}           a fraction,
- *     matrix{a & b; c & d}     a matrix in brackets, row by row,
- *     #p{...}                  what has the colour of this name (colour_map.h),
- *     {x} {xt} {p} {alpha}     the slides' letters in theirs (xt: x with a
- *                              tilde); in COLOUR_GREY all stay grey;
- *     any other brace          is itself.
+ * Letters are drawn once for each size and kept in a cache.  Texts are UTF-8.
+ * A combining mark such as U+0303 stands over the middle of the letter before
+ * it.  Markup:
+ *     ^{...} _{...}            superscript, subscript
+ *     frac{a over b}           fraction
+ *     matrix{a & b; c & d}     matrix in brackets, row by row
+ *     #p{...}                  text in the colour of this name (colour_map.h)
+ *     {x} {xt} {p} {alpha}     letters of the slides in their colours (xt is x
+ *                              with a tilde); in COLOUR_GREY they stay grey
+ * Any other brace is an ordinary character.
  */
 #ifndef ELASTO_TEXT_H
 #define ELASTO_TEXT_H
@@ -20,46 +20,45 @@
 
 typedef enum Face { FACE_REGULAR, FACE_BOLD, FACE_MONO, FACE_COUNT } Face;
 
-/* Which point of the text the given x is. */
+/* The point of the line that the given x refers to. */
 typedef enum Align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } Align;
 
 typedef struct TextStyle {
     Face face;
-    double size; /* pixels an em; below 5 nothing is drawn, at most 400 */
+    double size; /* pixels an em, 5 ... 400; other sizes draw nothing */
     Colour colour;
-    bool plain;   /* no markup: every character is itself */
-    double least; /* pixels, no script and no part of a fraction is smaller */
+    bool plain;      /* is without markup: braces are ordinary characters */
+    double min_size; /* pixels; scripts and fractions are not smaller */
 } TextStyle;
 
 typedef struct Text Text;
 
-/* Looks for the fonts: $ELASTO_FONT (a .ttf file; empty: no text at all), then
- * where systems keep DejaVu Sans.
- *   text  out; NULL if no font was found, which is no failure: every function
- *         here accepts NULL, draws nothing and measures as if the letters
- *         were 0.6 em wide
+/* Opens the fonts: $ELASTO_FONT (a .ttf file; empty: no font at all), then
+ * DejaVu Sans from the usual folders.
+ *   text  out; NULL if no font was found.  All functions accept NULL: they draw
+ *         nothing and measure letters 0.6 em wide.
  * Returns OK, OUT_OF_MEMORY. */
 Status text_create(Text **text);
 void text_free(Text *text);
 
-/* Pixels from the upper edge of a line of words to that of the next. */
+/* Distance between two lines of words, pixels. */
 double text_line(double size);
 
-/* Pixels, the width whole; above and below of the baseline, no less than a line
- * of words. */
+/* Extent of a line in pixels.  The width is a whole number; above and below are
+ * measured from the baseline and are at least those of a line of words. */
 typedef struct TextExtent {
     double width, above, below;
 } TextExtent;
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 
-/* One line; y is the upper edge of its words, beyond which fractions and
- * matrices reach.  Returns the width. */
+/* Draws one line.  y is the upper edge of its words; fractions and matrices
+ * reach beyond it.  Returns the width. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
 
-/* A colour by its name in texts, which has so many bytes: "warning", "p",
- * "elastic", ...; that of all text for any other. */
-Colour colour_named(const char *name, size_t length);
+/* The colour with this name of `length` bytes ("warning", "p", "elastic");
+ * COLOUR_TEXT for an unknown name. */
+Colour colour_find(const char *name, size_t length);
 
 /* Whether this brace of a text belongs to the markup. */
 bool text_is_markup(const char *text, const char *brace);

@@ -1,5 +1,6 @@
-/* Shapes by coverage; lines in fixed point, for springs are most of a frame's
- * time. */
+/* canvas.c - anti-aliased shapes on a picture in memory.
+ *
+ * Lines take max_double of a frame's time and are computed in fixed point. */
 #include "picture/canvas.h"
 #include "base/mathematics.h"
 
@@ -8,14 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_WIDTH = 4096 };  /* pixels, of a line */
-enum { FARTHEST = 1 << 29 }; /* pixels, of what is not seen any more */
+enum { MOST_WIDTH = 4096 };  /* pixels, the widest line */
+enum { FARTHEST = 1 << 29 }; /* pixels, coordinates are clamped to this */
 
-/* Numbers of 16 bits before and 16 bits after the binary point. */
+/* Fixed point numbers have 16 bits before and 16 bits after the binary point.
+ */
 enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
-/* below + (above - below) amount / 256, red and blue in one multiplication;
- * borrowed bits fall out of the mask. */
+/* Blends two colours: below + (above - below) amount / 256.  One multiplication
+ * serves red and blue; the mask removes borrowed bits. */
 static inline uint32_t mix(uint32_t below, uint32_t above, uint32_t amount)
 {
     uint32_t red_blue = below & 0xff00ff, green = below & 0x00ff00;
@@ -24,14 +26,14 @@ static inline uint32_t mix(uint32_t below, uint32_t above, uint32_t amount)
     return 0xff000000u | (red_blue & 0xff00ff) | (green & 0x00ff00);
 }
 
-/* Alpha of the colour as 0 ... 256. */
+/* Converts the colour's alpha 0 ... 255 to 0 ... 256. */
 static inline uint32_t opacity(Colour colour)
 {
     uint32_t alpha = colour >> 24;
     return alpha + (alpha >> 7);
 }
 
-Colour canvas_mix(Colour one, Colour other, double part)
+Colour colour_mix(Colour one, Colour other, double part)
 {
     return mix(one, other, (uint32_t)(256 * part));
 }
@@ -61,8 +63,8 @@ void canvas_free(Canvas *canvas)
     *canvas = (Canvas){0};
 }
 
-/* row [count] = colour.  White, for one, is four equal bytes, and bytes are set
- * many at once. */
+/* Sets row [count] to a colour.  The four bytes of white and of the greys are
+ * equal, and memset is faster. */
 static void fill(uint32_t *row, size_t count, uint32_t colour)
 {
     if (colour == (colour & 0xff) * 0x01010101u)
@@ -78,24 +80,27 @@ void canvas_clear(Canvas *canvas, Colour colour)
          colour | 0xff000000u);
 }
 
-/* fmin and fmax, which are calls and take longer; NaN: the second one. */
-static inline double least(double a, double b)
+/* Faster than fmin and fmax, which are calls.  NaN gives the second argument.
+ */
+static inline double min_double(double a, double b)
 {
     return a < b ? a : b;
 }
 
-static inline double most(double a, double b)
+static inline double max_double(double a, double b)
 {
     return a > b ? a : b;
 }
 
-/* Whole pixels that are touched, as far as they are inside `clip`, whose
- * numbers are >= 0, so that an int cuts like floor. */
-static Box touched(Box clip, double left, double top, double right,
-                   double bottom)
+/* The whole pixels that a rectangle touches inside `clip`.  The clip's corner
+ * is not negative, so that conversion to int rounds down. */
+static Box touched_pixels(Box clip, double left, double top, double right,
+                          double bottom)
 {
-    double x0 = most(left, clip.x), x1 = least(right, clip.x + clip.width);
-    double y0 = most(top, clip.y), y1 = least(bottom, clip.y + clip.height);
+    double x0 = max_double(left, clip.x),
+           x1 = min_double(right, clip.x + clip.width);
+    double y0 = max_double(top, clip.y),
+           y1 = min_double(bottom, clip.y + clip.height);
     if (!(x1 >= x0) || !(y1 >= y0))
         return (Box){0, 0, 0, 0};
     int x = (int)x0, y = (int)y0, right_end = (int)x1, low_end = (int)y1;
@@ -103,7 +108,7 @@ static Box touched(Box clip, double left, double top, double right,
                  low_end + (low_end < y1) - y};
 }
 
-int pixel_at(double place)
+int pixel_from(double place)
 {
     return place >= -FARTHEST ? (int)fmin(place, FARTHEST) : -FARTHEST;
 }
@@ -134,15 +139,16 @@ bool box_contains(Box box, double x, double y)
            y < box.y + box.height;
 }
 
-Box box_shared(Box a, Box b)
+Box box_intersection(Box a, Box b)
 {
-    return touched(a, b.x, b.y, (double)b.x + b.width, (double)b.y + b.height);
+    return touched_pixels(a, b.x, b.y, (double)b.x + b.width,
+                          (double)b.y + b.height);
 }
 
-Box canvas_clip(Canvas *canvas, Box box)
+Box canvas_set_clip(Canvas *canvas, Box box)
 {
     Box before = canvas->clip, whole = {0, 0, canvas->width, canvas->height};
-    canvas->clip = box_shared(whole, box);
+    canvas->clip = box_intersection(whole, box);
     return before;
 }
 
@@ -166,13 +172,13 @@ static void mix_span(uint32_t *row, int left, int right, Colour colour,
 
 void canvas_fill(Canvas *canvas, Box box, Colour colour)
 {
-    Box seen = box_shared(canvas->clip, box);
+    Box seen = box_intersection(canvas->clip, box);
     for (int j = seen.y; j < seen.y + seen.height; j++)
         mix_span(canvas_row(canvas, j), seen.x, seen.x + seen.width, colour,
                  opacity(colour));
 }
 
-void canvas_card(Canvas *canvas, Box box, Colour fill, Colour border)
+void canvas_framed_box(Canvas *canvas, Box box, Colour fill, Colour border)
 {
     canvas_fill(canvas, box, border);
     canvas_fill(canvas, box_inset(box, 1), fill);
@@ -180,16 +186,17 @@ void canvas_card(Canvas *canvas, Box box, Colour fill, Colour border)
 
 /* ---- lines -------------------------------------------------------------- */
 
-bool box_cut(const Box *box, double margin, double line[4])
+bool box_clip_line(const Box *box, double margin, double line[4])
 {
     double left = box->x - margin, right = box->x + box->width + margin;
     double top = box->y - margin, bottom = box->y + box->height + margin;
     if (line[0] >= left && line[2] >= left && line[0] <= right &&
         line[2] <= right && line[1] >= top && line[3] >= top &&
         line[1] <= bottom && line[3] <= bottom)
-        return true; /* also far faster where nothing is to be cut */
+        return true; /* the usual case, and much faster */
     double dx = line[2] - line[0], dy = line[3] - line[1], t0 = 0, t1 = 1;
-    const double p[4] = {-dx, dx, -dy, dy}; /* inside: p t <= q */
+    const double p[4] = {-dx, dx, -dy,
+                         dy}; /* a point is inside where p t <= q */
     const double q[4] = {line[0] - left, right - line[0], line[1] - top,
                          bottom - line[1]};
     for (int k = 0; k < 4; k++) {
@@ -207,8 +214,8 @@ bool box_cut(const Box *box, double margin, double line[4])
     return t0 <= t1;
 }
 
-/* Adds the pixels from low to high > low, fixed point, which are `across`
- * pixels[] apart. */
+/* Blends the colour into the pixels between low and high > low, in fixed point.
+ * `across` is the distance of neighbours in pixels[]. */
 static inline void mix_column(uint32_t *column, ptrdiff_t across, int low,
                               int high, Colour colour, uint32_t amount)
 {
@@ -226,31 +233,31 @@ static inline void mix_column(uint32_t *column, ptrdiff_t across, int low,
     *p = mix(*p, colour, part * amount >> FIXED_BITS);
 }
 
-/* The smaller, the larger one. */
-static inline int lower(int a, int b)
+static inline int min_int(int a, int b)
 {
     return a < b ? a : b;
 }
 
-static inline int upper(int a, int b)
+static inline int max_int(int a, int b)
 {
     return a > b ? a : b;
 }
 
-/* Columns or rows, whichever the line crosses more of, from left to right or
- * downwards: axis k is along the line, axis j across it.  In fixed point, for
- * most lines are a few pixels long. */
+/* The loop runs over the columns or rows of pixels, whichever the line crosses
+ * more of.  Axis k is along the line, axis j across it. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
 {
     double line[4] = {x0, y0, x1, y1};
     const Box *clip = &canvas->clip;
-    if (!(width > 0) || width > MOST_WIDTH || !box_cut(clip, width + 1, line))
+    if (!(width > 0) || width > MOST_WIDTH ||
+        !box_clip_line(clip, width + 1, line))
         return;
     const double d[2] = {line[2] - line[0], line[3] - line[1]};
     const int first[2] = {clip->x, clip->y};
     const int behind[2] = {clip->x + clip->width, clip->y + clip->height};
-    const ptrdiff_t next[2] = {1, canvas->width}; /* in pixels[] */
+    const ptrdiff_t next[2] = {
+        1, canvas->width}; /* distance of neighbours in pixels[] */
     int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1, j = 1 - k,
         back = d[k] > 0 ? 0 : 2;
     if (d[k] == 0)
@@ -258,20 +265,20 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     double from = line[back + k], slope = d[j] / d[k];
     int start = (int)(from * FIXED_ONE);
     int stop = (int)(line[2 - back + k] * FIXED_ONE);
-    int begin = upper(start >> FIXED_BITS, first[k]);
-    int end = lower((stop + FIXED_ONE - 1) >> FIXED_BITS, behind[k]);
+    int begin = max_int(start >> FIXED_BITS, first[k]);
+    int end = min_int((stop + FIXED_ONE - 1) >> FIXED_BITS, behind[k]);
     int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
     int middle =
         (int)((line[back + j] + (begin + 0.5 - from) * slope) * FIXED_ONE);
     int step = (int)(slope * FIXED_ONE);
     uint32_t full = opacity(colour), *column = canvas->pixels + begin * next[k];
     for (int i = begin; i < end; i++, middle += step, column += next[k]) {
-        int low = upper(middle - reach, first[j] * FIXED_ONE);
-        int high = lower(middle + reach, behind[j] * FIXED_ONE);
+        int low = max_int(middle - reach, first[j] * FIXED_ONE);
+        int high = min_int(middle + reach, behind[j] * FIXED_ONE);
         uint32_t amount = full;
-        if (i == begin || i + 1 == end) { /* its ends cover parts of pixels */
-            int left = upper(i * FIXED_ONE, start);
-            int right = lower((i + 1) * FIXED_ONE, stop);
+        if (i == begin || i + 1 == end) { /* the ends cover parts of pixels */
+            int left = max_int(i * FIXED_ONE, start);
+            int right = min_int((i + 1) * FIXED_ONE, stop);
             amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
         }
         if (low < high)
@@ -289,7 +296,7 @@ void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
         return;
     if (phase)
         *phase = fmod(begin + length, pitch);
-    if (!box_cut(&canvas->clip, width + 1, line))
+    if (!box_clip_line(&canvas->clip, width + 1, line))
         return;
     dx /= length;
     dy /= length;
@@ -322,11 +329,11 @@ void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
 
 /* ---- surfaces ----------------------------------------------------------- */
 
-/* Narrows [*left, *right) to the pixels i of a row where a i + b >= 0. */
-static inline void narrow(double a, double per_a, double b, int *left,
-                          int *right)
+/* Reduces [*left, *right) to the pixels i of a row with a i + b >= 0. */
+static inline void clip_to_half_plane(double a, double per_a, double b,
+                                      int *left, int *right)
 {
-    double i = -b * per_a; /* infinite or NaN where a is 0 */
+    double i = -b * per_a; /* infinite or NaN if a is 0 */
     if (a == 0 ? b < 0 : a > 0 ? i > *right : i < *left)
         *left = *right;
     else if (a > 0 && i > *left)
@@ -335,20 +342,22 @@ static inline void narrow(double a, double per_a, double b, int *left,
         *right = (int)i + 1;
 }
 
-/* In each row from edge to edge; smooth ones by the distance to the nearest. */
+/* Fills each row from edge to edge.  With smooth edges the coverage of a pixel
+ * is its distance to the nearest edge. */
 void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                      Colour colour)
 {
-    double edge[3][4]; /* a x + b y + c, 1/a: pixels inside the edge */
+    double edge[3][4]; /* a, b, c, 1/a; a x + b y + c is the distance inside */
     double turn = (c[2] - c[0]) * (c[5] - c[1]) - (c[3] - c[1]) * (c[4] - c[0]);
     double reach = smooth ? 1 : 0;
     uint32_t full = opacity(colour);
     if (!(fabs(turn) > 1e-12) || !(fabs(turn) < 1e15))
         return;
-    Box box = touched(canvas->clip, least(c[0], least(c[2], c[4])) - reach,
-                      least(c[1], least(c[3], c[5])) - reach,
-                      most(c[0], most(c[2], c[4])) + reach,
-                      most(c[1], most(c[3], c[5])) + reach);
+    Box box = touched_pixels(canvas->clip,
+                             min_double(c[0], min_double(c[2], c[4])) - reach,
+                             min_double(c[1], min_double(c[3], c[5])) - reach,
+                             max_double(c[0], max_double(c[2], c[4])) + reach,
+                             max_double(c[1], max_double(c[3], c[5])) + reach);
     for (int k = 0; k < 3; k++) {
         const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
         double dx = q[0] - p[0], dy = q[1] - p[1];
@@ -363,25 +372,26 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
         int left = box.x, right = box.x + box.width;
-        double first[3]; /* at the middle of pixel 0 */
+        double first[3]; /* value at the middle of pixel 0 */
         for (int k = 0; k < 3; k++) {
             first[k] = edge[k][0] * 0.5 + edge[k][1] * (j + 0.5) + edge[k][2];
-            narrow(edge[k][0], edge[k][3], first[k] + 0.5 * reach + 1e-9, &left,
-                   &right);
+            clip_to_half_plane(edge[k][0], edge[k][3],
+                               first[k] + 0.5 * reach + 1e-9, &left, &right);
         }
         if (!smooth)
             mix_span(row, left, right, colour, full);
         for (int i = left; smooth && i < right; i++) {
-            double inside = 0.5; /* and more is all of the pixel */
+            double inside = 0.5; /* from here on the whole pixel is covered */
             for (int k = 0; k < 3; k++)
-                inside = least(inside, edge[k][0] * i + first[k]);
+                inside = min_double(inside, edge[k][0] * i + first[k]);
             row[i] = mix(row[i], colour,
-                         (uint32_t)(most(inside + 0.5, 0) * full + 0.5));
+                         (uint32_t)(max_double(inside + 0.5, 0) * full + 0.5));
         }
     }
 }
 
-/* By the distance from the centre to its two edges; a disc has but one. */
+/* The coverage follows from the distances to the two edges of the ring; a disc
+ * has only the outer one. */
 void canvas_ring(Canvas *canvas, double x, double y, double radius,
                  double width, Colour colour)
 {
@@ -391,7 +401,7 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
     if (!(radius > 0) || !(fabs(x) < 1e6) || !(fabs(y) < 1e6) ||
         !(radius < 1e6))
         return;
-    Box box = touched(canvas->clip, x - far, y - far, x + far, y + far);
+    Box box = touched_pixels(canvas->clip, x - far, y - far, x + far, y + far);
     uint32_t full = opacity(colour);
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
@@ -400,8 +410,8 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
             double dx = i + 0.5 - x, d2 = dx * dx + dy * dy;
             if (d2 <= in2 || d2 >= out2)
                 continue;
-            double d = sqrt(d2), part = least(far - d, 1);
-            part = disc ? part : least(part, d - near);
+            double d = sqrt(d2), part = min_double(far - d, 1);
+            part = disc ? part : min_double(part, d - near);
             row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
         }
     }
@@ -417,7 +427,7 @@ void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
                     const uint8_t *mask, Colour colour)
 {
     uint32_t full = opacity(colour);
-    Box box = touched(canvas->clip, x, y, x + width, y + height);
+    Box box = touched_pixels(canvas->clip, x, y, x + width, y + height);
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
         const uint8_t *part = mask + (size_t)(j - y) * (size_t)width;

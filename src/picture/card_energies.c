@@ -1,4 +1,5 @@
-/* card_energies.c - the card with the energies over time. */
+/* card_energies.c - cards of energies and radii over time, and of the energy
+ * budget. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,17 +8,29 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double STILL = 1000;      /* times as high as what is shown now */
-static const double LOG_FROM = 1e6;    /* times the energy at the beginning */
-static const double MOST_LOG = 1e9;    /* the same: where that axis ends */
-static const double LEAST_LOG = 1e-12; /* the same: where that axis begins */
-static const double LEAST_SEEN =
-    2e-3; /* of the largest: less lies on the axis */
-static const double LEGEND = 0.85, CROWDED = 0.75; /* ems, its letters */
-static const double ROUNDING = 1e-20;      /* times k side^2: less is nothing */
-static const double LEAST = 8, MORE = 2.4; /* ems, the card; crowded */
+static const double MAX_AXIS_RATIO =
+    1000; /* the axis covers the whole run up to this many times the part shown
+             so far */
+static const double LOG_GROWTH =
+    1e6; /* growth of the energy at which the axis becomes logarithmic */
+static const double LOG_HIGH =
+    1e9; /* upper end of that axis, times the energy at the start */
+static const double LOG_LOW =
+    1e-12; /* lower end of that axis, times the energy at the start */
+static const double MIN_VISIBLE =
+    2e-3; /* smaller parts of the largest energy cannot be told from 0 */
+static const double
+    LEGEND_SIZE = 0.85,
+    CROWDED_SIZE =
+        0.75; /* ems, letters of the legend, of more than four curves */
+static const double ROUNDING =
+    1e-20; /* energies below this many k side^2 are rounding */
+static const double
+    MIN_HEIGHT = 8,
+    ROW_HEIGHT =
+        2.4; /* ems, height of the card, and more for each two rows of legend */
 
-/* A quantity over time. */
+/* A series of a history over time. */
 typedef struct Curve {
     const Simulation *simulation;
     const History *history;
@@ -30,20 +43,21 @@ typedef struct Curve {
 typedef struct Curves {
     int count;
     Curve curve[HISTORY_SERIES];
-    double now; /* s, of what is shown: a pane that ended stays where it was */
+    double now; /* s, the latest time of all panes; a pane that ended stays
+                   behind */
 } Curves;
 
-/* Whether its series are runs, each with a total of its own, not the parts of
- * one; then places follow them. */
+/* Whether each series of the history is a run with a total of its own (the
+ * series after them are positions), not a part of one energy. */
 static bool series_are_runs(const Simulation *simulation)
 {
     PictureKind kind = simulation->scene->picture;
     return kind == PICTURE_CIRCLE || kind == PICTURE_MASS;
 }
 
-/* Of panes side by side the totals; else what the active one keeps: its runs,
- * or the first three quantities and those which at some time could be told from
- * 0 beside the largest one until then. */
+/* Curves of the card.  With several panes: their totals.  Else the runs of the
+ * active pane, or its first three energies and those that were ever visible
+ * beside the largest one. */
 static Curves find_curves(const Show *show)
 {
     Curves all = {.now = simulation_time(show_pane(show)->simulation)};
@@ -51,7 +65,7 @@ static Curves find_curves(const Show *show)
     const Pane *active = show_pane(show);
     const History *history = active->history;
     bool runs = series_are_runs(active->simulation);
-    bool worthy[HISTORY_SERIES] = {true, true, true};
+    bool is_visible[HISTORY_SERIES] = {true, true, true};
     double most = 0;
     for (int p = 0; show->panes > 1 && p < show->panes; p++)
         if (show->pane[p].history)
@@ -65,24 +79,24 @@ static Curves find_curves(const Show *show)
         for (int s = 0; s < series; s++)
             most = fmax(most, fabs(history->value[s][i]));
         for (int s = 3; s < series; s++)
-            worthy[s] |= fabs(history->value[s][i]) > LEAST_SEEN * most;
+            is_visible[s] |= fabs(history->value[s][i]) > MIN_VISIBLE * most;
     }
     for (int s = 0; show->panes <= 1 && s < series; s++)
-        if (runs || worthy[s])
+        if (runs || is_visible[s])
             curve[all.count++] = (Curve){
                 active->simulation,
                 history,
                 s,
                 runs || s == 0,
-                runs ? colour_of(active->simulation->run[s].method->name)
-                     : colour_of(s == 0 ? "total" : history->name[s]),
+                runs ? colour_of_name(active->simulation->run[s].method->name)
+                     : colour_of_name(s == 0 ? "total" : history->name[s]),
                 history->name[s]};
     for (int c = 0; c < all.count; c++)
         all.now = fmax(all.now, simulation_time(curve[c].simulation));
     return all;
 }
 
-/* The last point of the history that is not later than this time; -1: none. */
+/* Index of the last point of the history up to this time; -1: none. */
 static int point_at(const History *history, double time)
 {
     int at = -1;
@@ -92,8 +106,8 @@ static int point_at(const History *history, double time)
     return at;
 }
 
-double energies_value(const Simulation *simulation, const History *history,
-                      int series, double time)
+double energies_value_at(const Simulation *simulation, const History *history,
+                         int series, double time)
 {
     int point = point_at(history, time), last = history->count - 1;
     bool runs = series_are_runs(simulation);
@@ -102,7 +116,7 @@ double energies_value(const Simulation *simulation, const History *history,
         return NAN;
     if (!runs && time >= now && now > history->time[last] * (1 + 1e-12) &&
         !isfinite(simulation_energies(simulation, 0).total))
-        return INFINITY; /* so the history has no point of them */
+        return INFINITY; /* the history has no point of such energies */
     double value = history->value[series][point];
     for (int s = 0; s < history->series && !runs; s++) {
         size = fmax(size, fabs(history->value[s][point]));
@@ -116,25 +130,27 @@ double energies_needs(const Show *show, double wide, double em)
     (void)wide;
     (void)em;
     int count = find_curves(show).count;
-    return LEAST + (count <= 4 ? 0 : show->panes > 1 ? 2 * MORE : MORE);
+    return MIN_HEIGHT + (count <= 4        ? 0
+                         : show->panes > 1 ? 2 * ROW_HEIGHT
+                                           : ROW_HEIGHT);
 }
 
-/* J, below which all energies of the simulation are rounding. */
-static double rounding_of(const Simulation *simulation)
+/* Energies below this are rounding, J. */
+static double energy_rounding(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     return ROUNDING * fmax(options->stiffness, options->young) * options->side *
            options->side;
 }
 
-/* An axis that holds still is easier to read: it is that of the whole run as
- * long as what is shown so far can be seen on it. */
+/* An axis that does not change is easier to read, so it covers the whole run as
+ * long as the part shown so far is visible on it. */
 Axis energies_axis(const Show *show, double *last)
 {
     const Simulation *simulation = show_pane(show)->simulation;
     const Curves all = find_curves(show);
     double first = 0, least = INFINITY, low = 0, high = 0;
-    double lowest = 0, highest = 0; /* of the whole run */
+    double lowest = 0, highest = 0; /* of the whole run, not only up to now */
     *last = 100 * simulation->options.timestep;
     for (const Curve *curve = all.curve; curve < all.curve + all.count;
          curve++) {
@@ -152,19 +168,19 @@ Axis energies_axis(const Show *show, double *last)
             first = fmax(first, history->value[0][0]);
         }
     }
-    if (fmax(highest, -lowest) < STILL * fmax(high, -low)) {
+    if (fmax(highest, -lowest) < MAX_AXIS_RATIO * fmax(high, -low)) {
         low = lowest;
         high = highest;
     }
-    double nothing = rounding_of(simulation);
-    high = high > nothing ? fmin(high, 1e300) : 1;
+    double rounding = energy_rounding(simulation);
+    high = high > rounding ? fmin(high, 1e300) : 1;
     low = fmax(low, -1e300);
-    if (!(first > nothing)) /* at rest in a field: what came first tells */
+    if (!(first > rounding)) /* at rest in a field of gravity */
         first = -low;
     bool modes = show_pane(show)->simulation->options.layers & LAYER_MODES;
-    if (first > 0 && (modes || high > LOG_FROM * first))
-        return (Axis){pow(10, floor(log10(fmax(least, LEAST_LOG * first))) - 1),
-                      pow(10, ceil(log10(fmin(high, MOST_LOG * first)))), true,
+    if (first > 0 && (modes || high > LOG_GROWTH * first))
+        return (Axis){pow(10, floor(log10(fmax(least, LOG_LOW * first))) - 1),
+                      pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))), true,
                       false, "J"};
     return (Axis){low < -0.01 * high ? -plot_round_axis(-low) : 0,
                   plot_round_axis(high), false, false, "J"};
@@ -180,30 +196,31 @@ static void draw_curves(const Plot *plot, const Curves *all)
     }
 }
 
-/* Above the curves their names with their values, of each at the time of its
- * picture (a pane that ended stays where it was). */
+/* Draws the curves with their names and values above.  Each value is that at
+ * the time of its pane. */
 void energies_draw(const Plot *card)
 {
     const Show *show = card->show;
     const Curves all = find_curves(show);
     Plot rest = *card;
     int at[2] = {0, 0}, used = 0;
-    double size = fmax(all.count > 4 ? CROWDED : LEGEND, card->paper->least);
+    double size = fmax(all.count > 4 ? CROWDED_SIZE : LEGEND_SIZE,
+                       card->paper->min_letter);
     double last;
     for (const Curve *one = all.curve; one < all.curve + all.count; one++) {
         TextLine line = {.colour = one->colour};
         double value =
-            energies_value(one->simulation, one->history, one->series,
-                           simulation_time(one->simulation));
+            energies_value_at(one->simulation, one->history, one->series,
+                              simulation_time(one->simulation));
         char name[SHOW_TEXT], sum[60];
         snprintf(name, sizeof name, "%s", one->name ? one->name : "");
-        snprintf(sum, sizeof sum, " %s J", number_of(value).text);
+        snprintf(sum, sizeof sum, " %s J", format_number(value).text);
         paper_shorten(card->paper, FACE_REGULAR, size,
                       card->box.width -
                           paper_width(card->paper, FACE_REGULAR, size, sum),
                       name, sizeof name);
         snprintf(line.words, sizeof line.words, "%.150s%s", name, sum);
-        used = words_flow(card, at, size, 1.05 * size, &line);
+        used = card_flow_words(card, at, size, 1.05 * size, &line);
     }
     box_cut_off(&rest.box, EDGE_TOP, used);
     Axis energy = energies_axis(show, &last);
@@ -215,9 +232,9 @@ void energies_draw(const Plot *card)
     draw_curves(&plot, &all);
 }
 
-/* What there was at the start and what gravity and hand have added since; then
- * where it is: each bar begins where the one before ended, inside of the first
- * one's ends.  What is only rounding is 0. */
+/* Draws where the energy is.  The first bar is the energy at the start and the
+ * work done since then.  The other bars are its parts; each begins where the
+ * one before ends. */
 void budget_draw(const Plot *card)
 {
     static const double NAME = 7, VALUE = 5.2; /* ems */
@@ -243,7 +260,7 @@ void budget_draw(const Plot *card)
         double end = fmin(fmax(begin + value / most, 0), 1);
         double from = wide * fmin(begin, end), to = wide * fmax(begin, end);
         int y = box->y + i * high;
-        Colour colour = colour_of(i ? shown[i]->name : "total");
+        Colour colour = colour_of_name(i ? shown[i]->name : "total");
         canvas_fill(&paper->canvas,
                     (Box){left + (int)from, y + air, (int)(to - from) + 1,
                           high - 2 * air},
@@ -251,14 +268,14 @@ void budget_draw(const Plot *card)
         paper_write(paper, FACE_REGULAR, 1, colour, box->x, y, ALIGN_LEFT, "%s",
                     shown[i]->name);
         paper_write(paper, FACE_REGULAR, 1, colour, box->x + box->width, y,
-                    ALIGN_RIGHT, "%s J", number_of(value).text);
+                    ALIGN_RIGHT, "%s J", format_number(value).text);
         begin = i ? end : 0;
     }
 }
 
-/* One curve a run, on a logarithmic axis: what is multiplied by the same number
- * in every step is a straight line.  The first one's radius is doubled where it
- * crosses the dashes, if all steps were as long. */
+/* Draws the radius of each run on a logarithmic axis, where growth by a
+ * constant factor is a straight line.  A mark shows the step at which the first
+ * run's radius has doubled, if h never changed. */
 void radius_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
@@ -274,7 +291,7 @@ void radius_draw(const Plot *card)
     Plot plot = plot_create(
         card, (Axis){0, plot_round_up(last), false, false, "t in s"},
         (Axis){pow(10, -most), pow(10, most), true, false, NULL});
-    double steps = fact_number(&show_pane(show)->facts, "doubling");
+    double steps = values_find_number(&show_pane(show)->values, "doubling");
     const double twice[2] = {steps * simulation->options.timestep, 2};
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,
                 COLOUR_GREY);
@@ -284,5 +301,5 @@ void radius_draw(const Plot *card)
     double even = show->bars * simulation->options.timestep;
     bool changed = fabs(end - even) > 1e-9 * even;
     if (!show->veiled && !changed && plot_disc(&plot, twice, 4, COLOUR_TEXT))
-        plot_words(&plot, 1, twice, COLOUR_TEXT, "2 m: step %g", steps);
+        plot_label(&plot, 1, twice, COLOUR_TEXT, "2 m: step %g", steps);
 }

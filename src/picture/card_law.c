@@ -1,9 +1,8 @@
-/* card_law.c - the law of a term as a curve, and a dot where the gap, the
- * triangle, the contact or the spring is now that feels it most.
+/* card_law.c - the law of a term as a curve, with a dot at the contact,
+ * triangle or spring with the largest force.
  *
- * The curve is the term's own function, asked for this one element while one
- * number of it goes from end to end of the axis: so the dot is on the curve.
- */
+ * The curve calls the term's own function for this one element while one of its
+ * numbers runs along the axis.  Therefore the dot lies on the curve. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,42 +17,44 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* One element, and what its law needs. */
-typedef struct LawNow {
+/* One element, and the numbers that its law needs. */
+typedef struct LawPoint {
     EvalPoint at;
     Element element;
     FlowLaw spring;
-    double reach;   /* the unit of the axis */
-    double d_hat;   /* m, of contacts */
-    double x, felt; /* where it is on the axis, NaN: nowhere; how much */
-    double pressed; /* N, the sum over all contacts, of friction */
-} LawNow;
+    double reach;   /* unit of the axis */
+    double d_hat;   /* m, gap at which contact forces begin */
+    double x, load; /* x: position on the axis, NaN: none; felt: measure of the
+                       load */
+    double
+        pressed; /* N, sum of the normal forces of all contacts, for friction */
+} LawPoint;
 
 typedef struct Law {
     const char *name, *across, *upwards;
-    const TermKind *kind, *source; /* the term; whose elements, or springs */
+    const TermKind *kind, *source; /* the term, and the term whose elements are
+                                      shown; NULL: springs */
     double (*value)(const void *now, double x);
-    double low, high; /* ends of the axis, in units of reach */
+    double low, high; /* ends of the axis, in units of `reach` */
 } Law;
 
 static double gap_value(const void *data, double d)
 {
-    LawNow there = *(const LawNow *)data;
+    LawPoint there = *(const LawPoint *)data;
     there.element.s = d;
     return there.at.term->kind->element->value(&there.at, &there.element);
 }
 
 static double near_value(const void *data, double d)
 {
-    double part = d / ((const LawNow *)data)->reach;
+    double part = d / ((const LawPoint *)data)->reach;
     return gap_value(data, part * part);
 }
 
-/* W/A of the triangle when it is pressed flatter, or let out, in the direction
- * in which it is flattest. */
+/* W/A of the triangle, scaled along its shortest direction to area ratio J. */
 static double triangle_value(const void *data, double J)
 {
-    LawNow there = *(const LawNow *)data;
+    LawPoint there = *(const LawPoint *)data;
     double *f = there.element.v, factor = J / there.element.s - 1;
     double turn =
         0.5 * atan2(2 * (f[0] * f[1] + f[2] * f[3]),
@@ -69,16 +70,17 @@ static double triangle_value(const void *data, double J)
 
 static double slip_value(const void *now, double v)
 {
-    return friction_slope(v, ((const LawNow *)now)->reach);
+    return friction_slope(v, ((const LawPoint *)now)->reach);
 }
 
 static double spring_value(const void *data, double s)
 {
-    const LawNow *now = data;
+    const LawPoint *now = data;
     return flow_law_slope(now->spring, s - now->spring.ep);
 }
 
-/* The same for all springs, in parts of what each bears, until they break. */
+/* Force over load, both relative to the spring's strength; a broken spring has
+ * none. */
 static double break_value(const void *now, double part)
 {
     (void)now;
@@ -103,7 +105,7 @@ static const Law laws[] = {
      1.3},
 };
 
-static void find_spring(LawNow *now, int s)
+static void find_spring(LawPoint *now, int s)
 {
     const System *system = now->at.system;
     const Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -113,24 +115,25 @@ static void find_spring(LawNow *now, int s)
     double d2 = spring_vector(system->e + 2 * s, now->at.x, d);
     now->x = spring_strain(d2, system->l2[s]);
     now->x /= tear ? fracture_strength(tear, s) : 1;
-    now->felt = spring_is_broken(system, s) ? -INFINITY
+    now->load = spring_is_broken(system, s) ? -INFINITY
                 : tear                      ? now->x
                        : fabs(now->spring.ep) + 1e-3 * fabs(now->x);
     if (flow)
         now->reach = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
 }
 
-/* A spring that waits, for one at its node broke before it, still pulls. */
-static double value_now(const Law *law, const LawNow *now)
+/* Value at the dot.  A spring beyond its strength still pulls if a spring at
+ * one of its nodes broke before it. */
+static double law_value_at(const Law *law, const LawPoint *now)
 {
     return law->value == break_value ? now->x : law->value(now, now->x);
 }
 
-/* The law that the page is about, and where a run is on it, most of all.  Of
- * friction all contacts are one, with the mean of their speeds by how they are
- * pressed; the element is the one that is pressed most.  NULL: the scene has no
- * law. */
-static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
+/* Finds the page's law and the most loaded element of a run.  For friction the
+ * position is the mean speed of all contacts, weighted by normal force.
+ * Returns NULL if the scene has no law. */
+static const Law *find_law(const Simulation *simulation, int run,
+                           LawPoint *most)
 {
     const char *name = simulation->options.law;
     const System *system = simulation->run[run].system;
@@ -141,20 +144,20 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
     const Term *term = law ? system_find_term(system, law->kind) : NULL;
     if (!term)
         return NULL;
-    *most = (LawNow){.at = eval_point_at(system, x, NULL, x),
-                     .reach = 1,
-                     .x = NAN,
-                     .felt = -INFINITY};
+    *most = (LawPoint){.at = eval_point_at(system, x, NULL, x),
+                       .reach = 1,
+                       .x = NAN,
+                       .load = -INFINITY};
     if (law->source == &contact_energy)
         most->reach = most->d_hat = contact_of(system)->barrier.d_hat;
     if (law->source == &self_contact_energy)
         most->reach = most->d_hat = self_contact_of(system)->d_hat;
     if (law->value == slip_value)
         most->reach = ((const Friction *)term->data)->slip_speed;
-    LawNow now = *most;
+    LawPoint now = *most;
     for (int s = 0; s < system->springs && !law->source; s++) {
         find_spring(&now, s);
-        *most = now.felt > most->felt ? now : *most;
+        *most = now.load > most->load ? now : *most;
     }
     if (!law->source)
         return law;
@@ -164,33 +167,33 @@ static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
         const Element *element = &walk.element;
         double t[4], w[4], slip, mean = now.pressed > 0 ? now.x : 0;
         now.element = *element;
-        now.felt = -element->s;
+        now.load = -element->s;
         now.x = law->value == near_value ? sqrt(element->s) * now.reach
                                          : element->s;
         if (law->value == slip_value) {
-            now.felt = walk.kind->friction_limit(&now.at, element, t, &slip);
+            now.load = walk.kind->friction_limit(&now.at, element, t, &slip);
             element_vectors(element, v, w);
             for (int i = 0; i < 2 * element->vectors; i++)
                 slip -= t[i] * w[i];
-            now.pressed += now.felt;
-            now.x = mean + (fabs(slip) - mean) * now.felt / now.pressed;
+            now.pressed += now.load;
+            now.x = mean + (fabs(slip) - mean) * now.load / now.pressed;
         }
-        *most = now.felt > most->felt ? now : *most;
+        *most = now.load > most->load ? now : *most;
     }
     most->x = law->value == slip_value ? now.x : most->x;
     return law;
 }
 
-/* Whether its axis is a gap. */
+/* Whether the law is a force over a gap. */
 static bool has_gap(const Law *law)
 {
     return law->value == gap_value || law->value == near_value;
 }
 
-bool law_gap(const Simulation *simulation, LawGap *gap)
+bool law_find_gap(const Simulation *simulation, LawGap *gap)
 {
-    LawNow now;
-    const Law *law = law_now(simulation, 0, &now);
+    LawPoint now;
+    const Law *law = find_law(simulation, 0, &now);
     if (!law || simulation->runs > 1 || isnan(now.x) ||
         !(has_gap(law) || law->value == slip_value))
         return false;
@@ -207,7 +210,7 @@ bool law_gap(const Simulation *simulation, LawGap *gap)
 }
 
 /* -dW/dd of a gap, N. */
-static double force_of(const LawNow *now)
+static double gap_force(const LawPoint *now)
 {
     const Element *element = &now->element;
     double g[4];
@@ -215,9 +218,9 @@ static double force_of(const LawNow *now)
     return -(g[0] * element->n[0] + g[1] * element->n[1]);
 }
 
-/* Where a spring began to flow, and where it stopped; false: it has flowed to
- * and fro, or not at all. */
-static bool flowed_one_way(const LawNow *now, double from[2], double to[2])
+/* Ends of the plastic flow of a spring on the axis.  Returns false if the
+ * spring has not flowed, or has flowed in both directions. */
+static bool flowed_one_way(const LawPoint *now, double from[2], double to[2])
 {
     const Plasticity *flow = system_term_data(now->at.system, &plastic_energy);
     double ep = now->spring.ep, most = flow ? now->spring.yield : 0;
@@ -228,7 +231,7 @@ static bool flowed_one_way(const LawNow *now, double from[2], double to[2])
     return ep != 0 && fabs(away) <= 1e-9 * most;
 }
 
-bool law_way(const Simulation *simulation, double way[2])
+bool law_find_slide(const Simulation *simulation, double way[2])
 {
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
@@ -244,53 +247,54 @@ bool law_way(const Simulation *simulation, double way[2])
     return options->law && strcmp(options->law, "rub") == 0;
 }
 
-void law_facts(const Simulation *simulation, Facts *facts)
+void law_add_values(const Simulation *simulation, LiveValues *values)
 {
-    LawNow now;
-    const Law *law = law_now(simulation, 0, &now);
+    LawPoint now;
+    const Law *law = find_law(simulation, 0, &now);
     if (!law || simulation->runs > 1)
         return;
     bool is_there = !isnan(now.x), self = law->source == &self_contact_energy;
     bool still = law->value == spring_value && now.spring.ep == 0;
-    fact_when(facts, "law", true);
-    fact_when(facts, "unflowed", still);
-    fact_when(facts, "bodies apart", self);
+    values_add_flag(values, "law", true);
+    values_add_flag(values, "unflowed", still);
+    values_add_flag(values, "bodies apart", self);
     double ends[2][2];
-    fact_when(facts, law->name, is_there && !still);
-    fact_words(facts, "its way",
-               flowed_one_way(&now, ends[0], ends[1]) ? "; violet: its way"
-                                                      : "");
+    values_add_flag(values, law->name, is_there && !still);
+    values_add_words(
+        values, "its way",
+        flowed_one_way(&now, ends[0], ends[1]) ? "; violet: its way" : "");
     if (has_gap(law)) {
         const System *system = now.at.system;
-        fact(facts, "c",
-             self ? self_contact_of(system)->c : contact_of(system)->barrier.c);
-        fact(facts, "d hat", 1e3 * now.reach);
-        fact(facts, "law mm", 1e3 * now.x);
-        fact(facts, "law force", force_of(&now));
+        values_add(values, "c",
+                   self ? self_contact_of(system)->c
+                        : contact_of(system)->barrier.c);
+        values_add(values, "d hat", 1e3 * now.reach);
+        values_add(values, "law mm", 1e3 * now.x);
+        values_add(values, "law force", gap_force(&now));
     }
-    fact(facts, "law x", now.x);
-    fact(facts, "law y", is_there ? value_now(law, &now) : NAN);
-    fact(facts, "s_p", law->value == spring_value ? now.spring.ep : NAN);
+    values_add(values, "law x", now.x);
+    values_add(values, "law y", is_there ? law_value_at(law, &now) : NAN);
+    values_add(values, "s_p", law->value == spring_value ? now.spring.ep : NAN);
     Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
-        fact(facts, energies.row[i].name, energies.row[i].value);
+        values_add(values, energies.row[i].name, energies.row[i].value);
     double way[2];
-    bool slides = law_way(simulation, way);
-    fact(facts, "gone", slides ? way[0] : NAN);
-    fact(facts, "rigid", slides ? way[1] : NAN);
+    bool slides = law_find_slide(simulation, way);
+    values_add(values, "gone", slides ? way[0] : NAN);
+    values_add(values, "rigid", slides ? way[1] : NAN);
 }
 
-/* The dots of all runs, and of several which they are, those that lie together
- * in one text; beyond the axis at its end. */
+/* Draws the dots of all runs, at the end of the axis if they lie beyond it.
+ * With several runs, dots close together share one label. */
 static void draw_dots(const Plot *plot, const Law *law, int runs,
-                      const LawNow *now)
+                      const LawPoint *now)
 {
     static const char *const names[] = {"upper", "middle", "lower"};
-    static const double dot = 6; /* units */
+    static const double dot = 6; /* units of the paper */
     double at[SIMULATION_MAX_RUNS][2];
     for (int i = 0; i < runs; i++) {
         at[i][0] = fmin(fmax(now[i].x, plot->x.low), plot->x.high);
-        at[i][1] = value_now(law, &now[i]);
+        at[i][1] = law_value_at(law, &now[i]);
         plot_disc(plot, at[i], isnan(now[i].x) ? 0 : dot, COLOUR_P);
     }
     for (int i = 0, with = 0; i < runs && runs > 1; i++) {
@@ -306,22 +310,23 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
                          "%s%s", words[0] ? ", " : "", names[k]);
             }
         if (words[0])
-            plot_words(plot, 2, place, COLOUR_P, "%s%s", words,
+            plot_label(plot, 2, place, COLOUR_P, "%s%s", words,
                        now[i].x > plot->x.high ? " \u2192" : "");
     }
     if (runs == 1 && now->x > plot->x.high)
-        plot_words(plot, 1, at[0], COLOUR_P, "\u2192");
+        plot_label(plot, 1, at[0], COLOUR_P, "\u2192");
 }
 
-/* The curve for the element of the first run; a tangent that is the force of a
- * gap; where a spring that flowed is at rest. */
+/* Draws the curve for the element of the first run.  Of a gap the tangent is
+ * drawn, whose slope is the force; of a spring the plastic strain at which it
+ * is at rest. */
 void law_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
-    LawNow now[SIMULATION_MAX_RUNS];
+    LawPoint now[SIMULATION_MAX_RUNS];
     const Law *law = NULL;
     for (int run = simulation->runs - 1; run >= 0; run--)
-        law = law_now(simulation, run, &now[run]);
+        law = find_law(simulation, run, &now[run]);
     if (!law)
         return;
     bool both = law->low < 0;
@@ -329,23 +334,23 @@ void law_draw(const Plot *card)
     double most = both ? 1.4 * now->spring.yield
                        : fmax(law->value(now, 0.9 * low + 0.1 * high),
                               law->value(now, 0.25 * low + 0.75 * high));
-    double x = now->x, y = value_now(law, now);
+    double x = now->x, y = law_value_at(law, now);
     most = plot_round_axis(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
         card, (Axis){low, high, false, false, law->across},
         (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
     const double rest[2] = {now->spring.ep, 0};
     plot_graph(&plot, law->value, now, 2.4, COLOUR_X);
-    LawNow other = *now; /* all springs, small: each is on its own law */
+    LawPoint other = *now; /* small dots for all springs, each on its own law */
     for (int s = 0; s < other.at.system->springs && !law->source; s++) {
         find_spring(&other, s);
-        if (other.felt > -INFINITY)
-            plot_disc(&plot, (double[2]){other.x, value_now(law, &other)}, 2,
+        if (other.load > -INFINITY)
+            plot_disc(&plot, (double[2]){other.x, law_value_at(law, &other)}, 2,
                       COLOUR_GHOST);
     }
     if (has_gap(law) && !isnan(x)) /* -W' */
-        plot_line(&plot, (double[2]){low, y + (x - low) * force_of(now)},
-                  (double[2]){high, y + (x - high) * force_of(now)}, 1.4,
+        plot_line(&plot, (double[2]){low, y + (x - low) * gap_force(now)},
+                  (double[2]){high, y + (x - high) * gap_force(now)}, 1.4,
                   COLOUR_FORCE);
     if (both && rest[0] != 0) {
         double from[2], to[2];
@@ -355,7 +360,7 @@ void law_draw(const Plot *card)
             plot_line(&plot, to, (double[2]){x, y}, 2.4, COLOUR_PLASTIC);
         }
         plot_ring(&plot, rest, 4, 2, COLOUR_PLASTIC);
-        plot_words(&plot, 1, rest, COLOUR_PLASTIC, "s_{p}");
+        plot_label(&plot, 1, rest, COLOUR_PLASTIC, "s_{p}");
     }
     draw_dots(&plot, law, simulation->runs, now);
 }

@@ -1,41 +1,41 @@
-/* card_listing.c - the card with the lines of Algorithm 3 or 1, and what the
- * slides' program prints.
- */
+/* card_listing.c - the cards with the lines of an algorithm, and with what the
+ * slides' program prints. */
 #include <math.h>
 #include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double WIDE_PITCH = 2.1; /* ems, of a line with room on a page */
-static const double PRINT_WIDE = 36;  /* ems, of lines printed in size 1 */
+static const double PAGE_PITCH = 2.1; /* ems, height of a line on a page */
+static const double PRINT_WIDTH =
+    36; /* ems, width of printed lines in size 1 */
 
-/* A line of what the active pane does: number, text, value; lit or struck
- * through. */
+/* Draws a row of the listing: number, text, value. */
 static void draw_row(const Plot *card, Box box, const ListingRow *row,
                      int number)
 {
     Paper *paper = card->paper;
     const Pane *pane = show_pane(card->show);
     const Trace *trace = pane->update;
-    const Facts *facts = &pane->facts;
-    bool lit = row->lit ? text_is_known(facts, row->lit)
-                        : trace && trace->line == row->line;
+    const LiveValues *values = &pane->values;
+    bool lit = row->lit_if ? text_has_line(values, row->lit_if)
+                           : trace && trace->line == row->line;
     bool reached =
         trace && (trace->line == LINE_NONE || trace->line >= row->line);
-    bool struck = text_is_known(facts, row->off);
-    TextLine words = text_first(facts, row->shows);
-    TextLine value = text_first(facts, reached || struck ? row->value : NULL);
+    bool struck = text_has_line(values, row->struck_if);
+    TextLine words = text_first_line(values, row->text);
+    TextLine value =
+        text_first_line(values, reached || struck ? row->value : NULL);
     char digits[12];
-    double size = box.height < 0.95 * WIDE_PITCH * paper->em ? 1 : 1.2;
+    double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indented);
     int wide = paper_width(paper, FACE_REGULAR, 0.88 * size, value.words);
     Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
     Box room = {box.x + indent, box.y,
                 box.width - indent - wide - paper_pixels(paper, 1.4),
                 box.height};
-    bool both = paper_width(paper, FACE_REGULAR, paper->least, words.words) <=
-                room.width;
+    bool both = paper_width(paper, FACE_REGULAR, paper->min_letter,
+                            words.words) <= room.width;
     room.width += both ? 0 : wide;
     if (lit)
         canvas_fill(&paper->canvas, box, COLOUR_LIT);
@@ -57,13 +57,13 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
                   value.words);
 }
 
-/* Those that are known, in lines of this height; draw NULL: only counted. */
+/* Draws the known rows in lines of this height; draw NULL: only counts them. */
 static int put_rows(const Show *show, const ListingRow *row, const Plot *draw,
                     Box line)
 {
     int count = 0;
-    for (; row->of; row++)
-        if (text_is_known(&show_pane(show)->facts, row->of)) {
+    for (; row->shown_if; row++)
+        if (text_has_line(&show_pane(show)->values, row->shown_if)) {
             if (draw)
                 draw_row(draw, line, row, count + 1);
             line.y += line.height;
@@ -72,24 +72,24 @@ static int put_rows(const Show *show, const ListingRow *row, const Plot *draw,
     return count;
 }
 
-/* Ems, with title and margin. */
+/* Height in ems, with title and margin. */
 double listing_needs(const Show *show, double wide, double em)
 {
     (void)wide, (void)em;
     return 1.75 * put_rows(show, rows_listing, NULL, (Box){0}) + 2.6;
 }
 
-void rows_in_card(const Plot *card, const ListingRow *row)
+void card_write_rows(const Plot *card, const ListingRow *row)
 {
-    double pitch = card->em * (card->show->lecture ? WIDE_PITCH : 1.75);
+    double pitch = card->em * (card->show->lecture ? PAGE_PITCH : 1.75);
     int count = put_rows(card->show, row, NULL, (Box){0});
     Box line = card->box;
     line.height = (int)fmin(lround(pitch), line.height / (double)count);
     put_rows(card->show, row, card, line);
 }
 
-/* The newest updates, as many as there is room for; of a star this is the upper
- * half, and below are the residuals as points. */
+/* Prints residual and step size of the newest updates that fit.  As the star of
+ * a page the card also plots the residuals, in its lower half. */
 void prints_draw(const Plot *card)
 {
     Paper *paper = card->paper;
@@ -97,8 +97,8 @@ void prints_draw(const Plot *card)
     Box inside = card->box;
     const Trace *trace = show_pane(card->show)->update;
     bool star = inside.height > 14 * paper->em;
-    double size = fmin(inside.width / (PRINT_WIDE * paper->em), 1.5);
-    size = size < 1 ? 0.95 : size; /* in fewer letters */
+    double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);
+    size = size < 1 ? 0.95 : size; /* then with shorter words */
     if (star && trace) {
         inside = box_cut_off(&below.box, EDGE_TOP, inside.height / 2);
         residual_draw(&below);
@@ -107,7 +107,7 @@ void prints_draw(const Plot *card)
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
     if (count == 0 && !(star && trace)) {
-        cards_hint(card, text_undrawn);
+        card_write_hint(card, text_undrawn);
         return;
     }
     for (int i = first; i < count && i - first < room; i++) {
@@ -116,14 +116,14 @@ void prints_draw(const Plot *card)
         int x = paper_write(
             paper, FACE_MONO, size, COLOUR_TEXT, inside.x, y, ALIGN_LEFT,
             "%s%d: residual = %s  step%s = %s", size < 1 ? "" : "Iteration ", i,
-            number_with(residual, 4).text, size < 1 ? "" : " size",
-            number_of(trace->record[i].alpha).text);
+            format_digits(residual, 4).text, size < 1 ? "" : " size",
+            format_number(trace->record[i].alpha).text);
         if (i > 0)
             paper_write(
                 paper, FACE_MONO, size, COLOUR_P,
                 inside.x + x + 1.2 * size * paper->em, y, ALIGN_LEFT,
                 "\u00f7 %s",
-                number_of(trace->record[i - 1].residual / residual).text);
+                format_number(trace->record[i - 1].residual / residual).text);
     }
     const NewtonRecord *last = count > 0 ? trace->record + count - 1 : NULL;
     if (last && count - first < room && last->status == STATUS_OK)
@@ -131,5 +131,5 @@ void prints_draw(const Plot *card)
                     inside.y + (count - first) * pitch, ALIGN_LEFT,
                     "%s\u2264 %s: the loop ends",
                     last->residual > trace->tolerance ? "the next is " : "",
-                    number_of(trace->tolerance).text);
+                    format_number(trace->tolerance).text);
 }

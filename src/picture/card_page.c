@@ -7,7 +7,7 @@
 /* What a page says, one below the other: a head, and lines of a text. */
 typedef struct Words {
     const char *head;
-    const char *text; /* of facts.h, or NULL */
+    const char *text; /* of live_values.h, or NULL */
     Colour colour;
     double size; /* times that of the others */
 } Words;
@@ -27,7 +27,7 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
 {
     double letters = size * words->size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
-    TextLine line = text_of(&show_pane(show)->facts, words->text);
+    TextLine line = text_begin(&show_pane(show)->values, words->text);
     if (words->head) {
         int width = paper_pixels(paper, head * size);
         if (draw)
@@ -101,7 +101,7 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show)
 /* As much as its words take, ems. */
 double page_needs(const Show *show, double wide, double em)
 {
-    Paper paper = {.text = show->text, .em = em, .least = 1};
+    Paper paper = {.text = show->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* title and margin */
     return put_page(&paper, box, LETTERS, show, false) / em + around;

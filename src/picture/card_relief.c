@@ -1,32 +1,34 @@
-/* E over the position of the free node as a surface, from bowl to two valleys
- * as h grows, with the path of the iterates on it. */
+/* card_relief.c - E over the position of the free node as a surface, with the
+ * path of the iterates on it. */
 #include <math.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
 enum {
-    CELLS = 96,  /* of the ground, along one side */
-    PIECES = 24, /* of a straight way of the map */
-    LEVELS = 15  /* lines up to the rim, at most */
+    CELLS = 96,  /* cells of the ground along one side */
+    PIECES = 24, /* pieces of a straight line on the surface */
+    LEVELS = 15  /* the most contour lines up to the rim */
 };
 
-static const double REACH = 1.87; /* m, half the side of the ground */
-static const double HEIGHT = 1.5; /* m, the rim is drawn above E = 0 */
-/* The rim is the sum of inertia at this distance from x_tilde, m, and of
- * elasticity between the pins, the pass of the two valleys, times a factor. */
+static const double REACH = 1.87; /* m, half a side of the ground */
+static const double HEIGHT =
+    1.5; /* m, height of the rim above E = 0 in the drawing */
+/* The rim, where the surface is cut off, is inertia at this distance from
+ * x_tilde, m, plus elasticity at the pass between the two valleys times a
+ * factor. */
 static const double RIM_INERTIA = 1.5, RIM_PASS = 1.7;
-/* The view: x comes nearer to the right, y goes away to the right.  Cosine and
- * sine of the angle around E, and of the one above the ground. */
+/* Cosine and sine of the view's angles, around E and above the ground.  x
+ * points towards the viewer and to the right, y away and to the right. */
 static const double TURN[2] = {0.85, 0.5268}, RISE[2] = {0.7, 0.7141};
 static const Colour LEVEL_COLOUR = 0x90606060u;
-static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* a unit vector */
+static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* unit vector */
 
-/* The surface, cut off at its rim. */
+/* The surface, cut off at its rim, and how it is drawn. */
 typedef struct Relief {
     const Simulation *simulation;
-    Plot plot;         /* its plane is that of the projection, m */
-    double rim, level; /* J s^2; from one level line to the next */
+    Plot plot;         /* coordinates are those of the projected picture, m */
+    double rim, level; /* J s^2; distance between two contour lines */
 } Relief;
 
 /* A point of the surface. */
@@ -35,7 +37,7 @@ typedef struct Corner {
     bool convex;
 } Corner;
 
-static double rim_of(const Simulation *simulation)
+static double rim_value(const Simulation *simulation)
 {
     const double *target = simulation->exhibit.target;
     unsigned parts = simulation->exhibit.parts;
@@ -55,8 +57,8 @@ static Corner corner_at(const Relief *relief, double x, double y)
     return (Corner){x, y, E.value, landscape_is_convex(&E)};
 }
 
-/* The orthographic projection, m to the right and upwards. */
-static Point seen(const Relief *relief, const Corner *corner)
+/* Orthographic projection: m to the right and upwards. */
+static Point project_corner(const Relief *relief, const Corner *corner)
 {
     double near = TURN[0] * corner->x - TURN[1] * corner->y;
     double height = HEIGHT * corner->E / relief->rim;
@@ -64,29 +66,30 @@ static Point seen(const Relief *relief, const Corner *corner)
                     RISE[0] * height - RISE[1] * near}};
 }
 
-/* The point of an edge where E has this value, which lies between its ends. */
-static Corner cross(const Corner *a, const Corner *b, double E)
+/* The point on an edge where E has this value, which lies between its ends. */
+static Corner edge_crossing(const Corner *a, const Corner *b, double E)
 {
     double t = (E - a->E) / (b->E - a->E);
     return (Corner){a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), E,
                     a->convex};
 }
 
-/* The line on which a triangle has this value; false: there is none. */
-static bool level_in(const Corner corner[3], double E, Corner end[2])
+/* Finds the contour line of this value in a triangle.  Returns false if there
+ * is none. */
+static bool find_contour(const Corner corner[3], double E, Corner end[2])
 {
     int ends = 0;
     for (int k = 0; k < 3 && ends < 2; k++) {
         const Corner *a = &corner[k], *b = &corner[(k + 1) % 3];
         if ((a->E < E) != (b->E < E))
-            end[ends++] = cross(a, b, E);
+            end[ends++] = edge_crossing(a, b, E);
     }
     return ends == 2;
 }
 
-/* The colour of a plane triangle: light by its slope, yellow as on the map
- * where E is not convex. */
-static Colour face_colour(const Relief *relief, const Corner corner[3])
+/* Colour of a triangle: brightness by its slope to the light, yellow where E is
+ * not convex. */
+static Colour relief_colour(const Relief *relief, const Corner corner[3])
 {
     const Corner *o = &corner[0], *a = &corner[1], *b = &corner[2];
     double scale = HEIGHT / relief->rim;
@@ -98,14 +101,14 @@ static Colour face_colour(const Relief *relief, const Corner corner[3])
     double light =
         (n[0] * LIGHT[0] + n[1] * LIGHT[1] + n[2] * LIGHT[2]) / length;
     double bent = (3 - o->convex - a->convex - b->convex) / 3.0;
-    Colour bright = canvas_mix(0xfff4f8fcu, 0xffffe9b0u, bent);
-    Colour dark = canvas_mix(0xff44576cu, 0xff80602au, bent);
-    return canvas_mix(dark, bright, fmin(fmax(1.1 * light, 0), 1));
+    Colour bright = colour_mix(0xfff4f8fcu, 0xffffe9b0u, bent);
+    Colour dark = colour_mix(0xff44576cu, 0xff80602au, bent);
+    return colour_mix(dark, bright, fmin(fmax(1.1 * light, 0), 1));
 }
 
-/* Draws a triangle, as far as it is below the rim, with its level lines.  A
- * triangle that is seen from below is left out: it is part of the wall in
- * front, which would hide the valleys. */
+/* Draws the part of a triangle below the rim, with its contour lines.
+ * Triangles seen from below are part of the front wall, which would hide the
+ * valleys, and are left out. */
 static void draw_face(const Relief *relief, const Corner corner[3])
 {
     const Plot *plot = &relief->plot;
@@ -117,26 +120,27 @@ static void draw_face(const Relief *relief, const Corner corner[3])
         if (a->E <= relief->rim)
             inside[count++] = *a;
         if ((a->E <= relief->rim) != (b->E <= relief->rim))
-            inside[count++] = cross(a, b, relief->rim);
+            inside[count++] = edge_crossing(a, b, relief->rim);
     }
     for (int k = 0; k < count; k++)
-        at[k] = seen(relief, &inside[k]);
-    const Point a = way(at[0].at, at[1].at), b = way(at[0].at, at[2].at);
+        at[k] = project_corner(relief, &inside[k]);
+    const Point a = vector_between(at[0].at, at[1].at),
+                b = vector_between(at[0].at, at[2].at);
     bool above = count > 2 && a.at[0] * b.at[1] > a.at[1] * b.at[0];
     const double *const face[] = {at[0].at, at[1].at, at[2].at,
                                   at[count > 3 ? 3 : 2].at};
     if (above)
-        plot_face(plot, face, face_colour(relief, corner));
+        plot_quad(plot, face, relief_colour(relief, corner));
     for (int k = 1; k < LEVELS && k * relief->level < relief->rim; k++)
-        if (above && level_in(corner, k * relief->level, end))
-            plot_line(plot, seen(relief, &end[0]).at, seen(relief, &end[1]).at,
-                      0.8, LEVEL_COLOUR);
-    if (level_in(corner, relief->rim, end))
-        plot_line(plot, seen(relief, &end[0]).at, seen(relief, &end[1]).at, 1.6,
-                  COLOUR_FAINT);
+        if (above && find_contour(corner, k * relief->level, end))
+            plot_line(plot, project_corner(relief, &end[0]).at,
+                      project_corner(relief, &end[1]).at, 0.8, LEVEL_COLOUR);
+    if (find_contour(corner, relief->rim, end))
+        plot_line(plot, project_corner(relief, &end[0]).at,
+                  project_corner(relief, &end[1]).at, 1.6, COLOUR_FAINT);
 }
 
-/* Painter's order: from the far end of the ground to the near one. */
+/* Draws cell by cell from the far end to the near one (painter's algorithm). */
 static void draw_surface(const Relief *relief)
 {
     Corner column[2][CELLS + 1];
@@ -154,62 +158,66 @@ static void draw_surface(const Relief *relief)
     }
 }
 
-/* A straight way of the map, as far as it is below the rim. */
-static void draw_way(const Relief *relief, const double *a, const double *b,
-                     double width, Colour colour)
+/* Draws a straight line of the ground on the surface, below the rim. */
+static void draw_surface_line(const Relief *relief, const double *a,
+                              const double *b, double width, Colour colour)
 {
     Corner before = {.E = NAN};
     for (int i = 0; i <= PIECES; i++) {
-        const Point x = along(a, (double)i / PIECES, way(a, b).at);
+        const Point x =
+            point_along(a, (double)i / PIECES, vector_between(a, b).at);
         Corner now = corner_at(relief, x.at[0], x.at[1]);
         if (before.E <= relief->rim && now.E <= relief->rim)
-            plot_line(&relief->plot, seen(relief, &before).at,
-                      seen(relief, &now).at, width, colour);
+            plot_line(&relief->plot, project_corner(relief, &before).at,
+                      project_corner(relief, &now).at, width, colour);
         before = now;
     }
 }
 
-static void draw_point(const Relief *relief, const double *x, double radius,
-                       Colour colour, const char *word)
+static void draw_surface_point(const Relief *relief, const double *x,
+                               double radius, Colour colour, const char *word)
 {
     Corner corner = corner_at(relief, x[0], x[1]);
-    const Point at = seen(relief, &corner);
+    const Point at = project_corner(relief, &corner);
     if (!(corner.E <= relief->rim))
         return;
     plot_disc(&relief->plot, at.at, radius, colour);
     if (word)
-        plot_words(&relief->plot, 1, at.at, colour, "%s", word);
+        plot_label(&relief->plot, 1, at.at, colour, "%s", word);
 }
 
-/* The updates so far and, thin, the direction that is next; uphill in red. */
-static void draw_updates(const Relief *relief)
+/* Draws the updates so far and, thinner, the next direction; uphill in red. */
+static void draw_newton_path(const Relief *relief)
 {
     const Descent *descent = &relief->simulation->descent;
     const double *x = descent->point;
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
-        draw_way(relief, record->from, record->to, 3, colour);
-        draw_point(relief, record->from, 4.5, COLOUR_X, NULL);
+        draw_surface_line(relief, record->from, record->to, 3, colour);
+        draw_surface_point(relief, record->from, 4.5, COLOUR_X, NULL);
     }
     if (!relief->plot.show->veiled)
-        draw_way(relief, x, along(x, 1, descent->direction).at, 1.4,
-                 descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
-    draw_point(relief, x, 6, COLOUR_TEXT, NULL);
+        draw_surface_line(relief, x, point_along(x, 1, descent->direction).at,
+                          1.4, descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
+    draw_surface_point(relief, x, 6, COLOUR_TEXT, NULL);
 }
 
-/* The minimisers for all h, and that of this one. */
-static void draw_walk(const Relief *relief)
+/* Draws the minimisers for all h, and the minimiser for the current h. */
+static void draw_dial_curve(const Relief *relief)
 {
     const DialCurve *dial = &relief->simulation->exhibit.dial;
     int points = relief->plot.show->veiled ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
-        draw_way(relief, dial->point[i - 1], dial->point[i], 3, COLOUR_X);
-    draw_point(relief, relief->simulation->run[0].x, 7, COLOUR_TEXT, NULL);
+        draw_surface_line(relief, dial->point[i - 1], dial->point[i], 3,
+                          COLOUR_X);
+    draw_surface_point(relief, relief->simulation->run[0].x, 7, COLOUR_TEXT,
+                       NULL);
 }
 
-/* In the lower corners: where x, y and E grow, and the step of the levels. */
-static void draw_axes(const Relief *relief)
+/* Draws arrows along x, y and E in one lower corner, and the distance of the
+ * contours in the other. */
+static void draw_relief_axes(const Relief *relief)
 {
     static const char *const names[] = {"x", "y", "E"};
     const Plot *plot = &relief->plot;
@@ -222,28 +230,29 @@ static void draw_axes(const Relief *relief)
     camera_world(&plot->camera, box->x + plot->em,
                  box->y + box->height - 2.8 * plot->em, corner);
     for (int k = 0; k < 3; k++) {
-        const Point d = seen(relief, &tip[k]), end = along(corner, 1, d.at);
+        const Point d = project_corner(relief, &tip[k]),
+                    end = point_along(corner, 1, d.at);
         plot_arrow(plot, corner, d.at, 1, 1.2, COLOUR_FAINT);
-        plot_words(plot, 1, end.at, COLOUR_FAINT, "%s", names[k]);
+        plot_label(plot, 1, end.at, COLOUR_FAINT, "%s", names[k]);
     }
     paper_write(plot->paper, FACE_REGULAR, 0.9, COLOUR_FAINT,
                 box->x + box->width, box->y + box->height - 1.4 * plot->em,
                 ALIGN_RIGHT, "lines every %s J s\u00b2",
-                number_of(relief->level).text);
+                format_number(relief->level).text);
 }
 
 void relief_draw(const Plot *card)
 {
     static const double bounds[4] = {-1.95, -0.75, 2.05, 2.2}; /* m */
-    Relief relief = {card->simulation, *card, rim_of(card->simulation), 0};
+    Relief relief = {card->simulation, *card, rim_value(card->simulation), 0};
     relief.level = plot_round_up(relief.rim / LEVELS);
     relief.plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     draw_surface(&relief);
-    draw_axes(&relief);
+    draw_relief_axes(&relief);
     if (card->simulation->scene->picture == PICTURE_DIAL)
-        draw_walk(&relief);
+        draw_dial_curve(&relief);
     else
-        draw_updates(&relief);
-    draw_point(&relief, card->simulation->exhibit.target, 5, COLOUR_X_TILDE,
-               "{xt}");
+        draw_newton_path(&relief);
+    draw_surface_point(&relief, card->simulation->exhibit.target, 5,
+                       COLOUR_X_TILDE, "{xt}");
 }

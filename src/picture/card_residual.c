@@ -1,17 +1,16 @@
-/* card_residual.c - the card with the residual of each update of a step. */
+/* card_residual.c - the card of the residual of each update of a step. */
 #include <math.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* The residuals of the updates as points, joined by lines.  The
- * update whose p is known is the last record of the trace, or it is still to
- * come there: then it is one more. */
+/* Draws the residuals of the updates, joined by lines.  If p of the next update
+ * is already known, its residual is one more point. */
 void residual_draw(const Plot *card)
 {
     const Trace *trace = show_pane(card->show)->update;
     if (!trace || (trace->updates == 0 && !(trace->residual > 0))) {
-        cards_hint(card, text_undrawn);
+        card_write_hint(card, text_undrawn);
         return;
     }
     const NewtonRecord now = {.residual = trace->residual};
@@ -49,5 +48,5 @@ void residual_draw(const Plot *card)
         plot_disc(&plot, at, 3.5, COLOUR_P);
     }
     plot_dashes(&plot, left, right, 1.4, NULL, COLOUR_TEXT);
-    plot_words(&plot, 1, left, COLOUR_TEXT, "\u03b5");
+    plot_label(&plot, 1, left, COLOUR_TEXT, "\u03b5");
 }

@@ -1,6 +1,5 @@
-/* card_updates.c - two cards: E and its parts in this step, and a table of
- * its updates.
- */
+/* card_updates.c - two cards: E and its parts in this step, and a table of the
+ * step's updates. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,24 +9,28 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* Updates whose alpha p has been added to what is shown. */
-static int updates_made(const Trace *trace)
+/* Number of updates whose alpha p is part of the positions shown. */
+static int count_added_updates(const Trace *trace)
 {
     bool before = trace->line != LINE_NONE && trace->line < LINE_UPDATE;
     return before ? trace->iteration : trace->updates;
 }
 
-/* E and its parts along the line from x_tilde through x: why neither is lowest
- * where one part is.  Returns E at x, J s^2. */
-static double draw_way(const Plot *card, const System *system,
-                       const Trace *trace, const double *x)
+/* Draws E and its parts along the line from x_tilde to x: E is lowest where
+ * neither part is.  Returns E at x, J s^2. */
+static double draw_energy_parts(const Plot *card, const System *system,
+                                const Trace *trace, const double *x)
 {
-    enum { POINTS = 39, AIM = 6, NOW = 26 }; /* t = 0, 1 */
+    enum {
+        POINTS = 39,
+        AIM = 6,
+        NOW = 26
+    }; /* AIM, NOW: the points at t = 0 and 1 */
     static const struct {
         const char *name;
         Colour colour;
-        int named;    /* at this point, or */
-        double lower; /* so many times as high */
+        int label_at;        /* index of the point with the label */
+        double label_height; /* height of the label, times the curve */
     } parts[] = {{"inertia", COLOUR_X_TILDE, 18, 1},
                  {"h\u00b2 P", COLOUR_SHADED, 15, 0.72},
                  {"E", COLOUR_X, 34, 1}};
@@ -56,36 +59,38 @@ static double draw_way(const Plot *card, const System *system,
     for (int i = AIM; i <= NOW; i += NOW - AIM) {
         Colour colour = i == AIM ? COLOUR_X_TILDE : COLOUR_X;
         plot_disc(&plot, (double[2]){t[i], E[i]}, 5, colour);
-        plot_words(&plot, 1, (double[2]){t[i], E[i]}, colour, "%s: %s",
-                   i == AIM ? "{xt}" : "{x}", number_with(E[i], 4).text);
+        plot_label(&plot, 1, (double[2]){t[i], E[i]}, colour, "%s: %s",
+                   i == AIM ? "{xt}" : "{x}", format_digits(E[i], 4).text);
     }
     for (int k = 0; k < 3; k++) {
-        int i = parts[k].named;
-        plot_words(&plot, 1, (double[2]){t[i], parts[k].lower * part[k][i]},
+        int i = parts[k].label_at;
+        plot_label(&plot, 1,
+                   (double[2]){t[i], parts[k].label_height * part[k][i]},
                    parts[k].colour, "%s", parts[k].name);
     }
     return E[NOW];
 }
 
-/* From the start of the step on, a point an update. */
+/* Draws E after each update of the step. */
 static void draw_values(const Plot *card, const Trace *trace, double now)
 {
-    int made = updates_made(trace);
+    int made = count_added_updates(trace);
     double start = now;
     for (int i = 0; i < made; i++)
         start -= trace->record[i].change;
     Plot plot = plot_create(
         card, (Axis){-0.4, fmax(made, 3) + 0.7, false, true, "update"},
         (Axis){0, 1.3 * start, false, false, "E, J s\u00b2"});
-    for (int words = 0; words < 2; words++) { /* off all that is drawn */
+    for (int words = 0; words < 2;
+         words++) { /* labels come last, so that they avoid all curves */
         double at[2] = {0, start}, before[2];
         for (int i = 0; i <= made; i++) {
             memcpy(before, at, sizeof at);
             at[0] = i;
             at[1] += i > 0 ? trace->record[i - 1].change : 0;
             if (words) {
-                plot_words(&plot, 1, at, COLOUR_X, "%s",
-                           number_with(at[1], 4).text);
+                plot_label(&plot, 1, at, COLOUR_X, "%s",
+                           format_digits(at[1], 4).text);
                 continue;
             }
             plot_line(&plot, before, at, 1.6, COLOUR_X);
@@ -94,7 +99,7 @@ static void draw_values(const Plot *card, const Trace *trace, double now)
     }
 }
 
-/* E of the step in two graphs; in a narrow card the first alone. */
+/* Draws both graphs; in a narrow card only the first one. */
 void values_draw(const Plot *card)
 {
     const Pane *pane = show_pane(card->show);
@@ -102,18 +107,20 @@ void values_draw(const Plot *card)
     bool wide = card->box.width > 36 * card->em;
     Plot left = *card, right = *card;
     if (!trace || !trace->x_tilde) {
-        cards_hint(card, text_undrawn);
+        card_write_hint(card, text_undrawn);
         return;
     }
     int width = (int)((wide ? 0.52 : 1) * card->box.width);
     left.box = box_cut_off(&right.box, EDGE_LEFT, width);
     box_cut_off(&right.box, EDGE_LEFT, paper_pixels(card->paper, 1));
-    double E = draw_way(&left, &card->simulation->system, trace, pane_x(pane));
+    double E = draw_energy_parts(&left, &card->simulation->system, trace,
+                                 pane_x(pane));
     if (wide)
         draw_values(&right, trace, E);
 }
 
-/* A row of the table, 0: its heads; with what is known at this line. */
+/* Draws a row of the table with the columns that are known at this line; row 0
+ * is the header. */
 static void draw_update(const Plot *card, double y, int row,
                         const NewtonRecord *update, Line line)
 {
@@ -130,28 +137,30 @@ static void draw_update(const Plot *card, double y, int row,
         snprintf(cell[1], sizeof *cell, "%d", update->projected);
     if (line >= LINE_SOLVE)
         snprintf(cell[2], sizeof *cell, "%s %s \u03b5",
-                 number_of(update->residual).text,
+                 format_number(update->residual).text,
                  update->residual > trace->tolerance ? ">" : "\u2264");
     if (line > LINE_SEARCH || (line == LINE_SEARCH && trace->accepted))
-        snprintf(cell[3], sizeof *cell, "%s", number_of(update->alpha).text);
+        snprintf(cell[3], sizeof *cell, "%s",
+                 format_number(update->alpha).text);
     if (line >= LINE_UPDATE)
-        snprintf(cell[4], sizeof *cell, "%s", number_of(update->change).text);
+        snprintf(cell[4], sizeof *cell, "%s",
+                 format_number(update->change).text);
     for (int c = 0; c < COLUMNS; c++)
         paper_write(card->paper, row ? FACE_REGULAR : FACE_BOLD, 1, COLOUR_TEXT,
                     card->box.x + right[c] * card->box.width, y, ALIGN_RIGHT,
                     "%s", row ? cell[c] : heads[c]);
 }
 
-/* The updates of this step so far, the present one as far as it has come. */
+/* Draws the table of the updates so far; of the current one what is known. */
 void updates_draw(const Plot *card)
 {
     const Trace *trace = show_pane(card->show)->trace;
     double pitch = 1.45 * card->em, y = card->box.y + 0.2 * card->em;
     if (!trace) {
-        cards_hint(card, text_undrawn);
+        card_write_hint(card, text_undrawn);
         return;
     }
-    int made = updates_made(trace);
+    int made = count_added_updates(trace);
     bool now = trace->line >= LINE_PROJECT && trace->line < LINE_UPDATE &&
                trace->projected >= 0;
     draw_update(card, y, 0, NULL, LINE_NONE);

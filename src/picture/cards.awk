@@ -6,7 +6,7 @@ function put_word(    i, part)
     if (word in texts)
         texts[word] = texts[word] (texts[word] ? " \"\\n\" " : "") quoted(text)
     else if (word in values && text != "")
-        row = row "." word " = " (word == "around" ? "{" text "}" : text) ", "
+        row = row "." word " = " (word == "default_bounds" ? "{" text "}" : text) ", "
     else if (word == "name")
         called = text
     else if (word == "rows")
@@ -14,7 +14,7 @@ function put_word(    i, part)
     else if (word == "line" && kind == "rows") {
         end_line()
         split(text, part, " ")
-        row = ".line = LINE_" part[1] ", .of = " \
+        row = ".line = LINE_" part[1] ", .shown_if = " \
               quoted(substr(text, length(part[1]) + 2)) ", "
     } else if (word == "cards")
         for (i = split(text, part, " "); i > 0; i--)
@@ -51,7 +51,7 @@ function end_row()
         print "const char text_" name "[] = " texts["words"] ";"
     if (kind == "rows") {
         end_line()
-        print "const ListingRow rows_" name "[] = {" list "{.of = NULL}};"
+        print "const ListingRow rows_" name "[] = {" list "{.shown_if = NULL}};"
     }
     put_texts()
     if (kind == "card")
@@ -66,14 +66,15 @@ function end_row()
 
 BEGIN {
     texts["title"] texts["legend"] texts["words"]
-    texts["shows"] texts["value"] texts["off"] texts["lit"]
-    values["least"] values["needs"] values["weight"] values["around"]
-    values["draw"] values["bounds"] values["facts"] values["pick"]
+    texts["text"] texts["value"] texts["struck_if"] texts["lit_if"]
+    values["min_height"] values["needed_height"] values["weight"] values["default_bounds"]
+    values["draw"] values["bounds"] values["add_values"] values["pick"]
     values["hover"] values["sample"]
-    switches["half"] switches["half_on_page"] switches["closed"]
-    switches["along"] switches["below"]
-    switches["lecture"] switches["stretched"] switches["own_handles"]
-    switches["places"] switches["scale"] switches["indented"]
+    switches["half_width"] switches["half_width_on_page"]
+    switches["starts_closed"] switches["below_picture"]
+    switches["needs_line_energy"] switches["only_in_lecture"]
+    switches["stretched"] switches["own_handles"] switches["takes_clicks"]
+    switches["shows_scale"] switches["indented"]
     print "#include \"picture/cards.h\""
 }
 

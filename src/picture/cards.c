@@ -1,4 +1,5 @@
-/* cards.c - the column of cards, and the sheet of keys over it. */
+/* cards.c - the column of cards; the lists and the code that can take its
+ * place. */
 #include "picture/cards.h"
 
 #include <math.h>
@@ -6,47 +7,48 @@
 
 #include "picture/colour_map.h"
 
-static const double TITLE = 2.0; /* ems, height of a title bar; layout.c */
-static const double CODE_LETTER = 0.7; /* ems, a letter of code is wide */
+static const double TITLE =
+    2.0; /* ems, height of a title bar; layout.c has the same */
+static const double CODE_LETTER = 0.7; /* ems, width of a letter of code */
 
-double trace_alpha(const Trace *trace, int trial)
+double trace_step_length(const Trace *trace, int trial)
 {
     return ldexp(trace->first > 0 ? trace->first : 1, 1 - trial);
 }
 
-Box cards_inside(Box card, double em)
+Box card_inner_box(Box card, double em)
 {
     int margin = (int)lround(0.8 * em), bar = (int)lround(TITLE * em);
     return (Box){card.x + margin, card.y + bar, card.width - 2 * margin,
                  card.height - bar - margin / 2};
 }
 
-void cards_hint(const Plot *card, const char *text)
+void card_write_hint(const Plot *card, const char *text)
 {
-    TextLine line = text_first(&show_pane(card->show)->facts, text);
+    TextLine line = text_first_line(&show_pane(card->show)->values, text);
     paper_fit(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
               ALIGN_CENTRE, line.words);
 }
 
-/* Frame, title and cross; returns what is inside. */
+/* Draws frame, title and cross of a card.  Returns the box inside. */
 static Box draw_frame(Paper *paper, Box box, const char *words, bool closed)
 {
     int margin = paper_pixels(paper, 0.8), bar = paper_pixels(paper, TITLE);
     Box title = {box.x + margin, box.y, box.width - bar - margin, bar};
-    canvas_card(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
+    canvas_framed_box(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
     paper_fit(paper, FACE_BOLD, 0.96, closed ? COLOUR_FAINT : COLOUR_TEXT,
               title, ALIGN_LEFT, words);
     title.x = box.x + box.width - bar;
     title.width = bar;
     paper_fit(paper, FACE_REGULAR, 1.2, COLOUR_GREY, title, ALIGN_CENTRE,
               closed ? "+" : "\u00d7");
-    return cards_inside(box, paper->em);
+    return card_inner_box(box, paper->em);
 }
 
-/* Rows of help: one below the other, and in as many columns as it takes. */
+/* Arrangement of a list in columns. */
 typedef struct HelpGrid {
-    int rows, columns; /* in each column; side by side */
-    double line;       /* pixels */
+    int rows, columns; /* rows in each column, number of columns */
+    double line;       /* pixels, height of a row */
 } HelpGrid;
 
 static HelpGrid help_grid(const Show *show, Box inside, double em)
@@ -65,7 +67,7 @@ static HelpGrid help_grid(const Show *show, Box inside, double em)
 int show_help_row(const Show *show, const Layout *layout, double x, double y)
 {
     int margin = (int)lround(0.9 * layout->em);
-    Box inside = cards_inside(box_inset(layout->column, margin), layout->em);
+    Box inside = card_inner_box(box_inset(layout->column, margin), layout->em);
     HelpGrid grid = help_grid(show, inside, layout->em);
     if (show->column < COLUMN_PAGES || !box_contains(inside, x, y))
         return -1;
@@ -75,11 +77,12 @@ int show_help_row(const Show *show, const Layout *layout, double x, double y)
     return row < grid.rows && at < show->help_rows ? at : -1;
 }
 
-/* Key and meaning, row by row, without the last words where there is no room
- * for them in letters that can be read. */
+/* Draws a list, key and meaning in each row.  A text that is still too wide in
+ * the smallest legible letters loses its last words. */
 static void draw_help(Paper *paper, Box inside, const Show *show)
 {
-    const double SMALLEST = 0.85; /* of the usual letters */
+    const double SMALLEST =
+        0.85; /* the smallest letters, as a part of the usual ones */
     HelpGrid grid = help_grid(show, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.line / (1.3 * em));
     double key = 0, wide = inside.width / (double)grid.columns;
@@ -104,8 +107,9 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
     }
 }
 
-/* Letters that its widest line has; out: how many lines, and the blanks before
- * all of them. */
+/* Measures the code of a page: returns the letters of its widest line.
+ *   lines   out, number of lines
+ *   indent  out, blanks that all lines begin with */
 static double code_letters(const LecturePage *page, int *lines, size_t *indent)
 {
     size_t widest = 0;
@@ -119,7 +123,7 @@ static double code_letters(const LecturePage *page, int *lines, size_t *indent)
     return (double)widest - (double)*indent;
 }
 
-double cards_code_needs(const LecturePage *page)
+double code_needed_width(const LecturePage *page)
 {
     size_t indent;
     int lines;
@@ -127,9 +131,9 @@ double cards_code_needs(const LecturePage *page)
     return CODE_LETTER * code_letters(page, &lines, &indent) + margins;
 }
 
-/* Lines of code in letters as large as they fit, nearer to each other where
- * they are many; those at work are lit.  Where there is no room for all, as in
- * large type, those between the first and some around the last lit one go. */
+/* Draws code in letters as large as fit, and lights the lines at work.  If not
+ * all lines fit, lines between the first one and the last lit one are left out.
+ */
 static void draw_code(Paper *paper, Box inside, const Show *show)
 {
     const LecturePage *page = show->lecture;
@@ -137,24 +141,26 @@ static void draw_code(Paper *paper, Box inside, const Show *show)
     size_t indent;
     int lines;
     double letters = code_letters(page, &lines, &indent), air = 0.3 * paper->em;
-    double cell = floor((inside.width - 2 * air) / letters); /* whole pixels */
+    double cell = floor((inside.width - 2 * air) /
+                        letters); /* letters have a width of whole pixels */
     double wide = floor((cell + 0.49) / letter);
     double size = fmin(wide, inside.height / (low * lines)) / paper->em;
-    size = fmax(fmin(size, most), paper->least);
+    size = fmax(fmin(size, most), paper->min_letter);
     int line =
         (int)fmax(fmin(paper_pixels(paper, high * size), inside.height / lines),
                   low * size * paper->em);
     int fit = inside.height / line, lit = 0, gone;
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
     for (int i = 0; i < lines; i++)
-        lit = strstr(page->code[i], lecture_lit(show)) ? i : lit;
+        lit = strstr(page->code[i], lecture_lit_code(show)) ? i : lit;
     gone = fit >= lines ? 0 : (int)fmax(fmin(lit + 2, lines) - fit, 0);
     fit = fit < lines ? fit : lines;
-    for (int k = 0; k < 2 * fit; k++) { /* all grounds, then all letters */
+    for (int k = 0; k < 2 * fit;
+         k++) { /* first all grounds, then all letters */
         int row = k % fit, y = inside.y + row * line;
         bool more = gone > 0 && row == 1;
         const char *words = more ? "..." : page->code[row + (row ? gone : 0)];
-        if (k < fit && strstr(words, lecture_lit(show)))
+        if (k < fit && strstr(words, lecture_lit_code(show)))
             canvas_fill(&paper->canvas, (Box){inside.x, y, inside.width, line},
                         COLOUR_LIT);
         if (k >= fit && words[0])
@@ -172,14 +178,14 @@ void card_draw(Paper *paper, Box inside, const Show *show, int card)
                        .simulation = pane->simulation,
                        .box = inside,
                        .pane = show->active,
-                       .text = true,
+                       .has_text = true,
                        .em = paper->em};
     if (show->veils >> card & 1)
-        cards_hint(&plot, "after your guess");
+        card_write_hint(&plot, "after your guess");
     else if (row->words)
-        text_in_card(&plot, &pane->facts, row->words);
+        card_write_text(&plot, &pane->values, row->words);
     else if (row->rows)
-        rows_in_card(&plot, row->rows);
+        card_write_rows(&plot, row->rows);
     else
         row->draw(&plot);
 }
@@ -192,29 +198,29 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         [COLUMN_KEYS] = "Keys and mouse",
         [COLUMN_OPTIONS] = "Numbers of this scene"};
     bool code = show->column == COLUMN_CODE;
-    if (layout->page) { /* over the whole column */
+    if (layout->page) { /* a list or code in the whole column */
         Box inside = draw_frame(
             paper, box_inset(layout->column, paper_pixels(paper, 0.9)),
             code ? show->lecture->file : titles[show->column], false);
-        Box before = canvas_clip(&paper->canvas, inside);
+        Box before = canvas_set_clip(&paper->canvas, inside);
         if (code)
             draw_code(paper, page_draw_claim(paper, inside, show), show);
         else
             draw_help(paper, inside, show);
-        canvas_clip(&paper->canvas, before);
+        canvas_set_clip(&paper->canvas, before);
     }
     for (int i = 0; i < layout->cards; i++) {
         const Card *card = picture->cards[i];
-        TextLine title = text_first(&show_pane(show)->facts, card->title);
+        TextLine title = text_first_line(&show_pane(show)->values, card->title);
         Box box = layout->card[i];
         if (box.width < 1)
-            continue; /* hidden */
+            continue; /* the card is hidden */
         bool closed = box.height <= paper_pixels(paper, TITLE) + 1;
         Box inside = draw_frame(paper, box, title.words, closed);
         if (closed || inside.width < 1 || inside.height < 1)
             continue;
-        Box before = canvas_clip(&paper->canvas, box_inset(box, 1));
+        Box before = canvas_set_clip(&paper->canvas, box_inset(box, 1));
         card_draw(paper, inside, show, i);
-        canvas_clip(&paper->canvas, before);
+        canvas_set_clip(&paper->canvas, before);
     }
 }

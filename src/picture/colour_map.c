@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Straight lines in RGB from the grey of rest. */
+/* Linear in RGB on both sides of the grey of rest. */
 Colour colour_of_strain(double strain, double range, Colour below, Colour above)
 {
     double part = fabs(strain) / range;
-    return canvas_mix(COLOUR_REST, strain < 0 ? below : above,
+    return colour_mix(COLOUR_REST, strain < 0 ? below : above,
                       fmin(fmax(part, 0), 1));
 }
 
@@ -20,7 +20,8 @@ Colour colour_of_run(int run)
     return colours[run < 0 ? 0 : run % 6];
 }
 
-/* Letters of formulas and energies, the terms; words about them; methods. */
+/* Colours by name.  The first TERMS names are letters of formulas and energies;
+ * words and methods follow. */
 enum { TERMS = 21 };
 static const struct {
     const char *name;
@@ -49,7 +50,7 @@ static const struct {
              {"faint", COLOUR_FAINT},
              {"grey", COLOUR_GREY},
              {"shaded", COLOUR_SHADED},
-             {"orange", 0xffd55e00u}, /* as runs have them */
+             {"orange", 0xffd55e00u}, /* the colours of runs */
              {"green", 0xff009e73u},
              {"blue", 0xff0072b2u},
              {"purple", 0xffb0559au},
@@ -61,7 +62,7 @@ static const struct {
              {"bdf2", 0xff8a7a00u},
              {"sdirk2", 0xff5a4fa2u}};
 
-Colour colour_named(const char *name, size_t length)
+Colour colour_find(const char *name, size_t length)
 {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strlen(names[i].name) == length &&
@@ -70,9 +71,9 @@ Colour colour_named(const char *name, size_t length)
     return COLOUR_TEXT;
 }
 
-Colour colour_of(const char *name)
+Colour colour_of_name(const char *name)
 {
-    return colour_named(name, strlen(name));
+    return colour_find(name, strlen(name));
 }
 
 Colour colour_of_term(int term)

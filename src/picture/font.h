@@ -1,21 +1,21 @@
-/* font.h - the letters of text.c, which type.c sets. */
+/* font.h - the letters of text.c, from which type.c sets lines. */
 #ifndef ELASTO_FONT_H
 #define ELASTO_FONT_H
 
 #include "picture/text.h"
 
-#define FONT_GUESSED 0.6 /* ems a letter is wide, without a font */
+#define FONT_GUESSED 0.6 /* ems, width of a letter if there is no font */
 
-/* A letter, drawn once. */
+/* The picture of a letter in one face and size. */
 typedef struct Glyph {
-    uint64_t key;           /* 0: a free place */
+    uint64_t key;           /* face, size and letter; 0: the slot is free */
     int left, top, advance; /* pixels, of the mask from pen and baseline */
     int width, height;
-    uint8_t *mask; /* [height width] coverage, or NULL: nothing to draw */
+    uint8_t *mask; /* [height width] coverage; NULL: no pixel is covered */
 } Glyph;
 
-/* From the cache, or drawn; size in pixels.  It is valid until the next call.
- */
+/* Finds the letter in the cache, or draws it; size in pixels.  The pointer is
+ * valid until the next call. */
 const Glyph *font_glyph(Text *text, Face face, int size, uint32_t letter);
 
 #endif

@@ -1,6 +1,5 @@
-/* frame.c - the strip, the row of numbers, the time line and the buttons
- * around the stage.
- */
+/* frame.c - the strip, the settings, the time line and the chips around the
+ * stage. */
 #include "picture/cards.h"
 
 #include <math.h>
@@ -11,16 +10,18 @@
 #include "picture/colour_map.h"
 
 enum {
-    LEAST_SPAN = 60,  /* steps that the time line shows room for */
-    LEAST_BAR = 3,    /* pixels; narrower steps are shown in groups */
-    MOST_UPDATES = 12 /* updates that a full bar has, at least */
+    MIN_STEPS = 60, /* steps that the time line has room for, at least */
+    MIN_BAR =
+        3, /* pixels, width of a bar, at least; narrower steps are grouped */
+    FULL_BAR_UPDATES =
+        12 /* updates of a step whose bar has full height, at least */
 };
 
-static const double TOPIC = 1.3; /* ems */
+static const double TOPIC = 1.3; /* ems, letters of the topic */
 static const double VALUE = 0.95;
 
-/* White below a zone, and a thin line along its upper or lower edge. */
-static void draw_ground(Paper *paper, Box zone, bool rule_below)
+/* Draws the white ground of a zone, with a thin line along one edge. */
+static void draw_zone(Paper *paper, Box zone, bool rule_below)
 {
     Box rule = {zone.x, zone.y, zone.width, (int)fmax(1, paper->unit)};
     rule.y += rule_below ? zone.height - rule.height : 0;
@@ -28,8 +29,9 @@ static void draw_ground(Paper *paper, Box zone, bool rule_below)
     canvas_fill(&paper->canvas, rule, COLOUR_RULE);
 }
 
-/* Topic, then message or sentence, from the left; method and state from the
- * right.  In a strip of one line a message has the topic's place, too. */
+/* Draws topic and sentence from the left, method and state from the right.  A
+ * message takes the place of the sentence, in a low strip also that of the
+ * topic. */
 static void draw_strip(Paper *paper, Box room, const Show *show)
 {
     double em = paper->em;
@@ -39,7 +41,7 @@ static void draw_strip(Paper *paper, Box room, const Show *show)
                     : show->warning ? COLOUR_WARNING
                                     : COLOUR_VALUE;
     char words[2 * SHOW_TEXT];
-    draw_ground(paper, room, true);
+    draw_zone(paper, room, true);
     box_cut_off(&room, EDGE_LEFT, (int)(0.9 * em));
     room.width -= (int)(0.9 * em);
     snprintf(words, sizeof words, "%s%s%s", show->method,
@@ -63,7 +65,8 @@ static void draw_strip(Paper *paper, Box room, const Show *show)
 
 /* ---- the row ------------------------------------------------------------ */
 
-/* Name, then value with dots below: it can be changed. */
+/* Draws a setting: name and value; dots below the value tell that it can be
+ * changed. */
 static void draw_setting(Paper *paper, Box box, const Setting *setting,
                          bool selected, bool over)
 {
@@ -73,18 +76,19 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     double number = strtod(setting->value, &rest);
     const char *power = strchr(setting->value, 'e');
     if (selected || over)
-        canvas_card(&paper->canvas, box_inset(box, paper_pixels(paper, 0.1)),
-                    selected ? COLOUR_LIT : COLOUR_CHIP,
-                    selected ? COLOUR_BORDER : COLOUR_CHIP);
+        canvas_framed_box(&paper->canvas,
+                          box_inset(box, paper_pixels(paper, 0.1)),
+                          selected ? COLOUR_LIT : COLOUR_CHIP,
+                          selected ? COLOUR_BORDER : COLOUR_CHIP);
     snprintf(value, sizeof value, "%s", setting->value);
-    if (power && power < rest && *rest != '_') /* 1e-06, as people write it */
-        snprintf(value, sizeof value, "%s%s", number_with(number, 6).text,
+    if (power && power < rest && *rest != '_') /* 1e-06 becomes 10^-6 */
+        snprintf(value, sizeof value, "%s%s", format_digits(number, 6).text,
                  rest);
     box_cut_off(&box, EDGE_LEFT, (int)(0.4 * em));
     int width = paper_fit(paper, FACE_REGULAR, VALUE, COLOUR_FAINT, box,
                           ALIGN_LEFT, setting->name);
     box_cut_off(&box, EDGE_LEFT, (int)(0.5 * em + width));
-    box.width += (int)(0.8 * em); /* of the gap */
+    box.width += (int)(0.8 * em); /* the value may reach into the gap */
     width = paper_fit(paper, setting->changed ? FACE_BOLD : FACE_REGULAR, VALUE,
                       colour, box, ALIGN_LEFT, value);
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
@@ -94,26 +98,26 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
 
 /* ---- the time line ------------------------------------------------------ */
 
-long frame_span(const Show *show)
+long time_line_steps(const Show *show)
 {
-    return show->bars > LEAST_SPAN ? show->bars : LEAST_SPAN;
+    return show->bars > MIN_STEPS ? show->bars : MIN_STEPS;
 }
 
-/* Bars of single steps, or of the most in a group where there is no room for
- * all; the handle at the step that is shown, its words beside it. */
+/* Draws a bar for each step, or for the largest step of a group if there is no
+ * room for all; then the handle at the current step with its words. */
 static void draw_time(Paper *paper, const Layout *layout, const Show *show)
 {
-    Box zone = layout->time, bars = layout->bars;
-    double em = paper->em, part = (show->step - 0.5) / frame_span(show);
-    double pitch = (double)bars.width / frame_span(show);
-    long group = (long)ceil(LEAST_BAR / pitch), most = MOST_UPDATES;
+    Box zone = layout->time_line, bars = layout->bars;
+    double em = paper->em, part = (show->step - 0.5) / time_line_steps(show);
+    double pitch = (double)bars.width / time_line_steps(show);
+    long group = (long)ceil(MIN_BAR / pitch), most = FULL_BAR_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
     bool words = zone.height > 3.5 * em;
     double x = floor(bars.x + fmax(part, 0) * bars.width) + 0.5;
     double top = zone.y + (words ? 1.1 : 0.5) * em, at = x + 1.1 * em;
     if (zone.width <= 0)
         return;
-    draw_ground(paper, zone, false);
+    draw_zone(paper, zone, false);
     for (long s = 1; show->bar && s <= show->bars; s++)
         most = (long)fmax(most, show->bar(show->past, s).updates);
     for (long s = 0; show->bar && s < show->bars; s += group) {
@@ -147,23 +151,24 @@ static void draw_time(Paper *paper, const Layout *layout, const Show *show)
 
 /* ---- the last line ------------------------------------------------------ */
 
-static void draw_last(Paper *paper, const Layout *layout, const Show *show)
+static void draw_chips(Paper *paper, const Layout *layout, const Show *show)
 {
     const double gap = 0.5 * paper->em, size = 0.92;
-    draw_ground(paper, layout->last, false);
+    draw_zone(paper, layout->chip_row, false);
     for (int i = 0; i < layout->chips; i++) {
         const Chip *chip = &show->chip[i];
         Box box = layout->chip[i];
         bool all = layout->chips_left_out > 0 && i == layout->chips - 1;
-        bool over = show->view->over.zone == ZONE_CHIP && show->view->over.index == i;
+        bool over =
+            show->view->over.zone == ZONE_CHIP && show->view->over.index == i;
         const char *label = all ? "all \u2026" : chip->label;
         int key = paper_width(paper, FACE_BOLD, size, chip->key);
         int width = key + paper_width(paper, FACE_REGULAR, size, label);
-        canvas_card(&paper->canvas, box,
-                    chip->lit ? COLOUR_LIT
-                    : over    ? COLOUR_WHITE
-                              : COLOUR_CHIP,
-                    over ? COLOUR_GREY : COLOUR_BORDER);
+        canvas_framed_box(&paper->canvas, box,
+                          chip->lit ? COLOUR_LIT
+                          : over    ? COLOUR_WHITE
+                                    : COLOUR_CHIP,
+                          over ? COLOUR_GREY : COLOUR_BORDER);
         box_cut_off(&box, EDGE_LEFT,
                     (int)fmax(0, 0.5 * (box.width - gap - width)));
         paper_fit(paper, FACE_BOLD, size, COLOUR_TEXT, box, ALIGN_LEFT,
@@ -177,11 +182,12 @@ static void draw_last(Paper *paper, const Layout *layout, const Show *show)
 void frame_draw(Paper *paper, const Layout *layout, const Show *show)
 {
     draw_strip(paper, layout->strip, show);
-    draw_ground(paper, layout->row, false);
+    draw_zone(paper, layout->settings_row, false);
     for (int i = 0; i < layout->settings; i++)
         draw_setting(paper, layout->setting[i], &show->setting[i],
                      show->selected == i,
-                     show->view->over.zone == ZONE_SETTING && show->view->over.index == i);
+                     show->view->over.zone == ZONE_SETTING &&
+                         show->view->over.index == i);
     draw_time(paper, layout, show);
-    draw_last(paper, layout, show);
+    draw_chips(paper, layout, show);
 }

@@ -1,22 +1,22 @@
-/* E over the position of one free node: Newton's path on it, update by update
- * (landscape), and the path of its minimiser over h (dial). */
+/* landscape_picture.c - maps of E over the position of one free node: Newton's
+ * path (landscape), and the path of the minimiser over h (dial). */
 #include <math.h>
 #include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* J s^2; both valleys have their bottom below 1. */
+/* J s^2; the bottom of both valleys is below 1 */
 static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-/* Of g1 = 0 and g2 = 0: green and purple, as cards.txt calls them. */
+/* Colours of g1 = 0 and g2 = 0: green and purple, as cards.txt calls them. */
 static const Colour curve_colour[2] = {0xff009e73u, 0xffb0559au};
 
 /* ---- the map ------------------------------------------------------------ */
 
-/* How far the next contour is; value over the factor. */
+/* Difference to the nearest contour; `value` is divided by level_factor. */
 static double contour_distance(double value)
 {
     double nearest = INFINITY;
@@ -25,7 +25,7 @@ static double contour_distance(double value)
     return nearest;
 }
 
-/* With a long step elasticity is large: the levels grow with h^2 then. */
+/* Elasticity grows with h^2; for long steps the levels grow likewise. */
 static double level_factor(const Simulation *simulation)
 {
     double h = simulation->run[0].h / 0.2;
@@ -38,9 +38,10 @@ bool landscape_is_convex(const Local *E)
     return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
 
-/* Two by two pixels of contours of a function that is a plane there: value and
- * slopes to the right and up, a pixel each.  A contour is as many pixels away
- * as the function is from its level over the slope: levels of the map, or 0. */
+/* Draws contours in two by two pixels, where the function is nearly linear: its
+ * value, and its slopes to the right and up per pixel.  The distance to a
+ * contour in pixels is the difference to its level over the slope.
+ *   zero  true: the level is 0; else the levels of the map */
 static void draw_contours(const Plot *plot, int i, int j, double value,
                           double right, double up, bool zero, Colour colour)
 {
@@ -62,18 +63,18 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
 /* Whether the page is answered and shows this layer. */
 static bool has_layer(const Plot *plot, Layer layer)
 {
-    return plot->told && plot->simulation->options.layers & layer;
+    return plot->revealed && plot->simulation->options.layers & layer;
 }
 
-/* Where E is not convex, contours of the parts that are switched on, and where
- * a component of the gradient is 0. */
-static void draw_ground(const Plot *plot)
+/* Draws the region where E is not convex, contours of the parts that are
+ * switched on, and the curves g1 = 0 and g2 = 0. */
+static void draw_contour_map(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     Canvas *canvas = &plot->paper->canvas;
     double metre = 1 / plot->camera.scale[0], e = level_factor(simulation);
     const Box *box = &plot->box;
-    Box before = canvas_clip(canvas, *box);
+    Box before = canvas_set_clip(canvas, *box);
     canvas_fill(canvas, *box, COLOUR_WHITE);
     for (int j = box->y; j < box->y + box->height; j += 2)
         for (int i = box->x; i < box->x + box->width; i += 2) {
@@ -88,10 +89,10 @@ static void draw_ground(const Plot *plot)
                 draw_contours(plot, i, j, E.g[k], E.H[k] * metre,
                               E.H[k + 1] * metre, true, curve_colour[k]);
         }
-    canvas_clip(canvas, before);
+    canvas_set_clip(canvas, before);
 }
 
-/* What contours are of, J s^2, along a ray from x_tilde. */
+/* Writes the levels of contours, J s^2, along a ray from x_tilde. */
 static void name_levels(const Plot *plot)
 {
     static const double ray[2] = {0.62, -0.78}, pace = 0.005; /* m */
@@ -100,34 +101,34 @@ static void name_levels(const Plot *plot)
     double space = 1.3 * plot->em / plot->camera.scale[0];
     const Box inside = box_inset(plot->box, (int)plot->em);
     for (double gone = 0; gone < 3; gone += pace) {
-        const Point x = along(simulation->exhibit.target, gone, ray);
+        const Point x = point_along(simulation->exhibit.target, gone, ray);
         double value =
             descent_at(simulation, PROJECTION_NONE, x.at[0], x.at[1]).value / e;
-        plot_place(plot, x.at, place);
+        plot_pixel(plot, x.at, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
                 gone > last + space &&
                 box_contains(inside, place[0], place[1])) {
                 paper_panel(plot->paper, FACE_REGULAR, 0.85, COLOUR_FAINT,
                             place[0], place[1] - 0.6 * plot->em, ALIGN_CENTRE,
-                            number_of(map_levels[k] * e).text);
+                            format_number(map_levels[k] * e).text);
                 last = gone;
             }
         before = value;
     }
 }
 
-/* The map, the springs, the pins and x_tilde. */
+/* Draws the map, the springs, the pins and x_tilde. */
 static Plot draw_map(const Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     const Exhibit *exhibit = &simulation->exhibit;
     const double *x = simulation->run[0].x;
-    Plot plot = plot_on(stage, (Axis){.label = "x in m"}, (Axis){0});
+    Plot plot = plot_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
     bool elastic = exhibit->parts != PART_INERTIA;
-    draw_ground(&plot);
-    if (plot.text && stage->show->lecture)
+    draw_contour_map(&plot);
+    if (plot.has_text && stage->show->lecture)
         name_levels(&plot);
     if (elastic)
         plot_springs(&plot, system, x, 3.5, COLOUR_REST);
@@ -139,31 +140,29 @@ static Plot draw_map(const Plot *stage)
 
 /* ---- what moves on it --------------------------------------------------- */
 
-/* Minima and the saddle of the parts that are on: where Newton's method ends.
- */
-static void name_still(const Plot *plot)
+/* Finds and marks the minima and the saddle by Newton's method. */
+static void mark_stationary_points(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     double at[3][2] = {{0, 1}, {0, -1}, {0, 0}};
     for (int i = 0; i < 3; i++) {
         double p[2] = {1, 1};
-        for (int k = 0; k < 40 && length_of(p) > 1e-9; k++) {
+        for (int k = 0; k < 40 && vector_length(p) > 1e-9; k++) {
             descent_direction(simulation, PROJECTION_NONE, at[i], p);
             at[i][0] += p[0];
             at[i][1] += p[1];
         }
         bool saddle = i == 2;
-        if (!(length_of(p) <= 1e-9) ||
+        if (!(vector_length(p) <= 1e-9) ||
             descent_bends_down(simulation, at[i][0], at[i][1]) != saddle)
             continue;
-        plot_hollow(plot, at[i], 4, 2, COLOUR_TEXT);
-        plot_words(plot, 1, at[i], COLOUR_TEXT, saddle ? "saddle" : "minimum");
+        plot_hollow_disc(plot, at[i], 4, 2, COLOUR_TEXT);
+        plot_label(plot, 1, at[i], COLOUR_TEXT, saddle ? "saddle" : "minimum");
     }
 }
 
-/* That of the run; and, with both parts on the map, the one that it does not
- * take: projected where its own is not, as it is where its own is projected;
- * with its slope, beside its tip or further on.  Uphill in red. */
+/* Draws the direction p of the run.  If both parts of E are on, also the other
+ * variant (projected or not), with its slope; uphill in red. */
 static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
@@ -176,7 +175,7 @@ static void draw_directions(const Plot *plot, bool both)
         return;
     slope = descent_direction(
         simulation, raw ? PROJECTION_CLAMP : PROJECTION_NONE, from, p);
-    bool other = both && !alone && apart(own, p) > 1e-9;
+    bool other = both && !alone && point_distance(own, p) > 1e-9;
     Colour colour = slope > 0 ? COLOUR_WARNING
                     : raw     ? COLOUR_PROJECT
                               : COLOUR_GHOST;
@@ -185,35 +184,36 @@ static void draw_directions(const Plot *plot, bool both)
     if (both || !alone)
         plot_arrow(plot, from, own, 1, 2.2,
                    descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
-    double length = length_of(p) * plot->camera.scale[0], tip[2];
+    double length = vector_length(p) * plot->camera.scale[0], tip[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
-    const Point place[2] = {along(from, 1, p), along(from, far, p)};
-    plot_place(plot, place->at, tip);
+    const Point place[2] = {point_along(from, 1, p), point_along(from, far, p)};
+    plot_pixel(plot, place->at, tip);
     if (other && box_contains(plot->box, tip[0], tip[1]))
-        plot_words(plot, 2, place->at, colour, "%s (slope %s)",
+        plot_label(plot, 2, place->at, colour, "%s (slope %s)",
                    raw ? "with projection" : "without",
-                   number_with(slope, 2).text);
+                   format_digits(slope, 2).text);
 }
 
-/* More than the diagonal of what is seen, m. */
+/* A length beyond the diagonal of the view, m. */
 static double view_size(const Plot *plot)
 {
     return 4 * (plot->box.width + plot->box.height) / plot->camera.scale[0];
 }
 
-/* The direction of -grad E. */
+/* Draws the direction of -grad E. */
 static void draw_steepest(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
     Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
-    double far = 6 * plot->em / plot->camera.scale[0] / length_of(E.g);
+    double far = 6 * plot->em / plot->camera.scale[0] / vector_length(E.g);
     plot_arrow(plot, x, E.g, -far, 2.2, COLOUR_TEXT);
-    plot_words(plot, 1, along(x, -far, E.g).at, COLOUR_TEXT, "\u2212\u2207E");
+    plot_label(plot, 1, point_along(x, -far, E.g).at, COLOUR_TEXT,
+               "\u2212\u2207E");
 }
 
-/* What the parts that are on pull with, and both together: an arrow of 1 m is
- * 1 kg m. */
-static void draw_pulls(const Plot *plot)
+/* Draws the forces of the parts that are on, and their sum; 1 m of arrow is 1
+ * kg m. */
+static void draw_forces(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     const double *x = simulation->descent.point, *m = simulation->system.m;
@@ -231,24 +231,24 @@ static void draw_pulls(const Plot *plot)
         plot_arrow(plot, x, E.g, -1, 2.2, COLOUR_TEXT);
 }
 
-/* Of E at x; what is nothing but rounding is 0. */
-static double part_at(const Simulation *simulation, unsigned parts,
-                      const double *x)
+/* Value of parts of E at x; rounding becomes 0. */
+static double part_value(const Simulation *simulation, unsigned parts,
+                         const double *x)
 {
     double value = landscape_part_value(simulation, parts, x[0], x[1]);
     return value < 1e-30 ? 0 : value;
 }
 
-/* What the map is of. */
-static void name_parts(unsigned parts, Facts *facts)
+/* Adds the name of what the map shows. */
+static void add_part_name(unsigned parts, LiveValues *values)
 {
-    fact_words(facts, "part",
-               parts == PART_BOTH      ? "E"
-               : parts == PART_INERTIA ? "inertia"
-                                       : "elasticity");
+    values_add_words(values, "part",
+                     parts == PART_BOTH      ? "E"
+                     : parts == PART_INERTIA ? "inertia"
+                                             : "elasticity");
 }
 
-void landscape_facts(const Simulation *simulation, Facts *facts)
+void landscape_add_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const raw[] = {"Hxx", "Hxy", "Hyy"};
     static const char *const projected[] = {"Pxx", "Pxy", "Pyy"};
@@ -257,31 +257,33 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
     double h = simulation->run[0].h;
     const double *x = descent->point;
     Local E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
-    fact_point(facts, "place", x);
-    fact_point(facts, "x tilde", simulation->exhibit.target);
-    for (int k = 0; k < 2; k++) /* nothing but rounding */
+    values_add_point(values, "place", x);
+    values_add_point(values, "x tilde", simulation->exhibit.target);
+    for (int k = 0; k < 2; k++) /* rounding becomes 0 */
         E.g[k] = fabs(E.g[k]) < 1e-15 ? 0 : E.g[k];
-    fact_point(facts, "g", E.g);
-    fact_point(facts, "solution", descent->direction);
-    fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
-    if (parts == PART_BOTH) { /* the projected Hessian, and its direction */
+    values_add_point(values, "g", E.g);
+    values_add_point(values, "solution", descent->direction);
+    values_add(values, "slope", descent->slope != 0 ? descent->slope : NAN);
+    if (parts == PART_BOTH) { /* the projected Hessian and its direction */
         Local P = descent_at(simulation, PROJECTION_CLAMP, x[0], x[1]);
-        fact_matrix(facts, projected, P.H, 0);
-        fact_when(facts, "directions",
-                  simulation->options.page && descent->count == 0 &&
-                      simulation->options.projection == PROJECTION_NONE);
+        values_add_matrix(values, projected, P.H, 0);
+        values_add_flag(values, "directions",
+                        simulation->options.page && descent->count == 0 &&
+                            simulation->options.projection == PROJECTION_NONE);
     }
-    fact_when(facts, landscape_is_convex(&E) ? "convex" : "shaded", true);
-    fact_when(facts, "moves", descent->slope != 0);
-    fact(facts, "E", part_at(simulation, parts, x));
-    fact(facts, "bowl", part_at(simulation, PART_INERTIA, x));
-    fact(facts, "elastic part", part_at(simulation, PART_ELASTICITY, x));
-    fact_matrix(facts, raw, E.H, 0);
-    name_parts(parts, facts);
-    fact(facts, "h", parts == PART_INERTIA ? NAN : h);
-    fact_when(facts, "both", parts == PART_BOTH);
-    fact_when(facts, "elastic", parts != PART_INERTIA);
-    fact_when(facts, "inertial", parts != PART_ELASTICITY);
+    values_add_flag(values, landscape_is_convex(&E) ? "convex" : "shaded",
+                    true);
+    values_add_flag(values, "moves", descent->slope != 0);
+    values_add(values, "E", part_value(simulation, parts, x));
+    values_add(values, "bowl", part_value(simulation, PART_INERTIA, x));
+    values_add(values, "elastic part",
+               part_value(simulation, PART_ELASTICITY, x));
+    values_add_matrix(values, raw, E.H, 0);
+    add_part_name(parts, values);
+    values_add(values, "h", parts == PART_INERTIA ? NAN : h);
+    values_add_flag(values, "both", parts == PART_BOTH);
+    values_add_flag(values, "elastic", parts != PART_INERTIA);
+    values_add_flag(values, "inertial", parts != PART_ELASTICITY);
     unsigned layers = simulation->options.layers;
     bool pulls = layers & LAYER_FORCES, up = descent->slope > 0;
     bool down = descent->slope < 0 && parts == PART_BOTH && !pulls;
@@ -289,16 +291,16 @@ void landscape_facts(const Simulation *simulation, Facts *facts)
         down = down || descent->record[i].slope < 0;
         up = up || descent->record[i].slope > 0;
     }
-    fact_when(facts, "pulls", pulls);
-    fact_when(facts, "halves", layers & LAYER_DOWNHILL);
-    fact_when(facts, "curves", layers & LAYER_CURVES);
-    fact_when(facts, "directed", down);
-    fact_when(facts, "went uphill", up);
+    values_add_flag(values, "pulls", pulls);
+    values_add_flag(values, "halves", layers & LAYER_DOWNHILL);
+    values_add_flag(values, "curves", layers & LAYER_CURVES);
+    values_add_flag(values, "directed", down);
+    values_add_flag(values, "went uphill", up);
 }
 
-/* Level lines of the quadratic model at the iterate, around x + p: where H is
- * positive definite, p of the run, ellipses through the iterate and inside. */
-static void draw_model(const Plot *plot)
+/* Draws three contours of the quadratic model around its minimum x + p, one
+ * through the iterate.  The model has them where H is positive definite. */
+static void draw_model_ellipses(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     static const double levels[] = {1, 0.6, 0.25};
@@ -314,13 +316,13 @@ static void draw_model(const Plot *plot)
     for (int k = 0; k < 3; k++) {
         double radius = levels[k] * sqrt(height), up = radius / sqrt(rest);
         const double a[2] = {radius / sqrt(low), 0}, b[2] = {-lift * up, up};
-        plot_ellipse(plot, along(x, 1, p).at, a, b, 1.6, false, COLOUR_P);
+        plot_ellipse(plot, point_along(x, 1, p).at, a, b, 1.6, false, COLOUR_P);
     }
 }
 
-/* Dashed, where the linear model at the iterate of each component of the
- * gradient is 0: both lines meet in x + p. */
-static void draw_linear(const Plot *plot)
+/* Draws dashed lines where the linearised components of the gradient are 0;
+ * they meet in x + p. */
+static void draw_linearised_zeros(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
     Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
@@ -328,35 +330,38 @@ static void draw_linear(const Plot *plot)
         const double *slope = E.H + k, across[2] = {-slope[1], slope[0]};
         double square = slope[0] * slope[0] + slope[1] * slope[1];
         double far = view_size(plot) / sqrt(square);
-        const Point foot = along(x, -E.g[k] / square, slope);
-        plot_dashes(plot, along(foot.at, -far, across).at,
-                    along(foot.at, far, across).at, 1.6, NULL, curve_colour[k]);
+        const Point foot = point_along(x, -E.g[k] / square, slope);
+        plot_dashes(plot, point_along(foot.at, -far, across).at,
+                    point_along(foot.at, far, across).at, 1.6, NULL,
+                    curve_colour[k]);
     }
 }
 
-/* The half plane g . p < 0 of directions p that point downhill. */
+/* Draws the half plane g . p < 0 of the directions that point downhill. */
 static void draw_downhill(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
     Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
     const double across[2] = {-E.g[1], E.g[0]};
-    double far = view_size(plot) / length_of(E.g);
-    const Point a = along(x, far, across), b = along(x, -far, across);
-    const Point c = along(b.at, -far, E.g), d = along(a.at, -far, E.g);
+    double far = view_size(plot) / vector_length(E.g);
+    const Point a = point_along(x, far, across),
+                b = point_along(x, -far, across);
+    const Point c = point_along(b.at, -far, E.g),
+                d = point_along(a.at, -far, E.g);
     const double *const corner[4] = {a.at, b.at, c.at, d.at};
-    Box before = canvas_clip(&plot->paper->canvas, plot->box);
-    plot_face(plot, corner, COLOUR_DOWNHILL);
+    Box before = canvas_set_clip(&plot->paper->canvas, plot->box);
+    plot_quad(plot, corner, COLOUR_DOWNHILL);
     plot_line(plot, a.at, b.at, 1.2, COLOUR_COMPRESS);
-    canvas_clip(&plot->paper->canvas, before);
+    canvas_set_clip(&plot->paper->canvas, before);
 }
 
-/* From the ground up.  Of each update thin its whole direction p, thick alpha
- * p; uphill in red. */
+/* Draws all layers.  Of each update the whole direction p is thin and alpha p
+ * thick; uphill in red. */
 void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Show *show = stage->show;
-    bool told = stage->told;
+    bool revealed = stage->revealed;
     const Descent *descent = &simulation->descent;
     Plot plot = draw_map(stage);
     bool halves = simulation->options.layers & LAYER_DOWNHILL;
@@ -367,32 +372,32 @@ void landscape_draw(Plot *stage)
         const double *from = record->from, *to = record->to;
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
         if (record->alpha > 0)
-            plot_arrow(&plot, from, way(from, to).at, 1 / record->alpha, 1.2,
-                       colour);
+            plot_arrow(&plot, from, vector_between(from, to).at,
+                       1 / record->alpha, 1.2, colour);
         plot_line(&plot, from, to, 3.2, colour);
         plot_disc(&plot, from, 5, COLOUR_X);
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
     bool both = !show->lecture || (raw && !page_wants_click(show->lecture));
-    if (told && raw && !simulation->done)
-        draw_model(&plot);
+    if (revealed && raw && !simulation->done)
+        draw_model_ellipses(&plot);
     if (has_layer(&plot, LAYER_CURVES) && !simulation->done)
-        draw_linear(&plot);
+        draw_linearised_zeros(&plot);
     if (has_layer(stage, LAYER_FORCES))
-        draw_pulls(&plot);
+        draw_forces(&plot);
     else if (!show->veiled)
-        draw_directions(&plot, plot.text && both);
+        draw_directions(&plot, plot.has_text && both);
     if (halves)
         draw_steepest(&plot);
-    if (told && plot.text && simulation->exhibit.parts != PART_INERTIA)
-        name_still(&plot);
+    if (revealed && plot.has_text && simulation->exhibit.parts != PART_INERTIA)
+        mark_stationary_points(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
-    plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
+    plot_label(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
 }
 
 /* ---- the dial ----------------------------------------------------------- */
 
-/* The path of the minimiser; a disc for every power of ten of h. */
+/* Draws the path of the minimiser, with a disc at every power of ten of h. */
 void dial_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -404,22 +409,23 @@ void dial_draw(Plot *stage)
     for (int i = 10; i < points; i += 10)
         plot_disc(&plot, dial->point[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
-    plot_words(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
+    plot_label(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
     for (int i = points - 11; i > 0; i -= 10)
-        plot_words(&plot, 1, dial->point[i], COLOUR_X, "h %s %s s",
+        plot_label(&plot, 1, dial->point[i], COLOUR_X, "h %s %s s",
                    i == points - 11 ? "\u2265" : "=",
-                   number_of(dial->h[i]).text);
+                   format_number(dial->h[i]).text);
 }
 
-void dial_facts(const Simulation *simulation, Facts *facts)
+void dial_add_values(const Simulation *simulation, LiveValues *values)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
-    double elastic = part_at(simulation, PART_ELASTICITY, x);
-    name_parts(simulation->exhibit.parts, facts);
-    fact(facts, "h", h);
-    fact_point(facts, "minimiser", x);
-    fact(facts, "distance", apart(simulation->exhibit.target, x));
-    fact(facts, "inertia", part_at(simulation, PART_INERTIA, x));
-    fact(facts, "elasticity", elastic);
-    fact(facts, "P", elastic / (h * h));
+    double elastic = part_value(simulation, PART_ELASTICITY, x);
+    add_part_name(simulation->exhibit.parts, values);
+    values_add(values, "h", h);
+    values_add_point(values, "minimiser", x);
+    values_add(values, "distance",
+               point_distance(simulation->exhibit.target, x));
+    values_add(values, "inertia", part_value(simulation, PART_INERTIA, x));
+    values_add(values, "elasticity", elastic);
+    values_add(values, "P", elastic / (h * h));
 }

@@ -1,4 +1,4 @@
-/* layout.c - the places of stage, cards and controls in the window. */
+/* layout.c - computes the places of stage, cards and controls in the window. */
 #include "picture/layout.h"
 
 #include <math.h>
@@ -7,37 +7,43 @@
 
 /* Sizes in ems, the size of the texts. */
 static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
-static const double GAP = 0.9;          /* between the zones' contents */
-static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
-static const double LETTER = 0.56;      /* a letter is wide, on average */
-static const double SETTING_GAP = 0.9;  /* between settings */
-static const double CHIP_PADDING = 1.2; /* a chip has beside its letters */
-static const double BOLD = 1.12;        /* letters that a bold one is wide */
-static const double BARS = 2.4;         /* the bars of the time line are high */
+static const double GAP = 0.9; /* margin of the zones, and gap between them */
+static const double TITLE_BAR = 2.0;    /* height of a closed card */
+static const double LETTER = 0.56;      /* average width of a letter */
+static const double SETTING_GAP = 0.9;  /* gap between settings */
+static const double CHIP_PADDING = 1.2; /* width of a chip beyond its letters */
+static const double BOLD = 1.12;        /* width of a bold letter, in letters */
+static const double BARS = 2.4; /* height of the bars of the time line */
 static const double COLUMN_LEAST = 27;
-static const double NAME = 1.8, HEADING = 2.2; /* of the sheet */
-static const double PAIR_LEAST = 28;  /* a column for two cards in a row */
-static const double STAR_REST = 0.4;  /* of the stage, below a star */
-static const double STAR_WORDS = 1.3; /* times what they need, below it */
+static const double
+    NAME = 1.8,
+    HEADING = 2.2; /* a cell's name and a group's heading on the sheet */
+static const double PAIR_MIN =
+    28; /* width of a column that has two cards side by side */
+static const double STAR_REST =
+    0.4; /* part of the stage that is left for the picture below a star */
+static const double BELOW_FACTOR =
+    1.3; /* height of a card below the picture, times its minimum */
 
-/* Cards fold where the room is less than this part of what they need. */
+/* Cards fold if the column has less than this part of the room they need. */
 static const double FOLDS = 1.15;
 
-/* The column's part of the width, and at most, where code or more rows of a
- * list than one column holds stand in it. */
+/* The column's part of the width; at most WIDE_PART for code, or for lists of
+ * more than MOST_ROWS rows. */
 static const double COLUMN_PART = 0.38, WIDE_PART = 0.75;
 enum { MOST_ROWS = 30 };
 
-/* At 800 pixels of height an em has 14, and never less than 9. */
+/* An em has 14 pixels in a window of 1000 x 800 and scales with the window,
+ * but has at least 9. */
 static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
                     EM_LEAST = 9;
 
-static int pixels(const Layout *layout, double ems)
+static int em_pixels(const Layout *layout, double ems)
 {
     return (int)floor(ems * layout->em + 0.5);
 }
 
-/* Part `index` of `count` of the box, side by side, `gap` between. */
+/* Column `index` of `count` equal columns of the box, `gap` apart. */
 static Box box_column(Box box, int index, int count, int gap)
 {
     int room = box.width - (count - 1) * gap;
@@ -46,8 +52,8 @@ static Box box_column(Box box, int index, int count, int gap)
     return (Box){box.x + left, box.y, right - left, box.height};
 }
 
-/* Boxes of these widths from the left, `gap` apart, in lines as high as the
- * room, `lines` of them at most; returns how many there is room for. */
+/* Places boxes of these widths from the left, `gap` apart, in at most `lines`
+ * lines of the room's height.  Returns how many boxes fit. */
 static int place_row(Box room, int lines, int gap, int count, const int *width,
                      Box *box)
 {
@@ -65,7 +71,7 @@ static int place_row(Box room, int lines, int gap, int count, const int *width,
     return count;
 }
 
-/* Characters of UTF-8, markup and marks not counted apart. */
+/* Counts characters of UTF-8, including markup. */
 static int count_letters(const char *text)
 {
     int letters = 0;
@@ -74,44 +80,44 @@ static int count_letters(const char *text)
     return letters;
 }
 
-/* The settings in a strip off the rest, in one line or up to three. */
+/* Places the settings in one to three lines, which are cut off the rest. */
 static void place_settings(const Show *show, Layout *layout, Box *rest)
 {
-    int width[LAYOUT_SETTINGS] = {0}, left = pixels(layout, GAP + 0.5);
+    int width[LAYOUT_SETTINGS] = {0}, left = em_pixels(layout, GAP + 0.5);
     for (int i = 0; i < show->settings; i++) {
         const Setting *one = &show->setting[i];
         int value = count_letters(one->value);
         value = value > one->letters ? value : one->letters;
         value += count_letters(one->name) + 1;
-        width[i] = pixels(layout, value * LETTER + 0.6);
+        width[i] = em_pixels(layout, value * LETTER + 0.6);
     }
-    Box room = {left, pixels(layout, 0.2),
-                layout->width - pixels(layout, GAP) - left,
-                pixels(layout, ROW - 0.4)};
+    Box room = {left, em_pixels(layout, 0.2),
+                layout->width - em_pixels(layout, GAP) - left,
+                em_pixels(layout, ROW - 0.4)};
     Box *box = layout->setting;
-    layout->settings = place_row(room, 3, pixels(layout, SETTING_GAP),
+    layout->settings = place_row(room, 3, em_pixels(layout, SETTING_GAP),
                                  show->settings, width, box);
     int more = (box[layout->settings - 1].y - room.y) / room.height;
-    layout->row = box_cut_off(rest, EDGE_BOTTOM,
-                              pixels(layout, ROW + more * (ROW - 0.4)));
+    layout->settings_row = box_cut_off(
+        rest, EDGE_BOTTOM, em_pixels(layout, ROW + more * (ROW - 0.4)));
     for (int i = 0; i < layout->settings; i++)
-        box[i].y += layout->row.y;
+        box[i].y += layout->settings_row.y;
 }
 
-/* As many of the first chips as fit, and the last one, which tells of all keys;
- * the others have no width. */
+/* Places as many of the first chips as fit, and the last one, which lists all
+ * keys. */
 static void place_chips(const Show *show, Layout *layout)
 {
-    int gap = pixels(layout, 0.6), last = show->chips - 1;
+    int gap = em_pixels(layout, 0.6), last = show->chips - 1;
     int width[LAYOUT_CHIPS];
-    Box room = box_inset(layout->last, pixels(layout, 0.35)), *box;
+    Box room = box_inset(layout->chip_row, em_pixels(layout, 0.35)), *box;
     for (int i = 0; i <= last; i++) {
         double letters = BOLD * count_letters(show->chip[i].key) +
                          count_letters(show->chip[i].label) +
                          (show->lecture ? 2 : 1);
-        width[i] = pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
+        width[i] = em_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
     }
-    room.x = pixels(layout, GAP);
+    room.x = em_pixels(layout, GAP);
     room.width = layout->width - 2 * room.x - width[last] - gap;
     int fit = place_row(room, 1, gap, last, width, layout->chip);
     box = &layout->chip[last];
@@ -122,7 +128,8 @@ static void place_chips(const Show *show, Layout *layout)
     layout->chips_left_out = last - fit;
 }
 
-/* Strip, row, time line, last line off the whole; what is left is returned. */
+/* Cuts strip, settings, time line and chips off the window.  Returns the rest.
+ */
 static Box place_zones(const Show *show, Layout *layout)
 {
     Box rest = {0, 0, layout->width, layout->height};
@@ -131,24 +138,25 @@ static Box place_zones(const Show *show, Layout *layout)
         return rest;
     bool roomy = high >= 40;
     layout->strip =
-        box_cut_off(&rest, EDGE_TOP, pixels(layout, roomy ? STRIP : 2.2));
+        box_cut_off(&rest, EDGE_TOP, em_pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
-        layout->last =
-            box_cut_off(&rest, EDGE_BOTTOM, pixels(layout, roomy ? LAST : 2.5));
-    if (layout->last.width > 0 && show->chips > 0)
+        layout->chip_row = box_cut_off(&rest, EDGE_BOTTOM,
+                                       em_pixels(layout, roomy ? LAST : 2.5));
+    if (layout->chip_row.width > 0 && show->chips > 0)
         place_chips(show, layout);
     if (show->cells > 0)
         return rest;
-    layout->time =
-        box_cut_off(&rest, EDGE_BOTTOM, pixels(layout, roomy ? TIME : 2));
+    layout->time_line =
+        box_cut_off(&rest, EDGE_BOTTOM, em_pixels(layout, roomy ? TIME : 2));
     if (roomy && show->settings > 0)
         place_settings(show, layout, &rest);
-    layout->bars = layout->time;
-    layout->bars.x += pixels(layout, GAP);
-    layout->bars.width -= 2 * pixels(layout, GAP);
+    layout->bars = layout->time_line;
+    layout->bars.x += em_pixels(layout, GAP);
+    layout->bars.width -= 2 * em_pixels(layout, GAP);
     if (roomy) {
-        int height = pixels(layout, BARS);
-        layout->bars.y += layout->time.height - height - pixels(layout, 0.5);
+        int height = em_pixels(layout, BARS);
+        layout->bars.y +=
+            layout->time_line.height - height - em_pixels(layout, 0.5);
         layout->bars.height = height;
     }
     if (layout->bars.width < 1)
@@ -156,27 +164,28 @@ static Box place_zones(const Show *show, Layout *layout)
     return rest;
 }
 
-/* A row of the column: a card or two. */
+/* A row of the column: one card or two. */
 typedef struct CardRow {
-    int card, cards;      /* the first one, how many */
-    bool bar;             /* only its title is seen */
-    double least, weight; /* ems it needs; share of what is left */
+    int card, cards; /* index of the first card, number of cards */
+    bool bar;        /* is closed: only the title is seen */
+    double least,
+        weight; /* ems, minimum height; share of the height that is left over */
 } CardRow;
 
-/* Where a page has a star: a card that is below what is on the stage, be it the
- * star or beside it; beside code there is room for the star alone. */
+/* Whether a card stands below the picture, on a page that has a star.  Beside
+ * code there is room for the star only. */
 static bool is_below(const Show *show, int card)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     const char *star = show_pane(show)->simulation->options.star;
-    return star && picture->cards[card]->below &&
+    return star && picture->cards[card]->below_picture &&
            !((show->hidden | show->closed) >> card & 1) &&
            (card == picture_card(picture, star) ||
             show->column == COLUMN_CARDS);
 }
 
-/* The rows [LAYOUT_CARDS] of all cards that are seen: side by side where two
- * want it.  Returns how many. */
+/* Finds the rows [LAYOUT_CARDS] of all visible cards; two cards of half width
+ * share a row.  Returns the number of rows. */
 static int find_rows(const Show *show, double wide, double em, bool pairs,
                      CardRow *rows)
 {
@@ -186,7 +195,8 @@ static int find_rows(const Show *show, double wide, double em, bool pairs,
     for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
         bool bar = (show->closed >> i & 1) || (large && i != show->large);
-        bool half = card->half || (card->half_on_page && show->lecture);
+        bool half =
+            card->half_width || (card->half_width_on_page && show->lecture);
         if (show->hidden >> i & 1 || is_below(show, i))
             continue;
         if (pairs && half && !bar && before == i - 1) {
@@ -195,24 +205,25 @@ static int find_rows(const Show *show, double wide, double em, bool pairs,
         }
         before = half && !bar ? i : -2;
         rows[count++] = (CardRow){i, 1, bar,
-                                  bar           ? TITLE_BAR
-                                  : card->needs ? card->needs(show, wide, em)
-                                                : card->least,
+                                  bar ? TITLE_BAR
+                                  : card->needed_height
+                                      ? card->needed_height(show, wide, em)
+                                      : card->min_height,
                                   bar ? 0 : card->weight};
     }
     return count;
 }
 
-/* Each row has what it needs, and what is left is shared by weight; if there is
- * not enough, with one card a row the last ones become bars, but never the
- * first that is open, and then what they need shrinks alike. */
+/* Gives each row its minimum height and shares what is left by weight.  If the
+ * column is too low, the last rows are closed (only if no row has two cards),
+ * but never the first open one; then all heights shrink alike. */
 static void place_cards(const Show *show, Layout *layout)
 {
     CardRow rows[LAYOUT_CARDS];
-    int gap = pixels(layout, GAP * 0.75), bar = pixels(layout, TITLE_BAR);
-    Box rest = box_inset(layout->column, pixels(layout, GAP));
-    bool pairs = layout->column.width >= PAIR_LEAST * layout->em;
-    double wide = cards_inside(rest, layout->em).width / layout->em;
+    int gap = em_pixels(layout, GAP * 0.75), bar = em_pixels(layout, TITLE_BAR);
+    Box rest = box_inset(layout->column, em_pixels(layout, GAP));
+    bool pairs = layout->column.width >= PAIR_MIN * layout->em;
+    double wide = card_inner_box(rest, layout->em).width / layout->em;
     int count = find_rows(show, wide, layout->em, pairs, rows), open = 0;
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
     double weights = 1e-9, ems = gap / layout->em;
@@ -235,7 +246,7 @@ static void place_cards(const Show *show, Layout *layout)
         const CardRow *row = &rows[i];
         double high = row->least * (least > room ? room / least : 1) +
                       row->weight * fmax(room - least, 0) / weights;
-        int height = pixels(layout, high);
+        int height = em_pixels(layout, high);
         Box box = box_cut_off(&rest, EDGE_TOP,
                               row->bar || height < bar ? bar : height);
         box_cut_off(&rest, EDGE_TOP, gap);
@@ -244,12 +255,12 @@ static void place_cards(const Show *show, Layout *layout)
     }
 }
 
-/* One beside the other, in as many columns as give them most room. */
+/* Places the panes in the number of columns that gives the largest panes. */
 static void place_panes(int count, Layout *layout)
 {
-    int columns = 1, gap = pixels(layout, 0.15);
+    int columns = 1, gap = em_pixels(layout, 0.15);
     double best = 0;
-    for (int c = 1; c <= count; c++) { /* the most room for squares */
+    for (int c = 1; c <= count; c++) { /* compares the squares that fit */
         int rows = (count + c - 1) / c;
         double side = fmin((double)layout->stage.width / c,
                            (double)layout->stage.height / rows);
@@ -270,11 +281,12 @@ static void place_panes(int count, Layout *layout)
     layout->panes = count;
 }
 
-/* The sheet's squares of this side, so many in a row; returns the height of all
- * of them, pixels. */
+/* Places the squares of the sheet, `columns` in a row.  Returns their total
+ * height in pixels. */
 static int place_cells(const Show *show, Layout *layout, int columns, int side)
 {
-    int gap = pixels(layout, GAP), name = pixels(layout, NAME), column = 0;
+    int gap = em_pixels(layout, GAP), name = em_pixels(layout, NAME),
+        column = 0;
     int left = (layout->stage.width - columns * (side + gap) + gap) / 2, y = 0;
     for (int i = 0; i < show->cells; i++) {
         bool heads = show->cell[i].group;
@@ -282,7 +294,7 @@ static int place_cells(const Show *show, Layout *layout, int columns, int side)
             y += side + name;
             column = 0;
         }
-        y += heads ? pixels(layout, HEADING) : 0;
+        y += heads ? em_pixels(layout, HEADING) : 0;
         layout->cell[i] = (Box){layout->stage.x + left + column * (side + gap),
                                 layout->stage.y + y, side, side + name};
         column++;
@@ -290,10 +302,11 @@ static int place_cells(const Show *show, Layout *layout, int columns, int side)
     return y + side + name;
 }
 
-/* As many in a row as make them large. */
+/* Places the sheet with the number of columns that gives the largest squares.
+ */
 static void place_sheet(const Show *show, Layout *layout)
 {
-    int gap = pixels(layout, GAP), best = 0, wide = 1;
+    int gap = em_pixels(layout, GAP), best = 0, wide = 1;
     for (int columns = 1; columns <= show->cells; columns++) {
         int least = place_cells(show, layout, columns, 0);
         int rows = place_cells(show, layout, columns, 1) - least;
@@ -309,17 +322,18 @@ static void place_sheet(const Show *show, Layout *layout)
     layout->cells = show->cells;
 }
 
-/* The card takes so many pixels off the lower end of the pictures. */
+/* Places a card below the pictures, in this many pixels of the stage. */
 static void put_below(Layout *layout, int card, double high)
 {
     Box box = box_cut_off(&layout->stage, EDGE_BOTTOM, (int)high);
-    layout->card[card] = box_inset(box, pixels(layout, GAP));
+    layout->card[card] = box_inset(box, em_pixels(layout, GAP));
     place_panes(layout->panes, layout);
 }
 
-/* The card that a page wants large stands on the stage, and the picture in the
- * card's place; where the column has no room for it, or code stands there,
- * below the card; that of some is always below the picture. */
+/* Places the star of a page: the star takes the stage, and the picture takes
+ * the star's place in the column.  If the column has no room for the picture,
+ * or shows code, the picture is below the star.  Some stars are always below
+ * the picture. */
 static void place_star(const Show *show, Layout *layout)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
@@ -332,7 +346,7 @@ static void place_star(const Show *show, Layout *layout)
         return;
     Box *stage = &layout->pane[0], place = layout->card[star];
     for (int i = 0; i < layout->cards; i++) {
-        double needs = STAR_WORDS * picture->cards[i]->least + 2 * GAP;
+        double needs = BELOW_FACTOR * picture->cards[i]->min_height + 2 * GAP;
         if (is_below(show, i))
             put_below(layout, i, fmin(needs * layout->em, 0.6 * stage->height));
     }
@@ -341,20 +355,20 @@ static void place_star(const Show *show, Layout *layout)
     if (place.height < bar)
         place =
             box_cut_off(stage, EDGE_BOTTOM, (int)(STAR_REST * stage->height));
-    layout->card[star] = box_inset(*stage, pixels(layout, GAP));
+    layout->card[star] = box_inset(*stage, em_pixels(layout, GAP));
     *stage = place;
 }
 
-/* The first card of a page that folds for want of room, or in whose place code
- * stands, is below the picture, as high as it needs, half of the stage at most;
- * not where a star is on the stage.  In letters that are not large not, either,
- * where switches (beside code: more than one) or several panes are there, nor,
- * without code, in the scenes of a law, whose bodies need all of it. */
+/* On a page, the first card that was closed for want of room, or whose place
+ * code has taken, is placed below the picture, in at most half of the stage.
+ * Exceptions: pages with a star; in normal letters also pages with switches or
+ * several panes, and scenes of a law (without code), whose bodies need the
+ * whole stage. */
 static void place_folded(const Show *show, Layout *layout)
 {
     const Simulation *simulation = show_pane(show)->simulation;
     const Options *options = &simulation->options;
-    int bar = pixels(layout, TITLE_BAR), folded = 1;
+    int bar = em_pixels(layout, TITLE_BAR), folded = 1;
     unsigned shut = show->closed | show->hidden;
     while (folded < layout->cards &&
            (shut >> folded & 1 ||
@@ -369,15 +383,16 @@ static void place_folded(const Show *show, Layout *layout)
     const Card *card = picture_of(simulation->scene)->cards[folded];
     const Box *stage = &layout->stage;
     double em = layout->em;
-    double needs =
-        card->needs ? card->needs(show, stage->width / em, em) : card->least;
+    double needs = card->needed_height
+                       ? card->needed_height(show, stage->width / em, em)
+                       : card->min_height;
     double room = layout->page ? stage->height - 0.8 * stage->width : 0;
     put_below(layout, folded,
               fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height));
 }
 
-/* Letters have at least, on a page, a 55th of the height, in large type a 35th,
- * on a page or not, where that leaves room for words beside the stage. */
+/* An em has at least a 55th of the height on a page, and a 35th in large type
+ * if that leaves room for words beside the stage. */
 Layout show_layout(const Show *show, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
@@ -401,16 +416,18 @@ Layout show_layout(const Show *show, int width, int height)
         return layout;
     }
     double wide = width / layout.em, high = height / layout.em;
-    bool low = page && high < 50; /* a page needs all of the width */
+    bool low =
+        page &&
+        high < 50; /* in a low window a list or code needs the full width */
     if (!show->bare && wide >= 53 && high >= 34 && !low &&
         (page || show->hidden != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
         double ems = fmax(COLUMN_PART * wide, COLUMN_LEAST);
         if (show->column == COLUMN_CODE)
-            ems = fmin(fmax(cards_code_needs(show->lecture), ems), most);
+            ems = fmin(fmax(code_needed_width(show->lecture), ems), most);
         else if (page && show->help_rows > MOST_ROWS)
             ems = most;
-        int column = pixels(&layout, ems);
+        int column = em_pixels(&layout, ems);
         layout.column = layout.stage;
         layout.column.width = column;
         layout.column.x += layout.stage.width - column;
@@ -432,8 +449,8 @@ Layout show_layout(const Show *show, int width, int height)
 Box layout_close_box(const Layout *layout, int card)
 {
     Box box = card >= 0 ? layout->card[card]
-                        : box_inset(layout->column, pixels(layout, GAP));
-    int side = pixels(layout, TITLE_BAR);
+                        : box_inset(layout->column, em_pixels(layout, GAP));
+    int side = em_pixels(layout, TITLE_BAR);
     return (Box){box.x + box.width - side, box.y, side,
                  box.height < side ? box.height : side};
 }
@@ -447,7 +464,7 @@ Hit layout_hit(const Layout *layout, double x, double y)
         int count;
     } lists[] = {
         {ZONE_STRIP, &l->strip, 1},     {ZONE_STAGE, l->pane, l->panes},
-        {ZONE_TIME, &l->time, 1},       {ZONE_PAGE, &l->column, l->page},
+        {ZONE_TIME, &l->time_line, 1},  {ZONE_PAGE, &l->column, l->page},
         {ZONE_CARD, l->card, l->cards}, {ZONE_SETTING, l->setting, l->settings},
         {ZONE_CHIP, l->chip, l->chips}, {ZONE_CELL, l->cell, l->cells}};
     Hit hit = {ZONE_NONE, 0, {x, y}};
@@ -497,12 +514,14 @@ void camera_world(const Camera *camera, double x, double y, double world[2])
     world[1] = (camera->origin[1] - y) / camera->scale[1];
 }
 
-/* pan is kept for zoom 1, so that the fitting view may change below it. */
+/* `pan` is relative to zoom 1, so that the view that fits may change
+ * independently. */
 void lens_zoom(Lens *lens, Box box, double x, double y, double factor)
 {
     double zoom = lens->zoom > 0 ? lens->zoom : 1;
     lens->zoom = fmin(fmax(zoom * factor, ZOOM_LEAST), ZOOM_MOST);
-    double away = lens->zoom / zoom - 1; /* times as far from the middle */
+    double away = lens->zoom / zoom -
+                  1; /* relative growth of the distance from the middle */
     lens_move(lens, box, -away * (x - box.x - 0.5 * box.width),
               -away * (y - box.y - 0.5 * box.height));
 }

@@ -17,7 +17,7 @@ static const char *const line_texts[LINE_COUNT] = {
     [LINE_END] = "v[i] = mul(1 / h",
 };
 
-const char *lecture_lit(const Show *show)
+const char *lecture_lit_code(const Show *show)
 {
     const LecturePage *page = show->lecture;
     const Simulation *simulation = show_pane(show)->simulation;
@@ -54,7 +54,7 @@ void show_lecture(Column column, const LecturePage *left, Show *show)
         if (show->veiled && page->veils && strstr(page->veils, name))
             show->veils |= 1u << c;
         show->hidden |= open ? 0 : 1u << c;
-        if (open && picture->cards[c]->closed)
+        if (open && picture->cards[c]->starts_closed)
             show->closed &= ~(1u << c);
     }
 }

@@ -23,7 +23,7 @@ static Colour run_colour(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
                ? COLOUR_X
-               : colour_of(simulation->run[run].method->name);
+               : colour_of_name(simulation->run[run].method->name);
 }
 
 /* Where the runs have been in the newest steps; with a disc for each. */
@@ -78,11 +78,11 @@ void circle_draw(Plot *stage)
     plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
               COLOUR_GRID);
     plot_line(stage, origin, (double[2]){1, 0}, 1.2, COLOUR_GREY);
-    if (stage->told)
+    if (stage->revealed)
         plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
                      true, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
-    plot_words(stage, 1, (double[2]){0.5, 0}, COLOUR_FAINT, "1 m");
+    plot_label(stage, 1, (double[2]){0.5, 0}, COLOUR_FAINT, "1 m");
     draw_trails(stage, false);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, simulation->run[r].x, 7, run_colour(simulation, r));
@@ -94,8 +94,9 @@ void circle_bounds(const Plot *stage, double bounds[4])
     const Simulation *simulation = stage->simulation;
     double most = 0;
     for (int r = 0; r < simulation->runs; r++)
-        most = fmax(most, fmin(length_of(simulation->run[r].x), CIRCLE_MOST));
-    bounds_around(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
+        most =
+            fmax(most, fmin(vector_length(simulation->run[r].x), CIRCLE_MOST));
+    bounds_grow(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
 }
 
 /* The node of a run. */
@@ -103,8 +104,8 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     const Simulation *simulation = stage->simulation;
     for (int r = 0; r < simulation->runs; r++)
-        if (plot_pick(stage, 1, simulation->run[r].x, 16, x, y, PICK_NODE,
-                      pick))
+        if (plot_pick_point(stage, 1, simulation->run[r].x, 16, x, y, PICK_NODE,
+                            pick))
             pick->index = r;
 }
 
@@ -135,22 +136,23 @@ static bool step_matrix(const IntegratorMethod *method, double t,
     return true;
 }
 
-static void add_matrix(const IntegratorMethod *method, double t, Facts *facts)
+static void add_matrix(const IntegratorMethod *method, double t,
+                       LiveValues *values)
 {
     StepMatrix step;
     if (!step_matrix(method, t, &step))
         return;
     const double *least = step.lambda[0], *most = step.lambda[1];
     bool pair = most[1] > 0;
-    fact(facts, "Sxx", step.xx);
-    fact(facts, "Sxv", step.xv);
-    fact(facts, "Svx", -step.xv);
-    fact(facts, "Svv", step.vv);
-    fact(facts, "re", pair ? most[0] : NAN);
-    fact(facts, "im", most[1]);
-    fact(facts, "least", pair ? NAN : least[0]);
-    fact(facts, "most", most[0]);
-    fact(facts, "size", fmax(length_of(least), length_of(most)));
+    values_add(values, "Sxx", step.xx);
+    values_add(values, "Sxv", step.xv);
+    values_add(values, "Svx", -step.xv);
+    values_add(values, "Svv", step.vv);
+    values_add(values, "re", pair ? most[0] : NAN);
+    values_add(values, "im", most[1]);
+    values_add(values, "least", pair ? NAN : least[0]);
+    values_add(values, "most", most[0]);
+    values_add(values, "size", fmax(vector_length(least), vector_length(most)));
 }
 
 /* The eigenvalues of a run's step, and thin their way from h = 0, where all
@@ -158,7 +160,7 @@ static void add_matrix(const IntegratorMethod *method, double t, Facts *facts)
 static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
                              double turn)
 {
-    Colour colour = colour_of(method->name);
+    Colour colour = colour_of_name(method->name);
     StepMatrix before, step;
     for (int i = 0; i <= EIGEN_PIECES; i++) {
         if (!step_matrix(method, turn * i / EIGEN_PIECES, &step))
@@ -183,8 +185,9 @@ static void draw_plane(const Plot *card)
     for (int r = 0; r < simulation->runs; r++)
         for (int k = 0; k < 2; k++)
             if (step_matrix(simulation->run[r].method, turn, &step))
-                most = fmax(most, fmin(length_of(step.lambda[k]), EIGEN_MOST));
-    bounds_around(EIGEN_REACH, 1.1 * most, 1.2, bounds);
+                most =
+                    fmax(most, fmin(vector_length(step.lambda[k]), EIGEN_MOST));
+    bounds_grow(EIGEN_REACH, 1.1 * most, 1.2, bounds);
     Plot plot = *card;
     plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     for (int k = 0; k < 2; k++) {
@@ -195,8 +198,8 @@ static void draw_plane(const Plot *card)
     plot_ellipse(&plot, origin, one, i, 2, false, COLOUR_GREY);
     for (int r = 0; r < simulation->runs; r++)
         draw_eigenvalues(&plot, simulation->run[r].method, turn);
-    plot_words(&plot, 1, one, COLOUR_FAINT, "1");
-    plot_words(&plot, 1, i, COLOUR_FAINT, "i");
+    plot_label(&plot, 1, one, COLOUR_FAINT, "1");
+    plot_label(&plot, 1, i, COLOUR_FAINT, "i");
 }
 
 /* The numbers, without the matrices where the card is low; the plane at their
@@ -213,33 +216,33 @@ void matrix_draw(const Plot *card)
     else
         plane.box = box_cut_off(&numbers.box, EDGE_RIGHT,
                                 rest < box->height ? rest : box->height);
-    text_in_card(&numbers, &show_pane(card->show)->facts,
-                 box->height < high ? text_eigenvalues : text_matrix);
-    Box before = canvas_clip(&card->paper->canvas, plane.box);
+    card_write_text(&numbers, &show_pane(card->show)->values,
+                    box->height < high ? text_eigenvalues : text_matrix);
+    Box before = canvas_set_clip(&card->paper->canvas, plane.box);
     draw_plane(&plane);
-    canvas_clip(&card->paper->canvas, before);
+    canvas_set_clip(&card->paper->canvas, before);
 }
 
 /* What each run knows of itself; colour and name are the method's. */
-void circle_facts(const Simulation *simulation, Facts *facts)
+void circle_add_values(const Simulation *simulation, LiveValues *values)
 {
     double turn = simulation->run[0].h * MASS_TURN; /* on the circle */
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
     const char *first = simulation->run[0].method->name;
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
-        facts->run = r + 1;
-        facts->colour[r + 1] = colour_of(run->method->name);
-        fact_when(facts, "many", simulation->runs > 1);
-        fact_words(facts, "name", run->method->label);
-        fact(facts, "radius", length_of(run->x));
+        values->run = r + 1;
+        values->colour[r + 1] = colour_of_name(run->method->name);
+        values_add_flag(values, "many", simulation->runs > 1);
+        values_add_words(values, "name", run->method->label);
+        values_add(values, "radius", vector_length(run->x));
         if (circle)
-            add_matrix(run->method, turn, facts);
+            add_matrix(run->method, turn, values);
     }
-    facts->run = 0; /* steps of forward Euler until the radius is doubled */
+    values->run = 0; /* steps of forward Euler until the radius is doubled */
     if (circle && strcmp(first, "forward-euler") == 0)
-        fact(facts, "doubling", ceil(2 * log(2) / log1p(turn * turn)));
-    fact(facts, "h", simulation->run[0].h);
+        values_add(values, "doubling", ceil(2 * log(2) / log1p(turn * turn)));
+    values_add(values, "h", simulation->run[0].h);
 }
 
 /* ---- the arrows ---------------------------------------------------------- */
@@ -265,7 +268,7 @@ void mass_bounds(const Plot *stage, double bounds[4])
         return;
     }
     const double *began = simulation->exhibit.began;
-    double most = math_hypot(length_of(began), length_of(began + 2));
+    double most = math_hypot(vector_length(began), vector_length(began + 2));
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
         mass_next_step(simulation, r, &step);
@@ -273,14 +276,14 @@ void mass_bounds(const Plot *stage, double bounds[4])
             most = fmax(most,
                         fmax(fabs(step.new_x[k]), fabs(step.x[k] + step.v[k])));
     }
-    bounds_around(MASS_REACH, 1.1 * most, sqrt(2), bounds);
+    bounds_grow(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
 /* Where the exact motion from here is after h. */
 static Point exact_step(const MassStep *step, double h)
 {
-    const Point x = along(origin, cos(h), step->x);
-    return along(x.at, sin(h), step->v);
+    const Point x = point_along(origin, cos(h), step->x);
+    return point_along(x.at, sin(h), step->v);
 }
 
 /* What a step of forward Euler lacks: the exact end is h^2/2 a away, or about
@@ -288,13 +291,13 @@ static Point exact_step(const MassStep *step, double h)
 static void draw_miss(const Plot *stage, const MassStep *step, double h,
                       const char *words)
 {
-    const Point to = along(step->x, h, step->v);
-    const Point at[2] = {along(to.at, 0.5 * h * h, step->a),
-                         along(to.at, 0.25 * h * h, step->a)};
-    plot_hollow(stage, exact_step(step, h).at, 6, 3.4, COLOUR_GREY);
+    const Point to = point_along(step->x, h, step->v);
+    const Point at[2] = {point_along(to.at, 0.5 * h * h, step->a),
+                         point_along(to.at, 0.25 * h * h, step->a)};
+    plot_hollow_disc(stage, exact_step(step, h).at, 6, 3.4, COLOUR_GREY);
     plot_ring(stage, to.at, 6, 2, COLOUR_X);
     plot_arrow(stage, to.at, step->a, 0.5 * h * h, 2, COLOUR_WARNING);
-    plot_words(stage, 2, at->at, COLOUR_WARNING, "%s", words);
+    plot_label(stage, 2, at->at, COLOUR_WARNING, "%s", words);
 }
 
 /* The exact end of the step; of backward Euler x' as it is found: x + h v, then
@@ -308,33 +311,36 @@ static void draw_mass_lesson(Plot *stage)
     if (!mass_next_step(stage->simulation, 0, &step))
         return;
     const Point end = exact_step(&step, h);
-    plot_hollow(stage, end.at, 6, 3.4, COLOUR_GREY);
+    plot_hollow_disc(stage, end.at, 6, 3.4, COLOUR_GREY);
     if (step.by_old_v) {
         draw_miss(stage, &step, 0.5 * h, "with h/2: a quarter");
         draw_miss(stage, &step, h, "h\u00b2/2 a");
     }
-    plot_words(stage, 1, end.at, COLOUR_FAINT, "exact");
-    Point x = along(step.x, 0, step.v), v = along(step.v, 0, step.x);
+    plot_label(stage, 1, end.at, COLOUR_FAINT, "exact");
+    Point x = point_along(step.x, 0, step.v),
+          v = point_along(step.v, 0, step.x);
     for (int k = 0; k < MASS_GUESSES && implicit; k++) {
-        const Point from = x, pulled = along(step.v, k > 0 ? -h : 0, from.at);
-        x = along(step.x, h, pulled.at);
+        const Point from = x,
+                    pulled = point_along(step.v, k > 0 ? -h : 0, from.at);
+        x = point_along(step.x, h, pulled.at);
         if (k > 0)
             plot_line(stage, from.at, x.at, 1.4, COLOUR_GREY);
-        plot_hollow(stage, x.at, 5, 3, COLOUR_GREY);
-        if (apart(step.new_x, x.at) * stage->camera.scale[0] > 1.5 * stage->em)
-            plot_words(stage, 1, x.at, COLOUR_FAINT, "%d", k + 1);
+        plot_hollow_disc(stage, x.at, 5, 3, COLOUR_GREY);
+        if (point_distance(step.new_x, x.at) * stage->camera.scale[0] >
+            1.5 * stage->em)
+            plot_label(stage, 1, x.at, COLOUR_FAINT, "%d", k + 1);
     }
     bool symplectic = !step.by_old_v && !implicit;
     for (int k = 0; k < MASS_AHEAD && symplectic && h >= 2; k++) {
         const Point from = x;
-        v = along(v.at, -h, x.at);
-        x = along(x.at, h, v.at);
+        v = point_along(v.at, -h, x.at);
+        x = point_along(x.at, h, v.at);
         plot_line(stage, from.at, x.at, 1, COLOUR_GREY);
-        plot_hollow(stage, x.at, 4, 2.4, COLOUR_GREY);
+        plot_hollow_disc(stage, x.at, 4, 2.4, COLOUR_GREY);
     }
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
-    const Point side = along(step.new_x, -turn, step.x);
-    const Point across = along(origin, 1 / reach, side.at);
+    const Point side = point_along(step.new_x, -turn, step.x);
+    const Point across = point_along(origin, 1 / reach, side.at);
     if (symplectic && h < 2)
         plot_ellipse(stage, origin, step.x, across.at, 2.4, false,
                      COLOUR_ALPHA);
@@ -353,8 +359,9 @@ static void draw_mass_step(Plot *stage)
         return;
     bool backward = simulation->run[0].method->implicit;
     const double *a = backward ? step.new_a : step.a;
-    const Point tip = along(step.x, 1, step.v), to = way(step.x, step.new_x);
-    const Point push = along(origin, simulation->run[0].h, a);
+    const Point tip = point_along(step.x, 1, step.v),
+                to = vector_between(step.x, step.new_x);
+    const Point push = point_along(origin, simulation->run[0].h, a);
     const struct MassArrow {
         const double *a, *d; /* m, from a along d */
         double width;
@@ -374,14 +381,14 @@ static void draw_mass_step(Plot *stage)
     plot_disc(stage, step.x, 8, COLOUR_X);
     if (stage->show->lecture)
         draw_mass_lesson(stage);
-    plot_words(stage, 1, step.new_x, COLOUR_X, "x\u2032");
+    plot_label(stage, 1, step.new_x, COLOUR_X, "x\u2032");
     for (int i = 0; i < 4 + backward; i++) {
         const struct MassArrow *now = &arrow[order[i]];
         Point at[4];
         for (int k = 0; k < 4; k++)
-            at[k] = along(now->a, part[k], now->d);
-        if (length_of(now->d) * stage->camera.scale[0] > 2 * stage->em)
-            plot_words(stage, 4, at->at, now->colour, "%s", now->word);
+            at[k] = point_along(now->a, part[k], now->d);
+        if (vector_length(now->d) * stage->camera.scale[0] > 2 * stage->em)
+            plot_label(stage, 4, at->at, now->colour, "%s", now->word);
     }
 }
 
@@ -403,7 +410,7 @@ void mass_draw(Plot *stage)
     for (int r = 0; simulation->runs > 1 && r < simulation->runs; r++) {
         MassStep step;
         mass_next_step(simulation, r, &step);
-        plot_arrow(stage, step.x, way(step.x, step.new_x).at, 1, 3,
+        plot_arrow(stage, step.x, vector_between(step.x, step.new_x).at, 1, 3,
                    run_colour(simulation, r));
         plot_ring(stage, step.new_x, 8, 2.2, run_colour(simulation, r));
     }
@@ -423,49 +430,52 @@ static double kept_energy(const double *x, const double *v, double h)
     return 2 * mass_energy(x, v) - h * (x[0] * v[0] + x[1] * v[1]);
 }
 
-void mass_facts(const Simulation *simulation, Facts *facts)
+void mass_add_values(const Simulation *simulation, LiveValues *values)
 {
     MassStep step;
     bool one = simulation->runs == 1;
-    circle_facts(simulation, facts);
+    circle_add_values(simulation, values);
     for (int r = 0; r < simulation->runs; r++) {
         if (!mass_next_step(simulation, r, &step))
             continue;
         double before = mass_energy(step.x, step.v);
         double after = mass_energy(step.new_x, step.new_v);
-        facts->run = one ? 0 : r + 1;
-        fact(facts, "energy", before);
-        fact(facts, "later", after);
-        fact(facts, "factor", after / before);
+        values->run = one ? 0 : r + 1;
+        values_add(values, "energy", before);
+        values_add(values, "later", after);
+        values_add(values, "factor", after / before);
     }
-    facts->run = 0;
+    values->run = 0;
     bool backward = simulation->run[0].method->implicit;
     bool known = mass_next_step(simulation, 0, &step);
-    fact_when(facts, "stages", one && !known);
+    values_add_flag(values, "stages", one && !known);
     if (!one || !known)
         return;
-    fact_when(facts, "numbers", true);
-    fact_words(facts, "at", backward ? "x\u2032" : "x");
-    fact_words(facts, "by", step.by_old_v ? "v" : "v\u2032");
-    fact_point(facts, "place", step.x);
-    fact_point(facts, "v", step.v);
-    fact_point(facts, "a", backward ? step.new_a : step.a);
-    fact_point(facts, "x'", step.new_x);
-    fact_point(facts, "v'", step.new_v);
-    fact_point(facts, "carrying", step.by_old_v ? step.v : step.new_v);
+    values_add_flag(values, "numbers", true);
+    values_add_words(values, "at", backward ? "x\u2032" : "x");
+    values_add_words(values, "by", step.by_old_v ? "v" : "v\u2032");
+    values_add_point(values, "place", step.x);
+    values_add_point(values, "v", step.v);
+    values_add_point(values, "a", backward ? step.new_a : step.a);
+    values_add_point(values, "x'", step.new_x);
+    values_add_point(values, "v'", step.new_v);
+    values_add_point(values, "carrying", step.by_old_v ? step.v : step.new_v);
     double h = simulation->run[0].h;
     if (!step.by_old_v && !backward) {
-        fact(facts, "h limit", 2);
-        fact_when(facts, "ellipse", h < 2);
+        values_add(values, "h limit", 2);
+        values_add_flag(values, "ellipse", h < 2);
         if (h < 2) { /* beyond, digits cancel as both squares grow */
-            fact(facts, "kept", kept_energy(step.x, step.v, h));
-            fact(facts, "kept later", kept_energy(step.new_x, step.new_v, h));
+            values_add(values, "kept", kept_energy(step.x, step.v, h));
+            values_add(values, "kept later",
+                       kept_energy(step.new_x, step.new_v, h));
         }
     }
-    fact(facts, "miss", apart(step.new_x, exact_step(&step, h).at));
+    values_add(values, "miss",
+               point_distance(step.new_x, exact_step(&step, h).at));
     if (step.by_old_v) {
-        const Point half = along(step.x, 0.5 * h, step.v);
-        fact(facts, "half", 0.5 * h * h * length_of(step.x));
-        fact(facts, "half miss", apart(half.at, exact_step(&step, 0.5 * h).at));
+        const Point half = point_along(step.x, 0.5 * h, step.v);
+        values_add(values, "half", 0.5 * h * h * vector_length(step.x));
+        values_add(values, "half miss",
+                   point_distance(half.at, exact_step(&step, 0.5 * h).at));
     }
 }

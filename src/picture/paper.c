@@ -1,4 +1,4 @@
-/* paper.c - texts, boxes and lines in sizes that fit the window. */
+/* paper.c - texts in a size that fits the window. */
 #include "picture/paper.h"
 
 #include <math.h>
@@ -10,7 +10,8 @@
 
 enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 
-static const double FIT_LEAST = 0.6; /* of the size that letters shrink to */
+static const double FIT_LEAST =
+    0.6; /* letters shrink at most to this part of their size */
 
 Status paper_create(int width, int height, Paper *paper)
 {
@@ -36,8 +37,8 @@ int paper_pixels(const Paper *paper, double ems)
 static TextStyle paper_style(const Paper *paper, Face face, double size,
                              Colour colour)
 {
-    return (TextStyle){face, fmax(size, paper->least) * paper->em, colour,
-                       false, paper->least * paper->em};
+    return (TextStyle){face, fmax(size, paper->min_letter) * paper->em, colour,
+                       false, paper->min_letter * paper->em};
 }
 
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
@@ -61,9 +62,9 @@ int paper_width(Paper *paper, Face face, double size, const char *markup)
 int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
               Align align, const char *markup)
 {
-    int air = paper_pixels(paper, 0.35); /* of what is raised */
+    int air = paper_pixels(paper, 0.35); /* room for superscripts */
     Box room = {box.x, box.y - air, box.width, box.height + 2 * air};
-    Box before = canvas_clip(&paper->canvas, room);
+    Box before = canvas_set_clip(&paper->canvas, room);
     double least = FIT_LEAST * size;
     for (int wide = paper_width(paper, face, size, markup);
          wide > box.width && size > least;
@@ -76,7 +77,7 @@ int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
     int width = paper_write(paper, face, size, colour,
                             box.x + 0.5 * (int)align * box.width, box.y + y,
                             align, "%s", markup);
-    canvas_clip(&paper->canvas, before);
+    canvas_set_clip(&paper->canvas, before);
     return width;
 }
 
@@ -84,17 +85,18 @@ int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *markup)
 {
     int wide = paper_width(paper, face, size, markup);
-    int left = pixel_at(x) - (int)align * wide / 2;
+    int left = pixel_from(x) - (int)align * wide / 2;
     int air = paper_pixels(paper, 0.3);
     canvas_fill(&paper->canvas,
-                (Box){left - air, pixel_at(y), wide + 2 * air,
+                (Box){left - air, pixel_from(y), wide + 2 * air,
                       paper_pixels(paper, 1.36 * size)},
                 COLOUR_PANEL);
     return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
 }
 
-/* How many bytes of the text fit into this width, at a blank outside of braces
- * or at its end; a word that is wider than all stands alone. */
+/* Counts the bytes of the text that fit into this width and end at a blank
+ * outside of braces, or at the text's end.  A word that is wider than the width
+ * stands alone. */
 static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
                             const char *markup)
 {

@@ -42,7 +42,7 @@ static double on_axis(const Axis *axis, double value)
     return axis->log ? log10(value) : value;
 }
 
-void plot_place(const Plot *plot, const double *at, double pixel[2])
+void plot_pixel(const Plot *plot, const double *at, double pixel[2])
 {
     const double on[2] = {on_axis(&plot->x, at[0]), on_axis(&plot->y, at[1])};
     camera_pixel(&plot->camera, on, pixel);
@@ -64,7 +64,7 @@ static Number tick_number(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
     bool nothing = !axis->log && fabs(value) < 1e-9 * span;
-    return number_of(nothing ? 0 : value);
+    return format_number(nothing ? 0 : value);
 }
 
 /* The values that carry a number where the axis is so many ems long; returns
@@ -116,7 +116,7 @@ static void draw_axes(const Plot *plot)
     int thin = (int)fmax(1, paper->unit);
     for (int i = 0; i < count; i++) {
         bool zero = !plot->y.log && fabs(ticks[i]) < 1e-12 * plot->y.high;
-        plot_place(plot, (double[2]){plot->x.low, ticks[i]}, at);
+        plot_pixel(plot, (double[2]){plot->x.low, ticks[i]}, at);
         canvas_fill(&paper->canvas,
                     (Box){box->x, (int)floor(at[1] + 1e-9), box->width, thin},
                     zero ? COLOUR_BORDER : COLOUR_GRID);
@@ -134,7 +134,7 @@ static void draw_axes(const Plot *plot)
     count = axis_ticks(&plot->x, false, box->width / em, ticks);
     for (int i = 0; i < count; i++) {
         Number number = tick_number(&plot->x, ticks[i]);
-        plot_place(plot, (double[2]){ticks[i], plot->y.low}, at);
+        plot_pixel(plot, (double[2]){ticks[i], plot->y.low}, at);
         if (at[0] + tick_width(paper, number.text) / 2 <= end)
             write_tick(plot, COLOUR_FAINT, at[0], below, ALIGN_CENTRE,
                        number.text);
@@ -181,7 +181,7 @@ static void set_range(Axis *axis, double low, double high)
     axis->high = axis->log ? pow(10, high) : high;
 }
 
-Plot plot_on(const Plot *stage, Axis x, Axis y)
+Plot plot_on_stage(const Plot *stage, Axis x, Axis y)
 {
     Plot plot = *stage;
     double low[2], high[2];
@@ -189,7 +189,7 @@ Plot plot_on(const Plot *stage, Axis x, Axis y)
     plot.x = x;
     plot.y = y;
     for (int pass = 0; pass < 2; pass++) { /* the first one for the numbers */
-        if (stage->text && pass > 0)
+        if (stage->has_text && pass > 0)
             plot.box = inner_box(stage, &plot.y, 2.2, 1.7);
         camera_world(&stage->camera, box->x, box->y + box->height, low);
         camera_world(&stage->camera, box->x + box->width, box->y, high);
@@ -199,7 +199,7 @@ Plot plot_on(const Plot *stage, Axis x, Axis y)
     set_range(&plot.x, low[0], high[0]);
     if (y.high != 0)
         set_camera(&plot, 1, &y);
-    if (stage->text)
+    if (stage->has_text)
         draw_axes(&plot);
     return plot;
 }
@@ -223,7 +223,7 @@ static void draw_line(const Plot *plot, const double *a, const double *b,
                       double width, Colour colour)
 {
     double line[4] = {a[0], a[1], b[0], b[1]};
-    if (!has_axes(plot) || box_cut(&plot->box, 0, line))
+    if (!has_axes(plot) || box_clip_line(&plot->box, 0, line))
         canvas_line(&plot->paper->canvas, line[0], line[1], line[2], line[3],
                     pixels_wide(plot, width), colour);
 }
@@ -232,8 +232,8 @@ void plot_line(const Plot *plot, const double *a, const double *b, double width,
                Colour colour)
 {
     double p[2], q[2];
-    plot_place(plot, a, p);
-    plot_place(plot, b, q);
+    plot_pixel(plot, a, p);
+    plot_pixel(plot, b, q);
     draw_line(plot, p, q, width, colour);
 }
 
@@ -242,12 +242,12 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
 {
     Canvas *canvas = &plot->paper->canvas;
     double p[2], q[2];
-    Box before = canvas_clip(canvas, plot->box);
-    plot_place(plot, a, p);
-    plot_place(plot, b, q);
+    Box before = canvas_set_clip(canvas, plot->box);
+    plot_pixel(plot, a, p);
+    plot_pixel(plot, b, q);
     canvas_dashes(canvas, p, q, pixels_wide(plot, width), plot->paper->unit,
                   phase, colour);
-    canvas_clip(canvas, before);
+    canvas_set_clip(canvas, before);
 }
 
 void plot_ellipse(const Plot *plot, const double *middle, const double *a,
@@ -275,11 +275,11 @@ void plot_springs(const Plot *plot, const System *system, const double *x,
                       x + 2 * system->e[2 * s + 1], width, colour);
 }
 
-void plot_face(const Plot *plot, const double *const corner[4], Colour colour)
+void plot_quad(const Plot *plot, const double *const corner[4], Colour colour)
 {
     double p[8];
     for (int k = 0; k < 4; k++)
-        plot_place(plot, corner[k], p + 2 * k);
+        plot_pixel(plot, corner[k], p + 2 * k);
     const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
     canvas_triangle(&plot->paper->canvas, p, false, colour);
     canvas_triangle(&plot->paper->canvas, half, false, colour);
@@ -294,7 +294,7 @@ void plot_curve(const Plot *plot, int count, const double *x, const double *y,
     double p[2] = {NAN, NAN};
     for (int i = 0; i < count; i++) {
         double q[2];
-        plot_place(plot, (double[2]){x[i], y[i]}, q);
+        plot_pixel(plot, (double[2]){x[i], y[i]}, q);
         if (isfinite(p[0] + p[1]) && isfinite(q[0] + q[1])) {
             const double d[2] = {q[0] - p[0], q[1] - p[1]};
             if (fabs(d[0]) < 1 && fabs(d[1]) < 1 && i + 1 < count)
@@ -326,7 +326,7 @@ void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
 /* Whether a point is to be seen; p [2] pixels, out. */
 static bool find_place(const Plot *plot, const double *at, double p[2])
 {
-    plot_place(plot, at, p);
+    plot_pixel(plot, at, p);
     return !has_axes(plot) || (at[0] >= plot->x.low && at[0] <= plot->x.high &&
                                at[1] >= plot->y.low && at[1] <= plot->y.high);
 }
@@ -341,8 +341,8 @@ bool plot_disc(const Plot *plot, const double *at, double radius, Colour colour)
     return seen;
 }
 
-void plot_hollow(const Plot *plot, const double *at, double radius,
-                 double inner, Colour colour)
+void plot_hollow_disc(const Plot *plot, const double *at, double radius,
+                      double inner, Colour colour)
 {
     if (plot_disc(plot, at, radius, colour))
         plot_disc(plot, at, inner, COLOUR_WHITE);
@@ -362,7 +362,7 @@ void plot_pin(const Plot *plot, const double *at, double radius)
 {
     Canvas *canvas = &plot->paper->canvas;
     double p[2], size = fmax(radius, 3) * plot->paper->unit * 1.15;
-    plot_place(plot, at, p);
+    plot_pixel(plot, at, p);
     if (!(fabs(p[0]) < 1e6 && fabs(p[1]) < 1e6))
         return;
     Box box = {(int)floor(p[0] - size + 0.5), (int)floor(p[1] - size + 0.5),
@@ -378,21 +378,22 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
     Paper *paper = plot->paper;
     const double b[2] = {a[0] + factor * d[0], a[1] + factor * d[1]};
     double p[2], q[2];
-    Box before = canvas_clip(&paper->canvas, plot->box);
-    plot_place(plot, a, p);
-    plot_place(plot, b, q);
+    Box before = canvas_set_clip(&paper->canvas, plot->box);
+    plot_pixel(plot, a, p);
+    plot_pixel(plot, b, q);
     canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
                  pixels_wide(plot, width), HEAD * paper->em, colour);
-    canvas_clip(&paper->canvas, before);
+    canvas_set_clip(&paper->canvas, before);
 }
 
-bool plot_pick(const Plot *plot, int count, const double *at, double reach,
-               double x, double y, PickKind kind, Pick *pick)
+bool plot_pick_point(const Plot *plot, int count, const double *at,
+                     double reach, double x, double y, PickKind kind,
+                     Pick *pick)
 {
     bool found = false;
     for (int i = count - 1; i >= 0; i--) {
         double p[2];
-        plot_place(plot, at + 2 * i, p);
+        plot_pixel(plot, at + 2 * i, p);
         double distance = math_hypot(p[0] - x, p[1] - y);
         if (!(distance < reach))
             continue;
@@ -404,7 +405,7 @@ bool plot_pick(const Plot *plot, int count, const double *at, double reach,
     return found;
 }
 
-void bounds_around(double reach, double most, double factor, double bounds[4])
+void bounds_grow(double reach, double most, double factor, double bounds[4])
 {
     while (reach < most && reach < 1e100)
         reach *= factor;

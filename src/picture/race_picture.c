@@ -34,7 +34,7 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
     double row = plot->box.y + line; /* below the legend, above the axis */
     double last = plot->box.y + plot->box.height - line;
     for (int i = 0; i < RACE_METHODS; i++) {
-        plot_place(plot, point[i], at[i]);
+        plot_pixel(plot, point[i], at[i]);
         bool left = over_h || !race_method(i)->implicit;
         at[i][1] = left == side ? at[i][1] : NAN;
         last -= isnan(at[i][1]) ? 0 : line;
@@ -48,7 +48,7 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
         if (isnan(at[next][1]))
             return;
         const IntegratorMethod *method = race_method(next);
-        Colour colour = colour_of(method->name);
+        Colour colour = colour_of_name(method->name);
         double wide = paper_width(paper, FACE_BOLD, 1, method->label);
         double x = column + way * 1.4 * paper->em;
         x = side ? x : fmin(x, end - wide);
@@ -71,8 +71,8 @@ void race_draw(Plot *stage)
     const Race *race = &simulation->exhibit.race;
     double named[RACE_METHODS][2]; /* NaN: it has no point */
     bool over_h = simulation->exhibit.parts;
-    bool wide = stage->text && stage->box.width > NAMED * stage->em;
-    Plot plot = plot_on(
+    bool wide = stage->has_text && stage->box.width > NAMED * stage->em;
+    Plot plot = plot_on_stage(
         stage,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true});
@@ -80,7 +80,7 @@ void race_draw(Plot *stage)
     if (!over_h)
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
     for (int method = 0; method < RACE_METHODS; method++) {
-        Colour colour = colour_of(race_method(method)->name);
+        Colour colour = colour_of_name(race_method(method)->name);
         bool first = !over_h && !race_method(method)->implicit;
         double last[2] = {NAN, NAN};
         named[method][0] = named[method][1] = NAN;
@@ -91,7 +91,7 @@ void race_draw(Plot *stage)
             if (!(point->error > 0))
                 continue;
             plot_line(&plot, last, now, 2.2, colour);
-            plot_hollow(&plot, now, 5, point->stable ? 0 : 3, colour);
+            plot_hollow_disc(&plot, now, 5, point->stable ? 0 : 3, colour);
             memcpy(last, now, sizeof now);
             if (!first || isnan(named[method][0]))
                 memcpy(named[method], now, sizeof now);
@@ -101,7 +101,7 @@ void race_draw(Plot *stage)
         const double from[2] = {2.5e-5, 0.03}, way = 4.5;
         const double to[2] = {from[0] * way, from[1] * pow(way, order)};
         plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
-        plot_words(&plot, 1, to, COLOUR_GREY, "order %d", order);
+        plot_label(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
     for (int side = 0; side < 2 && wide; side++)
         name_points(&plot, named, over_h, side);
@@ -109,7 +109,7 @@ void race_draw(Plot *stage)
 
 /* The quickest run that is near: a stable one of an explicit method and of an
  * implicit one, and an explicit one that explodes later. */
-void race_facts(const Simulation *simulation, Facts *facts)
+void race_add_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[3][3] = {
         {"explicit", "explicit ms", "explicit h"},
@@ -123,20 +123,23 @@ void race_facts(const Simulation *simulation, Facts *facts)
             if (at->method->implicit == (i == 1) && at->stable == (i < 2) &&
                 at->error <= NEAR && (!best || at->seconds < best->seconds))
                 best = at;
-        fact_words(facts, names[i][0], best ? best->method->label : NULL);
-        fact(facts, names[i][1], best ? 1e3 * best->seconds : NAN);
-        fact(facts, names[i][2], best ? 1e3 * best->h : NAN);
-        fact_when(facts, i ? "" : "no explicit", !best && all);
+        values_add_words(values, names[i][0],
+                         best ? best->method->label : NULL);
+        values_add(values, names[i][1], best ? 1e3 * best->seconds : NAN);
+        values_add(values, names[i][2], best ? 1e3 * best->h : NAN);
+        values_add_flag(values, i ? "" : "no explicit", !best && all);
     }
     bool failed = false; /* of those in the table */
     for (int i = RACE_SHOWN * RACE_METHODS; i < race->count; i++)
         failed = failed || (isnan(race->point[i].error) &&
                             i < (RACE_SHOWN + HALVED + 1) * RACE_METHODS);
-    fact_when(facts, "failed run", failed);
-    fact_when(facts, all ? "all runs" : "some runs", !simulation->status);
-    fact_when(facts, simulation->exhibit.parts ? "over h" : "over time", true);
-    fact(facts, "methods", RACE_METHODS);
-    fact_when(facts, "failed", simulation->status);
+    values_add_flag(values, "failed run", failed);
+    values_add_flag(values, all ? "all runs" : "some runs",
+                    !simulation->status);
+    values_add_flag(values, simulation->exhibit.parts ? "over h" : "over time",
+                    true);
+    values_add(values, "methods", RACE_METHODS);
+    values_add_flag(values, "failed", simulation->status);
 }
 
 /* A number of a row of the table; nothing where it is not known. */
@@ -144,8 +147,8 @@ static void put_cell(char *cell, size_t size, const char *sign, double value,
                      int digits, const char *unit)
 {
     if (isfinite(value))
-        snprintf(cell, size, "%s%.40s%s", sign, number_with(value, digits).text,
-                 unit);
+        snprintf(cell, size, "%s%.40s%s", sign,
+                 format_digits(value, digits).text, unit);
 }
 
 enum { COLUMNS = 9, CELL = 64 };
@@ -225,7 +228,7 @@ void table_draw(const Plot *card)
             memcpy(cell, heads, sizeof cell);
         for (int c = 0; c < COLUMNS; c++) {
             Colour colour = row && c == 0
-                                ? colour_of(race_method(row - 1)->name)
+                                ? colour_of_name(race_method(row - 1)->name)
                                 : COLOUR_TEXT;
             if (!shown[c])
                 continue;

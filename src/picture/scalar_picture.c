@@ -86,7 +86,7 @@ static void draw_model(const Plot *plot, const Update *update, double width,
     const double high[2] = {update->x1, curve_at(update, update->x1)};
     plot_graph(plot, model_at, update, width, colour);
     plot_line(plot, low, high, 1.2, colour);
-    plot_hollow(plot, low, radius, 0.6 * radius, COLOUR_P);
+    plot_hollow_disc(plot, low, radius, 0.6 * radius, COLOUR_P);
 }
 
 /* E or its slope, and its model, if that is to be seen.  Rings where the line
@@ -104,13 +104,13 @@ static void draw_search(const Plot *plot, const Update *update, bool model)
     const double edge[2] = {right ? plot->x.high : plot->x.low,
                             0.2 * plot->y.low};
     if (model && !update->slopes && isfinite(x1) && (left || right))
-        plot_words(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
-                   right ? "" : "\u2190 ", number_of(x1).text,
+        plot_label(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
+                   right ? "" : "\u2190 ", format_number(x1).text,
                    right ? " \u2192" : "");
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (x1 - update->x0);
-        plot_hollow(plot, (double[2]){x, curve_at(update, x)}, 5, 3.2,
-                    COLOUR_WARNING);
+        plot_hollow_disc(plot, (double[2]){x, curve_at(update, x)}, 5, 3.2,
+                         COLOUR_WARNING);
     }
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
@@ -118,11 +118,12 @@ static void draw_search(const Plot *plot, const Update *update, bool model)
         const double at[2] = {x, curve_at(update, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         bool seen = plot_disc(plot, at, last ? 7 : 5.5, colour);
-        plot_place(plot, at, p);
-        if (!seen || !plot->text || fabs(p[0] - used[i % 2]) < 1.5 * plot->em)
+        plot_pixel(plot, at, p);
+        if (!seen || !plot->has_text ||
+            fabs(p[0] - used[i % 2]) < 1.5 * plot->em)
             continue;
         used[i % 2] = p[0];
-        plot_words(plot, 1, at, colour, "x^{%d}", i);
+        plot_label(plot, 1, at, colour, "x^{%d}", i);
     }
 }
 
@@ -134,7 +135,7 @@ void curve_draw(Plot *stage)
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
     Update update = update_at(simulation, simulation->descent.count - 1);
-    Plot plot = plot_on(stage, (Axis){.label = "x"}, (Axis){0});
+    Plot plot = plot_on_stage(stage, (Axis){.label = "x"}, (Axis){0});
     for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
         Update earlier = update_at(simulation, i);
         draw_model(&plot, &earlier, 1.4, 4, pale);
@@ -143,28 +144,28 @@ void curve_draw(Plot *stage)
 }
 
 /* The update that is shown, from its iterate to the next one. */
-void scalar_facts(const Simulation *simulation, Facts *facts)
+void scalar_add_values(const Simulation *simulation, LiveValues *values)
 {
     Update update = update_at(simulation, simulation->descent.count - 1);
     double x = update.x0, p = update.x1 - update.x0;
     double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
     bool tangent = simulation->scene->picture == PICTURE_TANGENT;
-    fact_when(facts, "tangent", tangent);
-    fact(facts, "number", update.number);
-    fact(facts, "next number", update.number + 1);
-    fact_when(facts, "refused lengths", update.refused > 0);
-    fact(facts, "iterate", x);
-    fact(facts, "next", next);
-    fact(facts, "double sinh", sinh(2 * x));
-    fact_when(facts, "no length", !(update.alpha > 0));
-    fact_when(facts, "full length", update.alpha >= 1);
+    values_add_flag(values, "tangent", tangent);
+    values_add(values, "number", update.number);
+    values_add(values, "next number", update.number + 1);
+    values_add_flag(values, "refused lengths", update.refused > 0);
+    values_add(values, "iterate", x);
+    values_add(values, "next", next);
+    values_add(values, "double sinh", sinh(2 * x));
+    values_add_flag(values, "no length", !(update.alpha > 0));
+    values_add_flag(values, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)
-        fact(facts, "shorter", update.alpha);
-    fact(facts, "slope", update.first);
-    fact(facts, "curvature", update.second);
-    fact(facts, "direction", p);
-    fact(facts, "E", update.f);
-    fact_when(facts, update.second > 0 ? "lowest" : "highest", true);
+        values_add(values, "shorter", update.alpha);
+    values_add(values, "slope", update.first);
+    values_add(values, "curvature", update.second);
+    values_add(values, "direction", p);
+    values_add(values, "E", update.f);
+    values_add_flag(values, update.second > 0 ? "lowest" : "highest", true);
 }
 
 /* ---- g and its tangents above E and its parabolas ------------------------ */
@@ -173,7 +174,7 @@ void scalar_facts(const Simulation *simulation, Facts *facts)
 void tangent_bounds(const Plot *stage, double bounds[4])
 {
     double x = stage->simulation->descent.point[0];
-    bounds_around(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
+    bounds_grow(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
 }
 
 /* Upper half (0): g.  Lower half (1): E.  Both fit |g| and E of all iterates,
@@ -191,8 +192,8 @@ static Plot tangent_plot(const Plot *stage, int half)
     part.box.height /= 2;
     part.box.y += half * part.box.height;
     Plot plot =
-        plot_on(&part, (Axis){.label = half ? "x in m" : NULL},
-                (Axis){.low = half ? -0.25 * high : -high, .high = high});
+        plot_on_stage(&part, (Axis){.label = half ? "x in m" : NULL},
+                      (Axis){.low = half ? -0.25 * high : -high, .high = high});
     plot_line(&plot, (double[2]){plot.x.low, 0}, (double[2]){plot.x.high, 0}, 1,
               COLOUR_GREY);
     return plot;
@@ -209,11 +210,11 @@ void tangent_draw(Plot *stage)
         update.slopes = half == 0;
         draw_search(&plot[half], &update, update.made || !asked);
     }
-    if (!stage->text)
+    if (!stage->has_text)
         return;
     stage_handles(&plot[1]);
     if (plot_disc(&plot[1], target, 5, COLOUR_X_TILDE))
-        plot_words(&plot[1], 1, target, COLOUR_X_TILDE, "{xt}");
+        plot_label(&plot[1], 1, target, COLOUR_X_TILDE, "{xt}");
     Paper *paper = stage->paper;
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[0].box.x + paper->em,
                 stage->box.y + 0.5 * paper->em, ALIGN_LEFT,
@@ -281,7 +282,7 @@ void update_draw(const Plot *card)
     Plot left = *card, right = *card;
     right.box = box_cut_off(&left.box, EDGE_RIGHT,
                             paper_pixels(card->paper, ITERATES_WIDE));
-    text_in_card(&left, &show_pane(card->show)->facts, text_update);
+    card_write_text(&left, &show_pane(card->show)->values, text_update);
     draw_iterates(&right);
 }
 
@@ -292,5 +293,5 @@ void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
     int handles = exhibit_handles(stage->simulation, at);
     for (int i = 0; i < handles; i++)
         at[i][1] = pick->point[1];
-    plot_pick(stage, handles, *at, 14, x, y, PICK_HANDLE, pick);
+    plot_pick_point(stage, handles, *at, 14, x, y, PICK_HANDLE, pick);
 }

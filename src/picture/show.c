@@ -42,8 +42,8 @@ void show_create(const Simulation *simulation, Show *show)
     *show = (Show){.panes = 1, .selected = -1, .large = -1, .view = &whole};
     show->pane[0].simulation = simulation;
     for (int c = 0; c < picture->count; c++) {
-        show->closed |= (unsigned)picture->cards[c]->closed << c;
-        show->hidden |= (unsigned)picture->cards[c]->lecture << c;
+        show->closed |= (unsigned)picture->cards[c]->starts_closed << c;
+        show->hidden |= (unsigned)picture->cards[c]->only_in_lecture << c;
     }
 }
 
@@ -53,10 +53,10 @@ bool show_needs_line(const Simulation *simulation, unsigned toggled)
     const LecturePage *page = simulation->options.page;
     for (int c = 0; c < picture->count; c++) {
         const Card *card = picture->cards[c];
-        bool there =
-            page ? strstr(page->cards, card->name) != NULL : !card->lecture;
-        bool closed = (card->closed && !page) != (toggled >> c & 1);
-        if (card->along && there && !closed)
+        bool there = page ? strstr(page->cards, card->name) != NULL
+                          : !card->only_in_lecture;
+        bool closed = (card->starts_closed && !page) != (toggled >> c & 1);
+        if (card->needs_line_energy && there && !closed)
             return true;
     }
     return false;
@@ -89,7 +89,7 @@ static void own_bounds(const Show *show, const Layout *layout, int pane,
     if (picture->bounds)
         picture->bounds(&stage, bounds);
     else
-        memcpy(bounds, picture->around, sizeof picture->around);
+        memcpy(bounds, picture->default_bounds, sizeof picture->default_bounds);
 }
 
 /* The part of the world that fits a pane; all panes of a page have that of the
@@ -119,9 +119,9 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
                   .show = show,
                   .simulation = show->pane[pane].simulation,
                   .box = layout->pane[pane],
-                  .told = show->lecture && !show->veiled,
+                  .revealed = show->lecture && !show->veiled,
                   .pane = pane,
-                  .text = !show->bare,
+                  .has_text = !show->bare,
                   .em = layout->em};
     double bounds[4];
     bool stretched = picture_of(stage.simulation->scene)->stretched;
@@ -133,7 +133,7 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
     const Camera there =
         camera_create(beside, bounds, stretched, &show->view->lens);
     Switch out[SCENE_MAX_SWITCHES];
-    if (stage.text && beside.width > 0 &&
+    if (stage.has_text && beside.width > 0 &&
         there.scale[0] >= stage.camera.scale[0] &&
         exhibit_switches(stage.simulation, out) > 0)
         stage.camera = there;
@@ -181,14 +181,14 @@ static void stage_switches(const Plot *stage)
     Paper *paper = stage->paper;
     Switch out[SCENE_MAX_SWITCHES];
     int count = exhibit_switches(stage->simulation, out);
-    for (int i = 0; i < count && stage->text; i++) {
+    for (int i = 0; i < count && stage->has_text; i++) {
         Box box = switch_box(stage, i), mark = box_inset(box, box.height / 4);
         bool on = out[i].on;
-        canvas_card(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
-                    COLOUR_BORDER);
+        canvas_framed_box(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
+                          COLOUR_BORDER);
         mark.width = mark.height;
-        canvas_card(&paper->canvas, mark, on ? COLOUR_VALUE : COLOUR_WHITE,
-                    COLOUR_FAINT);
+        canvas_framed_box(&paper->canvas, mark,
+                          on ? COLOUR_VALUE : COLOUR_WHITE, COLOUR_FAINT);
         box.x += 2 * mark.width;
         box.width -= 2 * mark.width;
         paper_fit(paper, FACE_REGULAR, 0.92, on ? COLOUR_TEXT : COLOUR_FAINT,
@@ -206,8 +206,8 @@ static void stage_prediction(const Plot *stage)
     double unit = stage->paper->unit, arm = 7 * unit, at[2], came[2], point[2];
     if (!guess->made || stage->show->bare)
         return;
-    plot_place(stage, guess->at, at);
-    plot_place(stage, guess->came, came);
+    plot_pixel(stage, guess->at, at);
+    plot_pixel(stage, guess->came, came);
     if (simulation_point(stage->simulation, point) == 1) {
         canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
                     1.5 * unit, COLOUR_HAND);
@@ -217,8 +217,8 @@ static void stage_prediction(const Plot *stage)
         canvas_line(canvas, at[0] - arm, at[1] - k * arm, at[0] + arm,
                     at[1] + k * arm, 3 * unit, COLOUR_HAND);
     canvas_dashes(canvas, at, came, 1.6 * unit, unit, NULL, COLOUR_HAND);
-    plot_words(stage, 1, guess->at, COLOUR_HAND, "your guess, %s off",
-               number_of(guess->distance).text);
+    plot_label(stage, 1, guess->at, COLOUR_HAND, "your guess, %s off",
+               format_number(guess->distance).text);
 }
 
 Pick show_pick(const Show *show, const Layout *layout, double x, double y)
@@ -235,16 +235,18 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
     Switch out[SCENE_MAX_SWITCHES];
     int handles = exhibit_handles(stage.simulation, at);
     int switches = exhibit_switches(stage.simulation, out);
-    for (int i = 0; i < switches && stage.text && !picture->own_handles; i++)
+    for (int i = 0; i < switches && stage.has_text && !picture->own_handles;
+         i++)
         if (box_contains(switch_box(&stage, i), x, y)) {
             pick.kind = PICK_SWITCH;
             pick.index = i;
             return pick;
         }
     if (!picture->own_handles &&
-        plot_pick(&stage, handles, *at, HANDLE_REACH, x, y, PICK_HANDLE, &pick))
+        plot_pick_point(&stage, handles, *at, HANDLE_REACH, x, y, PICK_HANDLE,
+                        &pick))
         return pick;
-    pick.kind = picture->places ? PICK_PLACE : PICK_NONE;
+    pick.kind = picture->takes_clicks ? PICK_PLACE : PICK_NONE;
     if (picture->pick)
         picture->pick(&stage, x, y, &pick);
     return pick;
@@ -253,7 +255,7 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
 long show_step_at(const Show *show, const Layout *layout, double x)
 {
     const Box *bars = &layout->bars;
-    double step = (x - bars->x) / fmax(bars->width, 1) * frame_span(show);
+    double step = (x - bars->x) / fmax(bars->width, 1) * time_line_steps(show);
     return (long)fmin(fmax(step < 0.25 ? 0 : floor(step) + 1, 0), show->bars);
 }
 
@@ -346,14 +348,14 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
     Plot stage = show_stage(paper, show, layout, pane);
     const Picture *picture = picture_of(stage.simulation->scene);
     const Pick *hover = &show->view->hover;
-    Box before = canvas_clip(&paper->canvas, stage.box);
+    Box before = canvas_set_clip(&paper->canvas, stage.box);
     if (show->lecture && stage.box.height < LEAST_TEXT * paper->em)
-        stage.text = false; /* a star has taken its room */
+        stage.has_text = false; /* a star has taken its room */
     picture->draw(&stage);
-    TextLine line = text_of(&show->pane[pane].facts, picture->legend);
-    while (stage.text && text_next(&line))
+    TextLine line = text_begin(&show->pane[pane].values, picture->legend);
+    while (stage.has_text && text_next(&line))
         plot_legend(&stage, line.colour, "%s", line.words);
-    if (stage.text && picture->scale)
+    if (stage.has_text && picture->shows_scale)
         plot_scale(&stage);
     if (!picture->own_handles)
         stage_handles(&stage);
@@ -361,10 +363,10 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
     stage_prediction(&stage);
     if (layout->panes > 1 && show->pane[pane].label)
         draw_label(&stage, show->pane[pane].label);
-    if (picture->hover && stage.text && hover->pane == pane &&
+    if (picture->hover && stage.has_text && hover->pane == pane &&
         hover->kind != PICK_NONE && !show->hand)
         picture->hover(&stage);
-    canvas_clip(&paper->canvas, before);
+    canvas_set_clip(&paper->canvas, before);
 }
 
 /* A scene on the sheet: its bare picture, its name, over it the heading of the
@@ -377,11 +379,11 @@ static void draw_cell(Paper *paper, Box box, const SheetCell *cell, bool chosen)
     if (cell->group)
         paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x,
                     box.y - 1.7 * paper->em, ALIGN_LEFT, "%s", cell->group);
-    canvas_card(&paper->canvas, *inside, COLOUR_WHITE,
-                chosen ? COLOUR_VALUE : COLOUR_BORDER);
+    canvas_framed_box(&paper->canvas, *inside, COLOUR_WHITE,
+                      chosen ? COLOUR_VALUE : COLOUR_BORDER);
     if (chosen)
-        canvas_card(&paper->canvas, box_inset(*inside, 1), COLOUR_WHITE,
-                    COLOUR_VALUE);
+        canvas_framed_box(&paper->canvas, box_inset(*inside, 1), COLOUR_WHITE,
+                          COLOUR_VALUE);
     *inside = box_inset(*inside, paper_pixels(paper, 0.3));
     if (cell->simulation) {
         Show show;
@@ -401,7 +403,7 @@ static void begin_paper(Paper *paper, double em, const Show *show)
 {
     paper->em = em;
     paper->unit = em / 14;
-    paper->least = show->lecture ? 1 : 0;
+    paper->min_letter = show->lecture ? 1 : 0;
     canvas_clear(&paper->canvas, COLOUR_WHITE);
 }
 
@@ -409,10 +411,11 @@ void show_draw_card(Paper *paper, const Show *show, int card)
 {
     const Canvas *canvas = &paper->canvas;
     begin_paper(paper, show->letter, show);
-    card_draw(paper, box_inset((Box){0, 0, canvas->width, canvas->height},
-                               paper_pixels(paper, 0.4)),
+    card_draw(paper,
+              box_inset((Box){0, 0, canvas->width, canvas->height},
+                        paper_pixels(paper, 0.4)),
               show, card);
-    glow_draw(paper, show);
+    highlight_draw(paper, show);
 }
 
 void show_draw(Paper *paper, const Show *show)
@@ -438,12 +441,12 @@ void show_draw(Paper *paper, const Show *show)
     if (show->bare)
         return;
     if (show->document) {
-        glow_draw(paper, show);
+        highlight_draw(paper, show);
         return;
     }
     if (show->column != COLUMN_CARDS)
         canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
     cards_draw(paper, &layout, show);
-    glow_draw(paper, show);
+    highlight_draw(paper, show);
     frame_draw(paper, &layout, show);
 }

@@ -18,10 +18,10 @@ static const double origin[2] = {0, 0};
 void spring_bounds(const Plot *stage, double bounds[4])
 {
     const double *x = stage->simulation->run[0].x;
-    bounds_around(SPRING_REACH, 1.1 * length_of(x), sqrt(2), bounds);
+    bounds_grow(SPRING_REACH, 1.1 * vector_length(x), sqrt(2), bounds);
 }
 
-static SpringFacts facts_at(const double d[2], const System *system)
+static SpringFacts spring_at(const double d[2], const System *system)
 {
     return spring_facts(d, system->l2[0], system->k[0]);
 }
@@ -29,12 +29,12 @@ static SpringFacts facts_at(const double d[2], const System *system)
 /* The energies at a signed length along d. */
 static double energy_over(const void *system, double d)
 {
-    return facts_at((double[2]){d, 0}, system).energy;
+    return spring_at((double[2]){d, 0}, system).energy;
 }
 
 static double root_over(const void *system, double d)
 {
-    return facts_at((double[2]){d, 0}, system).root_energy;
+    return spring_at((double[2]){d, 0}, system).root_energy;
 }
 
 /* A circle of this radius around the held end, in dashes. */
@@ -44,7 +44,7 @@ static void spring_circle(Plot *stage, double radius, Colour colour,
     const double a[2] = {radius, 0}, b[2] = {0, radius};
     const double label[2] = {-0.7071 * radius, -0.7071 * radius};
     plot_ellipse(stage, origin, a, b, 1.4, true, colour);
-    plot_words(stage, 1, label, colour, "%s", word);
+    plot_label(stage, 1, label, colour, "%s", word);
 }
 
 /* A zigzag from the held end to x. */
@@ -52,12 +52,12 @@ static void spring_coil(Plot *stage, const double *x, Colour colour)
 {
     const Point across = {{-x[1], x[0]}};
     Point from = {{0, 0}};
-    double length = length_of(x);
+    double length = vector_length(x);
     for (int i = 1; i <= 2 * SPRING_COILS && length > 0; i++) {
         bool straight = i == 1 || i >= 2 * SPRING_COILS - 1;
         double side = straight ? 0 : (i % 2 ? 0.06 : -0.06) / length;
-        const Point on = along(origin, (double)i / (2 * SPRING_COILS), x);
-        const Point to = along(on.at, side, across.at);
+        const Point on = point_along(origin, (double)i / (2 * SPRING_COILS), x);
+        const Point to = point_along(on.at, side, across.at);
         plot_line(stage, from.at, to.at, 2.4, colour);
         from = to;
     }
@@ -72,26 +72,27 @@ void spring_draw(Plot *stage)
     const Show *show = stage->show;
     const double *x = simulation->run[0].x;
     double l = sqrt(simulation->system.l2[0]);
-    SpringFacts facts = facts_at(x, &simulation->system);
-    bool projects = facts.across < 0 && !show->veiled;
+    SpringFacts spring = spring_at(x, &simulation->system);
+    bool projects = spring.across < 0 && !show->veiled;
     bool modes = simulation->options.layers & LAYER_MODES;
     spring_circle(stage, l, COLOUR_FAINT, "l");
     if (!show->lecture || modes)
         spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     spring_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
-    const double value[2] = {facts.along, facts.across};
-    for (int i = 0; i < 4 && modes && !show->veiled && facts.length > 0; i++) {
-        double n[2] = {x[i / 2] / facts.length, x[1 - i / 2] / facts.length};
+    const double value[2] = {spring.along, spring.across};
+    for (int i = 0; i < 4 && modes && !show->veiled && spring.length > 0; i++) {
+        double n[2] = {x[i / 2] / spring.length, x[1 - i / 2] / spring.length};
         double size = fabs(value[i / 2]) / (4 * simulation->system.k[0]);
         n[0] = i / 2 ? -n[0] : n[0];
         plot_arrow(stage, i % 2 ? origin : x, n, i % 2 ? -size : size, 3.2,
                    value[i / 2] < 0 ? COLOUR_WARNING : COLOUR_X);
     }
-    if (!modes && facts.length > 0) {
+    if (!modes && spring.length > 0) {
         const double across[2] = {-x[1], x[0]};
-        const Point from = along(x, SPRING_BESIDE / facts.length, across);
-        plot_arrow(stage, from.at, facts.force, SPRING_ARROW, 3.2,
+        const Point from =
+            point_along(x, SPRING_BESIDE / spring.length, across);
+        plot_arrow(stage, from.at, spring.force, SPRING_ARROW, 3.2,
                    COLOUR_FORCE);
     }
     plot_disc(stage, x, 9, COLOUR_X);
@@ -101,7 +102,7 @@ void spring_draw(Plot *stage)
 
 /* On a page its force and Hessian once more, by differences of the energy and
  * of the force at two places. */
-static void add_differences(const Simulation *simulation, Facts *facts)
+static void add_differences(const Simulation *simulation, LiveValues *values)
 {
     static const double step = 1e-4; /* m */
     static const char *const names[] = {"Dxx", "Dxy", "Dyy"};
@@ -111,65 +112,68 @@ static void add_differences(const Simulation *simulation, Facts *facts)
     double force[2];
     for (int i = 0; i < 2; i++) {
         const SpringFacts at[2] = {
-            facts_at(along(d, -step, unit[i]).at, system),
-            facts_at(along(d, step, unit[i]).at, system)};
+            spring_at(point_along(d, -step, unit[i]).at, system),
+            spring_at(point_along(d, step, unit[i]).at, system)};
         force[i] = (at[0].energy - at[1].energy) / (2 * step);
         for (int k = 0; k <= i; k++)
-            fact(facts, names[i + k],
-                 (at[0].force[k] - at[1].force[k]) / (2 * step));
+            values_add(values, names[i + k],
+                       (at[0].force[k] - at[1].force[k]) / (2 * step));
     }
-    fact(facts, "apart", 1e3 * step);
-    fact_point(facts, "force too", force);
+    values_add(values, "apart", 1e3 * step);
+    values_add_point(values, "force too", force);
 }
 
-void length_facts(const Simulation *simulation, Facts *facts)
+void spring_add_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[2][3] = {{"Hxx", "Hxy", "Hyy"},
                                             {"Pxx", "Pxy", "Pyy"}};
     const System *system = &simulation->system;
     const double *d = simulation->run[0].x, k = system->k[0];
     double l2 = system->l2[0], H[3];
-    SpringFacts now = facts_at(d, system);
+    SpringFacts now = spring_at(d, system);
     double along = 2 * now.along, across = 2 * now.across; /* of its block */
     bool page = simulation->options.page;
     bool folds = simulation->options.projection == PROJECTION_ABS && !page;
     Projection projection = folds ? PROJECTION_ABS : PROJECTION_CLAMP;
     bool both = simulation->exhibit.parts;
-    fact_point(facts, "d", d);
-    fact(facts, "distance", now.length);
-    fact(facts, "l", sqrt(l2));
-    fact(facts, "l2", l2);
-    fact(facts, "k", k);
-    fact(facts, "strain", now.strain);
-    fact(facts, "energy", now.energy);
-    fact_point(facts, "force", now.force);
-    fact(facts, "along", now.along);
-    fact(facts, "across", now.across);
-    fact(facts, "block along", along);
-    fact(facts, "block across", across);
-    fact(facts, "projected along", project_eigenvalue(projection, along));
-    fact(facts, "projected across", project_eigenvalue(projection, across));
-    fact(facts, "negative", fmin(fmin(along, across), 0));
+    values_add_point(values, "d", d);
+    values_add(values, "distance", now.length);
+    values_add(values, "l", sqrt(l2));
+    values_add(values, "l2", l2);
+    values_add(values, "k", k);
+    values_add(values, "strain", now.strain);
+    values_add(values, "energy", now.energy);
+    values_add_point(values, "force", now.force);
+    values_add(values, "along", now.along);
+    values_add(values, "across", now.across);
+    values_add(values, "block along", along);
+    values_add(values, "block across", across);
+    values_add(values, "projected along",
+               project_eigenvalue(projection, along));
+    values_add(values, "projected across",
+               project_eigenvalue(projection, across));
+    values_add(values, "negative", fmin(fmin(along, across), 0));
     for (int i = 0; i < 2; i++) { /* the Hessian, and the projected one */
         spring_hessian(d, l2, k, i == 0 ? PROJECTION_NONE : projection, H);
-        fact_matrix(facts, names[i], H, 1e-12 * k);
+        values_add_matrix(values, names[i], H, 1e-12 * k);
     }
     if (page)
-        add_differences(simulation, facts);
-    fact_when(facts, "root", both);
-    fact_when(facts, page ? "lecture" : "alone", true);
-    fact_when(facts, "pulled", !(simulation->options.layers & LAYER_MODES));
-    fact(facts, "tip", root_over(system, 0));
-    fact_when(facts, "shortened", now.across < 0);
-    fact(facts, "root energy", both ? now.root_energy : NAN);
-    fact(facts, "root along", both ? now.root_along : NAN);
-    fact(facts, "root across", now.root_across);
+        add_differences(simulation, values);
+    values_add_flag(values, "root", both);
+    values_add_flag(values, page ? "lecture" : "alone", true);
+    values_add_flag(values, "pulled",
+                    !(simulation->options.layers & LAYER_MODES));
+    values_add(values, "tip", root_over(system, 0));
+    values_add_flag(values, "shortened", now.across < 0);
+    values_add(values, "root energy", both ? now.root_energy : NAN);
+    values_add(values, "root along", both ? now.root_along : NAN);
+    values_add(values, "root across", now.root_across);
 }
 
 void profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
-    SpringFacts now = facts_at(card->simulation->run[0].x, system);
+    SpringFacts now = spring_at(card->simulation->run[0].x, system);
     bool both = card->simulation->exhibit.parts;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_over : energy_over)(system, 0);
@@ -182,9 +186,9 @@ void profile_draw(const Plot *card)
     if (both) {
         plot_graph(&plot, root_over, system, 1.8, COLOUR_GHOST);
         plot_disc(&plot, root, 5, COLOUR_GHOST);
-        plot_words(&plot, 1, (double[2]){0, root_over(system, 0)}, COLOUR_GHOST,
+        plot_label(&plot, 1, (double[2]){0, root_over(system, 0)}, COLOUR_GHOST,
                    "P_{r} = 2k (|d| \u2212 l)\u00b2");
-        plot_words(&plot, 1, (double[2]){0, energy_over(system, 0)}, COLOUR_X,
+        plot_label(&plot, 1, (double[2]){0, energy_over(system, 0)}, COLOUR_X,
                    "P");
     }
     plot_disc(&plot, at, 6, COLOUR_TEXT);

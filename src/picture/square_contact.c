@@ -13,42 +13,43 @@ static const double SLAB = 1;           /* ems, depth of a thin wall */
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 
-ElementIterator square_contacts(const SpringPen *pen)
+ElementIterator square_contacts(const SquarePen *pen)
 {
-    return pen->contact ? elements_begin(&pen->contacts, NULL, 0)
+    return pen->contact ? elements_begin(&pen->contact_at, NULL, 0)
                         : (ElementIterator){0};
 }
 
-Touch square_touch(const SpringPen *pen, const Element *element)
+ContactForce square_contact_force(const SquarePen *pen, const Element *element)
 {
     const Term *term = system_find_term(pen->system, &friction_energy);
     const double *n = element->n, h = pen->simulation->options.timestep;
-    const ElementKind *kind = pen->contacts.term->kind->element;
+    const ElementKind *kind = pen->contact_at.term->kind->element;
     double push = contact_normal_force(&pen->contact->barrier, element->s);
     double t[4], v[4], carry, rub = 0;
-    double grip = kind->friction_limit(&pen->contacts, element, t, &carry);
-    Touch touch = {.node = element->node[0], .rough = term && grip > 0};
-    if (touch.rough) {
+    double grip = kind->friction_limit(&pen->contact_at, element, t, &carry);
+    ContactForce contact = {.node = element->node[0],
+                            .has_friction = term && grip > 0};
+    if (contact.has_friction) {
         double speed = ((const Friction *)term->data)->slip_speed;
         element_vectors(element, pen->v, v);
         double slip = t[0] * v[0] + t[1] * v[1] - carry;
         rub = -grip * friction_slope(slip * h, speed * h);
-        touch.slides = fabs(slip) >= speed;
+        contact.slides = fabs(slip) >= speed;
     }
     for (int c = 0; c < 2; c++)
-        touch.force[c] = push * n[c] + rub * t[c];
-    return touch;
+        contact.force[c] = push * n[c] + rub * t[c];
+    return contact;
 }
 
-void square_contact_forces(const SpringPen *pen, int runs)
+void square_contact_forces(const SquarePen *pen, int runs)
 {
     Plot *stage = pen->stage;
     double most = 0; /* the largest force, N */
     for (int r = 0; r < runs; r++)
         for (ElementIterator at = square_contacts(&pen[r]);
              elements_next(&at);) {
-            Touch touch = square_touch(&pen[r], &at.element);
-            most = fmax(most, length_of(touch.force));
+            ContactForce contact = square_contact_force(&pen[r], &at.element);
+            most = fmax(most, vector_length(contact.force));
         }
     if (most == 0 || !isfinite(most))
         return;
@@ -57,24 +58,24 @@ void square_contact_forces(const SpringPen *pen, int runs)
     for (int r = runs - 1; r >= 0; r--)
         for (ElementIterator at = square_contacts(&pen[r]);
              elements_next(&at);) {
-            Touch touch = square_touch(&pen[r], &at.element);
-            const double *x = pen[r].x + 2 * touch.node, *f = touch.force;
+            ContactForce contact = square_contact_force(&pen[r], &at.element);
+            const double *x = pen[r].x + 2 * contact.node, *f = contact.force;
             double radius = fmax(pen[r].radius, 2);
-            if (length_of(f) > FORCE_LEAST * most)
-                plot_arrow(stage, along(x, -factor, f).at, f, factor, 1.8,
+            if (vector_length(f) > FORCE_LEAST * most)
+                plot_arrow(stage, point_along(x, -factor, f).at, f, factor, 1.8,
                            COLOUR_FORCE);
-            if (touch.rough && touch.slides)
+            if (contact.has_friction && contact.slides)
                 plot_ring(stage, x, 1.6 * radius, 1.5, COLOUR_FORCE);
-            else if (touch.rough)
+            else if (contact.has_friction)
                 plot_disc(stage, x, 1.4 * radius, COLOUR_FORCE);
         }
     plot_legend(stage, COLOUR_FORCE, "contact force \u2264 %s N",
-                number_of(round).text);
+                format_number(round).text);
     if (system_find_term(pen->system, &friction_energy))
         plot_legend(stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 
-void square_contact_words(const SpringPen *pen)
+void square_contact_slope(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
@@ -91,12 +92,12 @@ void square_contact_words(const SpringPen *pen)
         return;
     from[0] += 2 * em / stage->camera.scale[0];
     from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
-    plot_place(stage, from, at);
+    plot_pixel(stage, from, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
     low = fmax(low, 0); /* then further up along the wall */
     snprintf(words, sizeof words, "\u03bc = %s tan %s\u00b0",
-             number_of(wall->friction / fabs(slope)).text,
-             number_of(fabs(atan(slope)) / DEGREE).text);
+             format_number(wall->friction / fabs(slope)).text,
+             format_number(fabs(atan(slope)) / DEGREE).text);
     double most = stage->box.x + stage->box.width - 0.5 * em -
                   paper_width(stage->paper, FACE_REGULAR, 0.95, words);
     paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT,
@@ -118,17 +119,19 @@ static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                  box->y + 0.5 * box->height, middle);
     const double *o = wall->o;
     double at = (middle[0] - o[0]) * n[1] - (middle[1] - o[1]) * n[0];
-    const Point left = along(o, at - far, t), right = along(o, at + far, t);
-    const Point low[2] = {along(left.at, -deep, n), along(right.at, -deep, n)};
+    const Point left = point_along(o, at - far, t),
+                right = point_along(o, at + far, t);
+    const Point low[2] = {point_along(left.at, -deep, n),
+                          point_along(right.at, -deep, n)};
     const double *const corner[] = {left.at, right.at, low[1].at, low[0].at};
-    plot_face(stage, corner, COLOUR_SOLID);
+    plot_quad(stage, corner, COLOUR_SOLID);
     plot_line(stage, left.at, right.at, 1.5, COLOUR_EDGE);
     if (reach * scale > 2)
-        plot_dashes(stage, along(left.at, reach, n).at,
-                    along(right.at, reach, n).at, 1, NULL, COLOUR_GREY);
+        plot_dashes(stage, point_along(left.at, reach, n).at,
+                    point_along(right.at, reach, n).at, 1, NULL, COLOUR_GREY);
 }
 
-void square_contact_obstacles(const SpringPen *pen)
+void square_contact_obstacles(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Contact *contact = pen->contact;

@@ -28,16 +28,16 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
     int springs = neo_hookean_of(system) ? 0 : system->springs;
     Pick node = *pick;
-    if (plot_pick(stage, system->nodes, at, fmax(reach, 0.75 * spacing), x, y,
-                  PICK_NODE, &node))
+    if (plot_pick_point(stage, system->nodes, at, fmax(reach, 0.75 * spacing),
+                        x, y, PICK_NODE, &node))
         pick->near = node.index;
-    if (plot_pick(stage, system->nodes, at, reach, x, y, PICK_NODE, pick))
+    if (plot_pick_point(stage, system->nodes, at, reach, x, y, PICK_NODE, pick))
         return;
     for (int s = 0; s < springs; s++) {
         const int *e = system->e + 2 * s;
         double p[2], q[2], t = 0;
-        plot_place(stage, at + 2 * e[0], p);
-        plot_place(stage, at + 2 * e[1], q);
+        plot_pixel(stage, at + 2 * e[0], p);
+        plot_pixel(stage, at + 2 * e[1], q);
         double dx = q[0] - p[0], dy = q[1] - p[1], length2 = dx * dx + dy * dy;
         if (length2 > 0)
             t = fmin(fmax(((x - p[0]) * dx + (y - p[1]) * dy) / length2, 0), 1);
@@ -72,28 +72,30 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
 /* ---- the card beside it ------------------------------------------------- */
 
 /* A text in a lower corner of the stage, the one farther from the mouse. */
-static void draw_note(const Plot *stage, const Facts *facts, const char *text)
+static void draw_note(const Plot *stage, const LiveValues *values,
+                      const char *text)
 {
     Paper *paper = stage->paper;
     Plot note = *stage;
     Box *box = &note.box;
     double middle = stage->box.x + 0.5 * stage->box.width, mouse[2];
-    double size = fmax(SMALL, paper->least), wide = WIDTH * paper->em, high = 0;
+    double size = fmax(SMALL, paper->min_letter), wide = WIDTH * paper->em,
+           high = 0;
     int margin = paper_pixels(paper, 0.7);
-    for (TextLine line = text_of(facts, text); text_next(&line);) {
+    for (TextLine line = text_begin(values, text); text_next(&line);) {
         wide = fmax(wide, paper_width(paper, line.face, size, line.words));
         high += paper_paragraph(paper, line.face, size, line.colour, *box, 0,
                                 line.words) +
                 paper_pixels(paper, 0.2 * size);
     }
-    plot_place(stage, stage->show->view->hover.point, mouse);
+    plot_pixel(stage, stage->show->view->hover.point, mouse);
     box->width = (int)wide + 2 * margin;
     box->height = (int)high + 2 * margin;
     box->x += mouse[0] > middle ? 0 : stage->box.width - box->width;
     box->y += stage->box.height - box->height;
-    canvas_card(&paper->canvas, *box, COLOUR_NOTE, COLOUR_GREY);
+    canvas_framed_box(&paper->canvas, *box, COLOUR_NOTE, COLOUR_GREY);
     *box = box_inset(*box, margin);
-    text_in_card(&note, facts, text);
+    card_write_text(&note, values, text);
 }
 
 /* Its force is m g - grad P, without friction. */
@@ -107,7 +109,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     double h = simulation->options.timestep, force[2], tilde[2];
     double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
     EvalPoint at = eval_point_at(system, pane_x(pane), NULL, pane_x(pane));
-    Facts facts = {0};
+    LiveValues values = {0};
     at.weight = -1;
     for (int t = 0; f && t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
@@ -120,18 +122,18 @@ static void note_node(Plot *stage, const Pane *pane, int node)
         tilde[k] = ghost ? ghost[2 * node + k] : x[k] + h * v[k];
     }
     free(f);
-    fact(&facts, "node", node);
-    fact_words(&facts, "pinned", system->pinned[node] ? ", pinned" : "");
-    fact(&facts, "mass", system->m[node]);
-    fact_point(&facts, "place", x);
-    fact_point(&facts, "velocity", v);
-    fact_point(&facts, "force", force);
-    fact_point(&facts, "inertia", tilde);
-    fact_words(&facts, "pin", /* where time passes */
-               !simulation_is_draggable(simulation) ? NULL
-               : system->pinned[node]               ? "frees"
-                                                    : "pins");
-    draw_note(stage, &facts, text_node);
+    values_add(&values, "node", node);
+    values_add_words(&values, "pinned", system->pinned[node] ? ", pinned" : "");
+    values_add(&values, "mass", system->m[node]);
+    values_add_point(&values, "place", x);
+    values_add_point(&values, "velocity", v);
+    values_add_point(&values, "force", force);
+    values_add_point(&values, "inertia", tilde);
+    values_add_words(&values, "pin", /* where time passes */
+                     !simulation_is_draggable(simulation) ? NULL
+                     : system->pinned[node]               ? "frees"
+                                                          : "pins");
+    draw_note(stage, &values, text_node);
 }
 
 /* The eigenvalues of a spring's 4x4 block are twice those of H, beside 0, 0. */
@@ -149,18 +151,20 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     double along = flow_law_eigenvalue_along(law, s_e, d2, across);
     across *= 2 * spring_hessian_factor(l2, k);
     along *= 2 * spring_hessian_factor(l2, k);
-    Facts facts = {0};
-    fact(&facts, "a", e[0]);
-    fact(&facts, "b", e[1]);
-    fact(&facts, "l2", l2);
-    fact(&facts, "strain", 100 * (length_of(d) / sqrt(l2) - 1));
-    fact(&facts, "across", across);
-    fact(&facts, "along", along);
+    LiveValues values = {0};
+    values_add(&values, "a", e[0]);
+    values_add(&values, "b", e[1]);
+    values_add(&values, "l2", l2);
+    values_add(&values, "strain", 100 * (vector_length(d) / sqrt(l2) - 1));
+    values_add(&values, "across", across);
+    values_add(&values, "along", along);
     if (projects_blocks(projection) && fmin(along, across) < 0) {
-        fact(&facts, "across after", project_eigenvalue(projection, across));
-        fact(&facts, "along after", project_eigenvalue(projection, along));
+        values_add(&values, "across after",
+                   project_eigenvalue(projection, across));
+        values_add(&values, "along after",
+                   project_eigenvalue(projection, along));
     }
-    draw_note(stage, &facts, text_spring);
+    draw_note(stage, &values, text_spring);
 }
 
 void square_hover(Plot *stage)

@@ -32,14 +32,14 @@ static double strain_range(const Simulation *simulation, const double *ep)
     return plot_round_up(fmax(0.5 * most, 0.05));
 }
 
-static bool is_fixed(const SpringPen *pen, int node)
+static bool is_fixed(const SquarePen *pen, int node)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    return pen->fixed && node < mesh->nodes &&
-           pen->fixed >> square_mesh_locate_body(mesh, &node) & 1;
+    return pen->fixed_bodies && node < mesh->nodes &&
+           pen->fixed_bodies >> square_mesh_locate_body(mesh, &node) & 1;
 }
 
-SpringPen square_pen(Plot *stage, int run)
+SquarePen square_pen_create(Plot *stage, int run)
 {
     const Show *show = stage->show;
     const Pane *pane = &show->pane[stage->pane];
@@ -48,64 +48,67 @@ SpringPen square_pen(Plot *stage, int run)
     const System *system = simulation->run[run].system;
     const Plasticity *plasticity = system_term_data(system, &plastic_energy);
     const SquareMesh *mesh = &simulation->mesh;
-    SpringPen pen = {.stage = stage,
+    SquarePen pen = {.stage = stage,
                      .simulation = simulation,
                      .pane = pane,
                      .system = system,
                      .x = run ? simulation->run[run].x : pane_x(pane),
                      .v = simulation->run[run].v,
                      .spacing = stage->camera.scale[0] * mesh->spacing,
-                     .strain = strain_range(simulation, NULL),
+                     .shade_strain = strain_range(simulation, NULL),
                      .ep = plasticity ? plasticity->ep : NULL,
                      .contact = contact_of(system),
-                     .fixed = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
+                     .fixed_bodies =
+                         mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
     double unit = stage->paper->unit;
-    double seen = show->view->lens.zoom * stage->box.width / stage->camera.scale[0];
+    double seen =
+        show->view->lens.zoom * stage->box.width / stage->camera.scale[0];
     if (seen > FLOWN * mesh->side) /* the rest shape is nothing beside it */
         pen.spacing *= seen / mesh->side;
-    for (int i = 0; pen.fixed && i < mesh->nodes; i++) {
+    for (int i = 0; pen.fixed_bodies && i < mesh->nodes; i++) {
         int node = i;
         if (!system->pinned[i])
-            pen.fixed &= ~(1u << square_mesh_locate_body(mesh, &node));
+            pen.fixed_bodies &= ~(1u << square_mesh_locate_body(mesh, &node));
     }
-    pen.contacts = eval_point_at(system, NULL, NULL, pen.x);
-    pen.contacts.term = system_find_term(system, &contact_energy);
+    pen.contact_at = eval_point_at(system, NULL, NULL, pen.x);
+    pen.contact_at.term = system_find_term(system, &contact_energy);
     pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
     pen.width = fmax(1 / unit, pen.width);
     pen.radius = NODE * pen.spacing / unit;
     if (!show->bare)
         pen.radius = fmin(pen.radius, 6.5);
-    pen.plastic = !show->strain && !show->bare && pen.ep;
-    pen.below = pen.plastic ? COLOUR_PLASTIC : COLOUR_COMPRESS;
-    pen.above = pen.plastic ? COLOUR_PLASTIC : COLOUR_STRETCH;
-    if (pen.plastic || show->strain)
-        pen.range = pen.plastic ? strain_range(simulation, pen.ep) : pen.strain;
-    if (pen.range > 0)
+    pen.shows_plastic = !show->strain && !show->bare && pen.ep;
+    pen.below = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_COMPRESS;
+    pen.above = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_STRETCH;
+    if (pen.shows_plastic || show->strain)
+        pen.colour_range = pen.shows_plastic ? strain_range(simulation, pen.ep)
+                                             : pen.shade_strain;
+    if (pen.colour_range > 0)
         pen.width *= 1.4;
-    pen.projected = trace && trace->line >= LINE_PROJECT &&
-                    trace->line <= LINE_SEARCH && !show->strain &&
-                    simulation->options.projection != PROJECTION_NONE &&
-                    trace->projected != 0 && !neo_hookean_of(system);
+    pen.shows_projected = trace && trace->line >= LINE_PROJECT &&
+                          trace->line <= LINE_SEARCH && !show->strain &&
+                          simulation->options.projection != PROJECTION_NONE &&
+                          trace->projected != 0 && !neo_hookean_of(system);
     return pen;
 }
 
 /* What springs and faces tell alike: plastic flow, strain, or whether their
  * block is projected, where they are shorter than at rest.  0: nothing. */
-static Colour told_colour(const SpringPen *pen, double plastic, double strain,
+static Colour told_colour(const SquarePen *pen, double plastic, double strain,
                           bool shorter)
 {
-    if (pen->range > 0)
-        return colour_of_strain(pen->plastic ? plastic : strain, pen->range,
-                                pen->below, pen->above);
-    return pen->projected && shorter ? COLOUR_PROJECT : 0;
+    if (pen->colour_range > 0)
+        return colour_of_strain(pen->shows_plastic ? plastic : strain,
+                                pen->colour_range, pen->below, pen->above);
+    return pen->shows_projected && shorter ? COLOUR_PROJECT : 0;
 }
 
-static const double *node_at(const SpringPen *pen, int node)
+static const double *node_at(const SquarePen *pen, int node)
 {
     return pen->x + 2 * (size_t)node;
 }
 
-void square_spring(const SpringPen *pen, int s, double width, Colour colour)
+void square_spring(const SquarePen *pen, int s, double width, Colour colour)
 {
     const int *e = pen->system->e + 2 * (size_t)s;
     double p[2], q[2], unit = pen->stage->paper->unit;
@@ -118,13 +121,13 @@ void square_spring(const SpringPen *pen, int s, double width, Colour colour)
 }
 
 /* They are most of a frame's time. */
-void square_springs(const SpringPen *pen)
+void square_springs(const SquarePen *pen)
 {
     const System *system = pen->system;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * (size_t)s;
         double l2 = system->l2[s], d[2], d2 = spring_vector(e, pen->x, d);
-        double strain = pen->range > 0 ? sqrt(d2 / l2) - 1 : 0;
+        double strain = pen->colour_range > 0 ? sqrt(d2 / l2) - 1 : 0;
         Colour told =
             told_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
         square_spring(pen, s, (told == COLOUR_PROJECT ? 1.15 : 1) * pen->width,
@@ -168,12 +171,12 @@ int pane_folded(const Pane *pane)
     return folded;
 }
 
-static void fill_face(const SpringPen *pen, const int node[4], Colour colour)
+static void fill_face(const SquarePen *pen, const int node[4], Colour colour)
 {
     const double *corner[4];
     for (int k = 0; k < 4; k++)
         corner[k] = node_at(pen, node[k]);
-    plot_face(pen->stage, corner, colour);
+    plot_quad(pen->stage, corner, colour);
 }
 
 /* From dark at 0 over the springs' blue at 1/2 to light at 1. */
@@ -181,13 +184,13 @@ static Colour shade(double part)
 {
     double dark = fmin(fmax(1 - 2 * part, 0), 1);
     double light = fmin(fmax(2 * part - 1, 0), 1);
-    return canvas_mix(canvas_mix(COLOUR_X, COLOUR_FOLDED, 0.75 * dark),
+    return colour_mix(colour_mix(COLOUR_X, COLOUR_FOLDED, 0.75 * dark),
                       COLOUR_WHITE, 0.7 * light);
 }
 
 /* The triangles of a solid by the area that each has kept, in pale colours:
  * darker where it is pressed. */
-int square_cells(const SpringPen *pen, bool all)
+int square_cells(const SquarePen *pen, bool all)
 {
     const NeoHookean *solid = neo_hookean_of(pen->system);
     int folded = 0, node[4];
@@ -197,7 +200,7 @@ int square_cells(const SpringPen *pen, bool all)
         Colour colour = shade(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
         fill_face(pen, face,
                   is_fixed(pen, n[0]) ? COLOUR_SOLID
-                                      : canvas_mix(colour, COLOUR_WHITE, 0.6));
+                                      : colour_mix(colour, COLOUR_WHITE, 0.6));
     }
     for (int c = 0; !solid && c < pen->simulation->mesh.cells; c++) {
         if (!cell_is_whole(pen->simulation, c, node))
@@ -213,7 +216,7 @@ int square_cells(const SpringPen *pen, bool all)
 /* A face says what its springs would; else how far it is stretched and turned.
  *   side   m, of the face at rest
  *   cell   in its lower left corner, whose plastic strain counts */
-static Colour face_colour(const SpringPen *pen, const int node[4], double side,
+static Colour face_colour(const SquarePen *pen, const int node[4], double side,
                           int cell)
 {
     int corner[4], spring[6];
@@ -227,13 +230,13 @@ static Colour face_colour(const SpringPen *pen, const int node[4], double side,
         if (fabs(pen->ep[spring[k]]) > fabs(plastic))
             plastic = pen->ep[spring[k]];
     Colour told = told_colour(pen, plastic, strain, d2 < l2 || other2 < l2);
-    double seen = copysign(sqrt(fabs(strain) / pen->strain), strain);
+    double seen = copysign(sqrt(fabs(strain) / pen->shade_strain), strain);
     double turned = (d[1] - d[0]) / sqrt(d2); /* 0 at rest */
     return told ? told : shade(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
 /* Those that have folded over are drawn last, each cell of them. */
-void square_faces(const SpringPen *pen)
+void square_faces(const SquarePen *pen)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     int wide = (int)fmin(fmax(FACE / pen->spacing, 1), mesh->cells), node[4];
@@ -250,12 +253,12 @@ void square_faces(const SpringPen *pen)
 
 /* ---- nodes, outlines, ghosts -------------------------------------------- */
 
-void square_nodes(const SpringPen *pen)
+void square_nodes(const SquarePen *pen)
 {
     const System *system = pen->system;
     double radius = pen->radius;
-    Colour colour = pen->range > 0 ? COLOUR_FAINT : COLOUR_X;
-    if (pen->range > 0) /* they would hide the colours of a fine mesh */
+    Colour colour = pen->colour_range > 0 ? COLOUR_FAINT : COLOUR_X;
+    if (pen->colour_range > 0) /* they would hide the colours of a fine mesh */
         radius *= 0.75;
     for (int i = 0; i < system->nodes; i++) {
         if (radius >= 0.5 * pen->width && !is_fixed(pen, i))
@@ -263,7 +266,8 @@ void square_nodes(const SpringPen *pen)
         if (system->pinned[i] && !is_fixed(pen, i))
             plot_pin(pen->stage, node_at(pen, i), radius);
     }
-    for (int k = 0; pen->fixed && k < pen->simulation->mesh.outline; k++) {
+    for (int k = 0; pen->fixed_bodies && k < pen->simulation->mesh.outline;
+         k++) {
         int node[2];
         square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);
         if (is_fixed(pen, node[0]))
@@ -272,7 +276,7 @@ void square_nodes(const SpringPen *pen)
     }
 }
 
-void square_outline(const SpringPen *pen, const double *x, bool dashed,
+void square_outline(const SquarePen *pen, const double *x, bool dashed,
                     Colour colour)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
@@ -292,7 +296,7 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
     }
 }
 
-void square_ghost(const SpringPen *pen, const double *x, Colour colour)
+void square_ghost(const SquarePen *pen, const double *x, Colour colour)
 {
     bool torn = system_term_data(pen->system, &fracture);
     if (torn || pen->system->springs <= GHOST_SPRINGS)

@@ -117,7 +117,7 @@ static void add_obstacles(const Plot *stage, Extent *view)
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
         Gap gap = contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
-        const Point foot = along(seen.middle, -gap.d, gap.n);
+        const Point foot = point_along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
             widen_view(&seen, obstacle->o, obstacle->radius + air, BALL_REACH,
                        view);
@@ -196,7 +196,7 @@ void square_bounds(const Plot *stage, double bounds[4])
 /* p as arrows, of a fine mesh every few nodes, that end where a full step leads
  * if that can be seen: else a power of ten times as long, so that the longest
  * fills at most half of the stage. */
-static void draw_direction(const SpringPen *pen)
+static void draw_direction(const SquarePen *pen)
 {
     Plot *stage = pen->stage;
     const Trace *trace = pen->pane->trace;
@@ -208,7 +208,7 @@ static void draw_direction(const SpringPen *pen)
         trace->line > LINE_SEARCH)
         return;
     for (int i = 0; i < pen->system->nodes; i++) {
-        double length = length_of(trace->p + 2 * i) * scale;
+        double length = vector_length(trace->p + 2 * i) * scale;
         longest = isfinite(length) ? fmax(longest, length) : longest;
     }
     if (longest == 0)
@@ -218,16 +218,16 @@ static void draw_direction(const SpringPen *pen)
     if (longest > most)
         factor = pow(10, -ceil(log10(longest / most)));
     for (int i = 0; i<pen->system->nodes; i += apart> 1 ? apart : 1)
-        if (length_of(trace->p + 2 * i) * factor * scale > 1.5)
+        if (vector_length(trace->p + 2 * i) * factor * scale > 1.5)
             plot_arrow(stage, pen->x + 2 * i, trace->p + 2 * i, factor, 1.6,
                        COLOUR_P);
     plot_legend(stage, COLOUR_P, "search direction p%s%s",
                 factor == 1 ? "" : " \u00d7 ",
-                factor == 1 ? "" : number_of(factor).text);
+                factor == 1 ? "" : format_number(factor).text);
 }
 
 /* Where the hand wants the ball that it pushes. */
-static void draw_push(const SpringPen *pen, const Control *hand)
+static void draw_push(const SquarePen *pen, const Control *hand)
 {
     const Obstacle *obstacle = &pen->contact->obstacle[hand->push];
     if (obstacle->kind != OBSTACLE_BALL)
@@ -237,7 +237,7 @@ static void draw_push(const SpringPen *pen, const Control *hand)
 }
 
 /* What the mouse is over, and the hand's spring. */
-static void draw_mouse(const SpringPen *pen)
+static void draw_mouse(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Show *show = stage->show;
@@ -247,7 +247,7 @@ static void draw_mouse(const SpringPen *pen)
     bool over = hover->pane == stage->pane;
     bool writes = pen->simulation->options.next == NEXT_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
-              : writes                   ? lecture_spring(pen->simulation)
+              : writes                   ? newest_spring(pen->simulation)
                                          : -1;
     if (over && hover->kind == PICK_NODE && hover->index < system->nodes)
         plot_ring(stage, pen->x + 2 * (size_t)hover->index, pen->radius + 4, 2,
@@ -268,7 +268,7 @@ static void draw_mouse(const SpringPen *pen)
 
 /* Below the springs: rest shape, ghosts, cells.  Returns how many cells have
  * folded over. */
-static int draw_ground(const SpringPen *pen)
+static int draw_ground(const SquarePen *pen)
 {
     const Pane *pane = pen->pane;
     const Trace *trace = pane->trace;
@@ -296,7 +296,7 @@ static int draw_ground(const SpringPen *pen)
 
 /* In words what cannot be drawn: nodes without a place, folded cells, and a
  * tolerance at which bodies would hang in the air or freeze. */
-static void draw_warnings(const SpringPen *pen, int folded)
+static void draw_warnings(const SquarePen *pen, int folded)
 {
     Plot *stage = pen->stage;
     int nodes = pen->system->nodes, lost = 0;
@@ -304,7 +304,7 @@ static void draw_warnings(const SpringPen *pen, int folded)
     double at[2];
     for (int i = 0; i < nodes; i++) {
         const double *x = pen->x + 2 * (size_t)i;
-        plot_place(stage, x, at);
+        plot_pixel(stage, x, at);
         lost += !isfinite(x[0]) || !isfinite(x[1]);
         seen = seen || box_contains(stage->box, at[0], at[1]);
     }
@@ -323,15 +323,15 @@ static void draw_warnings(const SpringPen *pen, int folded)
 
 /* Where the rest shape is but a dot: its name below all nodes that are seen,
  * with an arrow to it. */
-static void draw_origin(const SpringPen *pen)
+static void draw_origin(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Box *box = &stage->box;
     double em = stage->em, origin[2], p[2];
-    plot_place(stage, (double[2]){0, 0}, origin);
+    plot_pixel(stage, (double[2]){0, 0}, origin);
     double low = origin[1] + 2 * em, least = box->y + box->height - 4 * em;
     for (int i = 0; i < pen->system->nodes; i++) {
-        plot_place(stage, pen->x + 2 * i, p);
+        plot_pixel(stage, pen->x + 2 * i, p);
         low = p[1] < least ? fmax(low, p[1]) : low;
     }
     low += 2.5 * em;
@@ -343,28 +343,29 @@ static void draw_origin(const SpringPen *pen)
 
 /* What the colours mean: the ends of the strains, or the largest plastic one.
  */
-static void draw_colours(const SpringPen *pen)
+static void draw_colours(const SquarePen *pen)
 {
-    double percent = 100 * pen->range;
-    if (pen->plastic) {
+    double percent = 100 * pen->colour_range;
+    if (pen->shows_plastic) {
         plot_legend(pen->stage, COLOUR_PLASTIC,
                     "plastic strain; darkest from %s %% on",
-                    number_of(percent).text);
+                    format_number(percent).text);
         return;
     }
     plot_legend(pen->stage, COLOUR_COMPRESS, "strain \u2212%s %%",
-                number_of(fmin(percent, 100)).text);
-    plot_legend(pen->stage, COLOUR_STRETCH, "+%s %%", number_of(percent).text);
+                format_number(fmin(percent, 100)).text);
+    plot_legend(pen->stage, COLOUR_STRETCH, "+%s %%",
+                format_number(percent).text);
 }
 
 /* The number of each node beside it. */
-static void draw_numbers(const SpringPen *pen)
+static void draw_numbers(const SquarePen *pen)
 {
     double at[2], em = pen->stage->em;
     char number[16];
     for (int i = 0; i < pen->system->nodes; i++) {
         snprintf(number, sizeof number, "%d", i);
-        plot_place(pen->stage, pen->x + 2 * i, at);
+        plot_pixel(pen->stage, pen->x + 2 * i, at);
         at[0] += 0.7 * em;
         at[1] += 0.4 * em;
         if (box_contains(pen->stage->box, at[0], at[1]))
@@ -375,19 +376,19 @@ static void draw_numbers(const SpringPen *pen)
 
 /* An arrow for each node, so many times as long as d, but no longer than nine
  * tenths of a cell; 0: the longest has that. */
-static void draw_arrows(const SpringPen *pen, const double *d, double factor,
+static void draw_arrows(const SquarePen *pen, const double *d, double factor,
                         Colour colour, const char *word)
 {
     int nodes = pen->system->nodes;
     double longest = 1e-300, most = 0.9 * pen->simulation->mesh.spacing;
     for (int i = 0; i < nodes; i++)
-        longest = fmax(longest, length_of(d + 2 * i));
+        longest = fmax(longest, vector_length(d + 2 * i));
     if (factor == 0)
         factor = most / longest;
     for (int i = 0; i < nodes; i++)
         plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i,
-                   fmin(factor, most / fmax(length_of(d + 2 * i), 1e-300)), 2.6,
-                   colour);
+                   fmin(factor, most / fmax(vector_length(d + 2 * i), 1e-300)),
+                   2.6, colour);
     plot_legend(pen->stage, colour, "%s%s", word,
                 factor * longest > 1.001 * most ? ", cut" : "");
 }
@@ -401,7 +402,7 @@ static void rest_places(const Simulation *simulation, double *x)
 
 /* The force on each node, or how far it is from there, where a page wants it.
  */
-static void draw_page_arrows(const SpringPen *pen)
+static void draw_page_arrows(const SquarePen *pen)
 {
     unsigned layers = pen->simulation->options.layers;
     const System *system = pen->system;
@@ -414,23 +415,23 @@ static void draw_page_arrows(const SpringPen *pen)
             arrow[k] = pen->x[k] - arrow[k];
         draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
     }
-    if (!(layers & LAYER_FORCES) || !pen->stage->told)
+    if (!(layers & LAYER_FORCES) || !pen->stage->revealed)
         return;
     system_acceleration(system, pen->x, arrow);
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
     draw_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
-    plot_words(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
+    plot_label(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
                "node %d", system->nodes - 1);
 }
 
 /* Springs in the colours of their kinds, which words have, too; of all kinds of
  * which the mouse can switch some, the one that is written is wider. */
-static void draw_kinds(const SpringPen *pen)
+static void draw_kinds(const SquarePen *pen)
 {
     static const int colours[] = {0, 1, 3, 3}; /* of runs */
     const System *system = pen->system;
-    int newest = exhibit_kind(pen->simulation, lecture_spring(pen->simulation));
+    int newest = exhibit_kind(pen->simulation, newest_spring(pen->simulation));
     bool wide = pen->simulation->options.layers & LAYER_KINDS;
     for (int s = 0; s < system->springs; s++) {
         int kind = exhibit_kind(pen->simulation, s);
@@ -451,20 +452,22 @@ static void draw_pair(const Plot *lens, const int pair[3])
     double h = 4 * lens->simulation->options.timestep;
     for (int i = 0; i < 2; i++) {
         const double *b = run->x + 2 * pair[2 * i];
-        const Point d = way(a, b), dv = way(v, run->v + 2 * pair[2 * i]);
+        const Point d = vector_between(a, b),
+                    dv = vector_between(v, run->v + 2 * pair[2 * i]);
         plot_arrow(lens, a, d.at, 1, 2, COLOUR_TEXT);
         plot_arrow(lens, b, dv.at, h, 2, COLOUR_ALPHA);
-        const Point to = along(b, h, dv.at), by = along(a, 0.75, d.at);
+        const Point to = point_along(b, h, dv.at),
+                    by = point_along(a, 0.75, d.at);
         const double at[4] = {by.at[0], by.at[1], a[0], a[1]};
-        plot_words(lens, 1, to.at, COLOUR_ALPHA, "%s", names[i][1]);
-        plot_words(lens, i ? 1 : 2, at, COLOUR_TEXT, "%s", names[i][0]);
+        plot_label(lens, 1, to.at, COLOUR_ALPHA, "%s", names[i][1]);
+        plot_label(lens, i ? 1 : 2, at, COLOUR_TEXT, "%s", names[i][0]);
     }
 }
 
 /* The gap of the page's law so large that it is seen, in the corner of the
  * stage, below its legend, where a lens hides least, right ones first; a
  * smaller one where it would hide something in all of them. */
-static void draw_lens(const SpringPen *pen)
+static void draw_lens(const SquarePen *pen)
 {
     Plot lens = *pen->stage;
     Canvas *canvas = &lens.paper->canvas;
@@ -473,8 +476,8 @@ static void draw_lens(const SpringPen *pen)
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
     int air = (int)lens.em;
-    if (!lens.told || lens.box.width < 2 * LENS * lens.em ||
-        !law_gap(pen->simulation, &gap))
+    if (!lens.revealed || lens.box.width < 2 * LENS * lens.em ||
+        !law_find_gap(pen->simulation, &gap))
         return;
     bool paired = gap.pair[0] >= 0;
     double most = paired && lens.box.width > 3 * PAIR * lens.em ? PAIR : LENS;
@@ -484,21 +487,21 @@ static void draw_lens(const SpringPen *pen)
         int top = i & 1 ? stage.height - side - 2 * air : 2 * air;
         Box box = {stage.x + left, stage.y + top, side, side};
         double cost =
-            plot_cost(pen->stage, box) + 0.1 * (i % 4) + 0.5 * (i / 4);
+            plot_label_cost(pen->stage, box) + 0.1 * (i % 4) + 0.5 * (i / 4);
         if (cost < least)
             lens.box = box;
         least = fmin(least, cost);
     }
     const double *a = paired ? pen->x + 2 * gap.pair[1] : gap.foot;
     const double *b = paired ? pen->x + 2 * gap.pair[2] : gap.node;
-    double reach = paired ? 0.95 * apart(a, b) : 1.2 * gap.d_hat;
+    double reach = paired ? 0.95 * point_distance(a, b) : 1.2 * gap.d_hat;
     for (int c = 0; c < 4; c++)
         bounds[c] = 0.5 * (a[c % 2] + b[c % 2]) + (c < 2 ? -reach : reach);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
-    canvas_card(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
-    Box before = canvas_clip(canvas, box_inset(lens.box, 1));
+    canvas_framed_box(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
+    Box before = canvas_set_clip(canvas, box_inset(lens.box, 1));
     lens.camera = camera_create(lens.box, bounds, false, &LENS_FITS);
-    SpringPen near = square_pen(&lens, 0);
+    SquarePen near = square_pen_create(&lens, 0);
     square_cells(&near, true);
     square_contact_obstacles(&near);
     near.radius = 4;
@@ -507,10 +510,10 @@ static void draw_lens(const SpringPen *pen)
     plot_line(&lens, gap.foot, gap.node, 3, COLOUR_P);
     if (paired)
         draw_pair(&lens, gap.pair);
-    snprintf(words, sizeof words, "d = %s mm", number_of(1e3 * gap.d).text);
+    snprintf(words, sizeof words, "d = %s mm", format_number(1e3 * gap.d).text);
     paper_panel(lens.paper, FACE_BOLD, 1, COLOUR_P, lens.box.x + 0.6 * lens.em,
                 lens.box.y + 0.4 * lens.em, ALIGN_LEFT, words);
-    canvas_clip(canvas, before);
+    canvas_set_clip(canvas, before);
 }
 
 /* How far a body has slid, from its left edge at the start, and how far a rigid
@@ -521,7 +524,7 @@ static void draw_way(const Plot *stage)
     const SquareMesh *mesh = &stage->simulation->mesh;
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};
-    if (!stage->told || !law_way(stage->simulation, gone))
+    if (!stage->revealed || !law_find_slide(stage->simulation, gone))
         return;
     for (int i = mesh->nodes - mesh->nodes / mesh->bodies; i < mesh->nodes;
          i++) {
@@ -530,30 +533,31 @@ static void draw_way(const Plot *stage)
     }
     const double to[2] = {from[0] + gone[1], from[1]}, up[2] = {0, ABOVE};
     for (int i = 0; i < 2; i++)
-        plot_dashes(stage, along(i ? to : from, -3, up).at,
-                    along(i ? to : from, 2, up).at, 1.4, NULL, COLOUR_TEXT);
+        plot_dashes(stage, point_along(i ? to : from, -3, up).at,
+                    point_along(i ? to : from, 2, up).at, 1.4, NULL,
+                    COLOUR_TEXT);
     plot_arrow(stage, from, (double[2]){gone[0], 0}, 1, 2, COLOUR_P);
-    plot_words(stage, 1, along(to, 2, up).at, COLOUR_P, "gone %s m",
-               number_of(gone[0]).text);
+    plot_label(stage, 1, point_along(to, 2, up).at, COLOUR_P, "gone %s m",
+               format_number(gone[0]).text);
 }
 
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
 void square_draw(Plot *stage)
 {
-    SpringPen pen[SIMULATION_MAX_RUNS];
+    SquarePen pen[SIMULATION_MAX_RUNS];
     const Show *show = stage->show;
     const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     int runs = simulation->runs, folded = 0;
     unsigned layers = simulation->options.layers;
     for (int r = 0; r < runs; r++) {
-        pen[r] = square_pen(stage, r);
+        pen[r] = square_pen_create(stage, r);
         square_contact_obstacles(&pen[r]);
     }
-    for (int r = 0; r < runs && runs > 1 && stage->text; r++)
+    for (int r = 0; r < runs && runs > 1 && stage->has_text; r++)
         if (pen[r].contact)
-            square_contact_words(&pen[r]);
+            square_contact_slope(&pen[r]);
     for (int r = 1; r < runs; r++) {
         if (!show->bare)
             square_cells(&pen[r], true);
@@ -567,7 +571,7 @@ void square_draw(Plot *stage)
         square_cells(pen, true);
     if (solid)
         square_outline(pen, pen->x, false, COLOUR_X);
-    else if (stage->told && layers & (LAYER_CUTS | LAYER_KINDS))
+    else if (stage->revealed && layers & (LAYER_CUTS | LAYER_KINDS))
         draw_kinds(pen);
     else if (pen->spacing >= LEAST_CELL || system_term_data(system, &fracture))
         square_springs(pen);
@@ -581,15 +585,15 @@ void square_draw(Plot *stage)
     if (simulation->mesh.side * stage->camera.scale[0] < 4 &&
         !has_frame(simulation))
         draw_origin(pen);
-    if (pen->projected)
+    if (pen->shows_projected)
         plot_legend(stage, COLOUR_PROJECT, "projected spring");
     draw_direction(pen);
     draw_mouse(pen);
     draw_page_arrows(pen);
     draw_warnings(pen, folded);
-    if (stage->told && layers & LAYER_NUMBERS && system->nodes <= NUMBERED)
+    if (stage->revealed && layers & LAYER_NUMBERS && system->nodes <= NUMBERED)
         draw_numbers(pen);
-    if (pen->range > 0)
+    if (pen->colour_range > 0)
         draw_colours(pen);
     draw_way(stage);
     draw_lens(pen);
@@ -597,7 +601,7 @@ void square_draw(Plot *stage)
 
 /* ---- its numbers --------------------------------------------------------- */
 
-int lecture_spring(const Simulation *simulation)
+int newest_spring(const Simulation *simulation)
 {
     int last = simulation->system.springs - 1;
     return simulation->steps < last ? (int)simulation->steps : last;
@@ -605,40 +609,40 @@ int lecture_spring(const Simulation *simulation)
 
 /* Of h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and its
  * rows. */
-static void add_block(const Simulation *simulation, Facts *facts)
+static void add_block(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};
     static const char *const rows[] = {"row 1", "row 2", "row 3", "row 4"};
     const System *system = &simulation->system;
-    int s = lecture_spring(simulation);
+    int s = newest_spring(simulation);
     const int *e = system->e + 2 * s;
     double d[2], H[3], l2 = system->l2[s], h = simulation->options.timestep;
     double k = h * h * system->k[s];
     for (int i = 0; i < 4; i++)
-        fact(facts, rows[i], 2 * e[i / 2] + i % 2);
+        values_add(values, rows[i], 2 * e[i / 2] + i % 2);
     spring_vector(e, simulation->run[0].x, d);
     spring_hessian(d, l2, k, PROJECTION_CLAMP, H); /* as the page has it */
-    fact_matrix(facts, names, H, 1e-7 * k);
+    values_add_matrix(values, names, H, 1e-7 * k);
 }
 
 /* The last node's force and acceleration, and how many nodes have none. */
-static void force_facts(const Simulation *simulation, const double *x,
-                        Facts *facts)
+static void add_force_values(const Simulation *simulation, const double *x,
+                             LiveValues *values)
 {
     int last = simulation->system.nodes - 1, balanced = 0;
     double a[2 * NUMBERED] = {0}, m = simulation->system.m[last];
     double *at = a + 2 * last;
     system_acceleration(&simulation->system, x, a);
     for (int i = 0; i <= last; i++) /* but for rounding */
-        balanced += length_of(a + 2 * i) <= 1e-9 * length_of(at);
-    fact_point(facts, "a", at);
-    fact_point(facts, "f", (double[2]){m * at[0], m * at[1]});
-    fact(facts, "last", last);
-    fact(facts, "balanced", balanced);
+        balanced += vector_length(a + 2 * i) <= 1e-9 * vector_length(at);
+    values_add_point(values, "a", at);
+    values_add_point(values, "f", (double[2]){m * at[0], m * at[1]});
+    values_add(values, "last", last);
+    values_add(values, "balanced", balanced);
 }
 
 /* What pages say of the mesh, the Hessian and one row of M a = f. */
-void square_facts(const Simulation *simulation, Facts *facts)
+void square_add_values(const Simulation *simulation, LiveValues *values)
 {
     const System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
@@ -652,36 +656,36 @@ void square_facts(const Simulation *simulation, Facts *facts)
         double d[2], d2 = spring_vector(system->e + 2 * s, x, d);
         shorter += spring_strain(d2, system->l2[s]) < -1e-9;
     }
-    fact(facts, "masses", nodes);
-    fact(facts, "mass", nodes * system->m[0]);
-    fact(facts, "node mass", system->m[0]);
-    fact(facts, "places", 4 * (nodes + 2.0 * system->springs));
-    fact(facts, "short", shorter);
-    fact(facts, "segments", n);
-    fact(facts, "side", mesh->side);
-    fact(facts, "rho", options->density);
-    fact(facts, "k", options->stiffness);
-    fact(facts, "stretch", options->stretch);
-    fact(facts, "h", options->timestep);
-    fact(facts, "epsilon", options->tolerance);
-    const int *e = system->e + 2 * lecture_spring(simulation);
-    fact(facts, "newest", lecture_spring(simulation));
-    fact(facts, "from", e[0]);
-    fact(facts, "to", e[1]);
+    values_add(values, "masses", nodes);
+    values_add(values, "mass", nodes * system->m[0]);
+    values_add(values, "node mass", system->m[0]);
+    values_add(values, "places", 4 * (nodes + 2.0 * system->springs));
+    values_add(values, "short", shorter);
+    values_add(values, "segments", n);
+    values_add(values, "side", mesh->side);
+    values_add(values, "rho", options->density);
+    values_add(values, "k", options->stiffness);
+    values_add(values, "stretch", options->stretch);
+    values_add(values, "h", options->timestep);
+    values_add(values, "epsilon", options->tolerance);
+    const int *e = system->e + 2 * newest_spring(simulation);
+    values_add(values, "newest", newest_spring(simulation));
+    values_add(values, "from", e[0]);
+    values_add(values, "to", e[1]);
     if (options->next == NEXT_SPRING)
-        add_block(simulation, facts);
-    law_facts(simulation, facts);
+        add_block(simulation, values);
+    law_add_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
         rest_places(simulation, start);
         double omega = simulation_fastest(simulation, start, mode);
-        fact(facts, "fastest", omega);
-        fact(facts, "h limit", 2 / omega);
+        values_add(values, "fastest", omega);
+        values_add(values, "h limit", 2 / omega);
         double turn = omega * options->timestep, t = 0.5 * turn * turn - 1;
-        fact(facts, t > 1 ? "h omega" : "short h omega", turn);
-        fact(facts, "growth", t > 1 ? t + sqrt(t * t - 1) : NAN);
+        values_add(values, t > 1 ? "h omega" : "short h omega", turn);
+        values_add(values, "growth", t > 1 ? t + sqrt(t * t - 1) : NAN);
     }
     if (options->layers & LAYER_FORCES && nodes <= NUMBERED)
-        force_facts(simulation, x, facts);
+        add_force_values(simulation, x, values);
 }
 
 /* All energies of the first run, J; cards leave out those that are 0. */

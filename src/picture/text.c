@@ -9,7 +9,7 @@
 #include "picture/font.h"
 
 enum {
-    TEXT_GLYPHS = 2048, /* kept at a time, a power of two */
+    TEXT_GLYPHS = 2048, /* letters in the cache, a power of two */
     TEXT_NAME = 512
 };
 
@@ -22,7 +22,7 @@ struct Text {
 
 /* ---- fonts -------------------------------------------------------------- */
 
-/* Those that begin with ~ are in the home folder. */
+/* Folders with the fonts; ~ stands for the home folder. */
 static const char *const font_folders[] = {
     "/usr/share/fonts/truetype/dejavu",   /* Debian, Ubuntu */
     "/usr/share/fonts/dejavu-sans-fonts", /* Fedora */
@@ -41,8 +41,8 @@ static const char *const font_folders[] = {
 static const char *const face_files[FACE_COUNT] = {
     "DejaVuSans.ttf", "DejaVuSans-Bold.ttf", "DejaVuSansMono.ttf"};
 
-/* The font that was asked for; else DejaVu from the first folder that has it.
- * Returns FreeType's last error: 0, or why there is none. */
+/* Opens the font that the user named, else DejaVu from the first folder that
+ * has it.  Returns 0 or FreeType's last error. */
 static FT_Error open_font(FT_Library library, Face face, const char *given,
                           FT_Face *font)
 {
@@ -75,7 +75,7 @@ Status text_create(Text **text)
         free(made);
         return STATUS_OUT_OF_MEMORY;
     }
-    /* It leaves out, in silence, the kinds of fonts that found no memory. */
+    /* FreeType silently leaves out font formats for which it has no memory. */
     FT_Error error = errno == ENOMEM ? FT_Err_Out_Of_Memory : 0;
     for (int face = 0; face < FACE_COUNT && error != FT_Err_Out_Of_Memory;
          face++) {
@@ -83,12 +83,12 @@ Status text_create(Text **text)
         if (error)
             made->font[face] = made->font[FACE_REGULAR];
     }
-    bool full = error == FT_Err_Out_Of_Memory;
-    if (made->font[FACE_REGULAR] && !full)
+    bool out_of_memory = error == FT_Err_Out_Of_Memory;
+    if (made->font[FACE_REGULAR] && !out_of_memory)
         *text = made;
     else
         text_free(made);
-    return full ? STATUS_OUT_OF_MEMORY : STATUS_OK;
+    return out_of_memory ? STATUS_OUT_OF_MEMORY : STATUS_OK;
 }
 
 static void forget_glyphs(Text *text)
@@ -104,13 +104,13 @@ void text_free(Text *text)
     if (!text)
         return;
     forget_glyphs(text);
-    FT_Done_FreeType(text->library); /* and its fonts */
+    FT_Done_FreeType(text->library); /* frees the fonts, too */
     free(text);
 }
 
 /* ---- letters ------------------------------------------------------------ */
 
-/* Draws the letter.  One that cannot be drawn keeps its room. */
+/* Draws a letter.  A letter that cannot be drawn leaves its space blank. */
 static Glyph make_glyph(Text *text, Face face, int size, uint32_t letter)
 {
     Glyph glyph = {.advance = (int)(FONT_GUESSED * size)};

@@ -1,9 +1,8 @@
-/* type.c - lines of words and formulas, letter by letter.
+/* type.c - sets lines of words and formulas, letter by letter.
  *
- * A part of a formula is set by a pen that starts where the part begins; a pen
- * without a canvas only measures it.  So a fraction measures its two parts, and
- * then sets each of them over the middle of the line between.
- */
+ * A pen sets each part of a formula from the part's start on.  A pen without a
+ * canvas only measures.  For a fraction, for example, pens first measure both
+ * parts, and then set each of them centred on the fraction's line. */
 #include <math.h>
 #include <string.h>
 
@@ -11,50 +10,53 @@
 #include "picture/font.h"
 
 enum {
-    DEPTH = 6, /* formulas in formulas */
-    ROWS = 8,  /* of a matrix */
+    DEPTH = 6, /* the deepest nesting of formulas */
+    ROWS = 8,  /* the most rows of a matrix */
     COLUMNS = 8,
-    LEAST_SIZE = 5,
-    MOST_SIZE = 400
+    MIN_SIZE = 5,
+    MAX_SIZE = 400
 };
 
-/* Ems of the letters. */
-static const double ASCENT = 0.93, DESCENT = 0.37; /* a line, of its baseline */
-static const double HIGH = 0.76, LOW = 0.24;       /* its letters */
+/* Lengths in ems of the letters. */
+static const double ASCENT = 0.93,
+                    DESCENT = 0.37; /* line above, below the baseline */
+static const double HIGH = 0.76,
+                    LOW = 0.24; /* letters above, below the baseline */
 static const double SCRIPT_SIZE = 0.8;
-static const double RAISE = 0.36, LOWER = 0.18; /* of scripts */
-static const double PART_SIZE = 0.9;            /* of a fraction's parts */
+static const double RAISE = 0.36,
+                    LOWER = 0.18;    /* raise of superscripts, subscripts */
+static const double PART_SIZE = 0.9; /* size of numerator and denominator */
 static const double AXIS =
-    0.28; /* over the baseline, the middle of fractions */
-static const double THIN = 0.12; /* around rules and inside of brackets */
-static const double CELL = 0.9;  /* between the columns of a matrix */
-static const double ROW = 0.22;  /* between its rows */
-static const double RULE = 0.07; /* the width of a rule */
+    0.28; /* height of fraction lines over the baseline */
+static const double THIN = 0.12; /* space around rules and inside brackets */
+static const double CELL = 0.9;  /* space between columns of a matrix */
+static const double ROW = 0.22;  /* space between rows of a matrix */
+static const double RULE = 0.07; /* width of a rule */
 
 typedef struct Pen {
     Text *text;
-    Canvas *canvas; /* NULL: it only measures */
+    Canvas *canvas; /* NULL: the pen only measures */
     TextStyle style;
-    double x, y;                         /* on the baseline */
-    double top, bottom;                  /* the farthest that it reached */
-    int mark_left, mark_width, mark_top; /* ink of the last letter */
+    double x, y;        /* pixels, position on the baseline */
+    double top, bottom; /* pixels, extent of all letters so far */
+    int mark_left, mark_width, mark_top; /* box of the last letter */
 } Pen;
 
-/* A part of the markup: its first byte, and the one behind its last. */
-typedef struct Part {
+/* A part of the markup: its first byte and the byte after its last. */
+typedef struct MarkupPart {
     const char *from, *end;
-} Part;
+} MarkupPart;
 
-static Part part_of(const char *string)
+static MarkupPart whole_part(const char *string)
 {
-    return (Part){string, string + strlen(string)};
+    return (MarkupPart){string, string + strlen(string)};
 }
 
-static void set_part(Pen *pen, Part part, int depth);
+static void set_part(Pen *pen, MarkupPart part, int depth);
 
 /* ---- letters ------------------------------------------------------------ */
 
-/* The next character of UTF-8; a wrong byte is U+FFFD. */
+/* Reads the next character of UTF-8; an invalid byte gives U+FFFD. */
 static uint32_t next_letter(const char **string)
 {
     const unsigned char *s = (const unsigned char *)*string;
@@ -69,19 +71,19 @@ static uint32_t next_letter(const char **string)
     return wrong ? 0xfffd : letter;
 }
 
-static void reach(Pen *pen, double top, double bottom)
+static void extend_pen(Pen *pen, double top, double bottom)
 {
     pen->top = fmin(pen->top, top);
     pen->bottom = fmax(pen->bottom, bottom);
 }
 
-/* One letter; a mark is centred over the one before. */
+/* Sets one letter.  A combining mark is centred over the letter before it. */
 static void set_letter(Pen *pen, uint32_t letter)
 {
     double em = pen->style.size;
     int size = (int)(em + 0.5), base = (int)floor(pen->y + 0.5);
     bool mark = letter >= 0x300 && letter < 0x370;
-    reach(pen, pen->y - HIGH * em, pen->y + LOW * em);
+    extend_pen(pen, pen->y - HIGH * em, pen->y + LOW * em);
     if (!pen->text) {
         pen->x += mark ? 0 : FONT_GUESSED * em;
         return;
@@ -106,21 +108,21 @@ static void set_letter(Pen *pen, uint32_t letter)
 
 /* ---- parts of formulas -------------------------------------------------- */
 
-static TextExtent measure(const Pen *like, Part part, int depth)
+static TextExtent measure(const Pen *like, MarkupPart part, int depth)
 {
     Pen pen = {.text = like->text, .style = like->style};
     set_part(&pen, part, depth);
     return (TextExtent){pen.x, -pen.top, pen.bottom};
 }
 
-/* Sets a part from (x, y) on; the pen stays where it is. */
-static void set_at(Pen *pen, double x, double y, Part part, int depth)
+/* Sets a part at (x, y) without moving the pen. */
+static void set_at(Pen *pen, double x, double y, MarkupPart part, int depth)
 {
     Pen inner = *pen;
     inner.x = x;
     inner.y = y;
     set_part(&inner, part, depth);
-    reach(pen, inner.top, inner.bottom);
+    extend_pen(pen, inner.top, inner.bottom);
 }
 
 static void set_rule(const Pen *pen, double x0, double y0, double x1, double y1)
@@ -131,9 +133,10 @@ static void set_rule(const Pen *pen, double x0, double y0, double x1, double y1)
                     pen->style.colour);
 }
 
-/* Where a word stands outside of all inner braces, or the brace that closes
- * the part (all that is asked for, without a word), or the part's end. */
-static const char *find_outside(Part part, const char *word)
+/* Finds a word outside of all inner braces, or the brace that closes the
+ * part; word NULL: only that brace.  Returns the part's end if neither
+ * exists. */
+static const char *find_outside(MarkupPart part, const char *word)
 {
     size_t length = word ? strlen(word) : 0;
     int depth = 0;
@@ -146,29 +149,30 @@ static const char *find_outside(Part part, const char *word)
     return part.end;
 }
 
-/* Smaller than the letters around it, as far as it may be. */
+/* Reduces the size of a script or of a fraction's parts, down to min_size. */
 static void shrink(TextStyle *style, double factor)
 {
-    style->size = fmin(style->size, fmax(factor * style->size, style->least));
+    style->size =
+        fmin(style->size, fmax(factor * style->size, style->min_size));
 }
 
-/* ^{...} or _{...}, by what stands before the brace. */
-static void set_raised(Pen *pen, Part part, int depth)
+/* Sets ^{...} or _{...}; the character before the brace tells which. */
+static void set_raised(Pen *pen, MarkupPart part, int depth)
 {
     Pen inner = *pen;
     inner.y += (part.from[-2] == '^' ? -RAISE : LOWER) * pen->style.size;
     shrink(&inner.style, SCRIPT_SIZE);
     set_part(&inner, part, depth);
-    reach(pen, inner.top, inner.bottom);
+    extend_pen(pen, inner.top, inner.bottom);
     pen->x = inner.x;
 }
 
-/* frac{above over below} */
-static void set_fraction(Pen *pen, Part part, int depth)
+/* Sets frac{above over below}. */
+static void set_fraction(Pen *pen, MarkupPart part, int depth)
 {
     static const char over[] = " over ";
     const char *middle = find_outside(part, over);
-    Part above = {part.from, middle}, below = {middle, part.end};
+    MarkupPart above = {part.from, middle}, below = {middle, part.end};
     below.from += middle < part.end ? strlen(over) : 0;
     Pen small = *pen;
     shrink(&small.style, PART_SIZE);
@@ -182,28 +186,28 @@ static void set_fraction(Pen *pen, Part part, int depth)
     set_at(&small, left + 0.5 * (wide - b.width), y + thin + b.above, below,
            depth);
     set_rule(pen, left, y, left + wide, y);
-    reach(pen, small.top, small.bottom);
+    extend_pen(pen, small.top, small.bottom);
     pen->x = left + wide + thin;
 }
 
-/* The next cell of a matrix, without blanks around it; moves `at` behind it.
- * Returns whether it is the last one of its row. */
-static bool next_cell(const char **at, const char *end, Part *cell)
+/* Reads the next cell of a matrix, without blanks around it, and moves `at`
+ * behind the cell.  Returns whether the cell is the last one of its row. */
+static bool next_cell(const char **at, const char *end, MarkupPart *cell)
 {
-    Part rest = {*at, end};
+    MarkupPart rest = {*at, end};
     const char *row = find_outside(rest, ";");
-    const char *column = find_outside((Part){*at, row}, "&");
-    *cell = (Part){*at + strspn(*at, " "), column};
+    const char *column = find_outside((MarkupPart){*at, row}, "&");
+    *cell = (MarkupPart){*at + strspn(*at, " "), column};
     while (cell->end > cell->from && cell->end[-1] == ' ')
         cell->end--;
     *at = column + (column < end);
     return column == row;
 }
 
-/* matrix{a & b; c & d}: what is in a column ends at its right edge. */
-static void set_matrix(Pen *pen, Part part, int depth)
+/* Sets matrix{a & b; c & d}; columns are aligned at their right edge. */
+static void set_matrix(Pen *pen, MarkupPart part, int depth)
 {
-    Part cell[ROWS][COLUMNS] = {{{0}}};
+    MarkupPart cell[ROWS][COLUMNS] = {{{0}}};
     double em = pen->style.size, above[ROWS], below[ROWS], wide[COLUMNS] = {0};
     double high = -ROW * em, right = pen->x + (3.5 * THIN - CELL) * em;
     const char *at = part.from;
@@ -240,79 +244,81 @@ static void set_matrix(Pen *pen, Part part, int depth)
         set_rule(pen, x, top, in, top);
         set_rule(pen, x, bottom, in, bottom);
     }
-    reach(pen, top, bottom);
+    extend_pen(pen, top, bottom);
     pen->x = right + 1.5 * THIN * em;
 }
 
-/* #name{...}: in that colour, unless all of the text is grey. */
-static void set_coloured(Pen *pen, Part part, int depth)
+/* Sets #name{...} in that colour, unless the whole text is grey. */
+static void set_coloured(Pen *pen, MarkupPart part, int depth)
 {
     Colour before = pen->style.colour;
     size_t length = 0;
     while (part.from[-2 - (ptrdiff_t)length] != '#')
         length++;
     if (before != COLOUR_GREY)
-        pen->style.colour = colour_named(part.from - 1 - length, length);
+        pen->style.colour = colour_find(part.from - 1 - length, length);
     set_part(pen, part, depth);
     pen->style.colour = before;
 }
 
 /* ---- markup ------------------------------------------------------------- */
 
-/* Words before a brace; letters that have a colour stand for other markup. */
+/* Words that start markup.  A letter of the slides stands for other markup, its
+ * meaning. */
 static const struct {
     const char *name;
-    void (*set)(Pen *pen, Part part, int depth);
+    void (*set)(Pen *pen, MarkupPart part, int depth);
     const char *means;
-} words[] = {{"^", set_raised, NULL},
-             {"_", set_raised, NULL},
-             {"frac", set_fraction, NULL},
-             {"matrix", set_matrix, NULL},
-             {"#", set_coloured, NULL},
-             {"{x}", NULL, "#x{x}"},
-             {"{xt}", NULL, "#xt{x\u0303}"},
-             {"{p}", NULL, "#p{p}"},
-             {"{alpha}", NULL, "#alpha{\u03b1}"}};
-enum { WORDS = sizeof words / sizeof *words };
+} commands[] = {{"^", set_raised, NULL},
+                {"_", set_raised, NULL},
+                {"frac", set_fraction, NULL},
+                {"matrix", set_matrix, NULL},
+                {"#", set_coloured, NULL},
+                {"{x}", NULL, "#x{x}"},
+                {"{xt}", NULL, "#xt{x\u0303}"},
+                {"{p}", NULL, "#p{p}"},
+                {"{alpha}", NULL, "#alpha{\u03b1}"}};
+enum { COMMANDS = sizeof commands / sizeof *commands };
 
-/* The word that begins here, and its brace; WORDS: none does. */
-static int find_word(const char *string, const char **brace)
+/* Finds the command that begins here, and its brace.  Returns COMMANDS if none
+ * does. */
+static int find_command(const char *string, const char **brace)
 {
-    for (int i = 0; i < WORDS; i++) {
-        size_t length = strlen(words[i].name);
-        if (strncmp(string, words[i].name, length) != 0)
+    for (int i = 0; i < COMMANDS; i++) {
+        size_t length = strlen(commands[i].name);
+        if (strncmp(string, commands[i].name, length) != 0)
             continue;
-        *brace = string + (words[i].means ? 0 : length);
-        if (words[i].set == set_coloured)
+        *brace = string + (commands[i].means ? 0 : length);
+        if (commands[i].set == set_coloured)
             *brace += strspn(*brace, "abcdefghijklmnopqrstuvwxyz0123456789");
         if (**brace == '{')
             return i;
     }
-    return WORDS;
+    return COMMANDS;
 }
 
 bool text_is_markup(const char *text, const char *brace)
 {
     const char *found = NULL;
     for (const char *at = brace + 1; at > text && brace - at < 16; at--)
-        if (find_word(at - 1, &found) < WORDS && found == brace)
+        if (find_command(at - 1, &found) < COMMANDS && found == brace)
             return true;
     return false;
 }
 
-static void set_part(Pen *pen, Part part, int depth)
+static void set_part(Pen *pen, MarkupPart part, int depth)
 {
     const char *at = part.from, *brace = at;
     while (at < part.end) {
         bool plain = pen->style.plain || depth >= DEPTH;
-        int word = plain ? WORDS : find_word(at, &brace);
-        if (word < WORDS && words[word].means) {
-            set_part(pen, part_of(words[word].means), depth);
-            at += strlen(words[word].name);
-        } else if (word < WORDS && brace < part.end) {
-            Part inside = {brace + 1, part.end};
+        int command = plain ? COMMANDS : find_command(at, &brace);
+        if (command < COMMANDS && commands[command].means) {
+            set_part(pen, whole_part(commands[command].means), depth);
+            at += strlen(commands[command].name);
+        } else if (command < COMMANDS && brace < part.end) {
+            MarkupPart inside = {brace + 1, part.end};
             inside.end = find_outside(inside, NULL);
-            words[word].set(pen, inside, depth + 1);
+            commands[command].set(pen, inside, depth + 1);
             at = inside.end + (inside.end < part.end);
         } else {
             set_letter(pen, next_letter(&at));
@@ -331,16 +337,17 @@ TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
 {
     Pen pen = {.text = text, .style = *style};
     TextExtent ink = {0, 0, 0};
-    if (style->size >= LEAST_SIZE && style->size <= MOST_SIZE)
-        ink = measure(&pen, part_of(markup), 0);
+    if (style->size >= MIN_SIZE && style->size <= MAX_SIZE)
+        ink = measure(&pen, whole_part(markup), 0);
     double above = ASCENT * style->size, below = DESCENT * style->size;
-    double air = THIN * style->size; /* around what reaches beyond a line */
+    double air = THIN * style->size; /* space around fractions and matrices */
     return (TextExtent){ceil(ink.width),
                         ink.above > above ? ink.above + air : above,
                         ink.below > below ? ink.below + air : below};
 }
 
-/* Letters start at whole pixels; what flies off has no pixel. */
+/* Letters start at whole pixels.  Text far outside of the canvas is not drawn.
+ */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {
@@ -353,6 +360,6 @@ int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
                .style = *style,
                .x = floor(start + 0.5),
                .y = y + ASCENT * style->size};
-    set_part(&pen, part_of(markup), 0);
+    set_part(&pen, whole_part(markup), 0);
     return (int)ceil(pen.x - start);
 }

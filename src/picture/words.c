@@ -1,4 +1,4 @@
-/* Words of a plot: legend, scale, labels that keep off what is drawn, notes,
+/* words.c - words of a plot: legend, scale, labels that avoid what is drawn,
  * and numbers as people write them. */
 #include <math.h>
 #include <stdarg.h>
@@ -7,26 +7,28 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
-#include "picture/facts.h"
+#include "picture/live_values.h"
 #include "picture/plot.h"
 #include "base/mathematics.h"
 
-enum { WORDS_TEXT = 512 }; /* bytes of a text with numbers */
+enum { WORDS_TEXT = 512 }; /* bytes of a label */
 
 static const double LEGEND_SIZE = 0.92; /* ems */
-static const double SCALE_PART = 0.08;  /* of the stage, the least scale */
-static const double FARTHEST = 1e6;     /* pixels */
-static const double LINE_HEIGHT = 1.3;  /* ems of the words */
-/* What a place costs: full of ink, outside of the plot, and for each place that
- * would have been preferred. */
+static const double SCALE_PART =
+    0.08; /* the scale's least part of the stage's width */
+static const double FARTHEST =
+    1e6; /* pixels, labels farther out are left out */
+static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
+/* Cost of a label's place: fully covered by ink, fully outside of the plot, and
+ * each step down the list of preferred places. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_LATER = 0.08;
-static const double AIR = 0.2;   /* ems, between words and ink */
-static const double APART = 0.8; /* ems, from a point to its words */
-static const Colour INK = 190;   /* of 255, a pixel is no ground below that */
+static const double AIR = 0.2;   /* ems, between label and ink */
+static const double APART = 0.8; /* ems, between point and label */
+static const Colour INK = 190;   /* a pixel with a channel below this is ink */
 
 /* ---- numbers ------------------------------------------------------------ */
 
-Number number_with(double value, int digits)
+Number format_digits(double value, int digits)
 {
     Number out;
     size_t size = sizeof out.text;
@@ -51,14 +53,13 @@ Number number_with(double value, int digits)
     return out;
 }
 
-Number number_of(double value)
+Number format_number(double value)
 {
-    return number_with(value, 3);
+    return format_digits(value, 3);
 }
 
 /* ---- in a row, at the edges ---------------------------------------------- */
 
-/* 1, 2 or 5 times a power of ten metres. */
 void plot_scale(const Plot *plot)
 {
     Paper *paper = plot->paper;
@@ -71,7 +72,7 @@ void plot_scale(const Plot *plot)
                 (int)length, (int)(1.5 * paper->unit) + 1};
     if (!(length > 4) || !isfinite(length) || length > 0.6 * plot->box.width)
         return;
-    snprintf(words, sizeof words, "%s m", number_of(metres).text);
+    snprintf(words, sizeof words, "%s m", format_number(metres).text);
     paper_panel(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, line.x + 0.5 * length,
                 line.y - 1.4 * paper->em, ALIGN_CENTRE, words);
     canvas_fill(&paper->canvas, line, COLOUR_GREY);
@@ -89,15 +90,16 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     room.box.x += (int)(0.9 * em);
     room.box.y += (int)(0.6 * em);
     room.box.width -= (int)(1.8 * em);
-    words_flow(&room, plot->flow, LEGEND_SIZE, 1.6, &line);
+    card_flow_words(&room, plot->legend_at, LEGEND_SIZE, 1.6, &line);
 }
 
 /* ---- off what is drawn -------------------------------------------------- */
 
-double plot_cost(const Plot *plot, Box place)
+double plot_label_cost(const Plot *plot, Box place)
 {
     const Canvas *canvas = &plot->paper->canvas;
-    Box seen = box_shared(place, box_shared(plot->box, canvas->clip));
+    Box seen =
+        box_intersection(place, box_intersection(plot->box, canvas->clip));
     double area = (double)place.width * place.height, ink = 0;
     for (int y = seen.y; y < seen.y + seen.height; y++)
         for (int x = seen.x; x < seen.x + seen.width; x++) {
@@ -109,13 +111,13 @@ double plot_cost(const Plot *plot, Box place)
            COST_OUTSIDE;
 }
 
-void plot_words(const Plot *plot, int points, const double *at, Colour colour,
+void plot_label(const Plot *plot, int points, const double *at, Colour colour,
                 const char *format, ...)
 {
     Paper *paper = plot->paper;
     char words[WORDS_TEXT];
     va_list arguments;
-    if (!plot->text)
+    if (!plot->has_text)
         return;
     va_start(arguments, format);
     vsnprintf(words, sizeof words, format, arguments);
@@ -130,7 +132,7 @@ void plot_words(const Plot *plot, int points, const double *at, Colour colour,
     for (int i = 0; i < 8 * points; i++) {
         const int *to = side[i % 8];
         double p[2];
-        plot_place(plot, at + i / 8 * 2, p);
+        plot_pixel(plot, at + i / 8 * 2, p);
         if (!(fabs(p[0]) < FARTHEST && fabs(p[1]) < FARTHEST))
             continue;
         double apart = (i % 8 < 4 ? APART : 0.7 * APART) * paper->em;
@@ -138,7 +140,7 @@ void plot_words(const Plot *plot, int points, const double *at, Colour colour,
                      (int)(p[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
                      wide, high};
         Box wider = box_inset(place, -paper_pixels(paper, AIR));
-        double cost = plot_cost(plot, wider) + COST_LATER * i;
+        double cost = plot_label_cost(plot, wider) + COST_LATER * i;
         if (cost < least) {
             least = cost;
             best = place;

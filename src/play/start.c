@@ -179,7 +179,7 @@ Status player_reveal(Player *player, const char *typed)
     if (typed && (!option_read(&any, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
-    Number number = number_with(truth, 5);
+    Number number = format_digits(truth, 5);
     player->tour.revealed = page;
     player->tour.verdict[0] = '\0';
     if (typed && !page->answer)
@@ -257,7 +257,7 @@ Status obey_predict(Player *player, const Command *command)
     Status status = player_reveal(player, NULL);
     judge_guess(player, right,
                 right ? "Your click is right." : "Your click is %s off.",
-                number_of(guess->distance).text);
+                format_number(guess->distance).text);
     return status;
 }
 

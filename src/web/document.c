@@ -53,10 +53,10 @@ __attribute__((format(printf, 2, 3))) static void put(Writer *to,
 }
 
 /* All known lines of a text. */
-static void put_text(Writer *to, const Facts *facts, const char *words,
+static void put_text(Writer *to, const LiveValues *values, const char *words,
                      const char *text)
 {
-    for (TextLine line = text_of(facts, text); text_next(&line);)
+    for (TextLine line = text_begin(values, text); text_next(&line);)
         put(to, "%s\t#%06x\t%d\t%s\n", words, (unsigned)line.colour & 0xffffff,
             line.face == FACE_BOLD, line.words);
 }
@@ -68,10 +68,10 @@ static void put_text(Writer *to, const Facts *facts, const char *words,
 static void put_page(Writer *to, const Show *show)
 {
     const LecturePage *page = show->lecture;
-    const Facts *facts = &show_pane(show)->facts;
-    put_text(to, facts, "text", page->text);
-    put_text(to, facts, "formula", page->formula);
-    put_text(to, facts, "ask", page->ask);
+    const LiveValues *values = &show_pane(show)->values;
+    put_text(to, values, "text", page->text);
+    put_text(to, values, "formula", page->formula);
+    put_text(to, values, "ask", page->ask);
     if (show->veiled) {
         double at[2];
         put(to, "asks\t%s\t%d\n",
@@ -80,14 +80,15 @@ static void put_page(Writer *to, const Show *show)
                                    : "words",
             simulation_point(show_pane(show)->simulation, at));
     } else {
-        put_text(to, facts, "look", page->look);
-        put_text(to, facts, "try", page->touch);
+        put_text(to, values, "look", page->look);
+        put_text(to, values, "try", page->touch);
     }
-    put_text(to, facts, "claim", page->claim);
-    put_text(to, facts, "notes", page->notes);
+    put_text(to, values, "claim", page->claim);
+    put_text(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         put(to, "code\t%d\t%s\n",
-            strstr(page->code[i], lecture_lit(show)) != NULL, page->code[i]);
+            strstr(page->code[i], lecture_lit_code(show)) != NULL,
+            page->code[i]);
 }
 
 /* ---- cards -----------------------------------------------------------------
@@ -97,19 +98,19 @@ static void put_page(Writer *to, const Show *show)
 static void put_rows(Writer *to, const Show *show, int card,
                      const ListingRow *row)
 {
-    const Facts *facts = &show_pane(show)->facts;
+    const LiveValues *values = &show_pane(show)->values;
     const Trace *trace = show_pane(show)->update;
-    for (; row->of; row++) {
-        bool struck = text_is_known(facts, row->off);
+    for (; row->shown_if; row++) {
+        bool struck = text_has_line(values, row->struck_if);
         bool reached =
             trace && (trace->line == LINE_NONE || trace->line >= row->line);
-        bool lit = row->lit ? text_is_known(facts, row->lit)
-                            : trace && trace->line == row->line;
+        bool lit = row->lit_if ? text_has_line(values, row->lit_if)
+                               : trace && trace->line == row->line;
         TextLine value =
-            text_first(facts, reached || struck ? row->value : NULL);
-        if (text_is_known(facts, row->of))
+            text_first_line(values, reached || struck ? row->value : NULL);
+        if (text_has_line(values, row->shown_if))
             put(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, lit, struck,
-                row->indented, text_first(facts, row->shows).words,
+                row->indented, text_first_line(values, row->text).words,
                 value.words);
     }
 }
@@ -123,14 +124,14 @@ static void put_graph(Writer *to, const Show *show, const char *name)
         const Energies energies = simulation_energies(pane->simulation, 0);
         for (int i = 0; i < energies.rows; i++)
             put(to, "%s%s %s J", i ? ", " : "", energies.row[i].name,
-                number_of(energies.row[i].value).text);
+                format_number(energies.row[i].value).text);
     } else if (trace && strstr("residual prints updates", name)) {
         for (int i = 0; i < trace->updates; i++)
             put(to, "%supdate %d: residual %s, step length %s", i ? "; " : "",
-                i + 1, number_of(trace->record[i].residual).text,
-                number_of(trace->record[i].alpha).text);
+                i + 1, format_number(trace->record[i].residual).text,
+                format_number(trace->record[i].alpha).text);
     } else if (strcmp(name, "line") == 0) {
-        for (TextLine line = text_of(&pane->facts, text_trials);
+        for (TextLine line = text_begin(&pane->values, text_trials);
              text_next(&line);)
             put(to, "%s; ", line.words);
     }
@@ -139,7 +140,7 @@ static void put_graph(Writer *to, const Show *show, const char *name)
 static void put_cards(Writer *to, const Show *show)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    const Facts *facts = &show_pane(show)->facts;
+    const LiveValues *values = &show_pane(show)->values;
     const LecturePage *page = show->lecture;
     for (int i = 0; i < picture->count && show->cells == 0; i++) {
         const Card *card = picture->cards[i];
@@ -153,17 +154,17 @@ static void put_cards(Writer *to, const Show *show)
             text   ? "text"
             : star ? "star"
                    : "graph",
-            show->closed >> i & 1, text_first(facts, card->title).words);
+            show->closed >> i & 1, text_first_line(values, card->title).words);
         if (!text)
             put_graph(to, show, card->name);
         put(to, "\n");
         snprintf(words, sizeof words, "words\t%d", i);
         if (veiled)
-            put_text(to, facts, words, "after your guess");
+            put_text(to, values, words, "after your guess");
         else if (card->rows)
             put_rows(to, show, i, card->rows);
         else
-            put_text(to, facts, words, card->words);
+            put_text(to, values, words, card->words);
     }
 }
 
@@ -220,13 +221,13 @@ static void put_shape(Writer *to, const Pane *pane)
     }
     if (nodes > 1)
         put(to, " %d masses, %d springs, %s m wide and %s m high.", nodes,
-            simulation->system.springs, number_of(high[0] - low[0]).text,
-            number_of(high[1] - low[1]).text);
+            simulation->system.springs, format_number(high[0] - low[0]).text,
+            format_number(high[1] - low[1]).text);
     else if (simulation_point(simulation, at) == 1)
-        put(to, " The point is at %s.", number_with(at[0], 4).text);
+        put(to, " The point is at %s.", format_digits(at[0], 4).text);
     else if (simulation_point(simulation, at) == 2)
-        put(to, " The point is at (%s, %s).", number_with(at[0], 4).text,
-            number_with(at[1], 4).text);
+        put(to, " The point is at (%s, %s).", format_digits(at[0], 4).text,
+            format_digits(at[1], 4).text);
 }
 
 /* The picture in words: of each pane method and shape, the energies of the
@@ -251,7 +252,7 @@ static void put_picture(Writer *to, const Player *player)
         put(to, " Energies:");
         for (int i = 0; i < energies.rows; i++)
             put(to, "%s %s %s J", i ? "," : "", energies.row[i].name,
-                number_of(energies.row[i].value).text);
+                format_number(energies.row[i].value).text);
         put(to, ".");
     }
     put(to, "\n");
@@ -272,7 +273,7 @@ static void put_event(Writer *to, const Player *player)
             change += trace->record[i].change;
         put(to, ": %d update%s, %s %s by %s", trace->updates,
             trace->updates > 1 ? "s" : "", show_pane(show)->trace ? "E" : "f",
-            change > 0 ? "rose" : "fell", number_of(fabs(change)).text);
+            change > 0 ? "rose" : "fell", format_number(fabs(change)).text);
     }
     put(to, "\n");
 }

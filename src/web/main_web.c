@@ -115,7 +115,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_lists(void)
 EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
 {
     static char text[8];
-    Colour colour = colour_named(name, strlen(name));
+    Colour colour = colour_find(name, strlen(name));
     snprintf(text, sizeof text, "#%06x", (unsigned)colour & 0xffffff);
     return text;
 }

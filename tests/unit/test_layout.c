@@ -21,7 +21,7 @@ static void show_all(void)
 {
     static const char label[] = "............";
     show_create(&simulation, &show);
-    show_know(&show);
+    show_fill_values(&show);
     for (int i = 0; i < 9; i++) {
         show.setting[i].letters = 4 + 2 * i;
         show.chip[i] = (Chip){"Tab", label + 8 - i, false};
@@ -63,7 +63,7 @@ static int check_boxes(const Box *boxes, int count, Box zone)
 static void check_chips(const Layout *l, int wished)
 {
     int out = 0;
-    if (l->last.width <= 0 || l->last.height <= 0)
+    if (l->chip_row.width <= 0 || l->chip_row.height <= 0)
         return;
     CHECK(l->chips == wished && l->chip[wished - 1].width > 0);
     for (int i = 0; i < l->chips; i++) {
@@ -72,7 +72,7 @@ static void check_chips(const Layout *l, int wished)
             CHECK(l->chip[i].width <= 0); /* the first ones stay */
     }
     CHECK(out == l->chips_left_out);
-    CHECK(check_boxes(l->chip, l->chips, l->last) == l->chips - out);
+    CHECK(check_boxes(l->chip, l->chips, l->chip_row) == l->chips - out);
 }
 
 /* Zones tile the window: areas add up, nothing overlaps; parts lie inside. */
@@ -82,8 +82,8 @@ TEST(zones_tile_every_size)
     for (int s = 0; s < SIZES; s++)
         for (show.panes = 1; show.panes <= LAYOUT_PANES; show.panes++) {
             Layout l = show_layout(&show, sizes[s][0], sizes[s][1]);
-            const Box zones[] = {l.strip, l.stage, l.column,
-                                 l.row,   l.time,  l.last};
+            const Box zones[] = {l.strip,        l.stage,     l.column,
+                                 l.settings_row, l.time_line, l.chip_row};
             const Box window = {0, 0, l.width, l.height};
             long area = 0;
             for (int i = 0; i < 6; i++)
@@ -95,7 +95,8 @@ TEST(zones_tile_every_size)
                 CHECK(check_boxes(l.pane, l.panes, l.stage) == l.panes);
             CHECK(check_boxes(l.card, l.cards, l.column) ==
                   (l.cards ? SEEN : 0));
-            CHECK(check_boxes(l.setting, l.settings, l.row) == l.settings);
+            CHECK(check_boxes(l.setting, l.settings, l.settings_row) ==
+                  l.settings);
             check_chips(&l, show.chips);
             CHECK(box_inside(l.bars, window));
         }
@@ -121,7 +122,7 @@ TEST(small_windows_leave_parts_out)
     show.setting[0].letters = 400; /* wider than the window: the first line */
     Layout wide = show_layout(&show, 900, 900);
     CHECK(wide.settings > 1 && wide.setting[1].y > wide.setting[0].y);
-    CHECK(wide.setting[0].y < wide.row.y + wide.em);
+    CHECK(wide.setting[0].y < wide.settings_row.y + wide.em);
     show.bare = true;
     Layout bare = show_layout(&show, 900, 900);
     CHECK(bare.stage.width == 900 && bare.stage.height == 900);
@@ -168,7 +169,7 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
         CHECK(hit.zone == ZONE_CARD_CLOSE && hit.index == i);
     }
     CHECK(layout_hit(&l, 640, 5).zone == ZONE_STRIP);
-    CHECK(layout_hit(&l, 640, l.time.y + 1).zone == ZONE_TIME);
+    CHECK(layout_hit(&l, 640, l.time_line.y + 1).zone == ZONE_TIME);
     CHECK(layout_hit(&l, -1, -1).zone == ZONE_NONE);
 }
 

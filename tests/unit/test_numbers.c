@@ -1,6 +1,6 @@
-/* What texts know of a step of the square by name (facts.h), and its energies,
- * are what the trace and the ledger say, on all pages and scenes of it.
- * (test_newton holds the trace to formulas of the oracle, test_laws and
+/* What texts know of a step of the square by name (live_values.h), and its
+ * energies, are what the trace and the ledger say, on all pages and scenes of
+ * it. (test_newton holds the trace to formulas of the oracle, test_laws and
  * check_tables the ledger; all other numbers of a frame are held by
  * test_session, those of a page by test_pages, digits and axes by
  * test_picture.) */
@@ -33,7 +33,7 @@ static void check_trace(const char *line, const Pane *pane)
         risen += trace->record[i].change;
     if (trace->difference && trace->trials > 0)
         change = trace->difference(trace->function,
-                                   trace_alpha(trace, trace->trials));
+                                   trace_step_length(trace, trace->trials));
     const struct {
         const char *name;
         double value;
@@ -46,7 +46,8 @@ static void check_trace(const char *line, const Pane *pane)
                 {"change", change}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         check_number(line, rows[i].name,
-                     fact_number(&pane->facts, rows[i].name), rows[i].value, 0);
+                     values_find_number(&pane->values, rows[i].name),
+                     rows[i].value, 0);
 }
 
 /* Of the square, unless it has exploded beyond all numbers: facts, and what the
@@ -66,12 +67,13 @@ static void check_frame(const char *line)
         check_trace(line, pane);
     for (int i = 0; i < ledger.rows; i++) {
         const Energy *row = &ledger.row[i];
-        check_number(line, row->name, fact_number(&pane->facts, row->name),
-                     row->value, 0);
+        check_number(line, row->name,
+                     values_find_number(&pane->values, row->name), row->value,
+                     0);
         for (int s = 0; history && s < history->series; s++)
             if (strcmp(history->name[s], row->name) == 0)
                 check_number(line, row->name,
-                             energies_value(simulation, history, s, now),
+                             energies_value_at(simulation, history, s, now),
                              row->value, 1e-13 * size);
     }
 }

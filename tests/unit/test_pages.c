@@ -76,8 +76,8 @@ static bool speaks_of(Simulation *simulation, const char *text)
 {
     Show show;
     show_create(simulation, &show);
-    show_know(&show);
-    return text_is_known(&show_pane(&show)->facts, text);
+    show_fill_values(&show);
+    return text_has_line(&show_pane(&show)->values, text);
 }
 
 /* Whether it speaks of results of which there are none yet. */
@@ -632,10 +632,10 @@ TEST(claim_psd)
     exhibit_drag(simulation, 0, 2, 1);
     CHECK(known_now(simulation, "negative") == 0);
     for (double r = 0.02; r < 1.5; r += 0.02) {
-        SpringFacts facts = spring_facts((double[2]){r, 0}, 1, 100);
-        CHECK_NEAR(2 * facts.across, 4 * 100 * (r * r - 1), 1e-9);
-        CHECK_NEAR(2 * facts.along, 4 * 100 * (3 * r * r - 1), 1e-9);
-        CHECK((facts.along <= 0) == (r < 1 / sqrt(3)));
+        SpringFacts spring = spring_facts((double[2]){r, 0}, 1, 100);
+        CHECK_NEAR(2 * spring.across, 4 * 100 * (r * r - 1), 1e-9);
+        CHECK_NEAR(2 * spring.along, 4 * 100 * (3 * r * r - 1), 1e-9);
+        CHECK((spring.along <= 0) == (r < 1 / sqrt(3)));
     }
 }
 
@@ -659,12 +659,12 @@ TEST(claim_force)
     Simulation *simulation = open_page("force", "");
     const double *x = simulation->run[0].x;
     const System *system = &simulation->system;
-    SpringFacts facts = spring_facts(x, system->l2[0], system->k[0]);
-    CHECK_NEAR(facts.energy, 23.805, 1e-12);
+    SpringFacts spring = spring_facts(x, system->l2[0], system->k[0]);
+    CHECK_NEAR(spring.energy, 23.805, 1e-12);
     CHECK_NEAR(known_now(simulation, "energy"), 23.805, 1e-12);
-    CHECK_NEAR(facts.force[0], -165.6, 1e-12);
-    CHECK_NEAR(facts.force[1], -69, 1e-12);
-    CHECK_NEAR(system_potential(system, x), facts.energy, 1e-12);
+    CHECK_NEAR(spring.force[0], -165.6, 1e-12);
+    CHECK_NEAR(spring.force[1], -69, 1e-12);
+    CHECK_NEAR(system_potential(system, x), spring.energy, 1e-12);
     exhibit_drag(simulation, 0, 4, 0);
     CHECK_NEAR(known_now(simulation, "force too"), -200 * 15 * 4, 1e-5);
     CHECK_NEAR(known_now(simulation, "Dxx"), 200 * (15 + 32), 1e-5);
@@ -858,9 +858,9 @@ TEST(claim_inelastic)
         if (step % 60 == 0 && step <= 60) { /* rounding is no flow */
             Show show;
             show_create(simulation, &show);
-            show_know(&show);
+            show_fill_values(&show);
             TextLine title =
-                text_first(&show_pane(&show)->facts, card_law.title);
+                text_first_line(&show_pane(&show)->values, card_law.title);
             CHECK((strcmp(title.words, "no spring has flowed") == 0) ==
                   (step == 0));
             double up = 0, gap = 1;
@@ -1246,7 +1246,7 @@ enum { CARDS, LARGE, LARGE_ASKED, CODE, LIST, KINDS };
 static const char *missing_line(const Show *show, const char *text)
 {
     static TextLine line;
-    line = text_of(&show_pane(show)->facts, text);
+    line = text_begin(&show_pane(show)->values, text);
     while (text_next(&line))
         if (!strstr(seen.texts, line.words))
             return line.words;

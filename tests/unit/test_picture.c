@@ -190,8 +190,8 @@ TEST(axes_name_their_values)
             double place[2], value = rows[r].value[count];
             canvas_clear(&one.canvas, COLOUR_WHITE);
             paper_write(&one, FACE_REGULAR, 0.82, COLOUR_FAINT, 99, 99,
-                        ALIGN_LEFT, "%s", number_of(value).text);
-            plot_place(&plot, (double[2]){up ? 0.5 : value, up ? value : 0.5},
+                        ALIGN_LEFT, "%s", format_number(value).text);
+            plot_pixel(&plot, (double[2]){up ? 0.5 : value, up ? value : 0.5},
                        place);
             int x = (int)place[0], y = (int)place[1];
             Box there = up ? (Box){0, y - wide, left, 2 * wide}
@@ -258,7 +258,7 @@ TEST(numbers_are_read)
                 {-INFINITY, "\u2212\u221e"},
                 {-NAN, "no number"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        assert_string_equal(number_of(rows[i].value).text, rows[i].text);
+        assert_string_equal(format_number(rows[i].value).text, rows[i].text);
     }
 }
 
@@ -289,7 +289,7 @@ TEST(words_keep_off_lines_and_words)
         Plot plot = {.paper = &paper, /* its unit is a pixel, y up */
                      .box = {0, 0, 400, 300},
                      .camera = {{1, 1}, {0, 300}},
-                     .text = true,
+                     .has_text = true,
                      .em = paper.em};
         if (lines) {
             plot_line(&plot, middle, up, 2, COLOUR_P);
@@ -297,7 +297,7 @@ TEST(words_keep_off_lines_and_words)
         }
         int ink = count_pixels(&paper.canvas, COLOUR_P, &left);
         for (int i = 0; i < 5; i++) {
-            plot_words(&plot, 1, i ? middle : far, COLOUR_TEXT, "words");
+            plot_label(&plot, 1, i ? middle : far, COLOUR_TEXT, "words");
             int letters = count_pixels(&paper.canvas, COLOUR_TEXT, &left);
             one = i == 1 ? letters : one;
             CHECK(letters == i * one && (i == 0) == (letters == 0));

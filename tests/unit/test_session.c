@@ -230,7 +230,7 @@ static void point_at(const char *place)
     } else if (strncmp(place, "step ", 5) == 0) {
         long step = atol(place + 5);
         mouse[0] = layout.bars.x;
-        mouse[1] = layout.time.y + layout.time.height / 2;
+        mouse[1] = layout.time_line.y + layout.time_line.height / 2;
         while (show_step_at(&player.screen.frame.show, &layout, mouse[0]) <
                    step &&
                mouse[0] < layout.width)
@@ -238,7 +238,7 @@ static void point_at(const char *place)
     } else if (strcmp(place, "strip") == 0) {
         point_into(layout.strip, false);
     } else if (strcmp(place, "time") == 0) {
-        point_into(layout.time, false);
+        point_into(layout.time_line, false);
     } else if (strcmp(place, "stage") == 0) {
         point_into(layout.stage, true);
     } else if (strncmp(place, "chip ", 5) == 0) {

@@ -49,7 +49,7 @@ static void stand_up(const char *line, int steps)
     view = *show.view;
     show.view = &view;
     show.pane[0].history = &history;
-    show_know(&show);
+    show_fill_values(&show);
     set_size(1280, 800);
 }
 
@@ -64,7 +64,7 @@ static int take_down(void **unused)
 static void draw(void)
 {
     int width = paper.canvas.width, height = paper.canvas.height;
-    show_know(&show);
+    show_fill_values(&show);
     show_draw(&paper, &show);
     layout = show_layout(&show, width, height);
 }
@@ -85,7 +85,7 @@ static Plot blank_card(int width, int height)
                   .show = &show,
                   .simulation = &simulation,
                   .box = {0, 0, width, height},
-                  .text = true,
+                  .has_text = true,
                   .em = paper.em};
 }
 
@@ -504,12 +504,12 @@ TEST(contacts_are_drawn_sliding_or_holding)
     draw(); /* the paper has the size of its letters */
     Plot stage = show_stage(&paper, &show, &layout, 0);
     for (int r = 0; r < 3; r++) {
-        const SpringPen pen = square_pen(&stage, r);
+        const SquarePen pen = square_pen_create(&stage, r);
         double lowest = 0, at[2];
         for (ElementIterator to = square_contacts(&pen); elements_next(&to);) {
-            Touch touch = square_touch(&pen, &to.element);
-            CHECK(touch.rough && touch.slides == (r < 2));
-            plot_place(&stage, pen.x + 2 * touch.node, at);
+            ContactForce touch = square_contact_force(&pen, &to.element);
+            CHECK(touch.has_friction && touch.slides == (r < 2));
+            plot_pixel(&stage, pen.x + 2 * touch.node, at);
             lowest = fmax(lowest, at[1]);
         }
         canvas_clear(&paper.canvas, COLOUR_WHITE);
@@ -535,18 +535,18 @@ TEST(texts_say_what_is_known)
                 {"{d:/} of x^{{a}} {x}", "1/4 of x^{0.69} {x}"},
                 {"{e:2} {e} {e:7}", "1200 1230 1234.567"},
                 {"{nothing}\n@\n{f}", "2"}};
-    Facts facts = {.count = 0};
-    fact(&facts, "a", 0.69);
-    fact(&facts, "b", -0.5511);
-    fact(&facts, "c", 1.468e-6);
-    fact(&facts, "d", 0.25);
-    fact(&facts, "e", 1234.567);
-    fact(&facts, "nothing", NAN);
-    facts.run = 2;
-    fact(&facts, "f", 2);
-    facts.run = 0;
+    LiveValues values = {.count = 0};
+    values_add(&values, "a", 0.69);
+    values_add(&values, "b", -0.5511);
+    values_add(&values, "c", 1.468e-6);
+    values_add(&values, "d", 0.25);
+    values_add(&values, "e", 1234.567);
+    values_add(&values, "nothing", NAN);
+    values.run = 2;
+    values_add(&values, "f", 2);
+    values.run = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        TextLine line = text_first(&facts, rows[i].text);
+        TextLine line = text_first_line(&values, rows[i].text);
         assert_string_equal(line.words, rows[i].line);
         CHECK((line.colour == COLOUR_WARNING) == (i == 1));
         CHECK(!text_next(&line) && line.words[0] == 0);
@@ -569,12 +569,12 @@ TEST(energies_before_an_explosion_are_seen)
     for (int s = 0; s < history.series; s++)
         later[s] = (Energy){history.name[s], 1e298};
     history_add(&history, now + 0.1, history.series, later);
-    CHECK(energies_value(&simulation, &history, 0, now) == total);
+    CHECK(energies_value_at(&simulation, &history, 0, now) == total);
     Axis axis = energies_axis(&show, &last);
     CHECK(!axis.log && axis.high <= before && axis.high >= total &&
           total > 1e3);
-    CHECK(energies_value(&simulation, &history, 0, now + 0.1) == 1e298);
-    CHECK(isnan(energies_value(&simulation, &history, 0, -1)));
+    CHECK(energies_value_at(&simulation, &history, 0, now + 0.1) == 1e298);
+    CHECK(isnan(energies_value_at(&simulation, &history, 0, -1)));
     for (int i = 1; i < 9; i++) { /* whatever its size is */
         char line[40];
         snprintf(line, sizeof line, "square --stretch 1.%d", i);
@@ -583,14 +583,14 @@ TEST(energies_before_an_explosion_are_seen)
     }
     stand_up("square --timestep 0.008 --integrator symplectic-euler", 11);
     now = simulation_time(&simulation); /* x is finite, E is not */
-    CHECK(isinf(energies_value(&simulation, &history, 0, now)));
-    CHECK(isfinite(energies_value(&simulation, &history, 0, 0.9 * now)));
+    CHECK(isinf(energies_value_at(&simulation, &history, 0, now)));
+    CHECK(isfinite(energies_value_at(&simulation, &history, 0, 0.9 * now)));
     stand_up("arrows", 80);
     axis = energies_axis(&show, &last);
     now = simulation_time(&simulation);
     CHECK(axis.log && axis.low > 0);
     for (int r = 0; r < 3; r++) {
-        double energy = energies_value(&simulation, &history, r, now);
+        double energy = energies_value_at(&simulation, &history, r, now);
         least = fmin(least, energy);
         CHECK(energy <= axis.high && energy >= axis.low);
     }
@@ -612,7 +612,7 @@ TEST(maps_have_levels_and_pulls)
     const double *target = simulation.exhibit.target;
     for (int k = 0; k < 3; k++) {
         double far = sqrt(2 * levels[k]), at[2], near = INFINITY;
-        plot_place(&stage, (double[]){target[0] + 0.62 * far, target[1]}, at);
+        plot_pixel(&stage, (double[]){target[0] + 0.62 * far, target[1]}, at);
         for (int i = 0; i < writings && i < 500; i++)
             if (strtod(written[i], NULL) == levels[k])
                 near = fmin(near, fabs(written_at[i] - at[0]));
@@ -623,14 +623,14 @@ TEST(maps_have_levels_and_pulls)
     for (int k = 0; k < 3; k++) { /* so is the contour itself */
         double at[2], far = sqrt(2 * levels[k]);
         int darkest = -9;
-        plot_place(&stage, (double[]){target[0] - far, target[1]}, at);
+        plot_pixel(&stage, (double[]){target[0] - far, target[1]}, at);
         for (int i = -9; i < 9; i++)
             if ((pixel((int)at[0] + i, (int)at[1]) & 255) <
                 (pixel((int)at[0] + darkest, (int)at[1]) & 255))
                 darkest = i;
         CHECK_AT_MOST(abs(darkest), 1);
     }
-    plot_place(&stage, (double[]){0.4, 0.6}, middle);
+    plot_pixel(&stage, (double[]){0.4, 0.6}, middle);
     CHECK(count_colour((Box){(int)middle[0] - 3, (int)middle[1] - 3, 7, 7},
                        COLOUR_X_TILDE) > 3);
 }
@@ -668,7 +668,7 @@ TEST(right_digits_are_marked)
     for (int i = 0; i <= 6; i++) {
         if (i > 0)
             CHECK(!simulation_step(&simulation));
-        show_know(&show);
+        show_fill_values(&show);
         Plot card = blank_card(600, 400);
         update_draw(&card);
         int lit[7] = {0}, rows = 0, before = 0;
@@ -848,8 +848,8 @@ TEST(eigenvalues_are_outside_on_or_inside)
         const double middle[2] = {650, 350};
         double far[3][2];
         for (int r = 0; r < 3; r++)
-            distances(plane, colour_of(simulation.run[r].method->name), middle,
-                      far[r]);
+            distances(plane, colour_of_name(simulation.run[r].method->name),
+                      middle, far[r]);
         double disc = 5 * paper.unit, size = hypot(1, t);
         double one = (far[0][1] - disc) / size;
         double two = t > 2 ? 0.5 * t * t - 1 + sqrt(0.25 * t * t - 1) * t : 1;

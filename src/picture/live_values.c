@@ -1,6 +1,5 @@
-/* facts.c - what is known of a frame, by name, and texts that are filled with
- * it.
- */
+/* live_values.c - collects the live values of a frame and fills texts with
+ * them. */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,48 +12,49 @@
 
 /* ---- what is known ------------------------------------------------------- */
 
-static Fact *add_fact(Facts *facts, const char *name)
+static LiveValue *add_value(LiveValues *values, const char *name)
 {
-    Fact *new = &facts->fact[facts->count % FACTS_MOST];
-    facts->count += facts->count < FACTS_MOST;
-    *new = (Fact){.name = name, .run = facts->run};
+    LiveValue *new = &values->entry[values->count % VALUES_MOST];
+    values->count += values->count < VALUES_MOST;
+    *new = (LiveValue){.name = name, .run = values->run};
     return new;
 }
 
-void fact(Facts *facts, const char *name, double value)
+void values_add(LiveValues *values, const char *name, double number)
 {
-    if (!isnan(value))
-        add_fact(facts, name)->value[0] = value;
+    if (!isnan(number))
+        add_value(values, name)->value[0] = number;
 }
 
-void fact_words(Facts *facts, const char *name, const char *words)
+void values_add_words(LiveValues *values, const char *name, const char *words)
 {
     if (words)
-        add_fact(facts, name)->words = words;
+        add_value(values, name)->words = words;
 }
 
-void fact_when(Facts *facts, const char *name, bool on)
+void values_add_flag(LiveValues *values, const char *name, bool flag)
 {
-    fact_words(facts, name, on ? "" : NULL);
+    values_add_words(values, name, flag ? "" : NULL);
 }
 
-void fact_point(Facts *facts, const char *name, const double point[2])
+void values_add_point(LiveValues *values, const char *name,
+                      const double point[2])
 {
-    Fact *new = add_fact(facts, name);
+    LiveValue *new = add_value(values, name);
     new->point = true;
     memcpy(new->value, point, sizeof new->value);
 }
 
-void fact_matrix(Facts *facts, const char *const names[3], const double H[3],
-                 double none)
+void values_add_matrix(LiveValues *values, const char *const names[3],
+                       const double H[3], double none)
 {
     for (int k = 0; k < 3; k++)
-        fact(facts, names[k], fabs(H[k]) < none ? 0 : H[k]);
+        values_add(values, names[k], fabs(H[k]) < none ? 0 : H[k]);
 }
 
-/* Scene, methods and settings. */
+/* Adds scene, methods and settings. */
 static void add_settings(const Show *show, const Simulation *simulation,
-                         Facts *facts)
+                         LiveValues *values)
 {
     const Scene *scene = simulation->scene;
     const Options *options = &simulation->options;
@@ -65,113 +65,117 @@ static void add_settings(const Show *show, const Simulation *simulation,
     bool explicit = time && method && !method->implicit;
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
-    fact_words(facts, "scene", show->lecture ? NULL : scene->sentence);
-    fact(facts, "page",
-         show->lecture ? (double)(show->lecture - lecture_pages + 1) : NAN);
-    fact(facts, "pages", lecture_count());
+    values_add_words(values, "scene", show->lecture ? NULL : scene->sentence);
+    values_add(values, "page",
+               show->lecture ? (double)(show->lecture - lecture_pages + 1)
+                             : NAN);
+    values_add(values, "pages", lecture_count());
     bool settles = scene->settles && !show->lecture;
-    fact_when(facts, "grows", settles && forward);
-    fact_when(facts, "keeps", settles && method && !method->damps);
-    fact(facts, "panes", show->panes > 1 ? show->panes : NAN);
-    fact_when(facts, "searches", scene->step == step_descent);
-    fact(facts, "runs", simulation->runs);
-    fact_when(facts, "mixed", simulation->runs > 1 && method != run[1].method);
-    fact_words(facts, "method", method ? method->label : NULL);
-    fact_when(facts, "blocks",
-              simulation->runs > 1 && scene->picture == PICTURE_SQUARE);
-    fact_when(facts, "time", time);
-    fact_when(facts, "explicit", explicit);
-    fact_when(facts, explicit ? method->name : "", explicit);
-    fact_when(facts, "inside", time && method && !backward);
-    fact_when(facts, "one unknown", descent->scalar != NULL);
-    fact_when(facts, "by gradient", descent->by_gradient);
-    fact_when(facts, "Algorithm 3", !explicit && !descent->by_gradient);
+    values_add_flag(values, "grows", settles && forward);
+    values_add_flag(values, "keeps", settles && method && !method->damps);
+    values_add(values, "panes", show->panes > 1 ? show->panes : NAN);
+    values_add_flag(values, "searches", scene->step == step_descent);
+    values_add(values, "runs", simulation->runs);
+    values_add_flag(values, "mixed",
+                    simulation->runs > 1 && method != run[1].method);
+    values_add_words(values, "method", method ? method->label : NULL);
+    values_add_flag(values, "blocks",
+                    simulation->runs > 1 && scene->picture == PICTURE_SQUARE);
+    values_add_flag(values, "time", time);
+    values_add_flag(values, "explicit", explicit);
+    values_add_flag(values, explicit ? method->name : "", explicit);
+    values_add_flag(values, "inside", time && method && !backward);
+    values_add_flag(values, "one unknown", descent->scalar != NULL);
+    values_add_flag(values, "by gradient", descent->by_gradient);
+    values_add_flag(values, "Algorithm 3", !explicit && !descent->by_gradient);
     bool whole = options->line_search == LINE_SEARCH_NONE;
     bool search = descent->by_gradient ? descent->scalar && !whole : !explicit;
-    fact_when(facts, "Algorithm 1", descent->by_gradient && !search);
-    fact_when(facts, "search", search);
-    fact_when(facts, "raw", options->projection == PROJECTION_NONE);
-    fact_when(facts, "whole", whole);
-    fact(facts, "springs", simulation->system.springs);
-    fact_when(facts, "of a solid", neo_hookean_of(&simulation->system));
-    fact_when(facts, "done", simulation->done);
-    fact_when(facts, "paused", show->paused);
-    fact_when(facts, show->veiled ? "asked" : "told", true);
-    fact(facts, "guesses", show->guesses > 0 ? show->guesses : NAN);
-    fact(facts, "right", show->right);
-    fact_when(facts, show->view->held.on ? "held" : "free", true);
+    values_add_flag(values, "Algorithm 1", descent->by_gradient && !search);
+    values_add_flag(values, "search", search);
+    values_add_flag(values, "raw", options->projection == PROJECTION_NONE);
+    values_add_flag(values, "whole", whole);
+    values_add(values, "springs", simulation->system.springs);
+    values_add_flag(values, "of a solid", neo_hookean_of(&simulation->system));
+    values_add_flag(values, "done", simulation->done);
+    values_add_flag(values, "paused", show->paused);
+    values_add_flag(values, show->veiled ? "asked" : "told", true);
+    values_add(values, "guesses", show->guesses > 0 ? show->guesses : NAN);
+    values_add(values, "right", show->right);
+    values_add_flag(values, show->view->held.on ? "held" : "free", true);
     if (simulation->done && scene->step == step_descent &&
-        descent->residual <= options->tolerance) { /* the gradient is 0, too */
+        descent->residual <= options->tolerance) { /* the gradient is 0 */
         const double *x = descent->point;
         int down = descent_bends_down(simulation, x[0], x[1]);
-        fact_when(facts, "saddle", down == 1);
-        fact_when(facts, "maximum", down == 2);
+        values_add_flag(values, "saddle", down == 1);
+        values_add_flag(values, "maximum", down == 2);
     }
 }
 
-/* How a step has converged by another way than its residual: the next direction
- * is known to be negligible, or rounding hides what the last one would gain. */
-static void add_end(const Trace *trace, Facts *facts)
+/* Adds how a step converged other than by its residual: the next direction is
+ * known to be negligible, or rounding hides what the last one would gain. */
+static void add_step_end(const Trace *trace, LiveValues *values)
 {
     const NewtonRecord *last = trace->record + trace->updates - 1;
     if (trace->updates == 0 || last->status != STATUS_OK)
         return;
-    fact_when(facts, "negligible", last->residual > trace->tolerance);
-    fact_when(facts, "hidden",
-              last->alpha == 0 && trace->trials == last->trials);
+    values_add_flag(values, "negligible", last->residual > trace->tolerance);
+    values_add_flag(values, "hidden",
+                    last->alpha == 0 && trace->trials == last->trials);
 }
 
-/* The step as far as it has come, or the last update of a search. */
+/* Adds the values of the current step so far, or of a search's last update. */
 static void add_trace(const Simulation *simulation, const Trace *trace,
-                      Facts *facts)
+                      LiveValues *values)
 {
     bool made = trace->line == LINE_NONE || trace->line >= LINE_SOLVE;
     bool known = made && isfinite(trace->residual);
     bool above = trace->residual > trace->tolerance;
     if (trace->projected >= 0) {
-        fact(facts, "projected", trace->projected);
-        fact_when(facts, "of springs", simulation_projects_springs(simulation));
+        values_add(values, "projected", trace->projected);
+        values_add_flag(values, "of springs",
+                        simulation_projects_springs(simulation));
     }
-    fact(facts, "h then", trace->h);
-    fact(facts, "tolerance", trace->tolerance);
-    fact_when(facts, "walking", trace->line != LINE_NONE);
-    fact_when(facts, "updated", trace->updates > 0);
-    double risen = 0; /* E, by the updates of this step so far */
+    values_add(values, "h then", trace->h);
+    values_add(values, "tolerance", trace->tolerance);
+    values_add_flag(values, "walking", trace->line != LINE_NONE);
+    values_add_flag(values, "updated", trace->updates > 0);
+    double risen = 0; /* change of E by the updates of this step so far */
     for (int i = 0; i < trace->updates; i++)
         risen += trace->record[i].change;
     bool rose = risen > 0 && simulation->scene->needs & NEEDS_TIME;
-    fact(facts, "risen", rose ? risen : NAN);
-    fact(facts, "nth", trace->iteration + 1);
-    fact_words(facts, "way", trace->slope > 0 ? "uphill" : "downhill");
-    fact_when(facts, "uphill", trace->slope > 0);
+    values_add(values, "risen", rose ? risen : NAN);
+    values_add(values, "nth", trace->iteration + 1);
+    values_add_words(values, "way", trace->slope > 0 ? "uphill" : "downhill");
+    values_add_flag(values, "uphill", trace->slope > 0);
     if (trace->trials > 0 || trace->line)
-        fact(facts, "length",
-             trace_alpha(trace, trace->trials > 1 ? trace->trials : 1));
-    fact_when(facts, "taken", trace->trials > 0 && trace->accepted);
-    fact_when(facts, "refused", trace->trials > 0 && !trace->accepted);
-    fact_when(facts, "given up", trace->given_up);
+        values_add(
+            values, "length",
+            trace_step_length(trace, trace->trials > 1 ? trace->trials : 1));
+    values_add_flag(values, "taken", trace->trials > 0 && trace->accepted);
+    values_add_flag(values, "refused", trace->trials > 0 && !trace->accepted);
+    values_add_flag(values, "given up", trace->given_up);
     if (simulation->scene->needs & NEEDS_TIME)
-        add_end(trace, facts);
+        add_step_end(trace, values);
     if (trace->trials > 0 && trace->difference) {
-        double alpha = trace_alpha(trace, trace->trials);
+        double alpha = trace_step_length(trace, trace->trials);
         double change = trace->difference(trace->function, alpha);
-        fact(facts, "change", change);
-        fact_words(facts, "change", "no number");
-        fact_words(facts, "+", change > 0 ? "+" : "");
+        values_add(values, "change", change);
+        values_add_words(values, "change", "no number");
+        values_add_words(values, "+", change > 0 ? "+" : "");
     }
     if (known) {
-        fact(facts, "residual", trace->residual);
-        fact(facts, "p size",
-             simulation->descent.by_gradient ? NAN
-                                             : trace->residual * trace->h);
-        fact_words(facts, ">", above ? ">" : "\u2264");
-        fact_words(facts, "above", above ? "above" : "not above");
-        fact_words(facts, "given",
-                   above && trace->given_up ? ": given up" : "");
+        values_add(values, "residual", trace->residual);
+        values_add(
+            values, "p size",
+            simulation->descent.by_gradient ? NAN : trace->residual * trace->h);
+        values_add_words(values, ">", above ? ">" : "\u2264");
+        values_add_words(values, "above", above ? "above" : "not above");
+        values_add_words(values, "given",
+                         above && trace->given_up ? ": given up" : "");
     }
 }
 
-/* f(x + alpha p) - f(x), or E in the landscape. */
+/* f(x + alpha p) - f(x), or the same for E in the landscape. */
 static double descent_difference(const void *function, double alpha)
 {
     const DescentTrace *space = function;
@@ -181,8 +185,9 @@ static double descent_difference(const void *function, double alpha)
     return there.value - space->value;
 }
 
-/* The last update of a descent; before the first one, the one to come.  The
- * residual is that of the present iterate: at the end the one that passes. */
+/* Makes the trace of a descent's last update, or of the first one that is to
+ * come.  Its residual is that of the present iterate, which at the end passes
+ * the test. */
 static const Trace *descent_trace(const Simulation *simulation,
                                   DescentTrace *space)
 {
@@ -190,7 +195,7 @@ static const Trace *descent_trace(const Simulation *simulation,
     int last = descent->count - 1;
     const NewtonRecord *record = &descent->record[last < 0 ? 0 : last];
     bool made = last >= 0 && record->alpha > 0;
-    bool given_up = last >= 0 && !made; /* no step along this p was taken */
+    bool given_up = last >= 0 && !made; /* no step was taken along this p */
     *space = (DescentTrace){.simulation = simulation};
     for (int k = 0; k < (descent->scalar ? 1 : 2); k++) {
         space->from[k] = made ? record->from[k] : descent->point[k];
@@ -222,7 +227,7 @@ static const Trace *descent_trace(const Simulation *simulation,
     return &space->trace;
 }
 
-void show_know(Show *show)
+void show_fill_values(Show *show)
 {
     static const char *const lines[LINE_COUNT] = {"",       "line 1", "line 2",
                                                   "line 3", "line 4", "line 5",
@@ -231,39 +236,42 @@ void show_know(Show *show)
                  show_has_card(show, "line");
     for (int i = 0; i < show->panes; i++) {
         Pane *now = &show->pane[i];
-        Facts *facts = &now->facts;
+        LiveValues *values = &now->values;
         const Simulation *simulation = now->simulation;
         const Picture *picture = picture_of(simulation->scene);
         Line line = now->trace ? now->trace->line : LINE_NONE;
         now->update = now->trace;
         if (!now->trace && simulation->scene->step == step_descent)
             now->update = descent_trace(simulation, &now->descent);
-        facts->count = facts->run = 0;
-        for (int run = 0; run <= FACTS_RUNS; run++)
-            facts->colour[run] = COLOUR_TEXT;
-        add_settings(show, simulation, facts);
+        values->count = values->run = 0;
+        for (int run = 0; run <= VALUES_RUNS; run++)
+            values->colour[run] = COLOUR_TEXT;
+        add_settings(show, simulation, values);
         if ((!line || now->trace->given_up) && now->trouble &&
             now->trouble != STATUS_INTERRUPTED) {
-            fact_words(facts, status_name(now->trouble), "");
-            fact_words(facts, "trouble", status_text(now->trouble));
+            values_add_words(values, status_name(now->trouble), "");
+            values_add_words(values, "trouble", status_text(now->trouble));
         }
-        fact_when(facts, lines[line], walks && line);
-        fact_when(facts, "no step", !now->update);
+        values_add_flag(values, lines[line], walks && line);
+        values_add_flag(values, "no step", !now->update);
         if (now->update)
-            add_trace(simulation, now->update, facts);
-        if (picture->facts && (i == show->active || picture->legend))
-            picture->facts(simulation, facts); /* of others legends are read */
+            add_trace(simulation, now->update, values);
+        if (picture->add_values && (i == show->active || picture->legend))
+            picture->add_values(
+                simulation,
+                values); /* other panes need them for their legends */
     }
 }
 
 /* ---- texts --------------------------------------------------------------- */
 
-/* The fact of this name, up to its colon or brace. */
-static const Fact *find_fact(const Facts *facts, int run, const char *name)
+/* Finds the value with this name, which ends at a colon or brace. */
+static const LiveValue *find_value(const LiveValues *values, int run,
+                                   const char *name)
 {
     size_t length = strcspn(name, ":}");
-    for (int i = 0; i < facts->count; i++) {
-        const Fact *one = &facts->fact[i];
+    for (int i = 0; i < values->count; i++) {
+        const LiveValue *one = &values->entry[i];
         bool here = one->run == 0 || one->run == run;
         if (here && strlen(one->name) == length &&
             strncmp(name, one->name, length) == 0)
@@ -272,29 +280,28 @@ static const Fact *find_fact(const Facts *facts, int run, const char *name)
     return NULL;
 }
 
-double fact_number(const Facts *facts, const char *name)
+double values_find_number(const LiveValues *values, const char *name)
 {
-    const Fact *one = find_fact(facts, 0, name);
+    const LiveValue *one = find_value(values, 0, name);
     return one && !one->words ? one->value[0] : NAN;
 }
 
 double show_number(Show *show, const char *name)
 {
-    show_know(show);
-    return fact_number(&show_pane(show)->facts, name);
+    show_fill_values(show);
+    return values_find_number(&show_pane(show)->values, name);
 }
 
-/* One number or word of a line, as the letters behind the colon say: with / it
- * is 1/2, 1/4, ... where it is one of them. */
-static void put_fact(const Fact *one, const char *format, char *out,
-                     size_t size)
+/* Writes a value in the format that stands behind its colon. */
+static void format_value(const LiveValue *one, const char *format, char *out,
+                         size_t size)
 {
     char *rest;
     int digits = (int)strtol(format, &rest, 10), exponent;
     double value = one->value[0];
     Number number[2];
     for (int k = 0; k < 2 && !one->words; k++)
-        number[k] = number_with(one->value[k], digits ? digits : 3);
+        number[k] = format_digits(one->value[k], digits ? digits : 3);
     if (*rest == '/' && !one->words && value > 0 && value < 1 &&
         frexp(value, &exponent) == 0.5 && exponent > -9)
         snprintf(number->text, sizeof number->text, "1/%d",
@@ -308,19 +315,20 @@ static void put_fact(const Fact *one, const char *format, char *out,
         snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
 }
 
-/* Fills in the line of so many bytes; false: something in it is not known. */
+/* Fills the values into a line of `length` bytes.  Returns false if one is
+ * unknown. */
 static bool fill_line(TextLine *line, const char *text, size_t length)
 {
-    const Facts *facts = line->facts;
+    const LiveValues *values = line->values;
     const char *from = text, *end = text + length;
     size_t used = 0, name = strcspn(text, " *{");
     line->colour = COLOUR_TEXT;
     line->face = FACE_REGULAR;
     if (*from == '#' && from[name] != '{') { /* "#warning", "#run", "#1" */
         int run = strncmp(from, "#run ", 5) == 0 ? line->run : from[1] - '0';
-        line->colour = run >= 0 && run <= FACTS_RUNS
-                           ? facts->colour[run]
-                           : colour_named(from + 1, name - 1);
+        line->colour = run >= 0 && run <= VALUES_RUNS
+                           ? values->colour[run]
+                           : colour_find(from + 1, name - 1);
         line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
         from += name + 1 + (from[name] == '*');
     }
@@ -330,14 +338,15 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
             continue;
         }
         bool minus = from[1] == '-';
-        const Fact *found = find_fact(facts, line->run, from + 1 + minus);
+        const LiveValue *found =
+            find_value(values, line->run, from + 1 + minus);
         name = strcspn(from, ":}");
         if (!found)
             return false;
-        Fact one = *found;
+        LiveValue one = *found;
         one.value[0] *= minus ? -1 : 1;
-        put_fact(&one, from[name] == ':' ? from + name + 1 : "",
-                 line->words + used, sizeof line->words - used);
+        format_value(&one, from[name] == ':' ? from + name + 1 : "",
+                     line->words + used, sizeof line->words - used);
         used += strlen(line->words + used);
         from += strcspn(from, "}") + 1;
     }
@@ -345,9 +354,9 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
     return true;
 }
 
-TextLine text_of(const Facts *facts, const char *text)
+TextLine text_begin(const LiveValues *values, const char *text)
 {
-    return (TextLine){.facts = facts, .rest = text ? text : ""};
+    return (TextLine){.values = values, .rest = text ? text : ""};
 }
 
 bool text_next(TextLine *line)
@@ -357,7 +366,7 @@ bool text_next(TextLine *line)
             line->rest = line->each = line->rest + 2;
             line->run = 1;
         }
-        if (!*line->rest && line->each && line->run < FACTS_RUNS) {
+        if (!*line->rest && line->each && line->run < VALUES_RUNS) {
             line->rest = line->each;
             line->run++;
         }
@@ -373,21 +382,21 @@ bool text_next(TextLine *line)
     return false;
 }
 
-TextLine text_first(const Facts *facts, const char *text)
+TextLine text_first_line(const LiveValues *values, const char *text)
 {
-    TextLine line = text_of(facts, text);
+    TextLine line = text_begin(values, text);
     text_next(&line);
     return line;
 }
 
-bool text_is_known(const Facts *facts, const char *text)
+bool text_has_line(const LiveValues *values, const char *text)
 {
-    TextLine line = text_of(facts, text);
+    TextLine line = text_begin(values, text);
     return text_next(&line);
 }
 
-/* Draws a line at the upper edge of the box, or only measures it; returns the
- * pixels that it takes.  What is too wide goes on below. */
+/* Draws a line at the upper edge of the box, or only measures it; long lines
+ * wrap.  Returns the height in pixels. */
 static int put_line(Paper *paper, Box box, double size, const TextLine *line,
                     bool draw)
 {
@@ -397,27 +406,28 @@ static int put_line(Paper *paper, Box box, double size, const TextLine *line,
     return high + paper_pixels(paper, size * (high > 0 ? air : empty));
 }
 
-void text_in_card(const Plot *card, const Facts *facts, const char *text)
+void card_write_text(const Plot *card, const LiveValues *values,
+                     const char *text)
 {
     Paper *paper = card->paper;
     Box box = card->box;
     double height = 0, size = 1;
-    if (card->show->lecture) /* in a star it is seen from farther away */
+    if (card->show->lecture) /* a star is read from farther away */
         size = box.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
-    const TextLine begin = text_of(facts, text);
+    const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next(&line);) {
         int width = paper_width(paper, line.face, 1, line.words);
         height += put_line(paper, box, 1, &line, false);
         if (width > 0)
             size = fmin(size, (double)box.width / width);
     }
-    size = fmax(fmin(size, box.height / height), paper->least);
+    size = fmax(fmin(size, box.height / height), paper->min_letter);
     for (TextLine line = begin; text_next(&line);)
         box.y += put_line(paper, box, size, &line, true);
 }
 
-int words_flow(const Plot *card, int at[2], double size, double gap,
-               const TextLine *line)
+int card_flow_words(const Plot *card, int at[2], double size, double gap,
+                    const TextLine *line)
 {
     Paper *paper = card->paper;
     int width = paper_width(paper, line->face, size, line->words);
@@ -434,21 +444,22 @@ int words_flow(const Plot *card, int at[2], double size, double gap,
 /* ---- what the strip says --------------------------------------------------
  */
 
-/* The first line that is known, where there are no words yet; out [size]. */
-static void say(const Show *show, const char *text, char *out, size_t size)
+/* Fills an empty text with the first known line; out [size]. */
+static void fill_text(const Show *show, const char *text, char *out,
+                      size_t size)
 {
     if (!out[0])
         snprintf(out, size, "%.*s", (int)size - 1,
-                 text_first(&show_pane(show)->facts, text).words);
+                 text_first_line(&show_pane(show)->values, text).words);
 }
 
 void show_describe(Show *show)
 {
     const Scene *scene = show_pane(show)->simulation->scene;
-    show_know(show);
+    show_fill_values(show);
     if (!show->topic)
         show->topic = scene->title ? scene->title : scene->name;
-    say(show, text_sentences, show->sentence, sizeof show->sentence);
-    say(show, text_methods, show->method, sizeof show->method);
-    say(show, text_states, show->state, sizeof show->state);
+    fill_text(show, text_sentences, show->sentence, sizeof show->sentence);
+    fill_text(show, text_methods, show->method, sizeof show->method);
+    fill_text(show, text_states, show->state, sizeof show->state);
 }

@@ -1,4 +1,5 @@
-/* glow.c - the term at the mouse, or of the line that is walked, lights up.
+/* highlight.c - the term at the mouse, or of the line that is walked, lights
+ * up.
  *
  * A term of the formulas has a colour of its own, and so has what it is in the
  * picture: letters, arrows, curves, words of legends.  So everything of one
@@ -11,16 +12,17 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double GLOW_RADIUS = 4; /* units */
-static const double AT_MOUSE = 0.5;  /* ems around it */
-static const double INKED = 0.5;     /* of a pixel, that it counts */
+static const double HIGHLIGHT_RADIUS = 4; /* units of the paper */
+static const double MOUSE_REACH = 0.5;    /* ems, reach of the mouse */
+static const double MIN_COVERAGE =
+    0.5; /* least coverage of a pixel that counts */
 
 static int channel(Colour colour, int k)
 {
     return (int)(colour >> 8 * k & 255);
 }
 
-/* Whether the pixel is this colour on white, most of it. */
+/* Whether the pixel is this colour mixed with white, with enough coverage. */
 static bool has_colour(Colour pixel, Colour colour)
 {
     double ink = 0, off = 0;
@@ -31,12 +33,12 @@ static bool has_colour(Colour pixel, Colour colour)
     for (int k = 0; k < 3; k++)
         off = fmax(off, fabs(255 - ink * (255 - channel(colour, k)) -
                              channel(pixel, k)));
-    return ink > INKED && off < 16;
+    return ink > MIN_COVERAGE && off < 16;
 }
 
-/* Pixels of a disc around one of its pixels, into the map. */
-static void stamp(unsigned char *map, const Canvas *canvas, int x, int y,
-                  int radius)
+/* Marks the pixels of a disc in the map. */
+static void mark_disc(unsigned char *map, const Canvas *canvas, int x, int y,
+                      int radius)
 {
     for (int dy = -radius; dy <= radius; dy++) {
         int half = (int)sqrt((double)(radius * radius - dy * dy));
@@ -48,33 +50,34 @@ static void stamp(unsigned char *map, const Canvas *canvas, int x, int y,
     }
 }
 
-static void light(Canvas *canvas, Colour colour, int radius)
+static void highlight_colour(Canvas *canvas, Colour colour, int radius)
 {
     size_t count = (size_t)canvas->width * canvas->height;
     unsigned char *map = calloc(count, 1);
     for (size_t i = 0; i < count && map; i++)
         if (canvas->pixels[i] != COLOUR_WHITE &&
             has_colour(canvas->pixels[i], colour))
-            stamp(map, canvas, (int)(i % canvas->width),
-                  (int)(i / canvas->width), radius);
+            mark_disc(map, canvas, (int)(i % canvas->width),
+                      (int)(i / canvas->width), radius);
     for (size_t i = 0; i < count && map; i++) {
         Colour pixel = canvas->pixels[i], lit = 0xff000000u;
         if (!map[i] || channel(pixel, 1) < 128)
-            continue; /* ink stays as it is */
+            continue; /* dark pixels stay */
         for (int k = 0; k < 3; k++)
-            lit |= (Colour)(channel(pixel, k) * channel(COLOUR_GLOW, k) / 255)
-                   << 8 * k;
+            lit |=
+                (Colour)(channel(pixel, k) * channel(COLOUR_HIGHLIGHT, k) / 255)
+                << 8 * k;
         canvas->pixels[i] = lit;
     }
     free(map);
 }
 
-/* The colour of the term within so many pixels, or 0. */
+/* Colour of the nearest term within so many pixels; 0: none. */
 static Colour term_near(const Canvas *canvas, const double at[2], int reach)
 {
     const Box whole = {0, 0, canvas->width, canvas->height};
     int x = (int)at[0], y = (int)at[1], least = reach * reach + 1;
-    Box box = box_shared(
+    Box box = box_intersection(
         whole, (Box){x - reach, y - reach, 2 * reach + 1, 2 * reach + 1});
     Colour colour, best = 0;
     for (int j = box.y; j < box.y + box.height; j++)
@@ -92,7 +95,7 @@ static Colour term_near(const Canvas *canvas, const double at[2], int reach)
     return best;
 }
 
-void glow_draw(Paper *paper, const Show *show)
+void highlight_draw(Paper *paper, const Show *show)
 {
     static const Colour of_line[LINE_COUNT] = {[LINE_PROJECT] = COLOUR_PROJECT,
                                                [LINE_SOLVE] = COLOUR_P,
@@ -104,7 +107,7 @@ void glow_draw(Paper *paper, const Show *show)
     if (show->view->over.zone == ZONE_CARD ||
         show->view->over.zone == ZONE_STAGE)
         colour = term_near(&paper->canvas, show->view->over.at,
-                           (int)(AT_MOUSE * paper->em));
+                           (int)(MOUSE_REACH * paper->em));
     bool plain = show->view->hover.kind == PICK_SWITCH &&
                  !exhibit_has_kinds(show_pane(show)->simulation);
     if (plain || (colour == COLOUR_X && show->view->over.zone == ZONE_STAGE))
@@ -112,5 +115,6 @@ void glow_draw(Paper *paper, const Show *show)
     if (!colour && trace && show_has_card(show, "listing"))
         colour = of_line[trace->line];
     if (colour)
-        light(&paper->canvas, colour, (int)(GLOW_RADIUS * paper->unit + 0.5));
+        highlight_colour(&paper->canvas, colour,
+                         (int)(HIGHLIGHT_RADIUS * paper->unit + 0.5));
 }

@@ -1,24 +1,25 @@
-/* card_spy.c - the card with the non-zero blocks of the Hessian and of its
- * factor.
+/* card_hessian_pattern.c - the card with the non-zero blocks of the Hessian and
+ * of its factor.
  */
 #include <stdlib.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* What a block holds. */
+/* Content of a block. */
 enum { NOTHING, FILL, ENTRY };
 
-/* Place of a node in the elimination order, or its number. */
+/* Row of a node: its place in the elimination order, or its number. */
 static int node_place(const System *system, int node, bool natural)
 {
     return natural ? node : system->order[node];
 }
 
-/* What is in row i of column j < i of the factor of so many springs: [j n + i];
- * NULL: not enough memory.  A column has what the matrix has there, and what
- * each column has whose first entry below the diagonal it is (George and Liu
- * 1981).  In the natural order the matrix alone. */
+/* Computes the pattern of the factor (George and Liu 1981) of the first
+ * springs: block [j n + i] is row i of column j < i.  Column j adds its pattern
+ * to that of its parent, the first row below the diagonal with an entry.  In
+ * natural order the pattern is that of the matrix.  Returns NULL if memory runs
+ * out. */
 static unsigned char *make_pattern(const System *system, bool natural,
                                    int springs)
 {
@@ -40,8 +41,8 @@ static unsigned char *make_pattern(const System *system, bool natural,
     return block;
 }
 
-/* The block in row i, column j of n, at least so many pixels large; with a gap
- * to the next one where there is room. */
+/* Box of the block in row i, column j of n, at least `least` pixels large.
+ * Large blocks have gaps between them. */
 static Box block_box(Box square, int n, int i, int j, int least)
 {
     int side = square.width, gap = n * 5 < side;
@@ -52,8 +53,9 @@ static Box block_box(Box square, int n, int i, int j, int least)
                  high > least ? high : least};
 }
 
-/* Above the diagonal the matrix, below it the factor with its fill; the four
- * blocks of the spring under the mouse are lit, or those of the newest one. */
+/* Draws the matrix above the diagonal and the factor with its fill below.  The
+ * four blocks of the spring under the mouse, or on a page of the newest spring,
+ * are lit. */
 static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 {
     Paper *paper = card->paper;
@@ -80,13 +82,14 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
         Box box = block_box(square, n, node_place(system, e[k / 2], natural),
                             node_place(system, e[k % 2], natural),
                             paper_pixels(paper, 0.35));
-        canvas_card(canvas, box_inset(box, -1), COLOUR_PROJECT, COLOUR_WHITE);
+        canvas_framed_box(canvas, box_inset(box, -1), COLOUR_PROJECT,
+                          COLOUR_WHITE);
     }
 }
 
-/* Beside each other: with the rows in the nodes' order, as the springs write
- * it, one a step, where a page wants it so; and in the order of elimination. */
-void spy_draw(const Plot *card)
+/* Draws two patterns side by side: rows in the order of the nodes, and in the
+ * order of elimination.  On a page each step adds one spring. */
+void hessian_pattern_draw(const Plot *card)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
@@ -99,10 +102,10 @@ void spy_draw(const Plot *card)
     if (side > inside.height - line - below)
         side = inside.height - line - below;
     int springs =
-        writes ? lecture_spring(card->simulation) + 1 : system->springs;
+        writes ? newest_spring(card->simulation) + 1 : system->springs;
     if (side < 4 * line || system->nodes > side) {
-        cards_hint(card,
-                   side < 4 * line ? "enlarge it" : "too many nodes to draw");
+        card_write_hint(card, side < 4 * line ? "enlarge it"
+                                              : "too many nodes to draw");
         return;
     }
     for (int k = 0; k < 2; k++) {
@@ -111,8 +114,8 @@ void spy_draw(const Plot *card)
                     ALIGN_LEFT, k ? "order of elimination" : "rows 2i, 2i + 1");
         draw_matrix(card, (Box){x, inside.y + line, side, side}, !k, springs);
     }
-    Plot rest = *card; /* what the newest spring adds */
+    Plot rest = *card; /* the block of the newest spring */
     box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
     if (rest.box.height > 7 * paper->em)
-        text_in_card(&rest, &show_pane(card->show)->facts, text_newest);
+        card_write_text(&rest, &show_pane(card->show)->values, text_newest);
 }
