@@ -168,25 +168,3 @@ void grid_write_state(const Grid *grid, Iterate *at)
             }
         }
 }
-
-double grid_keep_momentum(const Grid *grid)
-{
-    const Rows *rows = &grid->rows;
-    double mass = 0, moment[2] = {0, 0};
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < rows->nodes; i++)
-            for (int j = 0; j < rows->nodes; j++) {
-                int q = place_of(rows, i, j);
-                double m = grid->m[q + grid->node_shift[i]];
-                mass += pass == 0 ? m : 0;
-                for (int c = 0; c < 2; c++, q += rows->plane) {
-                    if (pass == 0) {
-                        moment[c] += m * grid->away[q];
-                        continue;
-                    }
-                    grid->away[q] -= moment[c] / mass;
-                    grid->x[q] = grid->x_tilde[q] + grid->away[q];
-                }
-            }
-    return -0.5 * (moment[0] * moment[0] + moment[1] * moment[1]) / mass;
-}

@@ -109,11 +109,10 @@ void grid_write_state(const Grid *grid, Iterate *at);
 /* g = grad E; returns |g|_(M^-1)^2.  At pins and outside g is anything. */
 double grid_gradient(const Grid *grid, double *g);
 
-/* rest = -g - H p, H clamped to be positive semi-definite (psd.h); returns
- * |rest|_(M^-1)^2.
+/* |g + H p|_(M^-1)^2, H clamped to be positive semi-definite (psd.h).
  *   largest  out, max over nodes of |p_x| + |p_y| */
 double grid_remainder(const Grid *grid, const double *g, const double *p,
-                      double *rest, double *largest);
+                      double *largest);
 
 /* E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4; q out. */
 void grid_along(const Grid *grid, const double *g, const double *p,

@@ -45,14 +45,13 @@ FAST double grid_gradient(const Grid *of, double *g)
     Pair uy = PAIR(py, q) - PAIR(py, q + (to))
 
 FAST double grid_remainder(const Grid *of, const double *g, const double *p,
-                           double *rest, double *largest)
+                           double *largest)
 {
     double total = 0, most[LANES] = {0};
     BANDS
     {
         const double *const px = p, *const py = px + plane;
         const double *const gx = g, *const gy = gx + plane;
-        double *const to_x = rest, *const to_y = to_x + plane;
         double sum[LANES] = {0};
         EACH_NODE_OF (grid, band) {
             const int q = at.first + e;
@@ -73,8 +72,6 @@ FAST double grid_remainder(const Grid *of, const double *g, const double *p,
 #undef ADD
             fx = -PAIR(gx, q) - fx;
             fy = -PAIR(gy, q) - fy;
-            PAIR(to_x, q) = fx;
-            PAIR(to_y, q) = fy;
             PAIR(sum, e) += PAIR(grid.per_m, q + at.node) * (fx * fx + fy * fy);
         }
         EACH_RUN_OF (grid, band)
@@ -124,7 +121,43 @@ FAST void grid_along(const Grid *of, const double *g, const double *p,
     }
 }
 
-/* ---- without springs: all numbers of the planes ---- */
+/* ---- without springs ---- */
+
+FAST double grid_keep_momentum(const Grid *of)
+{
+    double mass = 0, moment[2] = {0, 0};
+    BANDS
+    {
+        double sum[3][LANES] = {{0}};
+        EACH_RUN_OF (grid, band)
+            EACH_OF (NEXT(at, LANES)) {
+                const int q = at.first + e;
+                double m = grid.m[q + at.node];
+                sum[0][e] += m;
+                sum[1][e] += m * grid.away[q];
+                sum[2][e] += m * grid.away[q + plane];
+            }
+        mass += sum_of(sum[0]);
+        moment[0] += sum_of(sum[1]);
+        moment[1] += sum_of(sum[2]);
+    }
+    for (int c = 0; c < 2; c++) {
+        const double mean = moment[c] / mass;
+        BANDS
+        {
+            double *const away = grid.away + c * plane;
+            double *const x = grid.x + c * plane;
+            const double *const x_tilde = grid.x_tilde + c * plane;
+            EACH_RUN_OF (grid, band)
+                EACH_OF (NEXT(at, LANES)) {
+                    const int q = at.first + e;
+                    away[q] -= grid.m[q + at.node] > 0 ? mean : 0;
+                    x[q] = x_tilde[q] + away[q];
+                }
+        }
+    }
+    return -0.5 * (moment[0] * moment[0] + moment[1] * moment[1]) / mass;
+}
 
 FAST void grid_move(const Grid *grid, double a, const double *p)
 {

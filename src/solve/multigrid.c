@@ -9,21 +9,15 @@
 #include "solve/tiles.h"
 #include "solve/v_cycle.h"
 
-/* A direction far from the end: its remainder falls to this share of the
- * gradient, in the norm of M^-1. */
-static const double ENOUGH = 0.3;
+/* The V-cycle keeps its matrices while no node has moved by more than this part
+ * of the shortest spring since they were computed. */
+static const double NEARBY = 0.02;
 
 /* Tiles relax once so many directions are done and the gradient's bound falls
  * by less than this factor; and go on while a sweep lowers E by more than PACE
  * of what the last direction did for each tile. */
 enum { DIRECTIONS = 2 };
 static const double STALLS = 0.3, PACE = 0.5;
-
-/* The test is worth more cycles when the gradient's bound is at most so many
- * tolerances for each segment, and has halved since they last said no.  They
- * make the remainder smaller by TESTED; then it is computed in double
- * precision, and made smaller by REFINED, until it falls no more. */
-static const double WORTH_A_TEST = 8, TESTED = 1e-4, REFINED = 1e-2;
 
 /* Iterations that multigrid gets; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };
@@ -38,11 +32,11 @@ struct Multigrid {
     Tiles tiles;
     Memory memory;     /* block of all arrays */
     double *g, *p;     /* [2 planes] grad E and direction at x */
-    double *remainder; /* [2 planes] -g - H p */
     double square;     /* |g|_(M^-1)^2 */
     double bound;      /* m, upper bound of |p_x| + |p_y|, by g alone */
     double last_bound; /* m, bound of the iteration before */
-    double test_below; /* m, half the bound of the last test that failed */
+    double moved;      /* m, bound of a node's way since the V-cycle's matrices
+                          were computed */
     double largest;    /* J s^2, largest change of E in this step, < 0 */
     Quartic along;     /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;  /* of the system that the grid holds */
@@ -57,13 +51,13 @@ Status multigrid_create(int segments, Multigrid **multigrid)
     Multigrid *mg = *multigrid = calloc(1, sizeof *mg);
     Status status = mg ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     for (int pass = 0; pass < 2 && !status; pass++) { /* the first one counts */
-        double **vectors[] = {&mg->g, &mg->p, &mg->remainder};
+        double **vectors[] = {&mg->g, &mg->p};
         if (pass > 0)
             status = memory_create(&mg->memory);
         grid_lay_out(segments, &mg->memory, &mg->grid);
         v_cycle_lay_out(&mg->grid, &mg->memory, &mg->cycle);
         tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 2; i++)
             *vectors[i] = memory_piece(
                 &mg->memory, 2 * (size_t)mg->grid.rows.plane * sizeof(double));
     }
@@ -118,12 +112,12 @@ bool multigrid_takes(Newton *newton)
     return wanted && !newton->refusal;
 }
 
-/* g at x, and the bound of |p_x| + |p_y| that it gives.  Returns OK, NOT_FINITE.
+/* g at x, and the bound of |p_x| + |p_y| that it gives.  Returns OK,
+ * NOT_FINITE.
  */
 static Status evaluate_gradient(Multigrid *mg)
 {
     mg->square = grid_gradient(&mg->grid, mg->g);
-    mg->cycle.set_up = false;
     mg->last_bound = mg->bound;
     mg->bound = sqrt(2 / mg->grid.lightest * mg->square) / mg->grid.length;
     return isfinite(mg->square) ? STATUS_OK : STATUS_NOT_FINITE;
@@ -143,7 +137,6 @@ static Status read_problem(Newton *newton)
         return status;
     Multigrid *mg = newton->multigrid;
     mg->stalls = mg->hidden = false;
-    mg->test_below = INFINITY;
     mg->largest = mg->directions = 0;
     incremental_potential_inertia(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
@@ -153,54 +146,34 @@ static Status read_problem(Newton *newton)
     mg->weight = at->E.weight;
     mg->version = system->version;
     grid_read_state(&mg->grid, at, u_tilde);
-    mg->bound = INFINITY;
+    mg->bound = mg->moved = INFINITY;
     return evaluate_gradient(mg);
 }
 
 /* ---- search direction ---- */
 
-/* p up to a remainder that leaves no doubt on which side of the tolerance the
- * residual is.  Returns the residual, m/s.
- *   decided  out, false: rounding leaves a doubt */
-static double solve_for_test(Newton *newton, bool *decided)
-{
-    Multigrid *mg = newton->multigrid;
-    const double h = newton->settings.h * mg->grid.length;
-    double length = h * newton->tolerance, last, now = INFINITY, largest;
-    v_solve(&mg->cycle, mg->g, mg->square, TESTED, length, false, mg->p);
-    do {
-        last = now;
-        now = grid_remainder(&mg->grid, mg->g, mg->p, mg->remainder, &largest);
-        *decided = v_decides(&mg->grid, largest, now, length);
-        if (!*decided)
-            v_solve(&mg->cycle, mg->remainder, now, REFINED, 0, true, mg->p);
-    } while (!*decided && now < 0.25 * last);
-    return largest / h;
-}
-
-/* p = -H^-1 g up to a remainder, loosely far from the end. */
+/* p = -H^-1 g up to a remainder, and whether p passes the test. */
 static Status grid_direction(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     Status status = record->iteration == 0 ? read_problem(newton) : STATUS_OK;
     Multigrid *mg = newton->multigrid;
-    const double tolerance = newton->tolerance;
     newton->passes = false;
     if (status)
         return status;
-    const double h = newton->settings.h * mg->grid.length;
-    double worth =
-        WORTH_A_TEST * tolerance * newton->settings.h * mg->grid.segments;
-    bool near = mg->bound <= fmin(worth, mg->test_below);
-    record->kind = RESIDUAL_ESTIMATE;
-    if (near) {
-        record->residual = solve_for_test(newton, &newton->passes);
-        newton->passes = newton->passes && record->residual <= tolerance;
-        mg->test_below = mg->bound / 2;
-    } else {
-        record->residual =
-            v_solve(&mg->cycle, mg->g, mg->square, ENOUGH, 0, false, mg->p) / h;
+    if (mg->moved > NEARBY * newton->rounding.shortest) {
+        mg->cycle.set_up = false;
+        mg->moved = 0;
     }
+    const double h = newton->settings.h * mg->grid.length;
+    const double longest = h * newton->tolerance;
+    double largest;
+    if (v_solve(&mg->cycle, mg->g, mg->square, longest, mg->p, &largest)) {
+        double square = grid_remainder(&mg->grid, mg->g, mg->p, &largest);
+        newton->passes = v_passes(&mg->grid, largest, square, longest);
+    }
+    record->residual = largest / h;
+    record->kind = RESIDUAL_ESTIMATE;
     newton->counters.cycles = mg->cycle.cycles;
     return STATUS_OK;
 }
@@ -257,20 +230,22 @@ static Status grid_update(Newton *newton)
     const double unit = mg->grid.energy;
     const int tiles = mg->tiles.high * mg->tiles.wide;
     grid_move(&mg->grid, record->alpha, mg->p);
+    mg->moved += record->alpha * record->residual * newton->settings.h;
     mg->directions++;
     newton->counters.iterations++;
     mg->stalls = mg->stalls || (mg->directions > DIRECTIONS &&
                                 mg->bound > STALLS * mg->last_bound);
-    if (mg->stalls && !newton->passes)
-        record->change +=
-            tiles_relax(&mg->tiles, PACE * record->change * unit / tiles) /
-            unit;
+    if (mg->stalls && !newton->passes) {
+        double pace = PACE * record->change * unit / tiles;
+        record->change += tiles_relax(&mg->tiles, pace) / unit;
+        mg->moved = INFINITY;
+    }
     newton->counters.local = mg->tiles.sweeps;
     return evaluate_gradient(mg);
 }
 
-/* The test; where multigrid has come to an end without passing it, such as among
- * rounding errors, Newton goes on from the iterate. */
+/* The test; where multigrid has come to an end without passing it, such as
+ * among rounding errors, Newton goes on from the iterate. */
 static Status grid_test(Newton *newton, Status status)
 {
     Multigrid *mg = newton->multigrid;
@@ -281,8 +256,8 @@ static Status grid_test(Newton *newton, Status status)
     bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest;
     bool last = record->iteration + 1 >= newton_most_iterations(newton);
     bool stuck = status != STATUS_OK || record->iteration >= HANDED_ITERATIONS;
-    bool ends = newton->passes ||
-                (!stuck && mg->bound <= negligible_direction(newton));
+    bool ends =
+        newton->passes || (!stuck && mg->bound <= negligible_direction(newton));
     if (ends && system_falls_freely(newton->system))
         record->change += grid_keep_momentum(&mg->grid) / mg->grid.energy;
     if (ends || stuck || small || last ||

@@ -1,21 +1,21 @@
-/* multigrid.h - the minimiser of a time step on a square grid of springs,
- * without a factor of any matrix.
+/* multigrid.h - minimises E on a square grid of springs without a matrix.
  *
- * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u), whose directions
- * come from conjugate gradients on the clamped Hessian, preconditioned by one
- * multigrid V-cycle each (v_cycle.h); the step along one is exact, as E is a
- * quartic there.  Where folds run, tiles of nodes relax in between (tiles.h).
- * No update raises E.
+ * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u).  Conjugate
+ * gradients on the clamped Hessian, preconditioned by a multigrid V-cycle, find
+ * the directions (v_cycle.h).  E along a direction is a quartic, whose minimum
+ * is the step length.  Where folds run, tiles of nodes relax between the
+ * directions (tiles.h).  No update raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g, which conjugate gradients know up
- * to a remainder r = -g - H p, here computed in double precision.  H - M is
- * positive semi-definite, so the error is at most |r|_(M^-1) in the norm of M,
- * and the residual, max over nodes of |p_x| + |p_y|, over h, is known up to
- * sqrt(2/m)/h |r|_(M^-1) with the smallest m.  The iteration goes on until that
- * decides the test, to either side; what is not decided is not converged.
+ * to a remainder r = -g - H p, computed in double precision.  H - M is positive
+ * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M, and
+ * the residual, max over nodes of |p_x| + |p_y|, over h, is known up to
+ * sqrt(2/m)/h |r|_(M^-1) with the smallest m.  p passes the test if the
+ * residual and this bound together are at most the tolerance.  A step also ends
+ * where the same bound with p = 0, r = -g, says that the next p is negligible.
  *
- * A step depends on nothing but what it is given.  Results have the same bits
- * for every width of registers.
+ * A step depends on its arguments alone.  Results have the same bits for every
+ * width of registers.
  */
 #ifndef ELASTO_MULTIGRID_H
 #define ELASTO_MULTIGRID_H
@@ -27,9 +27,9 @@
 Status multigrid_create(int segments, Multigrid **multigrid);
 void multigrid_free(Multigrid *multigrid);
 
-/* Whether multigrid makes the minimisation that newton->at describes: it is
- * asked for, and the terms and settings are those that it knows.  Writes
- * newton->refusal where it is asked for and cannot. */
+/* Whether multigrid makes the minimisation that newton->at describes: the
+ * settings ask for it, and it knows all terms.  newton->refusal becomes the
+ * reason why it cannot, or NULL. */
 bool multigrid_takes(Newton *newton);
 
 #endif

@@ -472,34 +472,41 @@ FAST static double advance(const VCycle *of, float alpha, float beta,
     return total;
 }
 
-bool v_decides(const Grid *grid, double largest, double square, double length)
+bool v_passes(const Grid *grid, double largest, double square, double longest)
 {
-    return fabs(largest - length) >= sqrt(2 / grid->lightest * square);
+    return largest + sqrt(2 / grid->lightest * square) <= longest;
 }
 
-/* At most so many V-cycles for one direction. */
+/* Most V-cycles for one direction. */
 enum { MAX_CYCLES = 60 };
 
-FAST double v_solve(VCycle *cycle, const double *a, double square, double share,
-                    double length, bool adds, double *p)
+/* Conjugate gradients end where p passes the test though its error were MARGIN
+ * times its bound.  While p is longer than HOPEFUL of what passes, the next
+ * direction will have to: then a remainder of LOOSE times the gradient, in the
+ * norm of M^-1, is small enough.  Single precision reaches LEAST of it. */
+static const double MARGIN = 4, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
+
+FAST bool v_solve(VCycle *cycle, const double *g, double square, double longest,
+                  double *p, double *largest)
 {
     const Grid *grid = cycle->grid;
     const int numbers = 2 * grid->rows.plane;
-    double unit = unit_of(sqrt(square * grid->lightest)), largest = 0;
+    const double unit = unit_of(sqrt(square * grid->lightest));
     double last = 0, alpha = 1;
+    bool passes = false;
     set_up(cycle);
     for (int i = 0; i < 3; i++)
         memset((float *[]){cycle->p, cycle->d, cycle->Ad}[i], 0,
                (size_t)numbers * sizeof(float));
-    const double take = adds ? unit : -unit, give = 1 / unit, old = adds;
     for (int q = 0; q < numbers; q += WIDE_LANES) {
         float *const b = cycle->level->b + q;
-        const double *const from = a + q;
+        const double *const from = g + q;
         EACH_FEW (WIDE_LANES)
             FEW(b, e) =
-                narrow(take * PAIR(from, e), take * PAIR(from, e + PAIRED));
+                narrow(-unit * PAIR(from, e), -unit * PAIR(from, e + PAIRED));
     }
-    for (int i = 0; i < MAX_CYCLES; i++) {
+    *largest = 0;
+    for (int i = 0; i < MAX_CYCLES && !passes; i++) {
         double sums[2];
         v_cycle(cycle, sums);
         double xb = sums[0], beta = i > 0 ? xb / last : 0;
@@ -508,15 +515,16 @@ FAST double v_solve(VCycle *cycle, const double *a, double square, double share,
             break;
         last = xb;
         alpha = xb / bend;
-        double rest =
-            advance(cycle, (float)alpha, (float)beta, &largest) / (unit * unit);
-        largest /= unit;
-        if (rest <= share * share * square ||
-            (length > 0 && v_decides(grid, largest, rest, length)))
+        double rest = advance(cycle, (float)alpha, (float)beta, largest);
+        double share = sqrt(rest / square) / unit;
+        *largest /= unit;
+        passes = v_passes(grid, *largest,
+                          MARGIN * MARGIN * share * share * square, longest);
+        if (share <= (*largest > HOPEFUL * longest ? LOOSE : LEAST))
             break;
     }
     const float *const found = cycle->p;
     EACH_OF (numbers)
-        p[e] = old * p[e] + give * found[e];
-    return largest;
+        p[e] = found[e] / unit;
+    return passes;
 }

@@ -44,21 +44,21 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle);
 /* Masses and pins, from the grid's. */
 void v_cycle_read_system(VCycle *cycle);
 
-/* p = about -H^-1 a; or, where it adds, p += H^-1 a.
- *   a       [2 planes] anything at pins
- *   square  |a|_(M^-1)^2
- *   share   it may end where the remainder, in that norm, fell to so much of
- * it, length  > 0: or where it is certain whether the largest |p_x| + |p_y| is
- *           above this, see v_decides
- * Returns the largest |p_x| + |p_y| of the nodes, as p will be. */
-double v_solve(VCycle *cycle, const double *a, double square, double share,
-               double length, bool adds, double *p);
+/* p = -H^-1 g, up to a remainder.
+ *   g        [2 planes] grad E; anything at pins
+ *   square   |g|_(M^-1)^2
+ *   longest  largest |p_x| + |p_y| of a node with which p passes the test
+ *   largest  out, max over nodes of |p_x| + |p_y|
+ * Returns whether p passes the test, as far as single precision tells. */
+bool v_solve(VCycle *cycle, const double *g, double square, double longest,
+             double *p, double *largest);
 
-/* Whether the largest |p_x| + |p_y| of the exact direction is on the same side
- * of `length` as this one: H - M is positive semi-definite, so the error is at
- * most the remainder's |r|_(M^-1) in the norm of M, and no node's share of it
- * more than sqrt(2/m) times that.
- *   square  |r|_(M^-1)^2 */
-bool v_decides(const Grid *grid, double largest, double square, double length);
+/* Whether the exact direction passes the test.  H - M is positive
+ * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M, where
+ * r = -g - H p is the remainder of p, and at most sqrt(2/m) times that at a
+ * node.
+ *   square   |r|_(M^-1)^2
+ *   largest, longest  as above, of p */
+bool v_passes(const Grid *grid, double largest, double square, double longest);
 
 #endif
