@@ -223,6 +223,7 @@ help:
 	@echo 'make homework        write homework.c: lecture.c with functions to write'
 	@echo 'make check-homework  check it, or FILE="a.c b.c"'
 	@echo 'make web             write build/elasto.html: the program as one page'
+	@echo 'make handout         print the lecture as build/handout.pdf (NOTES=1)'
 	@echo 'make bench           measure run time against error and time a step'
 	@echo '                     (TABLES=work or steps; ARGS=--quick)'
 	@echo 'make figures         draw the figure of the benchmark'
@@ -235,7 +236,7 @@ help:
 	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS and LDLIBS are used as usual.'
 
 .PHONY: all web test-web homework check-homework elasto lecture run run-lecture test long-test suites stress \
-        same-bits mutants analyse pictures bench figures install \
+        same-bits mutants analyse pictures bench figures handout install \
         uninstall clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -1,6 +1,5 @@
 /* window_web.c - the window and films in a page: the paper's pixels go into its
- * canvas; mouse, touch and keys come from it into a line of inputs; the browser
- * films the canvas while it is drawn and gives the film as a download.
+ * canvas; mouse, touch and keys come from it into a line of inputs.
  * src/web/page.js has the object Page.
  */
 #include <emscripten.h>
@@ -25,9 +24,6 @@ EM_JS(bool, window_is_full, (void), { return !!document.fullscreenElement; });
 EM_JS(void, page_show, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
 });
-EM_JS(int, page_films, (void), { return Page.films() ? 1 : 0; });
-EM_JS(void, page_film, (const char *name), { Page.film(UTF8ToString(name)); });
-EM_JS(void, page_film_end, (int keep), { Page.filmEnd(keep); });
 /* clang-format on */
 
 bool window_open(const char *title, const int size[2], bool full)
@@ -142,31 +138,18 @@ void window_wait(int milliseconds)
 Status film_open(const char *name, char *told, Film *film)
 {
     *film = (Film){0};
-    if (!page_films())
-        return output_report(told, name, STATUS_INVALID_INPUT,
-                             "this browser makes no films of a page");
-    film->output.file = stdout; /* marks the film as running */
-    film->output.told = told;
-    snprintf(film->output.name, OUTPUT_NAME, "%s", name);
-    page_film(name);
-    return STATUS_OK;
+    return output_report(told, name, STATUS_INVALID_INPUT,
+                         "a page makes no films; the program does");
 }
 
 Status film_add(Film *film, const Canvas *canvas, int shown)
 {
-    (void)canvas;
-    film->frames += shown;
+    (void)film, (void)canvas, (void)shown;
     return STATUS_OK;
 }
 
 Status film_close(Film *film, Keep keep)
 {
-    (void)keep; /* the browser always offers the film */
-    if (!film_runs(film))
-        return STATUS_OK;
-    page_film_end(film->frames > 0);
-    film->output.file = NULL;
-    return film->frames > 0
-               ? STATUS_OK
-               : output_report_failure(&film->output, "no frame was drawn");
+    (void)film, (void)keep;
+    return STATUS_OK;
 }

@@ -12,7 +12,8 @@
  *                                  which has one coordinate or two
  *     number NAME LABEL VALUE UNIT CHOICES HELP IDLE SHOWN
  *                                  CHOICES: names with | between, "": a number;
- *                                  SHOWN: it is in the row of the window, too
+ *                                  SHOWN: "row", as in the window; "tried", so,
+ *                                  and Try wants it dragged; or "more"
  *     point INDEX X Y              can be dragged
  *     switch INDEX ON LABEL
  *     code LIT TEXT                a line of the page's function, as it is
@@ -52,12 +53,37 @@ __attribute__((format(printf, 2, 3))) static void put(Writer *to,
     to->used += count < (int)room ? (size_t)count : room - 1;
 }
 
+/* Relative luminance of a colour (WCAG 2.1), 0 ... 1. */
+static double luminance(Colour colour)
+{
+    static const double parts[] = {0.0722, 0.7152, 0.2126}; /* blue, ... */
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        double part = (colour >> 8 * k & 255) / 255.0;
+        sum += parts[k] * (part > 0.04045 ? pow((part + 0.055) / 1.055, 2.4)
+                                          : part / 12.92);
+    }
+    return sum;
+}
+
+unsigned document_colour(Colour colour)
+{
+    const double contrast = 4.6; /* on white; less is hard to read */
+    Colour darker = colour & 0xffffff;
+    for (int i = 99; 1.05 / (luminance(darker) + 0.05) < contrast; i--) {
+        darker = 0;
+        for (int k = 0; k < 3; k++)
+            darker |= (colour >> 8 * k & 255) * (Colour)i / 100 << 8 * k;
+    }
+    return darker;
+}
+
 /* All known lines of a text. */
 static void put_text(Writer *to, const LiveValues *values, const char *words,
                      const char *text)
 {
     for (TextLine line = text_begin(values, text); text_next(&line);)
-        put(to, "%s\t#%06x\t%d\t%s\n", words, (unsigned)line.colour & 0xffffff,
+        put(to, "%s\t#%06x\t%d\t%s\n", words, document_colour(line.colour),
             line.face == FACE_BOLD, line.words);
 }
 
@@ -171,8 +197,24 @@ static void put_cards(Writer *to, const Show *show)
 /* ---- what can be set -------------------------------------------------------
  */
 
+/* Whether "Drag ..." of a text names an option, up to the end of the clause. */
+static bool is_tried(const char *text, const OptionRow *row)
+{
+    const char *name = row->label ? row->label : row->name;
+    size_t length = strlen(name);
+    for (; text && (text = strstr(text, "Drag ")); text++)
+        for (const char *at = text; *at && !strchr(".;:", *at); at++)
+            if (strchr(" (", *at) && strncmp(at + 1, name, length) == 0 &&
+                strchr(" ,.;:\n\302", at[1 + length])) /* \302: ~ */
+                return true;
+    return false;
+}
+
 static void put_numbers(Writer *to, const Player *player)
 {
+    const LecturePage *page = player->screen.frame.show.veiled
+                                  ? NULL
+                                  : player->screen.frame.show.lecture;
     const OptionRow *row[OPTIONS_MOST];
     const Options now = player_numbers(player);
     int count = player_visible_options(player, true, row);
@@ -189,7 +231,10 @@ static void put_numbers(Writer *to, const Player *player)
         bool named = row[i]->kind == OPTION_NAME;
         for (int k = 0; named && name_at(row[i]->names, k); k++)
             put(to, "%s%s", k ? "|" : "", name_at(row[i]->names, k));
-        put(to, "\t%s\t%s\t%d\n", row[i]->help, idle ? idle : "", shown);
+        put(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
+            !shown                                            ? "more"
+            : !named && page && is_tried(page->touch, row[i]) ? "tried"
+                                                              : "row");
     }
 }
 
@@ -309,9 +354,10 @@ void document_write_lists(char *text)
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
     for (const LecturePage *page = lecture_pages; page->name; page++)
-        put(to, "pages\t%s\t%s\n", page->name, page->topic);
+        put(to, "pages\t--lecture+%s\t%s\n", page->name, page->topic);
     for (const Scene *scene = scenes; scene->name; scene++)
-        put(to, "scenes\t%s\t%s\n", scene->name, scene->sentence);
+        put(to, "scenes\t%s\t%s: %s\n", scene->name, scene->name,
+            scene->sentence);
     for (int kind = 1; kind < COMMAND_KINDS; kind++)
         if (command_rows[kind].keys && command_rows[kind].does)
             put(to, "keys\t%s\t%s\n", command_rows[kind].keys,

@@ -15,6 +15,9 @@ enum { DOCUMENT_SIZE = 48 << 10 };
  *   text  [DOCUMENT_SIZE] out */
 void document_write(const Player *player, char *text);
 
+/* A colour for letters on white: darker where it would be too faint to read. */
+unsigned document_colour(Colour colour);
+
 /* What never changes: the pages of the lecture, the scenes, the keys.
  *   text  [DOCUMENT_SIZE] out */
 void document_write_lists(char *text);

@@ -6,10 +6,11 @@
 const LIVE = 100; // ms, at least, between two texts of a run that goes on
 const SPOKEN = 4000; // ms, the same of what is read aloud
 let now = {}; // word -> lines, each a list of fields
-let seen = {}; // part -> its lines as they are shown
-let [rendered, spoken] = [-1e9, -1e9]; // when
+let lists = {}; // the same of pages, scenes and keys
+const seen = {}; // part -> its lines as they are shown
+let [rendered, spoken, late] = [-1e9, -1e9, 0]; // when; the timer of the next text
 const cards = new Map(); // index -> canvas
-let sheet = null; // {canvas} while the lecture is printed
+let sheet = null; // {canvas} while the lecture is made for print
 
 const read = (text) => {
   const lines = {};
@@ -32,13 +33,15 @@ const part = (words, build) => {
 
 // ---- texts ------------------------------------------------------------------
 
+const plain = (text) => text.replace(/[{}^_]/g, '');
+
 // "page 25" leads there.
 const link = (element) => {
   for (const node of [...element.childNodes].filter((child) => child.nodeType === Node.TEXT_NODE))
     node.replaceWith(
       ...node.textContent.split(/(page[ \u00a0]\d+)/i).map((text, i) => {
-        const name = i % 2 && lists.pages[text.slice(5) - 1]?.[0];
-        return name ? make('a', [text], { href: `#--lecture+${name}` }) : text;
+        const words = i % 2 && lists.pages[text.slice(5) - 1]?.[0];
+        return words ? make('a', [text], { href: '#' + words }) : text;
       }),
     );
   return element;
@@ -53,28 +56,28 @@ const paragraph = ([colour, bold, text], asFormula) => {
 
 const showTexts = (word) =>
   part([word], (lines) => {
-    const place = $(word);
-    const head = place.dataset.head ? [make('h2', [place.dataset.head])] : [];
-    place.hidden = !lines.length;
-    place.replaceChildren(...head, ...lines.map((line) => paragraph(line, word === 'formula')));
+    const { head } = $(word).dataset;
+    const paragraphs = lines.map((line) => paragraph(line, word === 'formula'));
+    $(word).hidden = !lines.length;
+    $(word).replaceChildren(...(head ? [make('h2', [head])] : []), ...paragraphs);
   });
 
 // ---- numbers ----------------------------------------------------------------
 
-// The number that "Try" wants to be dragged has a slider: over two powers of ten
-// around what it is when the page opens, or four times as many and as few.
-const plain = (text) => text.replace(/[{}^_]/g, '');
-const isTried = (name, label) => {
-  const tried = (now.try ?? []).map((line) => plain(line[2])).join(' ');
-  const words = tried.match(/\b(Drag|Set)\b[^.;:]*/g)?.join(' ') ?? '';
-  return words.split(/[^\p{L}\p{M}\d]+/u).some((word) => word === plain(label) || word === name);
+const input = (name, label, value, change, more = {}) => {
+  const element = make('input', [], { 'aria-label': label, name, value, ...more });
+  if (!more.type) element.inputMode = 'decimal';
+  element.onchange = change;
+  return element;
 };
 
+// Over two powers of ten around what the number is when the page opens, or four
+// times as many and as few.
 const makeSlider = (name, first, whole) => {
-  const most = whole ? Math.log(4) : Math.log(10);
-  const slider = make('input', [], { type: 'range', min: -most, max: most, step: most / 100 });
+  const most = Math.log(whole ? 4 : 10);
+  const range = { type: 'range', min: -most, max: most, step: most / 100 };
+  const slider = input('', name, 0, null, range);
   slider.first = first;
-  slider.setAttribute('aria-label', `${name}, slider`);
   slider.oninput = () => {
     const number = first * Math.exp(slider.value);
     obey(`set ${name} ${whole ? Math.max(1, Math.round(number)) : Number(number.toPrecision(3))}`);
@@ -82,105 +85,94 @@ const makeSlider = (name, first, whole) => {
   return slider;
 };
 
-const makeNumber = ([name, label, value, unit, choices, help, , shown]) => {
-  const input = make(choices ? 'select' : 'input', [], { name, title: help });
+const makeNumber = ([name, label, value, unit, choices, , , shown]) => {
   const words = setMarkup(make('span'), label);
-  const item = make('label', [words, input, unit]);
-  input.setAttribute('aria-label', label === name ? name : `${words.textContent}, ${name}`);
-  if (choices) input.append(...choices.split('|').map((choice) => new Option(choice)));
-  else input.inputMode = 'decimal';
-  input.onchange = () => obey(`set ${name} ${input.value}`);
-  if (shown === '1' && !choices && value > 0 && isTried(name, label)) {
-    item.append(makeSlider(name, Number(value), /^\d+$/.test(value) && name === 'segments'));
-    item.className = 'tried';
-  }
+  const full = label === name ? name : `${words.textContent}, ${name}`;
+  const change = ({ target }) => obey(`set ${name} ${target.value}`);
+  const options = choices.split('|').map((choice) => new Option(choice));
+  const select = Object.assign(make('select', options), {
+    name,
+    ariaLabel: full,
+    onchange: change,
+  });
+  const element = choices ? select : input(name, full, value, change);
+  const item = make('label', [words, element, setMarkup(make('span'), unit)]);
+  if (shown !== 'tried') return item;
+  item.append(makeSlider(name, Number(value), name === 'segments'));
+  item.className = 'tried';
   return item;
 };
 
+// Points that can be dragged, and switches.
 const makePoint = ([index, x, y]) => {
-  const inputs = [x, y].map((value, i) => {
-    const input = make('input', [], { value, inputmode: 'decimal' });
-    input.setAttribute('aria-label', `point ${index}, ${'xy'[i]} in m`);
-    input.onchange = () => obey(`handle ${index} ${inputs[0].value} ${inputs[1].value}`);
-    return input;
-  });
-  return make('span', ['point ', ...inputs]);
+  const send = () => obey(`handle ${index} ${fields[0].value} ${fields[1].value}`);
+  const fields = [x, y].map((value, i) => input('', `point ${index}, ${'xy'[i]}`, value, send));
+  return make('label', ['point', ...fields, 'm']);
 };
-
 const makeSwitch = ([index, on, label]) => {
-  const input = make('input', [], { type: 'checkbox' });
-  input.checked = on === '1';
-  input.onchange = () => obey(`flip ${index}`);
-  return make('label', [input, setMarkup(make('span'), label)]);
+  const box = input('', plain(label), '', () => obey(`flip ${index}`), { type: 'checkbox' });
+  box.checked = on === '1';
+  return make('label', [box, setMarkup(make('span'), label)]);
 };
 
 const showNumbers = () => {
   const rows = now.number ?? [];
-  const shape = JSON.stringify([
-    field('page', 2),
-    rows.map((row) => [row[0], row[7]]),
-    now.try?.length,
-  ]);
+  const names = rows.map(([name, , , , , , , shown]) => name + shown);
+  const shape = JSON.stringify([field('page', 2), names]);
+  const exhibit = make('span');
   if (seen.shape !== shape) {
     const made = rows.map(makeNumber);
-    $('numbers').replaceChildren(...made.filter((item, i) => rows[i][7] === '1'));
-    $('more').lastElementChild.replaceChildren(...made.filter((item, i) => rows[i][7] !== '1'));
-    $('numbers').append(make('span'));
-    [seen.shape, seen[['switch', 'point']]] = [shape, null];
+    const of = (shown) => made.filter((item, i) => (rows[i][7] !== 'more') === shown);
+    $('numbers').replaceChildren(...of(true), exhibit);
+    $('more').lastElementChild.replaceChildren(...of(false));
+    Object.assign(seen, { shape, 'switch,point': '' });
   }
-  part(['switch', 'point'], () => {
-    const exhibit = [...(now.switch ?? []).map(makeSwitch), ...(now.point ?? []).map(makePoint)];
-    if (!$('numbers').lastElementChild.contains(document.activeElement))
-      $('numbers').lastElementChild.replaceChildren(...exhibit);
-  });
-  for (const [name, , value, , , , idle] of rows) {
-    const input = document.querySelector(`[name="${name}"]`);
-    const slider = input.parentNode.querySelector('[type=range]');
-    input.disabled = Boolean(idle);
-    input.parentNode.title = idle;
-    if (document.activeElement !== input) input.value = value;
-    if (input.options) input.parentNode.hidden = !input.value; // several, or none
+  const { lastElementChild } = $('numbers');
+  if (!lastElementChild.contains(document.activeElement))
+    part(['switch', 'point'], (switches) =>
+      lastElementChild.replaceChildren(
+        ...switches.map(makeSwitch),
+        ...(now.point ?? []).map(makePoint),
+      ),
+    );
+  for (const [name, , value, , , help, idle] of rows) {
+    const element = document.querySelector(`[name="${name}"]`);
+    const slider = element.parentNode.querySelector('[type=range]');
+    element.parentNode.title = idle || help;
+    element.disabled = Boolean(idle);
+    if (document.activeElement !== element) element.value = value;
+    if (element.options) element.parentNode.hidden = !element.value; // several, or none
     if (!slider) continue;
-    if (document.activeElement !== slider) slider.value = Math.log(value / slider.first);
     slider.setAttribute('aria-valuetext', value);
+    if (document.activeElement !== slider) slider.value = Math.log(value / slider.first);
   }
 };
 
 // ---- cards ------------------------------------------------------------------
 
 const makeCard = ([index, name, kind, closed]) => {
-  const graph = kind !== 'text';
-  const inside = graph ? make('canvas', [], { role: 'img' }) : make('div', [], { class: 'lines' });
-  const box = make('div', [inside], { class: graph ? 'paper' : '' });
-  const card = make('details', [make('summary'), box], {
-    class: `card ${kind}`,
-    id: 'card-' + name,
-  });
+  const graph = kind !== 'text' && make('canvas', [], { role: 'img' });
+  const box = make('div', graph ? [graph] : [], { class: graph ? 'paper' : 'lines' });
+  const card = make('details', [make('summary'), box], { class: kind, id: 'card-' + name });
   card.open = closed === '0';
   card.ontoggle = () => tell(REDRAW, { clientX: 0, clientY: 0 });
   if (!graph) return card;
-  const larger = make('button', ['⤢'], { 'aria-label': 'Larger, or as before', type: 'button' });
+  const larger = make('button', ['⤢'], { 'aria-label': 'Larger, or as before' });
   larger.onclick = () => card.ontoggle(card.classList.toggle('large'));
   box.append(larger);
-  cards.set(Number(index), inside);
+  cards.set(Number(index), graph);
   return card;
 };
 
-// Rows of an algorithm with their values at the right.
-const makeRows = (rows) =>
-  make('table', [
-    ...rows.map(([, lit, struck, indented, text, value], i) => {
-      const style = indented === '1' ? { style: 'padding-left: 1.6em' } : {};
-      const cells = [make('td', [String(i + 1)]), make('td', [], style), make('td')];
-      setMarkup(cells[1], text);
-      setMarkup(cells[2], value);
-      const line = make('tr', cells, {
-        class: (lit === '1' ? 'lit ' : '') + (struck === '1' ? 'struck' : ''),
-      });
-      if (lit === '1') line.setAttribute('aria-current', 'step');
-      return line;
-    }),
-  ]);
+// An algorithm line by line, with the values at the right.
+const makeRow = ([, lit, struck, indented, text, value], i) => {
+  const cells = [[String(i + 1)], [], []].map((content) => make('td', content));
+  const line = make('tr', cells, lit === '1' ? { class: 'lit', 'aria-current': 'step' } : {});
+  setMarkup(cells[1], text).classList.toggle('indented', indented === '1');
+  setMarkup(cells[2], value);
+  line.classList.toggle('struck', struck === '1');
+  return line;
+};
 
 const showCards = () => {
   const all = now.card ?? [];
@@ -189,29 +181,20 @@ const showCards = () => {
     seen.cards = shape;
     cards.clear();
     const made = all.map(makeCard);
-    $('graphs').replaceChildren(...made.filter((card, i) => all[i][2] !== 'text'));
-    $('cards').replaceChildren(...made.filter((card, i) => all[i][2] === 'text'));
-    document.body.classList.toggle('graphs', cards.size > 0);
-    document.body.classList.toggle(
-      'star',
-      all.some((card) => card[2] === 'star'),
-    );
+    $('graphs').replaceChildren(...made.filter((card) => card.className !== 'text'));
+    $('cards').replaceChildren(...made.filter((card) => card.className === 'text'));
   }
-  for (const [index, name, kind, , title, words] of all) {
-    const card = $('card-' + name);
+  for (const [index, name, , , title, words] of all) {
     const own = (lines) => (lines ?? []).filter((line) => line[0] === index);
     const lines = JSON.stringify([title, words, own(now.words), own(now.row)]);
+    const [card, graph] = [$('card-' + name), cards.get(Number(index))];
     if (card.lines === lines) continue;
     card.lines = lines;
-    setMarkup(card.querySelector('summary'), title);
-    if (kind === 'text')
-      card
-        .querySelector('.lines')
-        .replaceChildren(
-          ...own(now.words).map((line) => paragraph(line.slice(1), true)),
-          ...(own(now.row).length ? [makeRows(own(now.row))] : []),
-        );
-    else card.querySelector('canvas').setAttribute('aria-label', plain(`${title}. ${words}`));
+    setMarkup(card.firstElementChild, title);
+    graph?.setAttribute('aria-label', plain(`${title}. ${words}`));
+    if (graph) continue;
+    const texts = own(now.words).map((line) => paragraph(line.slice(1), true));
+    card.lastElementChild.replaceChildren(...texts, make('table', own(now.row).map(makeRow)));
   }
   for (const [index, graph] of cards)
     if (graph.clientWidth && graph.clientHeight)
@@ -222,69 +205,75 @@ const showCards = () => {
 
 const openPart = (id) => {
   $(id).open = !$(id).open;
-  if ($(id).open) $(id).scrollIntoView({ block: 'start' });
-  if ($(id).open) $(id).querySelector('summary').focus({ preventScroll: true });
+  if ($(id).open) $(id).firstElementChild.focus(); // which scrolls there
 };
 
 const showPage = ([[number, of, name]]) => {
-  $('place').textContent = Number(number) ? `Page ${number} of ${of}` : 'A scene';
+  const inLecture = number !== '0';
+  $('place').textContent = inLecture ? `Page ${number} of ${of}` : 'A scene';
   $('before').disabled = number === '1';
   $('after').disabled = number === of;
-  for (const item of document.querySelectorAll('footer li a'))
-    item.toggleAttribute('aria-current', item.hash.endsWith((Number(number) ? '+' : '#') + name));
+  for (const link of document.querySelectorAll('footer li a'))
+    link.ariaCurrent = link.hash === `#${inLecture ? '--lecture+' : ''}${name}` ? 'page' : null;
+  $('all').onclick = () => openPart(inLecture ? 'pages' : 'scenes');
   $('pages').open = $('scenes').open = false;
   $('answer').value = $('answer2').value = '';
-  if (seen.page) scrollTo(0, 0);
-  seen.page = true;
+  scrollTo(0, 0);
   follow();
 };
 
 const showGuess = ([[kind, coordinates] = []]) => {
   const had = $('guess').contains(document.activeElement);
   $('guess').hidden = !kind;
-  $('typed').hidden = kind === 'words' || !kind;
-  $('second').hidden = coordinates !== '2';
-  if (had && !kind) $('told').focus({ preventScroll: true }); // what had the focus is gone
+  $('typed').hidden = kind === 'words';
+  $('second').hidden = kind !== 'place' || coordinates === '1';
+  $('how').textContent = kind === 'place' ? 'Click in the picture, or x' : 'Your answer';
+  if (had && !kind) $('verdict').focus({ preventScroll: true }); // what had it is gone
 };
 
-// After a frame; what a run that goes on says not in each.
+// After a frame; of a run that goes on not after each.
 const showDocument = (time) => {
-  const paused = field('step', 2) === '1';
   drawn = false;
   if (bare || canvas.hidden) return;
-  if (!paused && time - rendered < LIVE && now.page) return showCards();
+  clearTimeout(late);
+  if (field('step', 2) === '0' && time - rendered < LIVE) {
+    late = setTimeout(() => showDocument(performance.now()), LIVE); // if it was the last one
+    return showCards();
+  }
   rendered = time;
   now = read(ask('web_document', 'string'));
+  const number = Number(field('page'));
   part(['page'], showPage);
   part(['topic', 'page'], () => {
     setMarkup($('topic'), field('topic') || field('page', 2));
-    const number = Number(field('page'));
     document.title = `${number ? number + '. ' : ''}${$('topic').textContent} · elasto`;
   });
-  part(['sentence', 'page'], () => {
-    $('sentence').hidden = field('page') !== '0';
-    setMarkup($('sentence'), field('sentence'));
-  });
+  part(['sentence', 'page'], () => setMarkup($('sentence'), number ? '' : field('sentence')));
   part(['time'], () => setMarkup($('time'), field('time')));
   for (const word of ['text', 'formula', 'ask', 'look', 'try', 'claim', 'notes']) showTexts(word);
-  $('said-notes').hidden = !now.notes || !/[?&]notes/.test(location.search);
+  $('presenter').hidden = !now.notes || !/[?&]notes/.test(location.search);
   $('tested').hidden = !now.claim;
-  part(['asks', 'page'], () => showGuess(now.asks ?? [[]]));
-  part(['told'], () => {
-    $('told').className = field('told') === '1' ? 'warning' : '';
-    setMarkup($('told'), field('told', 1));
+  part(['asks', 'page'], showGuess);
+  part(['verdict', 'page'], ([[text = '', right, guesses] = []]) =>
+    setMarkup($('verdict'), text + (guesses > 1 ? ` ${right} of ${guesses} so far.` : '')),
+  );
+  part(['told', 'verdict'], ([[warning, text]]) => {
+    $('told').className = warning === '1' ? 'warning' : '';
+    setMarkup($('told'), now.verdict && / it is /.test(text) ? '' : text);
   });
   part(['step'], ([[step, newest, stands]]) => {
     $('step').max = newest;
     if (document.activeElement !== $('step')) $('step').value = step;
-    $('play').replaceChildren(stands === '1' ? '▶ Play ' : '❚❚ Pause ', make('kbd', ['Space']));
+    $('play').firstElementChild.textContent = stands === '1' ? '▶' : '❚❚';
   });
   part(['picture'], () => ($('picture').textContent = plain(field('picture'))));
-  if (field('step', 2) === '1' || time - spoken > SPOKEN)
-    part(['event'], () => ($('event').textContent = plain(field('event', (spoken = time) * 0))));
+  if (field('step', 2) === '1' || time - spoken > SPOKEN) {
+    part(['event'], () => ($('event').textContent = plain(field('event'))));
+    spoken = time;
+  }
   part(['code'], (lines) => {
-    $('code').hidden = !lines.length;
     const made = lines.map(([lit, text]) => make(lit === '1' ? 'mark' : 'span', [text + '\n']));
+    $('code').hidden = !lines.length;
     $('code').lastElementChild.replaceChildren(...made);
   });
   showNumbers();
@@ -292,19 +281,15 @@ const showDocument = (time) => {
 };
 
 // What never changes.
-let lists = {};
 const listDocument = () => {
   lists = read(ask('web_lists', 'string'));
-  const entry = (href, text) => make('li', [make('a', [text], { href })]);
-  const pages = lists.pages.map(([name, topic]) => entry(`#--lecture+${name}`, topic));
-  const scenes = lists.scenes.map(([name, text]) => entry(`#${name}`, `${name}: ${text}`));
-  const keys = lists.keys.flatMap(([key, does]) => [
-    make('dt', [make('kbd', [key])]),
-    make('dd', [does]),
-  ]);
-  $('pages').lastElementChild.replaceChildren(...pages);
-  $('scenes').lastElementChild.replaceChildren(...scenes);
-  $('keys').lastElementChild.replaceChildren(...keys);
+  const item = (content) => make('li', content);
+  for (const id of ['pages', 'scenes']) {
+    const links = lists[id].map(([words, text]) => make('a', [text], { href: '#' + words }));
+    $(id).lastElementChild.append(...links.map((link) => item([link])));
+  }
+  const keys = lists.keys.map(([name, does]) => item([make('kbd', [name]), ' ' + does]));
+  $('keys').lastElementChild.append(...keys);
 };
 
 // ---- what is pressed --------------------------------------------------------
@@ -317,68 +302,62 @@ $('show').onclick = () => wake(ask('web_answer', null, ''));
 $('guess').onsubmit = (event) => {
   const [x, y] = [$('answer').value, $('answer2').value];
   event.preventDefault();
-  if (x && field('asks') === 'place') (obey(`predict ${x} ${y || 0}`), key('N', false));
-  else if (x) wake(ask('web_answer', null, x));
+  if (!x) return;
+  if (field('asks') !== 'place') return wake(ask('web_answer', null, x));
+  obey(`predict ${x} ${y || 0}`);
+  key('N', false);
 };
 
 // ---- print ------------------------------------------------------------------
 
-// A sheet has two pages of the lecture, each with its picture at the step that it
-// names and room to write; behind them are the answers, and the notes with ?notes.
-const makeSheet = (index) => {
-  const [name, topic] = lists.pages[index];
+// A page of the lecture with its picture at the step that it names and room to
+// write; its answer and its notes.
+const makeSheet = ([address, topic], index) => {
   const head = `${index + 1}. ${topic}`;
   const pictures = make('div', [], { class: 'pictures' });
-  const draw = (card, width, height) => {
+  const draw = (card, width) => {
     pictures.append((sheet.canvas = make('canvas')));
-    if (card >= 0) Module._web_card(card, width, height);
-    else Module._web_sheet_draw(width, height);
+    Module._web_sheet_draw(card, width, 620);
   };
+  const texts = (lines = [], as) => lines.map((line) => paragraph(line, as));
   Module._web_sheet(index);
-  draw(-1, 900, 620);
   const told = read(ask('web_document', 'string'));
+  draw(-1, 900);
   for (const [card, , kind, closed] of told.card ?? [])
-    if (kind !== 'text' && closed === '0') draw(Number(card), 720, 620);
+    if (kind !== 'text' && closed === '0') draw(Number(card), 720);
   Module._web_sheet_veil();
   const asked = read(ask('web_document', 'string'));
-  const texts = (lines, as) => (lines ?? []).map((line) => paragraph(line, as));
-  const address = `elasto.html#--lecture+${name}`;
-  const live = make('p', [
-    make('a', ['live: ' + address], { href: location.pathname + '#--lecture+' + name }),
-  ]);
-  const question = make('div', texts(asked.ask), { style: 'font-weight: bold' });
-  const words = [...texts(asked.text), ...texts(asked.formula, true), question];
-  const page = make('section', [
-    make('h2', [head]),
-    pictures,
-    ...words,
-    make('div', [], { class: 'room' }),
-    live,
-  ]);
-  const shown = new Set((asked.formula ?? []).map(String));
-  const more = (told.formula ?? []).filter((line) => !shown.has(String(line)));
-  const answer = make('div', [make('h3', [head]), ...texts(told.look), ...texts(more, true)], {
-    class: 'answer',
-  });
-  const notes = make('div', [make('h3', [head]), ...texts(told.notes)], { class: 'answer' });
-  return { page, answer, notes };
+  const room = make('div', [], { class: 'room' });
+  const live = make('p', [make('a', [`live: elasto.html#${address}`], { href: '#' + address })]);
+  const question = make('b', texts(asked.ask));
+  const words = [...texts(asked.text), ...texts(asked.formula, true), question, room, live];
+  return {
+    page: make('section', [make('h2', [head]), pictures, ...words]),
+    answer: make('div', [make('h3', [head]), ...texts(told.look)]),
+    notes: make('div', [make('h3', [head]), ...texts(told.notes)]),
+  };
 };
 
 const printLecture = () => {
   sheet = {};
-  const made = lists.pages.map((page, index) => makeSheet(index));
-  sheet = null;
-  Module._web_sheet(-1);
-  const title = make('h1', ['Reliable simulation of elastodynamics']);
-  const parts = [
-    title,
+  const made = lists.pages.map(makeSheet);
+  const columns = (head, parts) =>
+    make('div', [make('h2', [head]), ...parts], { class: 'columns' });
+  const answers = columns(
+    'Answers',
+    made.map(({ answer }) => answer),
+  );
+  const notes = columns(
+    'Notes for whoever presents it',
+    made.map(({ notes }) => notes),
+  );
+  sheet = Module._web_sheet(-1) ?? null;
+  $('handout').replaceChildren(
+    make('h1', ['Reliable simulation of elastodynamics']),
     ...made.map(({ page }) => page),
-    make('h2', ['Answers']),
-    ...made.map(({ answer }) => answer),
-  ];
-  if (/[?&]notes/.test(location.search))
-    parts.push(make('h2', ['Notes for whoever presents it']), ...made.map(({ notes }) => notes));
-  $('handout').replaceChildren(...parts);
+    answers,
+    /[?&]notes/.test(location.search) ? notes : '',
+  );
 };
 addEventListener('beforeprint', () => $('handout').children.length || printLecture());
 $('print').onclick = () => print();

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "lesson/pages.h"
+#include "picture/picture.h"
 #include "play/playing.h"
 #include "run/scene.h"
 #include "web/document.h"
@@ -115,16 +116,20 @@ EMSCRIPTEN_KEEPALIVE const char *web_lists(void)
 EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
 {
     static char text[8];
-    Colour colour = colour_find(name, strlen(name));
-    snprintf(text, sizeof text, "#%06x", (unsigned)colour & 0xffffff);
+    snprintf(text, sizeof text, "#%06x",
+             document_colour(colour_find(name, strlen(name))));
     return text;
 }
 
-/* Draws a card of the last frame on a canvas of the page: Page.show(). */
+/* Draws a card of the last frame on a canvas of the page: Page.show().  The
+ * page may ask for a card of the scene before. */
 EMSCRIPTEN_KEEPALIVE void web_card(int card, int width, int height)
 {
     static Paper paper;
     Player *player = &run->player;
+    const Picture *picture = picture_of(player_simulation(player)->scene);
+    if (card >= picture->count || !picture->cards[card]->draw)
+        return;
     canvas_free(&paper.canvas);
     paper.text = player->screen.paper.text;
     if (plays && !canvas_create(width, height, &paper.canvas)) {
@@ -179,6 +184,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
         prints = !prints;
         run = other;
     }
+    run->player.screen.changed = true;
     if (page < 0)
         return;
     Status status = lecture_options(row, &options, message, sizeof message);
@@ -196,19 +202,23 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
     if (!status && !row->lines)
         player_run(player);
     player->screen.window = true; /* from here on as in the page */
+    player_fill(player);
 }
 
-/* Draws its picture on the canvas that Page.show has chosen. */
-EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int width, int height)
+/* Draws its picture, card -1, or a card, on the canvas that is to be printed.
+ */
+EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
 {
     Player *player = &run->player;
     player->screen.size[0] = width;
     player->screen.size[1] = height;
     Paper *paper = player_paper(player);
-    if (paper) {
+    if (paper && card < 0)
         player_paint(player, paper);
-        window_show_card(&paper->canvas, -2);
-    }
+    else if (paper)
+        player_paint_card(player, paper, card);
+    if (paper)
+        window_show_card(&paper->canvas, card);
 }
 
 /* Its texts as before the guess. */

@@ -20,7 +20,8 @@ const math = (name, children, attributes) =>
 // ---- parse ------------------------------------------------------------------
 
 const LETTERS = { x: 'x', xt: 'x\u0303', p: 'p', alpha: 'α' };
-const OPENS = /\{(x|xt|p|alpha)\}|(\^|_|frac|matrix|#[a-z0-9-]*)\{/;
+const SLIDES = /(?<![\^_]|frac|matrix|#[\w-]*)\{(x|xt|p|alpha)\}/g;
+const OPENS = /(\^|_|frac|matrix|#[a-z0-9-]*)\{/;
 
 // The parts of a text between the places of a word outside of all braces.
 const split = (text, word) => {
@@ -38,13 +39,7 @@ const parse = (text) => {
   if (!found) return text ? [{ text }] : [];
   const parts = found.index ? [{ text: text.slice(0, found.index) }] : [];
   const from = found.index + found[0].length;
-  const [, letter, word] = found;
-  if (letter)
-    return [
-      ...parts,
-      { colour: letter, of: [{ text: LETTERS[letter] }] },
-      ...parse(text.slice(from)),
-    ];
+  const word = found[1];
   let end = from;
   for (let depth = 1; end < text.length; end++) {
     depth += (text[end] === '{') - (text[end] === '}');
@@ -68,9 +63,11 @@ const parse = (text) => {
 const TOKEN = /[ \u00a0]+|\d+(?:[.,]\d+)*|(?:[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*)+|./gsu;
 const LETTER = /[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*/gu;
 const RAISED = { '²': '2', '³': '3', ᵀ: 'T', ⁿ: 'n', '⁻': '−', '¹': '1' };
+const SHORT = /^(kg|mm|ms|ln|if|of|so|at|in|to|by|up|on|or|no|as|is|it)$/; // no products
 const PLAIN = /[∇∂∞½¼°…⋯⋮⋱%]/; // no sign between two things
 const OPEN = /[([{|‖]/;
 const CLOSE = /[)\]}|‖,;:]/;
+const SIGN = { stretchy: false, largeop: false, movablelimits: false, rspace: 0 };
 
 // A mark that stands over its letter in DejaVu Sans is a lid in MathML.
 const LIDS = { '\u0302': '^', '\u0303': '~', '\u0304': '¯', '\u0307': '˙', '\u0308': '¨' };
@@ -118,18 +115,12 @@ const row = (parts) => {
       const counts = blank && !sign && /^(mn|msup|mo)$/.test(last?.localName);
       if (text !== '/') unit = /^[mNsJ]$/.test(text) && (unit ? last?.textContent === '/' : counts);
       if (unit && text !== '/') return upright();
-      if (letters && (letters.length === 1 || /[α-ωΑ-Ω]/u.test(text)))
+      const short = letters?.length === 1 || (letters?.length === 2 && !SHORT.test(text));
+      if (letters && (short || /[α-ωΑ-Ω]/u.test(text)))
         return letters.forEach((letter) => put(letterOf(letter)));
       if (letters) return put(math('mi', [text]));
       if (PLAIN.test(text)) return upright();
-      const room = blank ? '0.25em' : 0;
-      const how = {
-        stretchy: false,
-        largeop: false,
-        movablelimits: false,
-        lspace: room,
-        rspace: 0,
-      };
+      const how = { ...SIGN, lspace: blank ? '0.25em' : 0 };
       const fence = OPEN.test(text) || CLOSE.test(text);
       if (!fence) how.form = sign ? 'prefix' : 'infix';
       if (blank > 1) put(math('mspace'));
@@ -146,18 +137,10 @@ const row = (parts) => {
     else if (down) hang(out, false, math('mrow', row(down)));
     else if (above) put(math('mfrac', [math('mrow', row(above)), math('mrow', row(below))]));
     else if (rows) {
-      const lines = rows.map((cells) =>
-        math(
-          'mtr',
-          cells.map((cell) => math('mtd', row(cell))),
-        ),
-      );
-      put(math('mrow', [math('mo', ['[']), math('mtable', lines), math('mo', [']'])]));
-    } else if (of) {
-      const inner = row(of);
-      const one = inner.length === 1 ? inner[0] : math('mrow', inner);
-      put(coloured(one, colour));
-    }
+      const line = (cells) => cells.map((cell) => math('mtd', row(cell)));
+      const lines = rows.map((cells) => math('mtr', line(cells)));
+      put(math('mtable', lines)); // page.css draws its brackets
+    } else if (of) put(coloured(math('mrow', row(of)), colour));
   }
   return out;
 };
@@ -167,7 +150,6 @@ const row = (parts) => {
 const colours = {};
 const coloured = (element, name) => {
   element.style.color = colours[name] ??= ask('web_colour', 'string', name);
-  element.dataset.term = name;
   return element;
 };
 const isLetter = ({ colour, of }) =>
@@ -221,7 +203,8 @@ const formula = (parts) => {
 };
 
 const setMarkup = (element, text, asFormula) => {
-  element.replaceChildren(...(asFormula ? formula : prose)(parse(text)));
+  const letters = text.replace(SLIDES, (all, name) => `#${name}{${LETTERS[name]}}`);
+  element.replaceChildren(...(asFormula ? formula : prose)(parse(letters)));
   element.normalize(); // words of one text, so that a reader reads on
   return element;
 };

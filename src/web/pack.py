@@ -1,4 +1,4 @@
-"""pack.py PAGE.html SCRIPT.js ... MODULE.js MODULE.wasm LIBRARIES OUT.html: all
+"""pack.py PAGE.html PAGE.css SCRIPT.js ... MODULE.js MODULE.wasm LIBRARIES OUT.html: all
 in one file, the program and the licences as gzip in base64.  The same input gives the
 same file."""
 import base64
@@ -6,7 +6,7 @@ import gzip
 import pathlib
 import sys
 
-page, *scripts, module, wasm, libraries, out = map(pathlib.Path, sys.argv[1:])
+page, style, *scripts, module, wasm, libraries, out = map(pathlib.Path, sys.argv[1:])
 
 # Whose work is in the page, and under which licence.
 DEBIAN = "/usr/share/common-licenses/"
@@ -51,6 +51,7 @@ notice = ABOUT + "".join(f"\n{rule}\n{title}\n{rule}\n\n" + "\n".join(
     licence(name) for name in names) for title, names in PARTS)
 text = page.read_text(encoding="utf-8")
 for mark, what in (
+        ("/*STYLE*/", style.read_text(encoding="utf-8")),
         ("/*GLUE*/", "".join(map(script, scripts))),
         ("/*MODULE*/", script(module)),
         ("/*LICENCES*/", packed(notice.encode())),

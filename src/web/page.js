@@ -7,11 +7,11 @@ const canvas = $('canvas');
 let Module = null;
 let FS = null;
 
-const types = (values) => values.map((value) => typeof value);
-const ask = (name, type, ...values) => Module.ccall(name, type, types(values), values);
+const typeOf = (value) => typeof value;
+const ask = (name, type, ...values) => Module.ccall(name, type, values.map(typeOf), values);
 
 // What a test may ask for.
-const stats = { first: 0, frames: 0, longest: 0 };
+const stats = { first: 0, frames: 0 };
 
 // One line to whoever looks at the page; a good one goes by itself.
 let silence = 0;
@@ -25,12 +25,6 @@ const say = (text, fine) => {
 
 // ---- what the program calls -------------------------------------------------
 
-let recorder = null;
-const filmKind = () =>
-  ['video/mp4', 'video/webm'].find(
-    (kind) => window.MediaRecorder && canvas.captureStream && MediaRecorder.isTypeSupported(kind),
-  );
-
 const pixels = (length) => Math.max(1, Math.round(length * devicePixelRatio));
 const Page = {
   width: () => pixels(canvas.clientWidth),
@@ -39,7 +33,7 @@ const Page = {
   // The stage (card -1), or a card of the frame, on its canvas.
   show(heap, at, width, height, card) {
     const target = sheet?.canvas ?? (card < 0 ? canvas : cards.get(card));
-    if (card < 0) drawn = true;
+    drawn ||= card < 0;
     if (target.width !== width || target.height !== height)
       [target.width, target.height] = [width, height];
     const bytes = new Uint8ClampedArray(heap.buffer, at, 4 * width * height);
@@ -49,25 +43,12 @@ const Page = {
     const done = on ? document.documentElement.requestFullscreen() : document.exitFullscreen();
     done.catch(() => say('This browser allows no full screen here.', true));
   },
-  films: () => Boolean(filmKind()),
-  film(name) {
-    const type = filmKind();
-    recorder = new MediaRecorder(canvas.captureStream(60), { mimeType: type });
-    recorder.ondataavailable = ({ data }) => give(name.replace(/\w+$/, type.slice(6)), data);
-    recorder.start();
-  },
-  filmEnd(keep) {
-    if (!keep) recorder.ondataavailable = null;
-    recorder.stop();
-  },
 };
 
 // ---- files ------------------------------------------------------------------
 
 const give = (name, blob) => {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
+  const link = make('a', [], { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 };
@@ -116,14 +97,10 @@ const decoded = (word) => {
 };
 const fromAddress = () => {
   shown = location.hash;
-  const [words, mark] = location.hash.slice(1).split('&');
+  const [text, mark] = location.hash.slice(1).split('&');
+  const words = text.split(/(?<!\de)\+/i).filter(Boolean);
   bare = mark === 'bare';
-  return words
-    ? words
-        .split(/(?<!\de)\+/i)
-        .filter(Boolean)
-        .map(decoded)
-    : ['--lecture'];
+  return words.length ? words.map(decoded) : ['--lecture'];
 };
 const toAddress = (words) =>
   '#' +
@@ -138,9 +115,7 @@ const follow = () => {
   shown = toAddress(words);
   const turns = entry !== null && entry !== field('page', 2);
   entry = field('page', 2);
-  if (turns)
-    history.pushState(null, '', shown); // Back goes a page back
-  else history.replaceState(null, '', shown);
+  history[turns ? 'pushState' : 'replaceState'](null, '', shown); // Back goes a page back
 };
 addEventListener('hashchange', () => {
   if (location.hash !== shown) begin(fromAddress());
@@ -162,7 +137,6 @@ const frame = () => {
   const start = performance.now();
   const wait = Module._web_frame();
   stats.frames++;
-  stats.longest = Math.max(stats.longest, performance.now() - start);
   download();
   if (wait < 0) {
     const more = canvas.hidden || $('said').textContent;
@@ -181,10 +155,7 @@ const wake = () => {
   clearTimeout(timer);
   if (!asked && !document.hidden) asked = requestAnimationFrame(frame);
 };
-document.addEventListener('visibilitychange', () => {
-  clearTimeout(timer);
-  wake();
-});
+document.addEventListener('visibilitychange', wake);
 
 const begin = (words) => {
   $('said').textContent = $('summary').textContent = '';
@@ -255,8 +226,8 @@ const STILL = 8; // points that a finger may move and still touch one place
 
 const tell = (kind, at, button = 0, clicks = 1, amount = 0) => {
   if (!FS) return;
-  const box = canvas.getBoundingClientRect();
-  const [x, y] = [at.clientX - box.left, at.clientY - box.top].map((n) => n * devicePixelRatio);
+  const { left, top } = canvas.getBoundingClientRect();
+  const [x, y] = [at.clientX - left, at.clientY - top].map((n) => n * devicePixelRatio);
   Module._web_mouse(kind, x, y, button, clicks, amount);
   wake();
 };
@@ -333,25 +304,20 @@ const touchUp = (event) => {
 
 const BUTTONS = [LEFT, MIDDLE, RIGHT];
 const isTouch = (event) => event.pointerType === 'touch';
-canvas.addEventListener('pointerdown', (event) => {
+canvas.onpointerdown = (event) => {
   canvas.focus({ preventScroll: true });
   canvas.setPointerCapture(event.pointerId);
   event.preventDefault();
   if (isTouch(event)) touchDown(event);
   else press(event, BUTTONS[event.button] || 0);
-});
-canvas.addEventListener('pointermove', (event) => {
-  if (isTouch(event)) touchMove(event);
-  else tell(MOVE, event);
-});
-const up = (event) => {
+};
+canvas.onpointermove = (event) => (isTouch(event) ? touchMove(event) : tell(MOVE, event));
+canvas.onpointerup = canvas.onpointercancel = (event) => {
   if (isTouch(event)) touchUp(event);
   else tell(RELEASE, event, BUTTONS[event.button] || 0);
 };
-canvas.addEventListener('pointerup', up);
-canvas.addEventListener('pointercancel', up);
-canvas.addEventListener('pointerleave', (event) => isTouch(event) || tell(LEAVE, event));
-canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+canvas.onpointerleave = (event) => isTouch(event) || tell(LEAVE, event);
+canvas.oncontextmenu = (event) => event.preventDefault();
 canvas.onwheel = (event) => {
   if (event.ctrlKey || document.activeElement !== canvas) return; // the browser's
   tell(WHEEL, event, 0, 1, -event.deltaY / (event.deltaMode ? 1 : 100));
@@ -376,22 +342,20 @@ $('licences').onclick = async () => {
 const SIMD = 'AGFzbQEAAAABBQFgAAF7AwIBAAoIAQYAQQD9Dws=';
 const isAble = () => window.DecompressionStream && window.WebAssembly?.validate(bytesOf(SIMD));
 
-const failed = (error) =>
-  say(
-    /memory/i.test(error)
-      ? 'elasto: there is not enough memory for this; reload the page.'
-      : `elasto: ${error.message || error}; reload the page.`,
-  );
+const failed = (error) => {
+  const why = /memory/i.test(error)
+    ? 'there is not enough memory for this'
+    : error.message || error;
+  say(`elasto: ${why}; reload the page.`);
+};
 addEventListener('error', (event) => failed(event.error || event.message));
 addEventListener('unhandledrejection', (event) => failed(event.reason));
 
 // The end of the page has arrived.
 const start = async () => {
   if (!isAble())
-    return say('elasto needs WebAssembly SIMD: Chrome 91, Firefox 113, Safari 16.4 or newer.');
-  const script = document.createElement('script');
-  script.textContent = $('module').textContent;
-  document.body.append(script);
+    return say('elasto needs WebAssembly SIMD: Chrome 105, Firefox 121, Safari 16.4 or newer.');
+  document.body.append(make('script', [$('module').textContent]));
   Module = await createElasto({
     wasmBinary: await unpack('packed-program'),
     print: (text) => ($('summary').textContent += text + '\n'),
@@ -408,10 +372,3 @@ const start = async () => {
   new ResizeObserver(() => tell(REDRAW, { clientX: 0, clientY: 0 })).observe(canvas);
   if (/[?&]print/.test(location.search)) printLecture();
 };
-
-// While the page arrives over a network; it has about 1.2 million letters.
-const watch = setInterval(() => {
-  const text = $('packed-program')?.textContent || '';
-  $('progress').value = text.length / 1.2e6;
-  if (document.readyState !== 'loading') clearInterval(watch);
-}, 100);

@@ -54,13 +54,27 @@ $(W)/elasto.js: $(WEB_OBJECTS) $(W)/fonts/done src/web/web.mk
 	  --embed-file $(W)/fonts@/usr/share/fonts/truetype/dejavu \
 	  --exclude-file '*/done' 2>$@.log || { cat $@.log; exit 1; }
 
-build/elasto.html: src/web/pack.py src/web/page.html src/web/markup.js \
-                   src/web/page.js src/web/document.js $(W)/elasto.js
+build/elasto.html: src/web/pack.py src/web/page.html src/web/page.css \
+                   src/web/markup.js src/web/page.js src/web/document.js \
+                   $(W)/elasto.js
 	$(call shown,PACK)
 	$(Q)python3 $^ $(W)/elasto.wasm $(W)/libraries $@
 
-# In Chromium, with mouse, keys and touch.
-test-web: build/elasto build/elasto.html
-	@node tests/web/check_web.js $^
+# In Chromium and Firefox; axe-core, where npm finds it, looks for what a reader
+# of the screen would miss.
+AXE = $(W)/node_modules/axe-core/axe.min.js
+$(AXE):
+	@mkdir -p $(@D); npm install --silent --no-save --prefix $(W) axe-core@4.10.2 || :
+test-web: build/elasto build/elasto.html $(AXE)
+	@failed=0; for check in web document; do \
+	  node tests/web/check_$$check.js $^ || failed=1; done; exit $$failed
+
+# The lecture for print, by Chromium where there is one.
+handout: build/elasto.html
+	@command -v chromium >/dev/null || { echo 'make handout needs chromium; or \
+	print build/elasto.html in a browser'; exit 1; }
+	@chromium --headless --no-sandbox --no-pdf-header-footer --virtual-time-budget=60000 \
+	  --print-to-pdf=build/handout.pdf 'file://$(CURDIR)/build/elasto.html?print$(if $(NOTES),&notes)' 2>/dev/null
+	@echo build/handout.pdf
 
 -include $(wildcard $(W)/*/*.d)

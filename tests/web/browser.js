@@ -89,7 +89,8 @@ const launch = async () => {
       return ask('Input.dispatchTouchEvent', { type, touchPoints });
     };
     tab.key = async (name, modifiers = 0) => {
-      const text = name.length === 1 && !(modifiers & 2) ? name : undefined;
+      const sign = name.length === 1 && !(modifiers & 2) ? name : undefined;
+      const text = name === 'Enter' ? '\r' : sign;
       const code = /^[a-z]$/i.test(name) ? 'Key' + name.toUpperCase() : name;
       const key = { key: name === 'Space' ? ' ' : name, code, modifiers };
       await ask('Input.dispatchKeyEvent', { type: 'keyDown', text, ...key });

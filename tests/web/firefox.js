@@ -55,13 +55,23 @@ const launch = async () => {
     await tab.until('typeof stats !== "undefined" && (stats.first > 0 || $("said").textContent)');
     return tab;
   };
+  // Of the window, whose frame is left out.
+  const resize = async (width, height) => {
+    const frame = {
+      script: 'return [outerWidth - innerWidth, outerHeight - innerHeight]',
+      args: [],
+    };
+    const { value } = await ask('WebDriver:ExecuteScript', frame);
+    const size = { width: width + value[0], height: height + value[1] };
+    await ask('WebDriver:SetWindowRect', size);
+  };
   const close = async () => {
     const gone = new Promise((done) => firefox.once('exit', done));
     await ask('Marionette:Quit', { flags: ['eForceQuit'] }).catch(() => {});
     await gone;
     spawnSync('rm', ['-rf', profile]);
   };
-  return { open, close };
+  return { open, close, resize };
 };
 
 module.exports = { launch };

@@ -1,0 +1,360 @@
+// check_document.js ELASTO PAGE [AXE]: what the page says stands beside its canvas:
+// nothing is cut in any size, formulas are MathML, keys alone and a reader's tree
+// lead through the tour, addresses and history, frames, print.  AXE: the script
+// axe.min.js of axe-core; without it that check is skipped.
+'use strict';
+const { spawnSync } = require('child_process');
+const fs = require('fs');
+const os = require('os');
+const path = require('path');
+const { launch, sleep } = require('./browser.js');
+const firefox = require('./firefox.js');
+
+const [elasto, page, axe] = process.argv.slice(2).map((name) => path.resolve(name));
+const at = (line, query = '') => `file://${page}${query}#${line.replace(/ /g, '+')}`;
+const listed = (line) =>
+  spawnSync(elasto, line.split(' '), { encoding: 'utf8' }).stdout.trim().split('\n');
+const PAGES = listed('--list --lecture').map((row) => row.trim().split(/\s+/)[1]);
+
+let failed = 0;
+const verdict = (name, wrong) => {
+  console.log(
+    wrong.length
+      ? `not ok ${name}: ${wrong.slice(0, Number(process.env.MOST || 12)).join('; ')}`
+      : `ok ${name}`,
+  );
+  failed += wrong.length > 0;
+};
+
+// Opens a page of the tour in a tab and waits until the document says so.
+const turnTo = async (tab, name) => {
+  await tab.run(`location.hash = '--lecture+${name}'`);
+  await tab.until(`field('page', 2) === '${name}' && !drawn`);
+};
+const answer = async (tab) => {
+  await tab.run(`field('asks') && ask('web_answer', null, ''); wake()`);
+  await tab.until(`!field('asks')`);
+};
+
+// Words of the document that are wider than their box, out of the window, or
+// covered by the picture when they are scrolled to.  What scrolls by itself, as a
+// long formula, is told apart.
+const CUT = `(() => {
+  const wrong = [];
+  const wide = document.documentElement.clientWidth;
+  if (document.documentElement.scrollWidth > wide) wrong.push('the page scrolls sideways');
+  for (const element of document.querySelectorAll(
+    'h1, h2, p, summary, label, button, input, select, math, output, #bar > *, td')) {
+    const box = element.getBoundingClientRect();
+    if (!box.width || element.closest('.unseen, dialog, #handout') || element.closest('[hidden]')) continue;
+    const words = element.id || element.className || element.textContent.slice(0, 30);
+    if (box.left < -1 || box.right > wide + 1) wrong.push(element.localName + ' ' + words + ' beyond the window');
+    if (/^(p|h1|summary|button|label|output)$/.test(element.localName) && element.clientWidth && element.scrollWidth > element.clientWidth + 1)
+      wrong.push(element.localName + ' ' + words + ' is cut by ' + (element.scrollWidth - element.clientWidth));
+  }
+  const ask = document.querySelector('#ask p');
+  if (ask) {
+    ask.scrollIntoView({ block: 'center' });
+    const box = ask.getBoundingClientRect();
+    const top = document.elementFromPoint(box.left + 5, box.top + box.height / 2);
+    if (!ask.contains(top) && top !== ask) wrong.push('the question is covered');
+    scrollTo(0, 0);
+  }
+  return wrong;
+})()`;
+
+// Elements of MathML that have not as many children as they need, or an empty one.
+const MATH = `[...document.querySelectorAll('math *')].filter((element) => {
+  const needed = { mfrac: 2, msup: 2, msub: 2, mover: 2, msubsup: 3, msqrt: 1 }[element.localName];
+  const empty = /^m([ion]|text)$/.test(element.localName) && !element.textContent;
+  return (needed && element.children.length !== needed) || empty || /[{}_#\\\\]/.test(element.textContent);
+}).map((element) => element.outerHTML.slice(0, 80))`;
+
+const SIZES = '360x740 390x844 844x390 820x1180 1366x768 1920x1080 683x384'.split(' ');
+
+const nothingIsCut = async (tab, size, resize) => {
+  const [width, height] = size.split('x').map(Number);
+  const wrong = [];
+  await resize(width, height);
+  for (const name of PAGES) {
+    await turnTo(tab, name);
+    for (const told of [false, true]) {
+      if (told) await answer(tab);
+      const found = [...(await tab.run(CUT)), ...(await tab.run(MATH))];
+      wrong.push(...found.map((what) => `${name} ${size}: ${what}`));
+    }
+  }
+  return wrong;
+};
+
+const sizes = async (browser) => {
+  const tab = await browser.open(at(''));
+  const wrong = [];
+  const resize = (width, height) =>
+    tab.ask('Emulation.setDeviceMetricsOverride', {
+      width,
+      height,
+      deviceScaleFactor: 1,
+      mobile: true,
+    });
+  for (const size of SIZES) wrong.push(...(await nothingIsCut(tab, size, resize)));
+  verdict('nothing_is_cut_in_any_size_in_Chromium', [...wrong, ...tab.trouble]);
+  await tab.close();
+};
+
+// By keys alone, through the accessibility tree: what a page asks, says and has to
+// be set.
+const tree = async (tab) => {
+  const { nodes } = await tab.ask('Accessibility.getFullAXTree');
+  const found = new Map(nodes.map((node) => [node.nodeId, node]));
+  const inOrder = (node) =>
+    node ? [node, ...node.childIds.flatMap((id) => inOrder(found.get(id)))] : [];
+  return inOrder(nodes[0])
+    .filter(({ ignored, name }) => !ignored && name?.value)
+    .map(({ role, name }) => ({ role: role.value, name: name.value }));
+};
+const squeezed = (text) => text.normalize('NFKC').replace(/\s+/g, '');
+
+const tourByKeys = async (browser) => {
+  const tab = await browser.open(at(''));
+  const wrong = [];
+  await tab.until(`field('page', 2)`);
+  for (const [i, name] of PAGES.entries()) {
+    const nodes = await tree(tab);
+    const leaves = nodes.filter(({ role }) => role === 'StaticText');
+    const said = squeezed(leaves.map((node) => node.name).join(''));
+    const words = await tab.run(
+      `[...document.querySelectorAll('#ask p, #text p, #topic')].map((p) => p.textContent)`,
+    );
+    if (!(await tab.run('document.title')).startsWith(`${i + 1}. `))
+      wrong.push(`${name}: the title`);
+    for (const text of words)
+      if (!said.includes(squeezed(text).slice(0, 12)))
+        wrong.push(`${name}: '${text}' is not in the tree`);
+    for (const [label] of await tab.run(
+      `[...document.querySelectorAll('#numbers input:not([type])')].map((i) => [i.name])`,
+    ))
+      if (label && !nodes.some((node) => /textbox/.test(node.role) && node.name.includes(label)))
+        wrong.push(`${name}: no field ${label}`);
+    if (
+      !/energ|point|masses/i.test(await tab.run(`$('picture').textContent`)) &&
+      !/trust|race|order/.test(name)
+    )
+      wrong.push(`${name}: the picture has no words`);
+    // An answer, by Tab and Enter: N shows it.
+    await tab.key('n');
+    await tab
+      .until(`!field('asks')`, 20000)
+      .catch(() => wrong.push(`${name}: N does not show the answer`));
+    if (i + 1 < PAGES.length) await tab.key('PageDown');
+    await tab.until(`field('page', 2) === '${PAGES[Math.min(i + 1, PAGES.length - 1)]}'`);
+  }
+  // Tab reaches picture, buttons, fields and lists; the focus is seen on each.
+  const reached = new Set();
+  await tab.run(`turnTo = location.hash = '--lecture+${PAGES[1]}'; document.activeElement.blur()`);
+  await tab.until(`field('asks') === 'number'`);
+  for (let i = 0; i < 60; i++) {
+    await tab.key('Tab');
+    reached.add(
+      await tab.run(
+        'document.activeElement.id || document.activeElement.name || document.activeElement.parentNode.id',
+      ),
+    );
+    const outline = await tab.run(`getComputedStyle(document.activeElement).outlineStyle`);
+    if (outline === 'none' && (await tab.run('document.activeElement !== document.body')))
+      wrong.push(`no focus is seen on ${[...reached].pop()}`);
+  }
+  for (const id of 'canvas play step all after answer show segments timestep more pages scenes keys print'.split(
+    ' ',
+  ))
+    if (!reached.has(id)) wrong.push(`Tab does not reach ${id}`);
+  await tab.run(`canvas.focus()`);
+  for (const key of ['1', '5', '6', 'Enter']) await tab.key(key);
+  await tab.until(`field('verdict')`, 20000).catch(() => wrong.push('digits are no answer'));
+  if (!/156 is right/.test(await tab.run(`$('verdict').textContent`)))
+    wrong.push('156 is not judged');
+  await tab.run(`canvas.focus()`);
+  for (const key of ['q', 'Escape', 'Escape']) await tab.key(key);
+  const frames = await tab.run('stats.frames');
+  await tab.key('n');
+  await tab
+    .until(`stats.frames > ${frames}`, 20000)
+    .catch(() => wrong.push('q or Escape ends the page'));
+  verdict('keys_and_a_readers_tree_lead_through_the_tour', [...wrong, ...tab.trouble]);
+  await tab.close();
+};
+
+// The browser's own keys stay its own.
+const keysOfBrowser = async (browser) => {
+  const tab = await browser.open(at('square --paused'));
+  const wrong = [];
+  await tab.run(
+    `taken = []; addEventListener('keydown', (event) => event.defaultPrevented && taken.push(event.key))`,
+  );
+  for (const key of ['f', 'p', 'l', 'c', 'r']) await tab.key(key, 2);
+  for (const key of ['F5', 'F12', 'Tab']) await tab.key(key);
+  const taken = await tab.run('taken');
+  if (taken.length) wrong.push(`takes ${taken}`);
+  await tab.run(
+    `wheels = []; addEventListener('wheel', (event) => wheels.push(event.defaultPrevented))`,
+  );
+  await tab.run(`canvas.blur()`);
+  await tab.mouse('mouseWheel', 200, 200, { deltaX: 0, deltaY: 100 });
+  await tab.until('wheels.length');
+  if (await tab.run('wheels[0]')) wrong.push('the wheel is taken before a click');
+  verdict('keys_and_wheel_of_the_browser_stay_its_own', [...wrong, ...tab.trouble]);
+  await tab.close();
+};
+
+const history = async (browser) => {
+  const tab = await browser.open(at(''));
+  const wrong = [];
+  const shows = (name) =>
+    tab
+      .until(`field('page', 2) === '${name}'`, 20000)
+      .catch(async () => wrong.push(`${await tab.run('location.hash')}, not ${name}`));
+  await shows(PAGES[0]);
+  await tab.run(`key('PageDown', false)`);
+  await shows(PAGES[1]);
+  await tab.run(`key('PageDown', false)`);
+  await shows(PAGES[2]);
+  await tab.run('history.back()');
+  await shows(PAGES[1]);
+  await tab.run('history.back()');
+  await shows(PAGES[0]);
+  await tab.run('history.forward()');
+  await shows(PAGES[1]);
+  await tab.run(`sessionStorage.before = 1; location.reload()`);
+  await sleep(300);
+  await tab.until(`typeof field !== 'undefined' && stats.first > 0`);
+  await shows(PAGES[1]);
+  await tab.run(`document.querySelector('#pages a[href$="${PAGES[8]}"]').click()`);
+  await shows(PAGES[8]);
+  verdict('back_forward_reload_and_links_lead_to_their_page', [...wrong, ...tab.trouble]);
+  await tab.close();
+
+  const bad = [];
+  for (const line of ['nonsense', '--lecture nosuch', 'square --segments 0', 'square --timestep']) {
+    const lost = await browser.open(at(line));
+    await lost
+      .until(`field('page', 2) === '${PAGES[0]}'`, 20000)
+      .catch(() => bad.push(`${line}: no tour`));
+    if (!/^elasto: [^\n]+$/.test(await lost.run(`$('said').textContent`)))
+      bad.push(`${line}: no line`);
+    await lost.close();
+  }
+  verdict('a_wrong_address_shows_the_tour_and_one_line', bad);
+};
+
+// Three frames in a course's page, far down: they leave focus and scroll alone.
+const frames = async (browser) => {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'elasto-frames-'));
+  const file = path.join(folder, 'course.html');
+  const frame = (line) => `<iframe src="${at(line)}&bare" width="400" height="300"></iframe>`;
+  const lines = ['circle --timestep 0.05', '--lecture newton', 'drop'];
+  const stats = 'stats = { first: 1 }; $ = (id) => document.getElementById(id)';
+  fs.writeFileSync(
+    file,
+    `<script>${stats}</script><input id="here" autofocus><div style="height: 2000px"></div>${lines.map(frame).join('')}`,
+  );
+  const tab = await browser.open('file://' + file, { width: 1000, height: 700 });
+  const wrong = [];
+  await tab.until(`document.activeElement.id === 'here'`);
+  await sleep(3000);
+  if (await tab.run('scrollY')) wrong.push('the page scrolled');
+  if ((await tab.run('document.activeElement.id')) !== 'here') wrong.push('the focus was taken');
+  await tab.close();
+  const bare = await browser.open(at('circle') + '&bare', { width: 400, height: 300 });
+  const seen = `[...document.querySelectorAll('body > *')].filter((e) => e.getBoundingClientRect().width > 0).map((e) => e.id).join()`;
+  if ((await bare.run(seen)) !== 'stage') wrong.push(`bare shows ${await bare.run(seen)}`);
+  await bare.run(`$('replay').click()`);
+  await bare.until(`stats.frames > 3`);
+  verdict('bare_frames_take_no_focus_and_have_a_button', [
+    ...wrong,
+    ...tab.trouble,
+    ...bare.trouble,
+  ]);
+  await bare.close();
+  fs.rmSync(folder, { recursive: true });
+};
+
+// A4 as Chromium's printer gives it: how many sheets, and words as words.
+const print = async (browser) => {
+  const wrong = [];
+  for (const [query, most] of [
+    ['', 20],
+    ['?notes', 26],
+  ]) {
+    const tab = await browser.open(at('', query));
+    await tab.run('printLecture()');
+    const { data } = await tab.ask('Page.printToPDF', { preferCSSPageSize: true });
+    const pdf = Buffer.from(data, 'base64');
+    const sheets = pdf.toString('latin1').match(/\/Type\s*\/Page\b(?!s)/g).length;
+    if (sheets > most) wrong.push(`${sheets} sheets${query}`);
+    const { stdout, error } = spawnSync('pdftotext', ['-', '-'], {
+      input: pdf,
+      maxBuffer: 1 << 26,
+    });
+    const text = error ? '' : squeezed(stdout.toString());
+    const topics = await tab.run('lists.pages.map((page) => page[1])');
+    const asks = query ? 'Notesforwhoeverpresentsit' : 'Answers';
+    if (!error && !text.includes(asks)) wrong.push(`no ${asks}`);
+    if (!error) wrong.push(...topics.filter((topic) => !text.includes(squeezed(topic))));
+    const cut = await tab.run(`[...document.querySelectorAll('#handout section')].length`);
+    if (cut !== PAGES.length) wrong.push(`${cut} pages`);
+    wrong.push(...tab.trouble);
+    await tab.close();
+  }
+  verdict('print_gives_the_lecture_on_at_most_20_sheets', wrong);
+};
+
+const serious = async (browser) => {
+  if (!axe || !fs.existsSync(axe)) return console.log('skipped axe-core: it is not there');
+  const tab = await browser.open(at(''));
+  const wrong = [];
+  await tab.run(fs.readFileSync(axe, 'utf8') + '; 0');
+  for (const name of PAGES) {
+    await turnTo(tab, name);
+    for (const told of [false, true]) {
+      if (told) await answer(tab);
+      const found = await tab.run(`axe.run().then(({ violations }) => violations
+        .filter(({ impact }) => /serious|critical/.test(impact))
+        .map(({ id, nodes }) => id + ' ' + nodes[0].html.slice(0, 90)))`);
+      wrong.push(...found.map((what) => `${name}: ${what}`));
+    }
+  }
+  verdict('axe_finds_nothing_serious', [...new Set(wrong)]);
+  await tab.close();
+};
+
+const inFirefox = async () => {
+  if (spawnSync('firefox-esr', ['--version']).error)
+    return console.log('skipped Firefox: it is not there');
+  const browser = await firefox.launch();
+  try {
+    const tab = await browser.open(at(''));
+    const wrong = [];
+    for (const size of ['500x800', '1366x768'])
+      wrong.push(...(await nothingIsCut(tab, size, browser.resize)));
+    verdict('nothing_is_cut_in_two_sizes_in_Firefox', wrong);
+  } finally {
+    await browser.close();
+  }
+};
+
+(async () => {
+  const only = process.env.ONLY;
+  const checks = { sizes, tourByKeys, keysOfBrowser, history, frames, print, serious };
+  if (!only || only === 'firefox') await inFirefox();
+  const browser = await launch();
+  try {
+    for (const [name, check] of Object.entries(checks))
+      if (!only || only === name) await check(browser);
+  } finally {
+    await browser.close();
+  }
+  process.exit(failed ? 1 : 0);
+})().catch((error) => {
+  console.log(`not ok ${error.stack}`);
+  process.exit(1);
+});
