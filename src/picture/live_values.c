@@ -176,7 +176,7 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
 }
 
 /* f(x + alpha p) - f(x), or the same for E in the landscape. */
-static double descent_difference(const void *function, double alpha)
+static double energy_difference(const void *function, double alpha)
 {
     const DescentTrace *space = function;
     Local there = descent_at(space->simulation, PROJECTION_NONE,
@@ -219,7 +219,7 @@ static const Trace *descent_trace(const Simulation *simulation,
                  : made ? record->slope
                         : descent->slope,
         .projected = taken ? record->projected : -1,
-        .difference = aims ? descent_difference : NULL,
+        .difference = aims ? energy_difference : NULL,
         .function = space,
         .trials = taken ? record->trials : 0,
         .accepted = taken,

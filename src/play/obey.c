@@ -33,7 +33,7 @@ static void begin_gesture(Player *player, const Command *command)
 /* ---- obeying ------------------------------------------------------------- */
 
 /* Counts what the number of a command refers to: nodes, balls, cards. */
-static long count_parts(const Player *player, int pane, CommandKind kind)
+static long count_targets(const Player *player, int pane, CommandKind kind)
 {
     const Simulation *simulation = &player->past.machine[pane].simulation;
     const Scene *scene = simulation->scene;
@@ -69,7 +69,7 @@ static Status check_number(Player *player, const Command *command)
 {
     long count = LONG_MAX;
     for (int p = 0; p < past_panes(&player->past); p++) {
-        long parts = count_parts(player, p, command->kind);
+        long parts = count_targets(player, p, command->kind);
         count = parts < count ? parts : count;
     }
     if (command->number < count)

@@ -118,7 +118,7 @@ static void dissipated_so_far(const Simulation *simulation, double *out)
 /* Books the energy that a changed stiffness or pin has added as work, so that
  * no other number of the ledger jumps. had  [runs] J, dissipated before the
  * change */
-static void book_change(Simulation *simulation, const double *had)
+static void book_external_work(Simulation *simulation, const double *had)
 {
     for (int r = 0; r < simulation->runs; r++)
         simulation->ledger[r].work +=
@@ -242,7 +242,7 @@ Status simulation_use(Simulation *simulation, const Control *control)
         status = use_hand(simulation, control);
     use_push(simulation, control);
     if (!status)
-        book_change(simulation, had);
+        book_external_work(simulation, had);
     return status;
 }
 
@@ -269,6 +269,6 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
         return status;
     }
     stop_node(run, node);
-    book_change(simulation, had);
+    book_external_work(simulation, had);
     return STATUS_OK;
 }

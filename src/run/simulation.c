@@ -78,7 +78,7 @@ int simulation_point(const Simulation *simulation, double at[2])
 }
 
 /* Ends a step that was made, or that failed. */
-static Status end_step(Simulation *simulation, Status status)
+static Status finish_step(Simulation *simulation, Status status)
 {
     Prediction *guess = &simulation->prediction;
     simulation->status = status;
@@ -147,7 +147,7 @@ Status simulation_advance(Simulation *simulation)
         book_gain(simulation);
         simulation->stepping++;
     }
-    return end_step(simulation, simulation->worst);
+    return finish_step(simulation, simulation->worst);
 }
 
 Status simulation_begin(Simulation *simulation)
@@ -156,7 +156,7 @@ Status simulation_begin(Simulation *simulation)
     if (simulation->done)
         return STATUS_OK;
     if (scene->step)
-        return end_step(simulation, scene->step(simulation));
+        return finish_step(simulation, scene->step(simulation));
     simulation->stepping = 0;
     simulation->worst = STATUS_OK;
     for (int r = 0; r < simulation->runs; r++)

@@ -158,7 +158,7 @@ static double energy_later(const Simulation *simulation, TimeIntegrator *run)
     return energy_of(run) / energy_of(&simulation->run[0]);
 }
 
-static bool has_failed(Status status)
+static bool step_has_failed(Status status)
 {
     return status && !status_is_unconverged(status);
 }
@@ -177,11 +177,11 @@ static Status measure_run(Simulation *simulation,
     Status status = STATUS_OK;
     options.timestep = h;
     *seconds = INFINITY;
-    for (int i = 0; (i < 2 || clock_processor() < end) && !has_failed(status);
-         i++) {
+    for (int i = 0;
+         (i < 2 || clock_processor() < end) && !step_has_failed(status); i++) {
         double start = clock_processor(), taken = 0;
         int runs = 0;
-        while (!has_failed(status) && taken < enough) {
+        while (!step_has_failed(status) && taken < enough) {
             time_integrator_free(run);
             status = trial_run(&options, method, &simulation->system,
                                &simulation->run[0], steps, run);
@@ -205,7 +205,7 @@ Status race_measure(Simulation *simulation, const IntegratorMethod *method,
     Status status =
         measure_run(simulation, method, point->h, steps, run, &point->seconds);
     point->converged = status == STATUS_OK;
-    if (has_failed(status))
+    if (step_has_failed(status))
         return status;
     point->error = 0;
     for (size_t i = 0; i < run->size; i += 2)

@@ -71,7 +71,7 @@ static double largest_diagonal(const Newton *newton)
 /* Factors A; with a shift if it must: only a projected A is known to be
  * semi-definite but for rounding, so only that is shifted.  Returns OK,
  * NOT_POSITIVE_DEFINITE, NOT_FINITE, OUT_OF_MEMORY. */
-static Status factor(Newton *newton)
+static Status factor_hessian(Newton *newton)
 {
     SearchDirection *search = &newton->search;
     search->shift = 0;
@@ -102,7 +102,7 @@ static Status newton_factor(Newton *newton)
     }
     Status status = assemble(newton, projection, &record->projected);
     if (!status)
-        status = factor(newton);
+        status = factor_hessian(newton);
     record->factorised = true;
     record->shift = newton->search.shift;
     newton->search.moved = 0;

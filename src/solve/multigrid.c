@@ -115,7 +115,7 @@ bool multigrid_takes(Newton *newton)
 /* g at x, and the bound of |p_x| + |p_y| that it gives.  Returns OK,
  * NOT_FINITE.
  */
-static Status evaluate_gradient(Multigrid *mg)
+static Status evaluate_grid_gradient(Multigrid *mg)
 {
     mg->square = grid_gradient(&mg->grid, mg->g);
     mg->last_bound = mg->bound;
@@ -147,7 +147,7 @@ static Status read_problem(Newton *newton)
     mg->version = system->version;
     grid_read_state(&mg->grid, at, u_tilde);
     mg->bound = mg->moved = INFINITY;
-    return evaluate_gradient(mg);
+    return evaluate_grid_gradient(mg);
 }
 
 /* ---- search direction ---- */
@@ -241,7 +241,7 @@ static Status grid_update(Newton *newton)
         mg->moved = INFINITY;
     }
     newton->counters.local = mg->tiles.sweeps;
-    return evaluate_gradient(mg);
+    return evaluate_grid_gradient(mg);
 }
 
 /* The test; where multigrid has come to an end without passing it, such as

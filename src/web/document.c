@@ -91,7 +91,7 @@ static void put_text(Writer *to, const LiveValues *values, const char *words,
  */
 
 /* Before a guess nothing that would tell the answer. */
-static void put_page(Writer *to, const Show *show)
+static void write_page(Writer *to, const Show *show)
 {
     const LecturePage *page = show->lecture;
     const LiveValues *values = &show_pane(show)->values;
@@ -121,8 +121,8 @@ static void put_page(Writer *to, const Show *show)
  */
 
 /* The lines of an algorithm as card_listing.c draws them. */
-static void put_rows(Writer *to, const Show *show, int card,
-                     const ListingRow *row)
+static void write_rows(Writer *to, const Show *show, int card,
+                       const ListingRow *row)
 {
     const LiveValues *values = &show_pane(show)->values;
     const Trace *trace = show_pane(show)->update;
@@ -188,7 +188,7 @@ static void put_cards(Writer *to, const Show *show)
         if (veiled)
             put_text(to, values, words, "after your guess");
         else if (card->rows)
-            put_rows(to, show, i, card->rows);
+            write_rows(to, show, i, card->rows);
         else
             put_text(to, values, words, card->words);
     }
@@ -338,7 +338,7 @@ void document_write(const Player *player, char *text)
     put(to, "told\t%d\t%s\n", show->warning, show->message);
     put(to, "step\t%ld\t%ld\t%d\n", show->step, show->bars, show->paused);
     if (page)
-        put_page(to, show);
+        write_page(to, show);
     if (show->verdict && !show->veiled)
         put(to, "verdict\t%s\t%d\t%d\n", show->verdict, show->right,
             show->guesses);
