@@ -7,7 +7,7 @@
  *   player_work: past_iterate, until that step is shown  (steps.c)
  *
  * From a key to Newton's method: player_input, player_obey, player_work,
- * past_iterate, simulation_advance, time_integrator_advance, newton_iterate.
+ * past_iterate, simulation_advance, time_integrator_advance, newton_minimise.
  */
 #ifndef ELASTO_PLAYER_H
 #define ELASTO_PLAYER_H

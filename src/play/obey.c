@@ -175,46 +175,60 @@ static Status abandon_step(Player *player)
     return status;
 }
 
-/* Obeys one command; the commands that it consists of go into the queue. */
-static Status obey_one(Player *player, const Command *asked)
+/* Begins a gesture, and clears the messages of the last command. */
+static void begin_command(Player *player, const Command *command)
 {
-    Past *past = &player->past;
-    Command command = command_meant(player, asked);
-    long step = past->step, newest = past_newest(past);
-    int now = past->now;
-    const CommandRow *row = &command_rows[command.kind];
-    unsigned flags = row->flags;
-    begin_gesture(player, &command);
+    unsigned flags = command_rows[command->kind].flags;
+    begin_gesture(player, command);
     player->screen.changed = true;
     player->message[0] = '\0';
-    if (player->orders.leaving != command.kind)
+    if (player->orders.leaving != command->kind)
         player->orders.leaving = COMMAND_NONE;
     if (!(flags & QUIET || (flags & LATEST && player->hands.mouse.drag)))
         player->note[0] = '\0';
-    if (past_works(past) && command.kind == COMMAND_NEXT)
-        return STATUS_OK; /* the next step is being made */
-    if (past_makes(past) && flags & LATEST &&
-        (player->hands.mouse.drag || command.kind == COMMAND_DRAG)) {
-        player_enqueue(player, &command); /* the step goes on */
-        return STATUS_OK;
-    }
+}
+
+/* Whether a command waits for the step that is being made: "next" leads to this
+ * step, and a drag goes into the queue. */
+static bool waits_for_step(Player *player, const Command *command)
+{
+    bool drags = player->hands.mouse.drag || command->kind == COMMAND_DRAG;
+    if (past_works(&player->past) && command->kind == COMMAND_NEXT)
+        return true;
+    if (!past_makes(&player->past) || !drags ||
+        !(command_rows[command->kind].flags & LATEST))
+        return false;
+    player_enqueue(player, command);
+    return true;
+}
+
+Status player_obey(Player *player, const Command *asked)
+{
+    Past *past = &player->past;
+    Script *journal = &player->orders.journal;
+    Command command = command_meant(player, asked);
+    const unsigned flags = command_rows[command.kind].flags;
+    long step = past->step, newest = past_newest(past);
+    int now = past->now;
+    bool stops = false;
     Status status = STATUS_OK;
-    if (reveals_answer(player, &command, &status))
-        return status; /* the second press makes the step */
+    begin_command(player, &command);
+    if (waits_for_step(player, &command))
+        return STATUS_OK;
+    if (reveals_answer(player, &command, &status)) /* "next" again: a step */
+        return status ? status : obey_queue(player, false);
     if (past_works(past) && !(flags & SCREEN)) {
+        stops = command.kind == COMMAND_ESCAPE;
         status = abandon_step(player);
-        if (command.kind == COMMAND_ESCAPE) {
-            player_note(player, "step abandoned: the last whole one is shown");
-            return player_work(player);
-        }
     }
     status = status ? status : check_number(player, &command);
-    size_t at = player->orders.journal.count;
+    size_t at = journal->count;
     bool noted = !status && flags & KEPT; /* before its own commands */
-    if (noted && script_add(&player->orders.journal, step, &command,
-                            player->orders.gesture))
+    if (noted && script_add(journal, step, &command, player->orders.gesture))
         return STATUS_OUT_OF_MEMORY;
-    if (!status)
+    if (!status && stops)
+        player_note(player, "step abandoned: the last whole one is shown");
+    else if (!status)
         status = deeds[command.kind](player, &command);
     bool worked = past_works(past);
     player_complete_line(player); /* a card or another pane may show it now */
@@ -227,15 +241,9 @@ static Status obey_one(Player *player, const Command *asked)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);
-    if (noted && player->orders.journal.count == at + 1 &&
-        status == STATUS_INVALID_INPUT)
-        player->orders.journal.count = at;
-    return player_tolerate_failure(player, status);
-}
-
-Status player_obey(Player *player, const Command *command)
-{
-    Status status = obey_one(player, command);
+    if (noted && journal->count == at + 1 && status == STATUS_INVALID_INPUT)
+        journal->count = at;
+    status = player_tolerate_failure(player, status);
     return status ? status : obey_queue(player, false);
 }
 
