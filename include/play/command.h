@@ -26,7 +26,7 @@ typedef enum CommandKind {
 
 typedef struct Command {
     CommandKind kind;
-    long number; /* of a node, a card, ...; the row of an option */
+    long number; /* index of a node, a card, ...; the row of an option */
     double x, y;
     char text[COMMAND_TEXT_SIZE]; /* a name; the value of an option unless x has
                                      it; else "" */

@@ -51,13 +51,13 @@ typedef struct State {
 
 /* The summary of a step, which is kept without its iterations. */
 typedef struct Outcome {
-    int updates;   /* of Newton's method, in all substeps */
+    int updates;   /* number of Newton's updates in all substeps */
     Status status; /* the worst of the substeps */
     double change; /* change of E, J s^2 */
     double extent; /* m, largest coordinate of run 0 */
 } Outcome;
 
-/* A step of a pane: the state after it, and the control of the next step. */
+/* A step of a pane has the state after it and the control of the next step. */
 typedef struct Entry {
     const Control *control; /* NULL: the step is not made yet */
     State *state;           /* before that control; NULL: not kept */
@@ -68,7 +68,7 @@ typedef struct Entry {
 } Entry;
 
 typedef struct Branch {
-    bool fresh;  /* it starts from options; else from the branch below */
+    bool fresh;  /* starts from options, not from the branch below */
     long first;  /* step of its entry 0 */
     long count;  /* entries, at least 1 */
     long room;   /* entries that memory is reserved for; the one behind the last
@@ -90,12 +90,12 @@ typedef struct Machine {
     Simulation simulation;
     const Control *start;   /* at step 0 of its run, or NULL */
     const Control *control; /* in use */
-    bool stands;            /* it has the state of `step` */
+    bool stands;            /* the simulation has the state of `step` */
     long step;
     bool iterating;  /* a step of the simulation has begun */
     int substeps;    /* steps of the simulation since `step` */
     long before;     /* steps of the simulation before the present substep */
-    Outcome outcome; /* of the present step, or of the last one */
+    Outcome outcome; /* outcome of the present step, or of the last one */
     bool failed;     /* the step after `step` could not be made */
     StepTrace trace;
     bool known;      /* trace and records are those of `step`, or of the step
@@ -122,8 +122,8 @@ typedef struct Past {
     bool goes_on; /* when one of several panes fails the others go on */
     long same;    /* last step whose rows in tables are valid; the player writes
                      later ones again and sets LONG_MAX */
-    long booked; /* the same of the rows of energies, which an edit after a step
-                    changes, too */
+    long booked;  /* last step whose row of energies is valid; an edit after a
+                     step  changes its row, too */
     size_t bytes, limit; /* memory of states; most of it */
     int line; /* pane in which E along p is drawn and is kept; -1: none */
     /* The work to show another step, a Newton iteration at a time. */

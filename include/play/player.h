@@ -23,9 +23,9 @@
 
 /* ---- what was asked for -------------------------------------------------- */
 
-/* What the command line asks for. */
+/* The command line, and how it is played. */
 typedef struct Given {
-    Options options[OPTIONS_MAX_PANES]; /* of each pane */
+    Options options[OPTIONS_MAX_PANES]; /* options of each pane */
     char *const *words; /* [...] the command line, NULL at its end; or NULL */
     Script script;
     const volatile sig_atomic_t *stop; /* not 0 after a signal: the run ends */
@@ -48,19 +48,19 @@ typedef enum Mode {
     MODE_RUN,
     MODE_PAUSE,
     MODE_END, /* the scene is over, or a step did not converge */
-    MODE_REST /* all bodies are at rest, the forces in balance */
+    MODE_REST /* the bodies are at rest, the forces in balance */
 } Mode;
 
-/* What is done when the step that was asked for is shown. */
+/* Action when the chosen step is shown. */
 typedef enum AfterWork {
     AFTER_NOTHING,
-    AFTER_ENTER,  /* its first line of Algorithm 3 is shown */
-    AFTER_LEAVE,  /* its last line is shown */
-    AFTER_PEAK,   /* an explosion in it is shown, if there was one */
-    AFTER_COMPARE /* the outcomes before and after an edit are compared */
+    AFTER_ENTER,  /* show the first line of Algorithm 3 in it */
+    AFTER_LEAVE,  /* show the last line */
+    AFTER_PEAK,   /* show an explosion in it, if there was one */
+    AFTER_COMPARE /* compare the outcomes before and after an edit */
 } AfterWork;
 
-/* What is shown of the present step in one pane. */
+/* The view of the present step in a pane. */
 typedef struct Side {
     int place;             /* in the step's trace; -1: the whole step */
     double *ghost;         /* [2n] m, positions before an edit, or NULL */
@@ -103,7 +103,7 @@ typedef struct Orders {
     int gesture;         /* id of the present gesture: undone as a whole */
     int gestures;        /* id of the newest gesture */
     int held;            /* id of the last grab or push, for its drags */
-    Script journal;      /* all commands so far, undo and redo included */
+    Script journal;      /* the commands so far, with undo and redo */
     CommandKind leaving; /* COMMAND_ESCAPE or COMMAND_QUIT, if a second one ends
                             the program */
     bool refused;        /* a line of the script was refused */
@@ -129,7 +129,7 @@ typedef struct Frame {
     Show show;
     History history[LAYOUT_PANES];
     Trace trace[LAYOUT_PANES];
-    char label[LAYOUT_PANES][LABEL_SIZE]; /* what differs between the panes */
+    char label[LAYOUT_PANES][LABEL_SIZE]; /* difference between the panes */
     char chip_key[LAYOUT_CHIPS][SHOW_VALUE];
     char chip_label[LAYOUT_CHIPS][SHOW_VALUE];
     CommandKind chip[LAYOUT_CHIPS]; /* command of each chip */
@@ -162,9 +162,9 @@ typedef struct Mouse {
     double x, y;      /* pixels */
     bool placed;      /* the position is known */
     CommandKind drag; /* command of its movement while a button is down */
-    int index;       /* of the dragged node, point or number; -1: the stretch */
+    int index; /* index of the dragged node, point, number; -1: the stretch */
     double from[2];  /* pixels, start of the drag, or its last position */
-    bool moved;      /* it has moved farther than a click may */
+    bool moved;      /* the mouse has moved farther than a click may */
     double grip[2];  /* m, from the mouse to the dragged point */
     bool pins;       /* the dragged node is pinned again when it is let go */
     bool turns;      /* the last input was the wheel's */

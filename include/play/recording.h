@@ -68,13 +68,13 @@ typedef enum RecordingTable {
 enum { FRAMES_MOST = 1000000 }; /* numbers of six digits */
 
 typedef struct Recording {
-    const char *folder;            /* folder of the frames, or NULL */
-    long frames;                   /* number of frames written */
-    unsigned char *older;          /* [FRAMES_MOST] 1: the frame of this step is
-                                      that of an earlier run; or NULL */
-    long stayed[3];                /* at the end: number of those that are left,
-                                      the first, the last */
-    Film film;                     /* of the frames */
+    const char *folder;   /* folder of the frames, or NULL */
+    long frames;          /* number of frames written */
+    unsigned char *older; /* [FRAMES_MOST] 1: the frame of this step is
+                             that of an earlier run; or NULL */
+    long stayed[3];       /* at the end: number of those that are left,
+                             the first, the last */
+    Film film;
     int panes;                     /* number of panes at the start */
     Table table[RECORDING_TABLES]; /* the open ones are written */
     bool tables;                   /* a table is open */

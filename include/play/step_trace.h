@@ -33,7 +33,7 @@ typedef struct Round {
     bool rough;        /* E along p is more than its polynomial part */
     bool sampled;      /* `value` is filled */
     double alpha;      /* step length that was taken */
-    double change;     /* of E at alpha, J s^2 */
+    double change;     /* change of E at alpha, J s^2 */
     double *value;     /* [ROUND_VALUES] J s^2, E along p; behind u in memory */
 } Round;
 
@@ -41,7 +41,7 @@ typedef struct Round {
 typedef struct TracePlace {
     int round;
     Line line;
-    int trials; /* of the line search so far */
+    int trials; /* trials of the line search so far */
 } TracePlace;
 
 typedef struct StepTrace {
@@ -77,7 +77,7 @@ void step_trace_add(StepTrace *kept, const Newton *newton,
 /* Ends a step: lists its places. */
 void step_trace_end(StepTrace *kept, const Options *options);
 
-/* Empties the trace; its lists keep their memory. */
+/* Empties the trace, but keeps the memory of lists. */
 void step_trace_clear(StepTrace *kept);
 void step_trace_free(StepTrace *kept);
 
@@ -95,7 +95,7 @@ int step_trace_find(const StepTrace *kept, int round, Line line);
  * has changed it by in the end, an explosion; else -1. */
 int step_trace_peak(const StepTrace *kept);
 
-/* Fills what a picture shows at a place, or after the step for place -1; its
+/* Fills what a picture shows at a place, or after the step for place -1.  The
  * pointers lead into the rounds.  Returns the positions to draw, [size] m, or
  * NULL: those of the state after the step. */
 const double *step_trace_at(const StepTrace *kept, int place, Trace *trace);

@@ -1,4 +1,5 @@
-/* view.h - the window, by window_sdl.c on a computer, window_web.c in a page.
+/* view.h - the window: window_sdl.c makes it on a computer, window_web.c in a
+ * page.
  */
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H

@@ -273,7 +273,7 @@ Status script_write(const char *name, const char *line, const Script *script)
         return status;
     errno = 0;
     fprintf(output.file, "# %s\n", line);
-    int gesture = 0; /* of the previous line */
+    int gesture = 0; /* gesture of the previous line */
     for (size_t i = 0; i < script->count; i++) {
         char line[512];
         const ScriptLine *at = &script->line[i];

@@ -307,7 +307,7 @@ static void fill_frame(const Player *player, Frame *frame)
                                           : 0;
     show->document = player->screen.window && window_has_document();
     show->panes = past_panes(past);
-    if (show->panes > LAYOUT_PANES) /* of a script */
+    if (show->panes > LAYOUT_PANES) /* a script may draw more */
         show->panes = LAYOUT_PANES;
     show->active = active < show->panes ? active : 0;
     for (int i = 0; i < show->panes; i++)

@@ -18,9 +18,9 @@ enum {
 
 static const double WHEEL_ZOOM = 1.15; /* factor of a notch */
 
-/* The place of the mouse. */
+/* What the mouse points at. */
 typedef struct Under {
-    Layout layout; /* of the last frame */
+    Layout layout; /* layout of the last frame */
     Hit hit;       /* part of the window */
     int pane;
     double at[2]; /* m, in the world of that pane */
@@ -40,7 +40,7 @@ static Under find_under_mouse(Player *player)
     int pane = held->on                       ? held->pane
                : under.hit.zone == ZONE_STAGE ? under.hit.index
                                               : under.pane;
-    if (pane < past_panes(&player->past)) /* it may be closed */
+    if (pane < past_panes(&player->past)) /* the pane may be closed */
         under.pane = pane;
     held->away = false;
     Camera camera = show_camera(show, &under.layout, under.pane);
@@ -526,7 +526,7 @@ Status player_input(Player *player, const Input *input)
     Status status = STATUS_OK;
     player->orders.gesture = mouse->gesture;
     if (press && mouse->drag != COMMAND_NONE)
-        status = release(player); /* of another button */
+        status = release(player); /* another button was down */
     if (!status)
         status = player_obey_waiting(player, press && player->hands.holds);
     if (status)

@@ -28,8 +28,8 @@ long past_newest(const Past *past)
     return present(past)->first + present(past)->count - 1;
 }
 
-/* Returns the entry of a step as a branch sees it: its own entry or that of a
- * branch below; behind the last one the entry that is being made. */
+/* Returns the entry of a step as a branch sees it, from the branch or one
+ * below; behind the last one the entry that is being made. */
 static Entry *branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first && !branch->fresh; branch--)
@@ -219,8 +219,8 @@ void past_history(const Past *past, int pane, History *history)
     }
 }
 
-/* Saves the machine's state in an entry; other states are dropped for it where
- * memory ends. */
+/* Saves the machine's state in an entry; drops other states where memory ends.
+ */
 static Status keep_state(Past *past, int pane, Entry *entry)
 {
     const Simulation *simulation = &past->machine[pane].simulation;
@@ -258,8 +258,8 @@ static void leave_all_steps(Past *past)
 }
 
 /* Puts a branch on top of the present one, in the place of those that were
- * undone.  Its given entries are copied from the branch below without their
- * states.  Returns NULL if memory is missing. */
+ * undone.  Given entries are copied from the branch below without states.
+ * Returns NULL if memory is missing. */
 static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->now + 1);
@@ -309,8 +309,8 @@ static double step_length(const Machine *machine)
                                                  : 1;
 }
 
-/* The Newton object whose iterations are traced: that of the first run that has
- * one, while this run is stepped; else NULL. */
+/* Returns the Newton object that is traced: the one of the first run that has
+ * any, while this run is stepped; else NULL. */
 static const Newton *traced_newton(const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
@@ -662,8 +662,8 @@ Status past_iterate(Past *past)
     }
     if (past->work == WORK_LOADS)
         past->work = WORK_REPEATS;
-    /* One pane after the other repeats known steps, then makes its part of a
-     * new step. */
+    /* Each pane in turn repeats known steps, then makes a part of the new one.
+     */
     long newest = past_newest(past);
     long goal = past_makes(past) || past->aim < newest ? past->aim : newest;
     for (pane = 0; pane < panes; pane++)
@@ -916,7 +916,7 @@ const Command *past_undo(Past *past, int way)
     int last = way < 0 ? 0 : past->branches - 1;
     if (to < 0 || to >= past->branches)
         return NULL;
-    while (to != last && past->branch[to].gesture && /* one gesture */
+    while (to != last && past->branch[to].gesture &&
            past->branch[to].gesture == past->branch[to + 1].gesture)
         to += way;
     int low = way < 0 ? to : from, high = way < 0 ? from : to;

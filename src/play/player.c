@@ -127,14 +127,13 @@ Status player_frame(Player *player)
     }
     if (!status && !past_works(&player->past))
         status = obey_script(player);
-    double now =
-        player->screen.window ? clock_now() : 0; /* else nobody waits */
+    double now = player->screen.window ? clock_now() : 0;
     if (player->screen.sampled < 0) /* a new run: step 0 is a frame too */
         player->time.due = now + period;
     bool due = !player->screen.window || now >= player->time.due - EARLY;
     bool first = player->screen.sampled < 0 && player->screen.draws;
     bool works = past_works(&player->past);
-    bool begins = works && player->time.began > start; /* its first frame */
+    bool begins = works && player->time.began > start; /* draws it at once */
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);

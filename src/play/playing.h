@@ -8,7 +8,7 @@
 #include "lesson/command_line.h"
 #include "run/one_line.h"
 
-/* All functions of commands have the same arguments, used or not. */
+/* Functions of commands have the same arguments, used or not. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 /* Time of a frame for steps, s; then inputs are read. */
@@ -35,7 +35,7 @@ Status player_default_options(Player *player, const char *scene,
 /* Whether the panes have different values of this option. */
 bool player_panes_differ(const Player *player, const OptionRow *row);
 
-/* Whether no step is made without a command. */
+/* Whether the run makes steps only after a command. */
 bool player_is_stopped(const Player *player);
 
 /* Whether a single factorisation takes longer than a slice. */
@@ -111,7 +111,7 @@ Status player_work(Player *player);
 Status player_seek(Player *player, long step, AfterWork after);
 
 /* Edits panes from ... to - 1 and makes the present step once more with the
- * edit; its old outcome stays as a ghost in the active pane. */
+ * edit; the old outcome stays as a ghost in the active pane. */
 Status player_repeat_step(Player *player, const Command *change, int from,
                           int to);
 

@@ -14,7 +14,7 @@
 
 /* ---- kinds of tables ----------------------------------------------------- */
 
-/* A run at a step, the subject of a row. */
+/* A run at a step: rows of tables are about it. */
 typedef struct Moment {
     const Simulation *simulation;
     const TimeIntegrator *run;

@@ -13,7 +13,7 @@
 
 enum {
     SLOW_NODES = 50000, /* a factor of so many takes longer than a SLICE */
-    WATCHED_SPEED = -5  /* of scenes without time, whose steps are updates */
+    WATCHED_SPEED = -5  /* scenes without time, whose steps are updates */
 };
 
 /* ---- the runs ------------------------------------------------------------ */

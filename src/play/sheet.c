@@ -45,7 +45,7 @@ Status obey_sheet(Player *player, const Command *command)
     player->screen.sheet = calloc(1, sizeof *player->screen.sheet);
     if (!player->screen.sheet)
         return STATUS_OUT_OF_MEMORY;
-    int cells = 1; /* of the tour */
+    int cells = 1; /* the tour */
     while (cells < LAYOUT_CELLS && scenes[cells - 1].name &&
            !scenes[cells - 1].by_name)
         cells++;

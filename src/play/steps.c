@@ -621,7 +621,7 @@ Status obey_undo(Player *player, const Command *command)
     const Command edit = *made;
     player->time.mode = MODE_PAUSE;
     forget_hand(player);
-    player->hands.mouse.gesture = ++player->orders.gestures; /* of a drag */
+    player->hands.mouse.gesture = ++player->orders.gestures;
     follow_past(player);
     player_forget_step(player);
     describe_edit(player, &edit, line, sizeof line);
