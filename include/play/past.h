@@ -13,7 +13,7 @@
  * one up; an edit drops those above.
  *
  * An entry's state is what its step left behind; then comes its control, which
- * the next step is made with (simulation_use).  A branch begins with another
+ * the next step is made with (control_apply).  A branch begins with another
  * control, and the state is that of the branch below: where several branches
  * begin at one step only the last one's control counts.  A dragged point makes
  * another state, which its branch keeps.

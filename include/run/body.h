@@ -42,7 +42,7 @@ Status body_check(const Options *options, Refusal told);
 
 /* Reads positions and velocities of a run from a table that --states wrote, or
  * which of its springs are broken and have flowed from one of --springs.
- * Columns are found by their names; other columns are ignored.
+ * Columns are found by their names, so that a table may have more.
  *   step     step in the table; below 0: the last one
  *   nodes    nodes of each run; the rows of run r follow those of run r - 1
  *   runs     runs of the scene

@@ -9,8 +9,8 @@
 
 #include "run/simulation.h"
 
-/* All that a user decides about a run.  Steps share a control, so it is not
- * changed after it was made. */
+/* Decisions of a user about a run.  Steps share a control, which is therefore
+ * not changed after it was made. */
 typedef struct Control {
     int users; /* reference count; the last user frees the control */
     Options options;
@@ -48,7 +48,7 @@ void control_drop(const Control *control);
  * must be the same.  The change of the energy is booked as work.
  * Returns as simulation_create; after a failure only simulation_free may
  * follow. */
-Status simulation_use(Simulation *simulation, const Control *control);
+Status control_apply(Simulation *simulation, const Control *control);
 
 /* ---- the state ----------------------------------------------------------- */
 

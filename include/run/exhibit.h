@@ -15,7 +15,7 @@ typedef struct Prediction {
     bool made;       /* the fields below are valid */
     long step;       /* number of steps when the guess was made */
     double at[2];    /* guess, m */
-    double came[2];  /* where the step leads, m */
+    double came[2];  /* end of the step, m */
     double distance; /* between the two, m; along x in one variable */
 } Prediction;
 
@@ -81,7 +81,7 @@ typedef struct RacePoint {
     double error;   /* m, largest distance of a node from the reference; NaN:
                        the run failed */
     double seconds; /* s, processor time */
-    bool converged; /* all steps converged */
+    bool converged; /* every step converged */
     double later;   /* energy after a second, over that of the start; only of
                        the runs of RACE_SHOWN */
     bool stable;    /* the energy stays bounded when the run goes on */
@@ -123,7 +123,7 @@ typedef struct Exhibit {
 } Exhibit;
 
 /* Lists the points that can be dragged, m, or the switches.
- * Both return how many. */
+ * Each returns how many. */
 int exhibit_handles(const struct Simulation *simulation,
                     double at[SCENE_MAX_HANDLES][2]);
 int exhibit_switches(const struct Simulation *simulation,
@@ -139,9 +139,11 @@ bool exhibit_has_kinds(const struct Simulation *simulation);
 int exhibit_kind(const struct Simulation *simulation, int spring);
 
 /* Moves a point to (x, y), m, and begins the scene again from there; without
- * effect if x or y is not finite.  Or turns a switch over. */
+ * effect if x or y is not finite. */
 void exhibit_drag(struct Simulation *simulation, int handle, double x,
                   double y);
+
+/* Turns a switch over. */
 void exhibit_flip(struct Simulation *simulation, int number);
 
 #endif

@@ -19,7 +19,7 @@
 struct Scene;
 struct LecturePage;
 
-/* What a picture shows besides its scene, as bits. */
+/* Layers of a picture that can be added to its scene, as bits. */
 typedef enum Layer {
     LAYER_NUMBERS = 1 << 0,    /* number of each node */
     LAYER_FORCES = 1 << 1,     /* force on each node, as an arrow */
@@ -28,7 +28,7 @@ typedef enum Layer {
                                   switches */
     LAYER_CUTS = 1 << 4,       /* a solid without springs before the guess */
     LAYER_DOWNHILL = 1 << 5,   /* -grad E, and the half plane on its side */
-    LAYER_CURVES = 1 << 6,     /* where each component of the gradient is 0 */
+    LAYER_CURVES = 1 << 6,     /* curves on which a component of grad E is 0 */
     LAYER_FIRST_STEP = 1 << 7, /* the first step alone, as large as it fits */
 } Layer;
 
@@ -96,7 +96,7 @@ typedef struct Options {
     const struct Scene *scene;
     const struct LecturePage *page; /* page of the tour, or NULL */
     unsigned layers;                /* bits of Layer */
-    NextDeed next;                  /* what N does */
+    NextDeed next;                  /* effect of the key N */
     int pause;                      /* step at which playing pauses; 0: none */
     const char *law;                /* law that the card "law" draws, or NULL */
     const char *star;               /* name of the enlarged card, or NULL */
@@ -208,9 +208,9 @@ const OptionRow *option_find(const char *name);
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 
-/* Writes the value of an option shortly, for the window; of an option that is
- * repeated the last value; "none" if the option was not given.
- *   text  [size] out */
+/* Writes the value of an option in short, for the window, or "none" if the
+ * option is not given.  A repeated option has its last value written. text
+ * [size] out */
 void option_value(const OptionRow *row, const Options *options, char *text,
                   size_t size);
 
@@ -225,7 +225,8 @@ void option_unit(const OptionRow *row, char *text, size_t size);
 /* The options that the row of numbers shows for these options, in order.
  *   found  [OPTIONS_MOST] out
  * Returns how many. */
-int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST]);
+int options_list_fields(const Options *options,
+                        const OptionRow *found[OPTIONS_MOST]);
 
 /* The value of an option after `paces` steps of the wheel up, or down if paces
  * is negative.  A step adds the row's pace; without one, six steps are a factor

@@ -1,9 +1,8 @@
 /* scene.h - what a scene is: a row of the table in scenes.h.
  *
- * A row names what the scene needs; what it does not name is not computed and
- * not drawn.  A new scene is a row in scene.c and a function that fills the
- * system and the start, such as create_square; keys, files, options and --list
- * read the row.
+ * A row names what the scene needs; the rest is neither computed nor drawn.  A
+ * new scene is a row in scene.c and a function that fills the system and the
+ * start, such as create_square; keys, files, options and --list read the row.
  */
 #ifndef ELASTO_SCENE_H
 #define ELASTO_SCENE_H
@@ -28,7 +27,7 @@ typedef enum PictureKind {
     PICTURE_COUNT
 } PictureKind;
 
-/* What a scene has; options about anything else are refused. */
+/* Parts that a scene may have; options about missing parts are refused. */
 enum SceneNeeds {
     NEEDS_MESH = 1,        /* a square: segments, side, density, stiffness */
     NEEDS_TIME = 2,        /* motion in time, by an integrator */
@@ -83,8 +82,9 @@ typedef struct Scene {
     const char *turn;  /* name of what a step does; NULL: a step in time */
     bool explains;     /* the window waits at step 0, to be stepped through */
     const char *group; /* heading of the group that begins with this scene */
-    bool by_name;    /* opens by name or by a page; no key, not in the sheet */
-    const char *pin; /* value of --pin */
+    bool by_name;      /* opens by name or by a page, neither by a key nor in
+   the sheet */
+    const char *pin;   /* value of --pin */
     SceneBody body;
     /* Makes one step; NULL: a step in time of each run. */
     Status (*step)(struct Simulation *simulation);

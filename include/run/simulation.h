@@ -23,7 +23,7 @@ typedef struct Gain {
     double energy; /* J, sum over these steps */
 } Gain;
 
-/* What a run has booked since it began. */
+/* Energies that a run has booked since its start. */
 typedef struct Ledger {
     double start; /* J, total energy at the start */
     double work;  /* J, done by the mouse and by changed options */
@@ -61,7 +61,7 @@ struct Simulation {
     int reasons[STATUS_COUNT]; /* unconverged steps by their status */
     Status status;             /* status of the last step */
     bool done;                 /* the scene has ended: step does nothing */
-    NewtonCounters old_counters; /* of integrators that were replaced */
+    NewtonCounters old_counters; /* counters of replaced integrators */
 };
 
 /* A quantity of energy by its name: "elastic", "friction". */
@@ -70,9 +70,9 @@ typedef struct Energy {
     double value;     /* J */
 } Energy;
 
-/* The energies of a run, J.  What the run holds now is
+/* The energies of a run, J.  A run holds
  *   total = kinetic + gravity + what the terms store (TermKind.energy)
- * and the balance since the start is
+ * and its balance since the start is
  *   total at the start + work
  *     = total + what the terms have taken out (TermKind.loss) + dissipated.
  * Each term books its own energy; several terms may share a name.
@@ -91,7 +91,7 @@ typedef struct Energies {
     double work;       /* done by walls, pins and hand */
     double dissipated; /* by the integrator; negative: it has made energy */
     int rows;
-    Energy row[ENERGY_ROWS]; /* all energies in the order of legends */
+    Energy row[ENERGY_ROWS]; /* list of the energies, in the order of legends */
 } Energies;
 
 /* Creates the simulation of options->scene; free it in any case.
@@ -110,9 +110,9 @@ Status simulation_start(Simulation *simulation, int run,
                         const IntegratorMethod *method, System *system,
                         const double *x, const double *v);
 
-/* Makes one step: a time step of every run, or one Newton iteration; none if
- * simulation->done.  The result depends only on the state (control.h) and the
- * settings, to the last bit: solvers keep nothing from step to step.
+/* Makes one step: a time step of every run, or one Newton iteration; a scene
+ * that is done makes none.  The result depends only on the state (control.h)
+ * and the settings, to the last bit: solvers keep nothing from step to step.
  * Returns OK; an unconverged status, with which the step was made; or a
  * failure, and the run that failed did not move. */
 Status simulation_step(Simulation *simulation);
@@ -154,8 +154,8 @@ Status simulation_has_room(const Simulation *simulation, const Options *options,
  * towards `to` [2] m: 1 if there is room at the end, else the part before the
  * obstacle touches a body.
  *   number  of the obstacle: grounds first, then balls */
-double simulation_way(const Simulation *simulation, const Options *options,
-                      int number, const double to[2]);
+double simulation_free_way(const Simulation *simulation, const Options *options,
+                           int number, const double to[2]);
 
 /* Puts a node at rest at (x, y), m; the change of the energy is booked as work.
  *   really  false: only checks whether the node can be there
@@ -186,7 +186,7 @@ int simulation_point(const Simulation *simulation, double at[2]);
  * oscillates, or with more than SIMULATION_MODE_NODES nodes.
  *   x     [2n] m, in
  *   mode  [2n] out, of length 1 */
-double simulation_fastest(const Simulation *simulation, const double *x,
-                          double *mode);
+double simulation_fastest_mode(const Simulation *simulation, const double *x,
+                               double *mode);
 
 #endif

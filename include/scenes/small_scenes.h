@@ -1,5 +1,5 @@
-/* small_scenes.h - the lecture's small scenes: one mass, one unknown, one
- * spring, the square a hundred times.
+/* small_scenes.h - the lecture's small scenes, with one mass, one
+ * unknown, one spring, or many runs of the square.
  *
  * circle, arrows: a mass of 1 kg with a = -omega2 x.
  * overshoot: f(x) = ln(e^x + e^-x), whose minimum is at 0.
@@ -108,7 +108,7 @@ double descent_direction(const Simulation *simulation, Projection projection,
 /* How many eigenvalues of the Hessian, not projected, are not positive: 0 as at
  * a minimum, where Newton's direction is downhill without projection, 1 as at a
  * saddle, 2 as at a maximum.  In one unknown 0 or 2. */
-int descent_bends_down(const Simulation *simulation, double x, double y);
+int descent_hessian_index(const Simulation *simulation, double x, double y);
 
 /* Value of some parts of E, J s^2.
  *   parts  enum LandscapePart */
@@ -124,7 +124,7 @@ void dial_restart(Simulation *simulation);
 /* ---- run time against error ---------------------------------------------- */
 
 /* Computes the motion of run 0 up to rounding; run 1 is then at its end.
- * Springs must be the only term. Returns OK, NOT_FINITE if the motion is too
+ * Springs must be the only term.  Returns OK, NOT_FINITE if the motion is too
  * fast or explodes, OUT_OF_MEMORY. */
 Status race_reference(Simulation *simulation, double time);
 

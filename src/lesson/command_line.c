@@ -109,8 +109,6 @@ static Text meant_option(const char *text)
                                             {"side_len", "side"},
                                             {"initial_stretch", "stretch"}};
     Text hint;
-    if (isdigit((unsigned char)text[0]))
-        return (Text){"; a value stands right behind its option"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcasecmp(text, others[i][0]) == 0) {
             snprintf(hint.text, sizeof hint.text, "; did you mean --%s?",
@@ -236,7 +234,7 @@ static double number_meant(const OptionRow *row, const char *text)
     return NAN;
 }
 
-/* Whether a number is in the row's range; of names it is the index. */
+/* Whether a number is in the row's range; the number of a name is its index. */
 static bool option_allows(const OptionRow *row, double number)
 {
     if (row->kind == OPTION_NAME)
@@ -324,7 +322,7 @@ static Text meant_value(const OptionRow *row, const char *text)
         {"leapfrog", "verlet"},
         {"velocity-verlet", "verlet"},
         {"cholesky", "newton"},
-        {"direct", "newton"},
+        {"cholmod", "newton"},
         {"armijo", "backtrack"},
         {"on", "backtrack"},
         {"off", "none"},
@@ -345,8 +343,8 @@ static Text meant_value(const OptionRow *row, const char *text)
     return hint;
 }
 
-/* Refuses a value: "is none of: clamp, none", "is not X,Y, each from -1 to 1,
- * in m". */
+/* Refuses a value with a message such as "is not X,Y, each from -1 to 1, in m".
+ */
 static Status refuse_value(const Line *line, const OptionRow *row, int count,
                            const char *text)
 {
@@ -523,6 +521,22 @@ Status options_put(Options *options, const OptionRow *row, double value,
 
 /* ---- words -------------------------------------------------------------- */
 
+/* A hint if a text behind a word may be a part of its value, as in "4 ms" and
+ * "1, 2": values have no blanks.  "" otherwise.
+ *   before  in, or NULL */
+static Text hint_at_blank(const Word *before, const char *text)
+{
+    Text hint = {""};
+    const OptionRow *row = before ? before->row : NULL;
+    if (row && row->value)
+        snprintf(hint.text, sizeof hint.text,
+                 "; a value has no blanks: --%s %s", row->name, row->value);
+    else if (row && isdigit((unsigned char)text[0]))
+        snprintf(hint.text, sizeof hint.text, "; --%s takes no value",
+                 row->name);
+    return hint;
+}
+
 /* Refuses a word before its '=', with a hint, or else with where to look. */
 static Status refuse_unknown(const Line *line, const char *what,
                              const char *word, Text hint, const char *look)
@@ -544,10 +558,14 @@ static const OptionRow *find_option(const Line *line, const char *word)
         if (dashes == 1 && !name[1] && row->letter == tolower(name[0]))
             found = row;
     const Gone *went = dashes == 2 ? find_gone(name, "") : NULL;
+    const Word *before = line->words > 0 ? &line->word[line->words - 1] : NULL;
     if (went)
         refuse(line->told, "--%s is gone: %s", name, went->instead);
     else if (!found)
-        refuse_unknown(line, "there is no option", word, meant_option(name),
+        refuse_unknown(line, "there is no option", word,
+                       isdigit((unsigned char)name[0])
+                           ? hint_at_blank(before, name)
+                           : meant_option(name),
                        "; see elasto --help");
     return found;
 }
@@ -604,24 +622,8 @@ static Word *given(Line *line, const OptionRow *row)
     return NULL;
 }
 
-/* A hint if a word behind an option may be a part of its value, as in "4 ms"
- * and "1, 2": values have no blanks.  "" otherwise. */
-static Text hint_at_blank(const Line *line, const Word *word)
-{
-    Text hint = {""};
-    const Word *before = word > line->word ? word - 1 : NULL;
-    if (before && before->row && before->row->kind == OPTION_SWITCH)
-        snprintf(hint.text, sizeof hint.text, "; --%s takes no value",
-                 before->row->name);
-    else if (before && before->row)
-        snprintf(hint.text, sizeof hint.text,
-                 "; a value has no blanks: --%s %s", before->row->name,
-                 before->row->value);
-    return hint;
-}
-
-/* Refuses a word that is no scene.  It may be an option without its dashes, or
- * with the dashes of an editor, or a part of a value. */
+/* Refuses a word that is no scene.  The word may be an option without its
+ * dashes, or with the dashes of an editor, or a part of a value. */
 static Status refuse_scene(const Line *line, const Word *word)
 {
     const char *text = word->text;
@@ -633,7 +635,7 @@ static Status refuse_scene(const Line *line, const Word *word)
     else if (strncmp(text, "\u2013", 2) == 0) /* U+2000 to U+203F */
         hint = (Text){"; an option begins with two signs '-'"};
     else if (!hint.text[0])
-        hint = hint_at_blank(line, word);
+        hint = hint_at_blank(word > line->word ? word - 1 : NULL, text);
     return refuse_unknown(line, "there is no scene", text, hint,
                           "; see elasto --list");
 }
@@ -657,7 +659,7 @@ static Status check_words(Line *line)
                           "'%.60s': only one scene can be given, and '%s' is "
                           "one%s",
                           word->text, options->scene->name,
-                          hint_at_blank(line, word).text);
+                          hint_at_blank(word - 1, word->text).text);
         if (!row && !(options->scene = scene_find(word->text)))
             return refuse_scene(line, word);
     }

@@ -154,7 +154,7 @@ static void mark_stationary_points(const Plot *plot)
         }
         bool saddle = i == 2;
         if (!(vector_length(p) <= 1e-9) ||
-            descent_bends_down(simulation, at[i][0], at[i][1]) != saddle)
+            descent_hessian_index(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow_disc(plot, at[i], 4, 2, COLOUR_TEXT);
         plot_label(plot, 1, at[i], COLOUR_TEXT, saddle ? "saddle" : "minimum");

@@ -105,7 +105,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     if (simulation->done && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* the gradient is 0 */
         const double *x = descent->point;
-        int down = descent_bends_down(simulation, x[0], x[1]);
+        int down = descent_hessian_index(simulation, x[0], x[1]);
         values_add_flag(values, "saddle", down == 1);
         values_add_flag(values, "maximum", down == 2);
     }

@@ -274,8 +274,8 @@ static Status drag_obstacle(Player *player, const double at[2])
     }
     for (int p = 0; p < past_panes(past); p++) {
         const Options *options = &past_control(past, p)->options;
-        part = fmin(part, simulation_way(&past->machine[p].simulation, options,
-                                         number, at));
+        part = fmin(part, simulation_free_way(&past->machine[p].simulation,
+                                              options, number, at));
     }
     simulation_obstacle(player_simulation(player), 0, number, from);
     if (part == 0)

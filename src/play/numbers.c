@@ -27,7 +27,7 @@ int player_visible_options(const Player *player, bool all,
                            const OptionRow *found[OPTIONS_MOST])
 {
     const Options options = player_numbers(player);
-    int own = all ? 0 : options_row(&options, found), count = own;
+    int own = all ? 0 : options_list_fields(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool more = all || player->hands.added >> (row - option_rows) & 1;
         more = more && is_number(player, row);

@@ -371,7 +371,7 @@ static Status machine_use_control(Machine *machine, const Control *control)
 {
     if (machine->control == control)
         return STATUS_OK;
-    Status status = simulation_use(&machine->simulation, control);
+    Status status = control_apply(&machine->simulation, control);
     control_keep(control);
     control_drop(machine->control);
     machine->control = control;

@@ -194,7 +194,7 @@ static Barrier barrier_of(const Options *options)
 }
 
 /* Sets contact and friction.  The ceiling and the scene's obstacle, which are
- * the last ones, stay where they have moved.  Another obstacle stays where the
+ * the last ones, stay where they have moved.  A ground or ball stays where the
  * mouse has moved it, unless the options give it a new place. */
 static Status set_obstacles(const Options *options, System *system)
 {
@@ -437,7 +437,8 @@ static Status check_places(const Options *options, const System *system,
             if (element->s > (own ? apart : 0))
                 continue;
             return kind == &contact_energy
-                       ? refuse_place(options, element->source, element->s, told)
+                       ? refuse_place(options, element->source, element->s,
+                                      told)
                        : refuse(told,
                                 "the cell at node %d would be turned over at "
                                 "the start: its area would be %.3g of that at "
@@ -487,7 +488,8 @@ static Status check_balls(const Options *options, const SquareMesh *mesh,
                           const double *x, Refusal told)
 {
     for (int k = 0; k < options->balls; k++)
-        if (square_mesh_find_cell(mesh, x, options->ball[k], 0, mesh->cells) >= 0)
+        if (square_mesh_find_cell(mesh, x, options->ball[k], 0, mesh->cells) >=
+            0)
             return refuse_place(options, (int)options->grounds + k, NAN, told);
     return STATUS_OK;
 }
@@ -523,8 +525,8 @@ Status simulation_has_room(const Simulation *simulation, const Options *options,
     return check_room(simulation, options, 0, -1, (Refusal){message, size});
 }
 
-double simulation_way(const Simulation *simulation, const Options *options,
-                      int number, const double to[2])
+double simulation_free_way(const Simulation *simulation, const Options *options,
+                           int number, const double to[2])
 {
     enum { HALVINGS = 20 };
     static const double APART = 0.999; /* just inside the barrier's width */

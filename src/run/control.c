@@ -79,7 +79,8 @@ void simulation_obstacle(const Simulation *simulation, int run, int number,
 void control_keep_place(Control *control, int number,
                         const Simulation *simulation)
 {
-    static const double SAME = 1e-9; /* of a side: the places are the same */
+    static const double SAME =
+        1e-9; /* part of a side within which places are equal */
     double *at = obstacle_at(&control->options, number), place[2], other[2];
     simulation_obstacle(simulation, 0, number, place);
     for (int r = 1; r < simulation->runs; r++) {
@@ -222,7 +223,7 @@ static void use_push(Simulation *simulation, const Control *control)
     }
 }
 
-Status simulation_use(Simulation *simulation, const Control *control)
+Status control_apply(Simulation *simulation, const Control *control)
 {
     System *system = &simulation->system;
     double had[SIMULATION_MAX_RUNS];

@@ -19,7 +19,7 @@ int exhibit_handles(const Simulation *simulation,
 }
 
 /* Dragging x moves the mass, which keeps its velocity, or on a spring loses it;
- * dragging v sets the velocity.  All runs begin again from there. */
+ * dragging v sets the velocity.  Each run begins again from there. */
 void exhibit_drag(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;
@@ -85,8 +85,8 @@ unsigned exhibit_flips(const Simulation *simulation)
     return simulation->exhibit.parts ^ begins;
 }
 
-/* The energy that a kind of springs takes away is booked as work.  Of two parts
- * of E one stays on.  A switch changes the function that is minimised, so the
+/* The energy that a kind of springs takes away is booked as work.  At least one
+ * part of E stays on.  A switch changes the function that is minimised, so the
  * updates so far are no longer shown. */
 void exhibit_flip(Simulation *simulation, int number)
 {

@@ -102,7 +102,7 @@ REASON(nothing_drawn,
 #define SWITCH(field, text)                                                    \
     VALUE(SWITCH, #field, NULL, text, ""), .slot = OPTION_SLOT(field)
 
-/* The rest of a row: what the scene must have, repetitions, the label of an
+/* The rest of a row: needs of the scene, repetitions, the label of an
  * option with lists of values; ROW puts it into the row of numbers of the
  * window: its place, the length of its values, the step of the wheel. */
 #define NEEDS(what)           .needs = NEEDS_##what
@@ -360,7 +360,7 @@ void option_value(const OptionRow *row, const Options *options, char *text,
     if (row->times)
         times = (int)options->number[row->counter];
     const double *value = options->number + row->slot + (times - 1) * count;
-    enum { MOST_DIGITS = 6, ROOM = 20 }; /* of a list, in letters */
+    enum { MOST_DIGITS = 6, ROOM = 20 }; /* longest list, in letters */
     if (times < 1 || *value < row->low)  /* the option is not given */
         snprintf(text, size, "none");
     else if (row->kind == OPTION_NAME)
@@ -397,7 +397,8 @@ void option_unit(const OptionRow *row, char *text, size_t size)
 }
 
 /* An option that changes by factors is not shown while it is 0. */
-int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST])
+int options_list_fields(const Options *options,
+                        const OptionRow *found[OPTIONS_MOST])
 {
     int count = 0;
     for (int place = 1; place < OPTIONS_MOST; place++)
@@ -411,7 +412,7 @@ int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST])
     return count;
 }
 
-/* Round number with a given index: 1, 1.5, 2, 3, 5, 7, 10, 15 ... */
+/* Round numbers by their index: 1, 1.5, 2, 3, 5, 7, 10, 15 ... */
 static double round_value(double pace)
 {
     static const double mantissa[] = {1, 1.5, 2, 3, 5, 7};

@@ -283,8 +283,8 @@ bool simulation_projects_springs(const Simulation *simulation)
 /* Number of power iterations, and of numbers in a mode. */
 enum { ITERATIONS = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
 
-double simulation_fastest(const Simulation *simulation, const double *x,
-                          double *mode)
+double simulation_fastest_mode(const Simulation *simulation, const double *x,
+                               double *mode)
 {
     const System *system = &simulation->system;
     EvalPoint at = eval_point_at(system, NULL, NULL, x);

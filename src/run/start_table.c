@@ -186,7 +186,7 @@ static void read_rows(Reader *reader, const Part *part, TakeRow *take,
     else if (count == 0 || count % part->size != 0 ||
              (!reader->has_panes && bodies > part->runs))
         snprintf(reader->why, sizeof reader->why,
-                 "its %sstep has %d %ss, the body %d",
+                 "its %sstep has %d %ss, the body %d; --segments may differ",
                  part->step < 0 ? "last " : "", count, part->what, part->size);
     else if (part->run >= bodies)
         snprintf(reader->why, sizeof reader->why,

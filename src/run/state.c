@@ -8,8 +8,8 @@
 #include "model/plasticity.h"
 #include "run/body.h"
 
-/* A place in the bytes of a state.  One function visits all pieces of a state,
- * to save, to restore or to count them. */
+/* A place in the bytes of a state.  The same
+ * functions visit the pieces of a state to save, restore or count them. */
 typedef struct Cursor {
     unsigned char *bytes; /* NULL: the pieces are only counted */
     bool restores;        /* bytes are read, not written */

@@ -18,7 +18,7 @@ static const double LINE_TARGET = 2;           /* m, x_tilde */
 static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
 static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
 
-/* x_tilde of the free node, m: its place if inertia alone acted. */
+/* x_tilde of the free node, m, which inertia alone would reach. */
 static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
 
 /* Time steps of the dial, s: from 1e-3 to 10, ten for each factor of 10. */
@@ -56,8 +56,8 @@ static Local line_energy(const Simulation *simulation, double x)
     return (Local){.value = E, .g = {g}, .H = {H}};
 }
 
-/* Some parts of E of landscape and dial for a time step h; or the function of
- * one unknown. */
+/* Value and derivatives of parts of E for a time step h, in landscape and dial,
+ * or of the function of one unknown. */
 static Local landscape_at(const Simulation *simulation, unsigned parts,
                           double h, Projection projection, const double at[2])
 {
@@ -106,7 +106,7 @@ double landscape_part_value(const Simulation *simulation, unsigned parts,
     return landscape_at(simulation, parts, h, PROJECTION_NONE, at).value;
 }
 
-int descent_bends_down(const Simulation *simulation, double x, double y)
+int descent_hessian_index(const Simulation *simulation, double x, double y)
 {
     Local E = descent_at(simulation, PROJECTION_NONE, x, y);
     if (simulation->descent.scalar)
@@ -174,16 +174,17 @@ static Local local_at_iterate(const Simulation *simulation)
     const double *at = simulation->descent.point;
     Projection projection = (Projection)simulation->options.projection;
     if (projection == PROJECTION_ON_DEMAND)
-        projection = descent_bends_down(simulation, at[0], at[1])
+        projection = descent_hessian_index(simulation, at[0], at[1])
                          ? PROJECTION_CLAMP
                          : PROJECTION_NONE;
     return descent_at(simulation, projection, at[0], at[1]);
 }
 
 /* Updates the data of the search at a new iterate: E, p, slope, and the number
- * that the loop tests.  If status is RUNNING the test is made: it returns OK if
- * the search has converged, and DIVERGED if E is above that of the start, which
- * can happen without a line search.  After a failure p stays visible. */
+ * that the loop tests.  If status is RUNNING the loop's test is made: the
+ * result is OK if the search has converged, or DIVERGED if E is above that of
+ * the start, as may happen without a line search.  After a failure p stays
+ * visible. */
 static Status show_iterate(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];

@@ -126,7 +126,7 @@ Status create_race(Simulation *simulation)
     return status;
 }
 
-/* Energy of a run, J. */
+/* Computes the energy of a run, J. */
 static double energy_of(const TimeIntegrator *run)
 {
     return system_potential(run->system, run->x) +

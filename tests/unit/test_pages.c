@@ -290,7 +290,7 @@ TEST(claim_closing)
     CHECK_NEAR(updates.record[0].alpha, 0.5, 0);
     check_falls();
     CHECK(simulation->done && x[1] < -1);
-    CHECK(descent_bends_down(simulation, x[0], x[1]) == 0);
+    CHECK(descent_hessian_index(simulation, x[0], x[1]) == 0);
     double lower = simulation->descent.value;
     simulation = open_page("closing", "--start 0.2,0.9");
     CHECK_STATUS(run_steps(simulation, 100), STATUS_OK);
@@ -308,7 +308,7 @@ TEST(claim_explicit)
         snprintf(line, sizeof line, "--timestep %.17g",
                  limit * (i ? 1.02 : 0.98));
         Simulation *simulation = open_page("explicit", line);
-        simulation_fastest(simulation, simulation->run[0].x, mode);
+        simulation_fastest_mode(simulation, simulation->run[0].x, mode);
         for (int k = 0; k < 2 * simulation->system.nodes; k++)
             simulation->run[0].v[k] += 1e-6 * mode[k];
         double start = simulation_energies(simulation, 0).total;
@@ -401,7 +401,7 @@ TEST(claim_newton)
     CHECK_STATUS(run_steps(simulation, 100), STATUS_OK);
     CHECK(simulation->done);
     const double *x = simulation->descent.point;
-    CHECK(descent_bends_down(simulation, x[0], x[1]) == 1);
+    CHECK(descent_hessian_index(simulation, x[0], x[1]) == 1);
     /* and from below the saddle it climbs there: no success */
     CHECK_STATUS(end_of("newton", "--start 0.1,-0.35", 100), STATUS_DIVERGED);
 }
@@ -563,8 +563,8 @@ TEST(claim_dial)
         int bends = 0;
         simulation->run[0].h = bowl ? 0.067 : 0.0675;
         for (int i = 0; i < 81 * 81; i++) /* all that the map shows */
-            bends += descent_bends_down(simulation, 0.05 * (i % 81 - 40),
-                                        0.05 * (i / 81 - 40)) > 0;
+            bends += descent_hessian_index(simulation, 0.05 * (i % 81 - 40),
+                                           0.05 * (i / 81 - 40)) > 0;
         CHECK((bends == 0) == bowl);
     }
 }

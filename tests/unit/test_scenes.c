@@ -70,7 +70,7 @@ static void check_path(const Simulation *simulation)
                    record->change, 1e-12 * (1 + fabs(E)));
         if (on_demand)
             CHECK((record->projected > 0) ==
-                  (descent_bends_down(simulation, from[0], from[1]) > 0));
+                  (descent_hessian_index(simulation, from[0], from[1]) > 0));
     }
 }
 
@@ -86,7 +86,7 @@ TEST(landscape_is_downhill_from_everywhere)
             simulate("landscape --start %g,%g", at[0], at[1]);
         const double *x = simulation->run[0].x;
         CHECK(simulation->descent.slope < 0);
-        bool convex = !descent_bends_down(simulation, at[0], at[1]);
+        bool convex = !descent_hessian_index(simulation, at[0], at[1]);
         simulation_set(simulation, OPTION_SLOT(projection), PROJECTION_NONE);
         uphill += simulation->descent.slope > 0;
         hollow += convex;
@@ -95,7 +95,7 @@ TEST(landscape_is_downhill_from_everywhere)
                        i % 2 ? PROJECTION_CLAMP : PROJECTION_ON_DEMAND);
         CHECK_OK(run_to_end(simulation, 100));
         check_path(simulation);
-        CHECK(!descent_bends_down(simulation, x[0], x[1]));
+        CHECK(!descent_hessian_index(simulation, x[0], x[1]));
         free_all_begun();
     }
     CHECK(uphill > 5 && hollow > 100);

@@ -203,7 +203,7 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
 /* Takes the control, which is dropped, too. */
 static Status use(Simulation *simulation, Control *control)
 {
-    Status status = simulation_use(simulation, control);
+    Status status = control_apply(simulation, control);
     control_drop(control);
     return status;
 }

@@ -107,7 +107,7 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
     __attribute__((format(printf, 3, 4)));
 void free_all_begun(void);
 
-/* simulation_use with one number, by its slot, a pin or a hold changed; -1:
+/* control_apply with one number, by its slot, a pin or a hold changed; -1:
  * nothing is held. */
 Status simulation_set(Simulation *simulation, int slot, double value);
 Status simulation_pin(Simulation *simulation, int node, bool pinned);
