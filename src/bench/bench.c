@@ -209,8 +209,9 @@ typedef struct Runs {
     long unconverged;       /* steps that did not converge, of all starts */
 } Runs;
 
-static Status measure_steps_of(Program program, int segments, int start,
-                               int steps, Runs *runs)
+/* Runs a program from one start and stores its results. */
+static Status measure_start(Program program, int segments, int start, int steps,
+                            Runs *runs)
 {
     Simulation simulation;
     Options options = slides_options(segments);
@@ -252,8 +253,8 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
     for (; count < starts && clock_now() - began < enough && !status; count++)
         for (int m = 0; m < SOLVERS && !status; m++)
             if (segments <= programs[m].largest)
-                status = measure_steps_of((Program)m, segments, count, steps,
-                                          &runs[m]);
+                status =
+                    measure_start((Program)m, segments, count, steps, &runs[m]);
     for (int m = 0; m < SOLVERS && !status; m++) {
         Runs *all = &runs[m];
         if (segments > programs[m].largest)

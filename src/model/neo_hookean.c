@@ -70,8 +70,8 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
 
 /* Writes s and 2 mu - s, the factors of F+ and F- in dW/dF.  s is dW/dJ over
  * A0. */
-static void stresses(const NeoHookean *data, double J, double *on_plus,
-                     double *on_minus)
+static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
+                             double *on_minus)
 {
     *on_plus = (data->mu * (J - 1) + data->lambda * math_log(J)) / J;
     *on_minus = 2 * data->mu - *on_plus;
@@ -85,20 +85,21 @@ static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
 {
     double plus[2], minus[2], p, q;
     area_split(element->v, plus, minus);
-    stresses(at->term->data, element->s, &p, &q);
+    compute_stresses(at->term->data, element->s, &p, &q);
     g[0] = 0.5 * (p * plus[0] + q * minus[0]);
     g[1] = 0.5 * (p * plus[1] + q * minus[1]);
     g[2] = 0.5 * (q * minus[1] - p * plus[1]);
     g[3] = 0.5 * (p * plus[0] - q * minus[0]);
 }
 
-static bool curvature(const EvalPoint *at, const Element *element,
-                      Projection projection, AreaHessian *area)
+/* Writes the projected Hessian of W in (a, b) by its eigenspaces. */
+static bool project_hessian(const EvalPoint *at, const Element *element,
+                            Projection projection, AreaHessian *area)
 {
     const NeoHookean *data = at->term->data;
     double J = element->s, p, q;
     double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
-    stresses(data, J, &p, &q);
+    compute_stresses(data, J, &p, &q);
     return area_project_hessian(element->v, inverse_square_leg(data), 0.5 * p,
                                 0.5 * q, data->area * bend, projection, area);
 }
@@ -107,7 +108,7 @@ static bool neo_hookean_hessian(const EvalPoint *at, const Element *element,
                                 Projection projection, double H[4][4])
 {
     AreaHessian area;
-    bool changed = curvature(at, element, projection, &area);
+    bool changed = project_hessian(at, element, projection, &area);
     area_assemble_hessian(&area, H);
     return changed;
 }
@@ -117,7 +118,7 @@ static bool neo_hookean_product(const EvalPoint *at, const Element *element,
                                 double Hv[4])
 {
     AreaHessian area;
-    bool changed = curvature(at, element, projection, &area);
+    bool changed = project_hessian(at, element, projection, &area);
     area_multiply_hessian(&area, v, Hv);
     return changed;
 }
