@@ -409,8 +409,3 @@ void player_paint(Player *player, Paper *paper)
     else
         show_draw(paper, &player->screen.frame.show);
 }
-
-void player_paint_card(Player *player, Paper *paper, int card)
-{
-    show_draw_card(paper, &player->screen.frame.show, card);
-}

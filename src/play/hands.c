@@ -129,9 +129,7 @@ static Status enter_typed(Player *player)
             memcpy(made.text, player->hands.typed, sizeof player->hands.typed);
         status = player_obey(player, &made);
     } else {
-        status = player_reveal(player, player->hands.typed);
-        if (!status)
-            status = player_obey_waiting(player, false);
+        status = player_answer(player, player->hands.typed);
     }
     if (!status)
         player_deselect(player);

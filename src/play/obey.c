@@ -157,6 +157,12 @@ Status player_obey_page(Player *player)
     return status ? status : obey_queue(player, false);
 }
 
+Status player_answer(Player *player, const char *typed)
+{
+    Status status = player_reveal(player, typed);
+    return status ? status : obey_queue(player, false);
+}
+
 Status player_obey_lines(Player *player, const char *lines)
 {
     Status status = player_enqueue_lines(player, lines);

@@ -174,9 +174,6 @@ Paper *player_paper(Player *player);
 /* Fills and draws the frame on a paper. */
 void player_paint(Player *player, Paper *paper);
 
-/* Draws a card of the last frame over a whole paper. */
-void player_paint_card(Player *player, Paper *paper, int card);
-
 /* ---- screen.c, keepsakes.c; obey.c --------------------------------------- */
 
 /* The function of a command.  Returns as player_obey. */
@@ -190,6 +187,9 @@ typedef Status Deed(Player *player, const Command *command);
  * as one gesture. */
 Status player_obey_page(Player *player);
 Status player_obey_lines(Player *player, const char *lines);
+
+/* Shows the answer of the page beside the typed guess, or NULL. */
+Status player_answer(Player *player, const char *typed);
 
 /* Obeys the commands in the queue that need not wait.
  *   now  no command waits */

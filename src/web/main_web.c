@@ -133,7 +133,7 @@ EMSCRIPTEN_KEEPALIVE void web_card(int card, int width, int height)
     canvas_free(&paper.canvas);
     paper.text = player->screen.paper.text;
     if (plays && !canvas_create(width, height, &paper.canvas)) {
-        player_paint_card(player, &paper, card);
+        show_draw_card(&paper, &player->screen.frame.show, card);
         window_show_card(&paper.canvas, card);
     }
 }
@@ -154,10 +154,8 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
 EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 {
     Player *player = &run->player;
-    if (plays && player_hides_answer(player)) {
-        player_report(player, player_reveal(player, *guess ? guess : NULL));
-        player_obey_waiting(player, false);
-    }
+    if (plays && player_hides_answer(player))
+        player_report(player, player_answer(player, *guess ? guess : NULL));
     player->screen.changed = true;
 }
 
@@ -216,7 +214,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
     if (paper && card < 0)
         player_paint(player, paper);
     else if (paper)
-        player_paint_card(player, paper, card);
+        show_draw_card(paper, &player->screen.frame.show, card);
     if (paper)
         window_show_card(&paper->canvas, card);
 }

@@ -71,8 +71,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         assert_int_equal(count_lines("asks"), page->ask != NULL);
         if (page->ask)
             assert_int_equal(count_lines("look") + count_lines("try"), 0);
-        CHECK_OK(player_reveal(&player, NULL));
-        CHECK_OK(player_obey_waiting(&player, false));
+        CHECK_OK(player_answer(&player, NULL));
         write_document();
         check_lines();
         assert_int_equal(count_lines("asks"), 0);
