@@ -90,6 +90,27 @@ includes_looking_up() {
 }
 verdict no_room_looks_up "$(includes_looking_up)"
 
+# No two files of play call each other, not even in a circle: tsort finds an
+# order of all arrows "caller called" between its objects.
+arrows_of() { # room
+    for source in src/"$1"/*.c; do
+        name=$(basename "$source" .c)
+        object=build/release/$1/$name.o
+        [ ! -f "$object" ] || nm -g "$object" | sed "s/^/$name /"
+    done | awk '
+        NF == 4 && $3 ~ /[TDRB]/ { home[$4] = $1 }
+        NF == 3 && $2 == "U" { used[$1 " " $3] }
+        END {
+            for (pair in used) {
+                split(pair, part, " ")
+                if (part[2] in home && home[part[2]] != part[1])
+                    print part[1], home[part[2]]
+            }
+        }'
+}
+verdict files_of_play_call_in_no_circle \
+    "$(arrows_of play | tsort 2>&1 >/dev/null | sort -u)"
+
 # include/ has what other rooms use, or their headers; the rest stays beside
 # its source.
 verdict headers_of_one_room_stay_in_it "$(
