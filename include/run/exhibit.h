@@ -16,7 +16,7 @@ typedef struct Prediction {
     long step;       /* number of steps when the guess was made */
     double at[2];    /* guess, m */
     double came[2];  /* end of the step, m */
-    double distance; /* between the two, m; along x in one variable */
+    double distance; /* from guess to end, m; along x in one variable */
 } Prediction;
 
 /* ---- descents: a minimum that Newton looks for, update by update --------- */

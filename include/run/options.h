@@ -85,7 +85,7 @@ typedef struct Options {
             double projection;  /* enum Projection */
             double line_search; /* enum LineSearch */
             double flips; /* bit s: switch s of the scene starts turned over */
-            double steps; /* -1: until the window closes, 100 without one */
+            double steps; /* -1: no limit in a window, 100 without a window */
             double speed; /* steps a frame; 0: the scene's */
             double size[2]; /* pixels; 0: the usual size */
             double paused, fullscreen, headless, quiet, big;

@@ -32,7 +32,8 @@ static Text list_text(Names names)
     return list;
 }
 
-/* Whether a letter may be typed for another: in either case, '_' for '-'. */
+/* Whether a typed letter stands for a letter of a name: case is ignored, and
+ * '_' stands for '-'. */
 static bool alike(char typed, char letter)
 {
     return tolower((unsigned char)typed) == tolower((unsigned char)letter) ||
@@ -211,7 +212,7 @@ static double number_meant(const OptionRow *row, const char *text)
 {
     static const struct {
         const char *sign;
-        double over; /* how many make one unit */
+        double over; /* parts of the unit: 1000 for "m" */
     } prefixes[] = {{"", 1},    {"k", 1e-3},     {"c", 1e2},     {"m", 1e3},
                     {"u", 1e6}, {"\u00b5", 1e6}, {"\u03bc", 1e6}};
     double number, below = 1;
@@ -431,7 +432,8 @@ static Status apply_text(const Line *line, const OptionRow *row,
     return STATUS_OK;
 }
 
-/* Puts the value of an option into the options; no page is the first page. */
+/* Puts the value of an option into the options.  --lecture without a page is
+ * the first page. */
 static Status apply(const Line *line, const OptionRow *row, const char *text)
 {
     Options *options = line->options;
@@ -759,7 +761,8 @@ static Status check_effects(Line *line)
     Options *options = line->options;
     const IntegratorMethod *method = options_method(options);
     const Word *chosen = given(line, option_find("integrator"));
-    bool fixed = options->headless && !options->script; /* until the end */
+    bool fixed = options->headless &&
+                 !options->script; /* nothing changes an option later */
     bool explicit = chosen && !chosen->list && !method->implicit;
     if (options->bodies > 1 && !given(line, option_find("self-contact")))
         options->self_contact = 1;
