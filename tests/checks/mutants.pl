@@ -249,6 +249,7 @@ sub try_fault {
     utime undef, undef, $file if $object eq 'none';
     unlink $again;
     rename 'object', $object;
+    utime undef, undef, $object; # what was linked with the fault is older
     unlink 'build/release/libelasto.a', 'build/release/lecture';
     if ($found && $found ne 'make' && !$right{$found}++) {
         build($found) && passes($found) or die "$found fails without a fault\n", `tail -n 20 log`;
