@@ -9,9 +9,13 @@
 
 #include "run/options.h"
 
+enum { LINES_WALKED = 9 }; /* of Algorithm 3, from 1 */
+
 typedef struct LecturePage {
     const char *name;    /* one word, for --lecture */
     const char *topic;   /* of the slide */
+    const char *section; /* heading before it in the list of pages; or NULL */
+    bool extra;          /* left out of the 80 minutes */
     const char *text;    /* what it is about: one or two sentences */
     const char *formula; /* set large below it, one a line; or NULL */
     const char *line;    /* scene and settings, as on the command line */
@@ -31,6 +35,8 @@ typedef struct LecturePage {
     const char *function;    /* and functions in it, with ',' between */
     const char *const *code; /* their lines, up to NULL */
     const char *lit;         /* those with this text are at work */
+    const char *const *walk; /* [LINES_WALKED] text in the lines at work at
+                                each line of Algorithm 3; NULL: lit */
     const char *claim;       /* what a test holds */
     unsigned flips;          /* bit s: switch s of the scene is turned over */
     int picture;             /* the step that the printed page shows */
@@ -46,6 +52,14 @@ typedef struct LecturePage {
 /* Text, formulas, look and touch are texts of live_values.h: live numbers stand
  * in braces.  The table; it ends with a NULL name. */
 extern const LecturePage lecture_pages[];
+
+/* A letter of the pages, in the markup of text.h, and its meaning; the table
+ * ends with NULL. */
+typedef struct Letter {
+    const char *letter, *meaning;
+} Letter;
+
+extern const Letter lecture_letters[];
 
 /* How many pages there are. */
 int lecture_count(void);

@@ -183,6 +183,7 @@ typedef enum Column {
     COLUMN_CARDS,
     COLUMN_CODE,
     COLUMN_PAGES,
+    COLUMN_LETTERS,
     COLUMN_KEYS, /* the rows of this list and the next one others fill */
     COLUMN_OPTIONS
 } Column;
@@ -190,7 +191,8 @@ typedef enum Column {
 /* A line of a list: a key or a number, and what it does. */
 typedef struct HelpRow {
     char key[SHOW_VALUE], text[SHOW_TEXT];
-    bool grey; /* it has no meaning now */
+    bool grey; /* without a meaning now; of a page: extra */
+    bool head; /* heading of the rows below it, without a key */
 } HelpRow;
 
 /* A scene on the sheet of all of them. */

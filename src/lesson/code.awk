@@ -37,7 +37,7 @@ function find_function(file, name,    i)
     return 0
 }
 
-# How many lines from this one on only declare, report, remark or give back, a
+# How many lines from this one on begin with what no page shows (asides), a
 # condition before them included.
 function count_asides(file, at,    line, heads, count, ending)
 {
@@ -46,7 +46,7 @@ function count_asides(file, at,    line, heads, count, ending)
     for (count = 0; count <= heads; count++) {
         line = source[file, at + count]
         sub(/^ */, "", line)
-        if (line !~ asides)
+        if (line !~ "^(" asides ")")
             continue
         ending = line ~ /^\/[*]/ ? "*/" : ";"
         while (!index(source[file, at + count], ending) && \
@@ -84,14 +84,4 @@ function code_of(file, names,    i, n, name, at, end, skipped, last, line, code)
         last = ""
     }
     return code
-}
-
-BEGIN {
-    asides = "^(/[*]|FAIL[(]|fprintf[(]|fputs[(]|puts[(]|char |snprintf[(]|" \
-             "const char [*]states|FILE [*]f|return NULL;|[(]void[)]|free[(]|" \
-             "cholmod_free|cholmod_finish|cholmod_start|cholmod_common c|" \
-             "common[.]|size_t n|SDL_Quit|Vec2 [*]x|Vec2 [*]p|int n = |" \
-             "Solid solid = [{]|Parameter [*]|Parameter method|" \
-             "Parameter steps|for [(]int a|states = |read_argument[(]|" \
-             "bool drawn|Screen s|cholmod_triplet [*]IJV|if [(]drawn [?])"
 }

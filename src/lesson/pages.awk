@@ -13,15 +13,49 @@ function layers_of(text,    i, n, name, bits)
     return bits
 }
 
+# {page:NAME} becomes the number of that page.
+function with_numbers(text,    name)
+{
+    while (match(text, /[{]page:[a-z0-9]+[}]/)) {
+        name = substr(text, RSTART + 6, RLENGTH - 7)
+        if (!(name in place))
+            fail(begins, "there is no page " name)
+        text = substr(text, 1, RSTART - 1) place[name] \
+               substr(text, RSTART + RLENGTH)
+    }
+    return text
+}
+
+# The names of all pages in their order, into place[name] = 1 ...
+function read_names(file,    line)
+{
+    while ((getline line < file) > 0)
+        if (line ~ /^== [a-z0-9]+: ./)
+            place[substr(line, 4, index(line, ":") - 4)] = ++pages
+    close(file)
+}
+
 # The lines of one word, put together in text, as fields of the row.
 function put_word(    part)
 {
-    if (word == "text" || word == "formula" || word == "look") # in lines
+    if (word in prose)
+        text = with_numbers(text)
+    if (word == "skip") # before the first page
+        asides = asides (asides ? "|" : "") text
+    else if (word == "lit" && split(text, part, " ") >= 3)
+        walk[part[1]] = walk[part[1]] "[" part[2] "] = " \
+            quoted(substr(text, length(part[1] part[2]) + 3)) ", "
+    else if (word == "letter" && (part[0] = index(text, ": ")))
+        letters = letters "{" quoted(substr(text, 1, part[0] - 1)) ", " \
+                  quoted(substr(text, part[0] + 2)) "},\n"
+    else if (word == "text" || word == "formula" || word == "look") # in lines
         below[word] = below[word] (below[word] ? " \"\\n\" " : "") quoted(text)
     else if (word in texts)
         print "." texts[word] " = " quoted(text) ","
     else if (word in numbers && text ~ /^[0-9.]+$/)
         print "." word " = " text ","
+    else if (word == "extra" && text == "")
+        print ".extra = true,"
     else if (word == "layers")
         print ".layers = " layers_of(text) ","
     else if (word == "next" && text in of_next)
@@ -30,7 +64,9 @@ function put_word(    part)
         print ".file = " quoted(part[1]) ", .function = " quoted(part[2]) \
               ", .lit = " quoted(substr(text, length(part[1] part[2]) + 3)) \
               ", .code = (const char *const[]){" \
-              code_of(part[1], part[2]) "NULL},"
+              code_of(part[1], part[2]) "NULL}," \
+              (part[2] in walk ? ".walk = (const char *const[LINES_WALKED]){" \
+                                 walk[part[2]] "}," : "")
     else if (word != "")
         fail(begins, "'" word " " text "' is nothing that a page has")
     had[word] = 1
@@ -65,17 +101,21 @@ BEGIN {
     texts["star"] = "star"
     texts["law"] = "law"
     texts["notes"] = "notes"
+    texts["section"] = "section"
+    prose["text"] prose["ask"] prose["look"] prose["try"] prose["notes"]
+    read_names(ARGV[1])
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
     numbers["minutes"] numbers["pause"]
     of_next["nearer"] of_next["spring"]
     split("numbers forces modes kinds cuts downhill curves first_step", layer)
     for (i in layer)
         layers[layer[i]]
-    print "const LecturePage lecture_pages[] = {"
 }
 
 /^== [a-z0-9]+: ./ {
     end_page()
+    if (!page)
+        print "const LecturePage lecture_pages[] = {"
     page = NR
     colon = index($0, ":")
     print "{.name = " quoted(substr($0, 4, colon - 4)) ","
@@ -83,10 +123,11 @@ BEGIN {
     next
 }
 
-{ begin_word(page, "no page has begun") }
+{ begin_word(page || $1 ~ /^(skip|lit|letter)$/, "no page has begun") }
 
 END {
     end_page()
     print "{.name = NULL}};"
+    print "const Letter lecture_letters[] = {\n" letters "{NULL, NULL}};"
     exit failed
 }

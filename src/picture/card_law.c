@@ -45,13 +45,8 @@ static double gap_value(const void *data, double d)
     return there.at.term->kind->element->value(&there.at, &there.element);
 }
 
-static double near_value(const void *data, double d)
-{
-    double part = d / ((const LawPoint *)data)->reach;
-    return gap_value(data, part * part);
-}
-
-/* W/A of the triangle, scaled along its shortest direction to area ratio J. */
+/* Energy per area of the triangle, scaled along its shortest direction to area
+ * ratio J. */
 static double triangle_value(const void *data, double J)
 {
     LawPoint there = *(const LawPoint *)data;
@@ -87,17 +82,12 @@ static double break_value(const void *now, double part)
     return part > 1 ? 0 : part;
 }
 
-#define GAPS  "gap d in m", "W in J"
-#define SLIPS "slip in m/s", "f/(\u03bc N)"
-
 static const Law laws[] = {
-    {"barrier", GAPS, &contact_energy, &contact_energy, gap_value, 0, 1.2},
-    {"near", GAPS, &self_contact_energy, &self_contact_energy, near_value, 0,
-     1.2},
-    {"friction", SLIPS, &friction_energy, &contact_energy, slip_value, 0, 2},
-    {"rub", SLIPS, &self_friction_energy, &self_contact_energy, slip_value, 0,
-     2},
-    {"triangle", "J", "W/A in J/m\u00b2", &neo_hookean_energy,
+    {"barrier", "gap \u03b4 in m", "W in J", &contact_energy, &contact_energy,
+     gap_value, 0, 1.2},
+    {"rub", "slip in m/s", "f/(\u03bc f_{N})", &self_friction_energy,
+     &self_contact_energy, slip_value, 0, 2},
+    {"triangle", "det F", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
      &neo_hookean_energy, triangle_value, 0, 1.5},
     {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, spring_value, -1,
      1},
@@ -168,8 +158,7 @@ static const Law *find_law(const Simulation *simulation, int run,
         double t[4], w[4], slip, mean = now.pressed > 0 ? now.x : 0;
         now.element = *element;
         now.load = -element->s;
-        now.x = law->value == near_value ? sqrt(element->s) * now.reach
-                                         : element->s;
+        now.x = element->s;
         if (law->value == slip_value) {
             now.load = walk.kind->friction_limit(&now.at, element, t, &slip);
             element_vectors(element, v, w);
@@ -184,18 +173,12 @@ static const Law *find_law(const Simulation *simulation, int run,
     return law;
 }
 
-/* Whether the law is a force over a gap. */
-static bool has_gap(const Law *law)
-{
-    return law->value == gap_value || law->value == near_value;
-}
-
 bool law_find_gap(const Simulation *simulation, LawGap *gap)
 {
     LawPoint now;
     const Law *law = find_law(simulation, 0, &now);
     if (!law || simulation->runs > 1 || isnan(now.x) ||
-        !(has_gap(law) || law->value == slip_value))
+        (law->value != gap_value && law->value != slip_value))
         return false;
     bool self = law->source == &self_contact_energy;
     gap->d_hat = now.d_hat;
@@ -204,8 +187,6 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap)
         gap->node[c] = now.at.x[2 * now.element.node[0] + c];
         gap->foot[c] = gap->node[c] - gap->d * now.element.n[c];
     }
-    for (int i = 0; i < 3; i++)
-        gap->pair[i] = law->value == near_value ? now.element.node[i] : -1;
     return true;
 }
 
@@ -263,7 +244,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     values_add_words(
         values, "its way",
         flowed_one_way(&now, ends[0], ends[1]) ? "; violet: its way" : "");
-    if (has_gap(law)) {
+    if (law->value == gap_value) {
         const System *system = now.at.system;
         values_add(values, "c",
                    self ? self_contact_of(system)->c
@@ -348,7 +329,7 @@ void law_draw(const Plot *card)
             plot_disc(&plot, (double[2]){other.x, law_value_at(law, &other)}, 2,
                       COLOUR_GHOST);
     }
-    if (has_gap(law) && !isnan(x)) /* -W' */
+    if (law->value == gap_value && !isnan(x)) /* -W' */
         plot_line(&plot, (double[2]){low, y + (x - low) * gap_force(now)},
                   (double[2]){high, y + (x - high) * gap_force(now)}, 1.4,
                   COLOUR_FORCE);

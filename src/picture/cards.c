@@ -96,12 +96,14 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
         paper_shorten(paper, FACE_REGULAR, SMALLEST * size,
                       (int)(wide - key - 0.6 * em), text, sizeof text);
         double x = inside.x + i / grid.rows * wide;
+        int before = row->head ? 0 : (int)key;
         double y = inside.y + i % grid.rows * grid.line;
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
                     row->key);
-        paper_fit(paper, FACE_REGULAR, size,
+        paper_fit(paper, row->head ? FACE_BOLD : FACE_REGULAR, size,
                   row->grey ? COLOUR_GREY : COLOUR_TEXT,
-                  (Box){(int)(x + key), (int)y, (int)(wide - key - 0.5 * em),
+                  (Box){(int)x + before, (int)y,
+                        (int)(wide - before - 0.5 * em),
                         (int)fmax(grid.line, 1.3 * size * em)},
                   ALIGN_LEFT, text);
     }
@@ -195,6 +197,7 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     static const char *const titles[] = {
         [COLUMN_PAGES] = "The pages of the lecture",
+        [COLUMN_LETTERS] = "What the letters mean",
         [COLUMN_KEYS] = "Keys and mouse",
         [COLUMN_OPTIONS] = "Numbers of this scene"};
     bool code = show->column == COLUMN_CODE;

@@ -77,7 +77,6 @@ typedef struct LawGap {
     double node[2]; /* m */
     double d;       /* m, the gap */
     double d_hat;   /* m, gap at which the force begins */
-    int pair[3]; /* of two bodies: the node and the ends of the edge; else -1 */
 } LawGap;
 bool law_find_gap(const Simulation *simulation, LawGap *gap);
 

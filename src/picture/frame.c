@@ -31,7 +31,7 @@ static void draw_zone(Paper *paper, Box zone, bool rule_below)
 
 /* Draws topic and sentence from the left, method and state from the right.  A
  * message takes the place of the sentence, in a low strip also that of the
- * topic. */
+ * topic unless both fit. */
 static void draw_strip(Paper *paper, Box room, const Show *show)
 {
     double em = paper->em;
@@ -51,7 +51,12 @@ static void draw_strip(Paper *paper, Box room, const Show *show)
     room.width -= paper_fit(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
                             ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
-    if (show->topic && !(low && message))
+    bool beside =
+        !low || !message ||
+        paper_width(paper, FACE_BOLD, TOPIC, show->topic ? show->topic : "") +
+                paper_width(paper, FACE_REGULAR, 1, said) + 1.1 * em <
+            room.width;
+    if (show->topic && beside)
         box_cut_off(&room, EDGE_LEFT,
                     (int)(1.1 * em) + paper_fit(paper, FACE_BOLD, TOPIC,
                                                 COLOUR_TEXT, room, ALIGN_LEFT,

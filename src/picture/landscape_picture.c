@@ -248,6 +248,32 @@ static void add_part_name(unsigned parts, LiveValues *values)
                                              : "elasticity");
 }
 
+/* How many updates Algorithm 1 makes from its start, and what its last line
+ * has found: the velocity on the way from there. */
+static void add_algorithm1(const Simulation *simulation, LiveValues *values)
+{
+    const Descent *descent = &simulation->descent;
+    double h = simulation->options.timestep, x[2], p[2], v[2];
+    const double *start =
+        descent->count > 0 ? descent->record[0].from : descent->point;
+    int updates = 0;
+    memcpy(x, start, sizeof x);
+    while (
+        updates < DESCENT_MAX &&
+        vector_length(descent_at(simulation, PROJECTION_NONE, x[0], x[1]).g) >
+            simulation->options.tolerance &&
+        descent_direction(simulation, PROJECTION_NONE, x, p) != 0) {
+        for (int k = 0; k < 2; k++)
+            x[k] += p[k];
+        updates++;
+    }
+    values_add(values, "updates", updates);
+    for (int k = 0; k < 2; k++)
+        v[k] = (descent->point[k] - start[k]) / h;
+    if (simulation->done)
+        values_add_point(values, "v end", v);
+}
+
 void landscape_add_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const raw[] = {"Hxx", "Hxy", "Hyy"};
@@ -268,7 +294,8 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
         Local P = descent_at(simulation, PROJECTION_CLAMP, x[0], x[1]);
         values_add_matrix(values, projected, P.H, 0);
         values_add_flag(values, "directions",
-                        simulation->options.page && descent->count == 0 &&
+                        simulation->options.layers & LAYER_DOWNHILL &&
+                            descent->count == 0 &&
                             simulation->options.projection == PROJECTION_NONE);
     }
     values_add_flag(values, landscape_is_convex(&E) ? "convex" : "shaded",
@@ -292,6 +319,7 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
         up = up || descent->record[i].slope > 0;
     }
     values_add_flag(values, "pulls", pulls);
+    add_algorithm1(simulation, values);
     values_add_flag(values, "halves", layers & LAYER_DOWNHILL);
     values_add_flag(values, "curves", layers & LAYER_CURVES);
     values_add_flag(values, "directed", down);
@@ -378,7 +406,7 @@ void landscape_draw(Plot *stage)
         plot_disc(&plot, from, 5, COLOUR_X);
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
-    bool both = !show->lecture || (raw && !page_wants_click(show->lecture));
+    bool both = !show->lecture || (raw && halves);
     if (revealed && raw && !simulation->done)
         draw_model_ellipses(&plot);
     if (has_layer(&plot, LAYER_CURVES) && !simulation->done)

@@ -33,6 +33,9 @@ static const double FOLDS = 1.15;
 static const double COLUMN_PART = 0.38, WIDE_PART = 0.75;
 enum { MOST_ROWS = 30 };
 
+/* Part of the width that the settings have in a low window. */
+static const double LOW_ROW = 0.75;
+
 /* An em has 14 pixels in a window of 1000 x 800 and scales with the window,
  * but has at least 9. */
 static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
@@ -80,8 +83,10 @@ static int count_letters(const char *text)
     return letters;
 }
 
-/* Places the settings in one to three lines, which are cut off the rest. */
-static void place_settings(const Show *show, Layout *layout, Box *rest)
+/* Places the settings in one to three lines, which are cut off the rest; in a
+ * low window as many as fit at the right of the time line. */
+static void place_settings(const Show *show, Layout *layout, bool low,
+                           Box *rest)
 {
     int width[LAYOUT_SETTINGS] = {0}, left = em_pixels(layout, GAP + 0.5);
     for (int i = 0; i < show->settings; i++) {
@@ -95,6 +100,16 @@ static void place_settings(const Show *show, Layout *layout, Box *rest)
                 layout->width - em_pixels(layout, GAP) - left,
                 em_pixels(layout, ROW - 0.4)};
     Box *box = layout->setting;
+    if (low) {
+        layout->settings_row = box_cut_off(&layout->time_line, EDGE_RIGHT,
+                                           (int)(LOW_ROW * layout->width));
+        room = (Box){layout->settings_row.x + left, layout->settings_row.y,
+                     layout->settings_row.width - 2 * left,
+                     layout->settings_row.height};
+        layout->settings = place_row(room, 1, em_pixels(layout, SETTING_GAP),
+                                     show->settings, width, box);
+        return;
+    }
     layout->settings = place_row(room, 3, em_pixels(layout, SETTING_GAP),
                                  show->settings, width, box);
     int more = (box[layout->settings - 1].y - room.y) / room.height;
@@ -148,8 +163,8 @@ static Box place_zones(const Show *show, Layout *layout)
         return rest;
     layout->time_line =
         box_cut_off(&rest, EDGE_BOTTOM, em_pixels(layout, roomy ? TIME : 2));
-    if (roomy && show->settings > 0)
-        place_settings(show, layout, &rest);
+    if (show->settings > 0 && (roomy || show->lecture))
+        place_settings(show, layout, !roomy, &rest);
     layout->bars = layout->time_line;
     layout->bars.x += em_pixels(layout, GAP);
     layout->bars.width -= 2 * em_pixels(layout, GAP);

@@ -5,28 +5,48 @@
 
 #include "picture/cards.h"
 
-/* Where Algorithm 3's lines are in step_forward of lecture.c. */
-static const char *const line_texts[LINE_COUNT] = {
-    [LINE_START] = "x_n[i] = x[i]",
-    [LINE_DO] = "for (int update",
-    [LINE_PROJECT] = "search_dir(solid",
-    [LINE_SOLVE] = "search_dir(solid",
-    [LINE_SEARCH] = "line_search(solid",
-    [LINE_UPDATE] = "memcpy(x, x_new",
-    [LINE_TEST] = "residual(solid, p, h) > tol",
-    [LINE_END] = "v[i] = mul(1 / h",
-};
+_Static_assert((int)LINE_COUNT == LINES_WALKED, "a page has all lines");
 
 const char *lecture_lit_code(const Show *show)
 {
     const LecturePage *page = show->lecture;
-    const Simulation *simulation = show_pane(show)->simulation;
     const Trace *trace = show_pane(show)->trace;
-    bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
-    if (strcmp(page->function, "step_forward") == 0 && trace && !whole &&
-        trace->line != LINE_NONE)
-        return line_texts[trace->line];
-    return page->lit;
+    const Options *options = &show_pane(show)->simulation->options;
+    bool whole = options->line_search == LINE_SEARCH_NONE;
+    bool walks = page->walk && trace && trace->line != LINE_NONE && !whole;
+    return walks ? page->walk[trace->line] : page->lit;
+}
+
+/* The pages below the headings of their sections, the open one or the one that
+ * was left with a mark. */
+static void list_pages(const LecturePage *marked, Show *show)
+{
+    HelpRow *row = show->help;
+    for (const LecturePage *page = lecture_pages;
+         page->name && row < show->help + LAYOUT_ROWS - 1; page++) {
+        if (page->section) {
+            *row = (HelpRow){.head = true};
+            snprintf((row++)->text, SHOW_TEXT, "%s", page->section);
+        }
+        *row = (HelpRow){.grey = page->extra};
+        snprintf(row->key, SHOW_VALUE, "%s%d", page == marked ? ">" : "",
+                 (int)(page - lecture_pages) + 1);
+        snprintf((row++)->text, SHOW_TEXT, "%s%s", page->topic,
+                 page->extra ? " (extra)" : "");
+    }
+    show->help_rows = (int)(row - show->help);
+}
+
+static void list_letters(Show *show)
+{
+    HelpRow *row = show->help;
+    for (const Letter *letter = lecture_letters;
+         letter->letter && row < show->help + LAYOUT_ROWS; letter++, row++) {
+        *row = (HelpRow){.grey = false};
+        snprintf(row->key, SHOW_VALUE, "%s", letter->letter);
+        snprintf(row->text, SHOW_TEXT, "%s", letter->meaning);
+    }
+    show->help_rows = (int)(row - show->help);
 }
 
 void show_lecture(Column column, const LecturePage *left, Show *show)
@@ -35,13 +55,9 @@ void show_lecture(Column column, const LecturePage *left, Show *show)
     const LecturePage *page = simulation->options.page;
     const Picture *picture = picture_of(simulation->scene);
     if (column == COLUMN_PAGES)
-        show->help_rows = (int)fmin(lecture_count(), LAYOUT_ROWS);
-    for (int i = 0; column == COLUMN_PAGES && i < show->help_rows; i++) {
-        const LecturePage *row = &lecture_pages[i];
-        snprintf(show->help[i].key, SHOW_VALUE, "%s%d",
-                 row == (page ? page : left) ? ">" : "", i + 1);
-        snprintf(show->help[i].text, SHOW_TEXT, "%s", row->topic);
-    }
+        list_pages(page ? page : left, show);
+    if (column == COLUMN_LETTERS)
+        list_letters(show);
     show->column = page || column != COLUMN_CODE ? column : COLUMN_CARDS;
     if (!page)
         return;

@@ -91,6 +91,8 @@ static void add_settings(const Show *show, const Simulation *simulation,
     bool whole = options->line_search == LINE_SEARCH_NONE;
     bool search = descent->by_gradient ? descent->scalar && !whole : !explicit;
     values_add_flag(values, "Algorithm 1", descent->by_gradient && !search);
+    bool map = descent->by_gradient && !search && !descent->scalar;
+    values_add_flag(values, map ? "map" : "no map", true);
     values_add_flag(values, "search", search);
     values_add_flag(values, "raw", options->projection == PROJECTION_NONE);
     values_add_flag(values, "whole", whole);
@@ -99,7 +101,8 @@ static void add_settings(const Show *show, const Simulation *simulation,
     values_add_flag(values, "done", simulation->done);
     values_add_flag(values, "paused", show->paused);
     values_add_flag(values, show->veiled ? "asked" : "told", true);
-    values_add(values, "guesses", show->guesses > 0 ? show->guesses : NAN);
+    values_add_flag(values, "guessed", show->guesses > 0);
+    values_add(values, "guesses", show->guesses);
     values_add(values, "right", show->right);
     values_add_flag(values, show->view->held.on ? "held" : "free", true);
     if (simulation->done && scene->step == step_descent &&

@@ -314,7 +314,7 @@ static void draw_mass_lesson(Plot *stage)
     plot_hollow_disc(stage, end.at, 6, 3.4, COLOUR_GREY);
     if (step.by_old_v) {
         draw_miss(stage, &step, 0.5 * h, "with h/2: a quarter");
-        draw_miss(stage, &step, h, "h\u00b2/2 a");
+        draw_miss(stage, &step, h, "\u00bdh\u00b2 a^{n}");
     }
     plot_label(stage, 1, end.at, COLOUR_FAINT, "exact");
     Point x = point_along(step.x, 0, step.v),
@@ -368,12 +368,12 @@ static void draw_mass_step(Plot *stage)
         Colour colour;
         const char *word;
     } arrow[] = {
-        {step.x, step.v, 2.6, COLOUR_VELOCITY, "v"},
+        {step.x, step.v, 2.6, COLOUR_VELOCITY, "v^{n}"},
         {tip.at, push.at, 2.6, COLOUR_FORCE,
-         backward ? "h a(x\u2032)" : "h a(x)"},
-        {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v\u2032"},
-        {step.x, to.at, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
-        {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a(x\u2032)"}};
+         backward ? "h a^{n+1}" : "h a^{n}"},
+        {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v^{n+1}"},
+        {step.x, to.at, 4, COLOUR_X, step.by_old_v ? "h v^{n}" : "h v^{n+1}"},
+        {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a^{n+1}"}};
     for (int i = 0; i < 4 + backward; i++)
         plot_arrow(stage, arrow[i].a, arrow[i].d, 1, arrow[i].width,
                    arrow[i].colour);
@@ -381,7 +381,7 @@ static void draw_mass_step(Plot *stage)
     plot_disc(stage, step.x, 8, COLOUR_X);
     if (stage->show->lecture)
         draw_mass_lesson(stage);
-    plot_label(stage, 1, step.new_x, COLOUR_X, "x\u2032");
+    plot_label(stage, 1, step.new_x, COLOUR_X, "x^{n+1}");
     for (int i = 0; i < 4 + backward; i++) {
         const struct MassArrow *now = &arrow[order[i]];
         Point at[4];
@@ -452,13 +452,13 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     if (!one || !known)
         return;
     values_add_flag(values, "numbers", true);
-    values_add_words(values, "at", backward ? "x\u2032" : "x");
-    values_add_words(values, "by", step.by_old_v ? "v" : "v\u2032");
+    values_add_words(values, "at", backward ? "n+1" : "n");
+    values_add_words(values, "by", step.by_old_v ? "n" : "n+1");
     values_add_point(values, "place", step.x);
     values_add_point(values, "v", step.v);
     values_add_point(values, "a", backward ? step.new_a : step.a);
-    values_add_point(values, "x'", step.new_x);
-    values_add_point(values, "v'", step.new_v);
+    values_add_point(values, "x next", step.new_x);
+    values_add_point(values, "v next", step.new_v);
     values_add_point(values, "carrying", step.by_old_v ? step.v : step.new_v);
     double h = simulation->run[0].h;
     if (!step.by_old_v && !backward) {
@@ -474,7 +474,6 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
                point_distance(step.new_x, exact_step(&step, h).at));
     if (step.by_old_v) {
         const Point half = point_along(step.x, 0.5 * h, step.v);
-        values_add(values, "half", 0.5 * h * h * vector_length(step.x));
         values_add(values, "half miss",
                    point_distance(half.at, exact_step(&step, 0.5 * h).at));
     }

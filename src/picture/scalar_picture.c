@@ -1,5 +1,6 @@
 /* Newton in one unknown: f with its quadratic models (overshoot), and g with
  * its tangents above E with its parabolas (tangent). */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -144,6 +145,17 @@ void curve_draw(Plot *stage)
 }
 
 /* The update that is shown, from its iterate to the next one. */
+/* The step length that backtracking finds from the present iterate. */
+static double first_length(const Simulation *simulation)
+{
+    Update from = update_at(simulation, -1);
+    double alpha = 1, p = from.x1 - from.x0;
+    while (alpha > DBL_EPSILON &&
+           scalar_at(simulation, from.x0 + alpha * p).value > from.f)
+        alpha /= 2;
+    return alpha;
+}
+
 void scalar_add_values(const Simulation *simulation, LiveValues *values)
 {
     Update update = update_at(simulation, simulation->descent.count - 1);
@@ -161,6 +173,7 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)
         values_add(values, "shorter", update.alpha);
+    values_add(values, "first length", first_length(simulation));
     values_add(values, "slope", update.first);
     values_add(values, "curvature", update.second);
     values_add(values, "direction", p);
@@ -218,10 +231,10 @@ void tangent_draw(Plot *stage)
     Paper *paper = stage->paper;
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[0].box.x + paper->em,
                 stage->box.y + 0.5 * paper->em, ALIGN_LEFT,
-                "g(x) = m (x \u2212 {xt}) + h\u00b2 P\u2032(x)");
+                "g(x) = m (x \u2212 {xt}^{n}) \u2212 h\u00b2 f(x)");
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[1].box.x + paper->em,
                 plot[1].box.y - 1.7 * paper->em, ALIGN_LEFT,
-                "E(x) = m/2 (x \u2212 {xt})\u00b2 + h\u00b2 P(x)");
+                "E(x) = m/2 (x \u2212 {xt}^{n})\u00b2 + h\u00b2 P(x)");
 }
 
 /* The zero of g to which full updates lead from the present iterate; NaN: they

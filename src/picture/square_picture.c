@@ -21,7 +21,6 @@ enum { NUMBERED = 121 }; /* nodes, at most, whose numbers are shown */
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
 static const double ROOM = 1.14;       /* of the stage around the square */
 static const double LENS = 12;         /* ems, the side of a lens, at most; */
-static const double PAIR = 17;         /* of one with a point and an edge */
 enum { LENS_SIZES = 3 };
 static const double FAR = 5;          /* times the view: then it follows */
 static const double BALL_REACH = 4;   /* times the view, balls are shown in; */
@@ -366,8 +365,11 @@ static void draw_numbers(const SquarePen *pen)
     for (int i = 0; i < pen->system->nodes; i++) {
         snprintf(number, sizeof number, "%d", i);
         plot_pixel(pen->stage, pen->x + 2 * i, at);
-        at[0] += 0.7 * em;
-        at[1] += 0.4 * em;
+        const Box *box = &pen->stage->box;
+        bool low = at[1] + 2.3 * em > box->y + box->height;
+        bool right = at[0] + 3.2 * em > box->x + box->width;
+        at[0] += (right ? -2.6 : 0.7) * em;
+        at[1] += (low ? -2.1 : 0.4) * em;
         if (box_contains(pen->stage->box, at[0], at[1]))
             paper_panel(pen->stage->paper, FACE_BOLD, 1.3, COLOUR_TEXT, at[0],
                         at[1], ALIGN_LEFT, number);
@@ -441,29 +443,6 @@ static void draw_kinds(const SquarePen *pen)
     }
 }
 
-/* From the end of the edge to the other one e, to the point q, and how the last
- * step changed both, four times as long. */
-static void draw_pair(const Plot *lens, const int pair[3])
-{
-    static const char *const names[2][2] = {{"q", "dq \u00d7 4"},
-                                            {"e", "de \u00d7 4"}};
-    const TimeIntegrator *run = &lens->simulation->run[0];
-    const double *a = run->x + 2 * pair[1], *v = run->v + 2 * pair[1];
-    double h = 4 * lens->simulation->options.timestep;
-    for (int i = 0; i < 2; i++) {
-        const double *b = run->x + 2 * pair[2 * i];
-        const Point d = vector_between(a, b),
-                    dv = vector_between(v, run->v + 2 * pair[2 * i]);
-        plot_arrow(lens, a, d.at, 1, 2, COLOUR_TEXT);
-        plot_arrow(lens, b, dv.at, h, 2, COLOUR_ALPHA);
-        const Point to = point_along(b, h, dv.at),
-                    by = point_along(a, 0.75, d.at);
-        const double at[4] = {by.at[0], by.at[1], a[0], a[1]};
-        plot_label(lens, 1, to.at, COLOUR_ALPHA, "%s", names[i][1]);
-        plot_label(lens, i ? 1 : 2, at, COLOUR_TEXT, "%s", names[i][0]);
-    }
-}
-
 /* The gap of the page's law so large that it is seen, in the corner of the
  * stage, below its legend, where a lens hides least, right ones first; a
  * smaller one where it would hide something in all of them. */
@@ -479,10 +458,8 @@ static void draw_lens(const SquarePen *pen)
     if (!lens.revealed || lens.box.width < 2 * LENS * lens.em ||
         !law_find_gap(pen->simulation, &gap))
         return;
-    bool paired = gap.pair[0] >= 0;
-    double most = paired && lens.box.width > 3 * PAIR * lens.em ? PAIR : LENS;
     for (int i = 0; i < 4 * LENS_SIZES; i++) {
-        int side = (int)((most - 2 * (i / 4)) * lens.em);
+        int side = (int)((LENS - 2 * (i / 4)) * lens.em);
         int left = i & 2 ? air : stage.width - side - air;
         int top = i & 1 ? stage.height - side - 2 * air : 2 * air;
         Box box = {stage.x + left, stage.y + top, side, side};
@@ -492,11 +469,10 @@ static void draw_lens(const SquarePen *pen)
             lens.box = box;
         least = fmin(least, cost);
     }
-    const double *a = paired ? pen->x + 2 * gap.pair[1] : gap.foot;
-    const double *b = paired ? pen->x + 2 * gap.pair[2] : gap.node;
-    double reach = paired ? 0.95 * point_distance(a, b) : 1.2 * gap.d_hat;
+    double reach = 1.2 * gap.d_hat;
     for (int c = 0; c < 4; c++)
-        bounds[c] = 0.5 * (a[c % 2] + b[c % 2]) + (c < 2 ? -reach : reach);
+        bounds[c] = 0.5 * (gap.foot[c % 2] + gap.node[c % 2]) +
+                    (c < 2 ? -reach : reach);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
     canvas_framed_box(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
     Box before = canvas_set_clip(canvas, box_inset(lens.box, 1));
@@ -508,9 +484,8 @@ static void draw_lens(const SquarePen *pen)
     square_springs(&near);
     square_nodes(&near);
     plot_line(&lens, gap.foot, gap.node, 3, COLOUR_P);
-    if (paired)
-        draw_pair(&lens, gap.pair);
-    snprintf(words, sizeof words, "d = %s mm", format_number(1e3 * gap.d).text);
+    snprintf(words, sizeof words, "\u03b4 = %s mm",
+             format_number(1e3 * gap.d).text);
     paper_panel(lens.paper, FACE_BOLD, 1, COLOUR_P, lens.box.x + 0.6 * lens.em,
                 lens.box.y + 0.4 * lens.em, ALIGN_LEFT, words);
     canvas_set_clip(canvas, before);

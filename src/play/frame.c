@@ -30,16 +30,16 @@ static void pretty_key(char key[SHOW_VALUE])
 static void fill_help(Show *show)
 {
     static const HelpRow mouse[] = {
-        {"drag", "pulls a node; paused: places it", false},
-        {"", "a ground, a ball: pushes; a pin: moves", false},
-        {"", "where nothing is: moves the picture", false},
-        {"drag an edge", "of the paused square: stretch", false},
-        {"right click", "pins a node, or frees it", false},
-        {"wheel", "zooms, or changes a number", false},
-        {"middle drag", "moves the picture, too", false},
-        {"double click", "a ball; on a number: default", false},
-        {"letters", "go into a lit number; Enter, Esc", false},
-        {"1 \u2026 9", "a scene; G shows more", false},
+        {"drag", "pulls a node; paused: places it", false, false},
+        {"", "a ground, a ball: pushes; a pin: moves", false, false},
+        {"", "where nothing is: moves the picture", false, false},
+        {"drag an edge", "of the paused square: stretch", false, false},
+        {"right click", "pins a node, or frees it", false, false},
+        {"wheel", "zooms, or changes a number", false, false},
+        {"middle drag", "moves the picture, too", false, false},
+        {"double click", "a ball; on a number: default", false, false},
+        {"letters", "go into a lit number; Enter, Esc", false, false},
+        {"1 \u2026 9", "a scene; G shows more", false, false},
     };
     HelpRow *row = show->help + sizeof mouse / sizeof *mouse;
     memcpy(show->help, mouse, sizeof mouse);
@@ -280,8 +280,10 @@ static void fill_time(const Player *player, Show *show)
     if (!turn)
         append(text, SHOW_TEXT, "   t = %.4g s", time);
     if (!turn && player->time.speed != 0)
-        append(text, SHOW_TEXT, "   %.4g steps a frame",
-               ldexp(1, player->time.speed));
+        append(text, SHOW_TEXT,
+               player->time.speed < 0 ? "   slowed %.4g times"
+                                      : "   %.4g steps a frame",
+               ldexp(1, abs(player->time.speed)));
     snprintf(show->state, SHOW_VALUE, "%s",
              player->time.mode == MODE_REST ? "at rest" : "");
     if (!past_makes(past) || (clock_now() - player->time.began <= LONG_WORK &&

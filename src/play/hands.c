@@ -376,6 +376,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     int index = under->hit.index;
     bool ground =
         under->pick.kind == PICK_NONE || under->pick.kind == PICK_SPRING;
+    const char *key;
     bool body = player_simulation(player)->scene->needs & NEEDS_BODY;
     Status status = STATUS_OK;
     player_deselect(player);
@@ -397,10 +398,11 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     case ZONE_PAGE: /* a line of a list */
         index = show_help_row(&player->screen.frame.show, &under->layout,
                               player->hands.mouse.x, player->hands.mouse.y);
-        snprintf(line, sizeof line, "%d", index + 1);
-        return keyboard_now(player) == AT_LIST && index >= 0
-                   ? open_line(player, line)
-                   : STATUS_OK;
+        if (keyboard_now(player) != AT_LIST || index < 0)
+            return STATUS_OK;
+        key = player->screen.frame.show.help[index].key;
+        snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
+        return key[0] ? open_line(player, line) : STATUS_OK;
     case ZONE_CELL:
         player->screen.view.chosen = index;
         return ask(player, COMMAND_OPEN, 0);

@@ -58,6 +58,7 @@ Status obey_column(Player *player, const Command *command)
 {
     Column column = command->kind == COMMAND_KEYS      ? COLUMN_KEYS
                     : command->kind == COMMAND_PAGES   ? COLUMN_PAGES
+                    : command->kind == COMMAND_LETTERS ? COLUMN_LETTERS
                     : command->kind == COMMAND_OPTIONS ? COLUMN_OPTIONS
                                                        : COLUMN_CODE;
     if (column == COLUMN_CODE && !player_settings(player)->page)

@@ -135,7 +135,7 @@ const OptionRow option_rows[] = {
      NEEDS(BODY), LIST("material"), TERM(neo_hookean_energy)},
     {NUMBER(young, "E", "Young's modulus of the triangles", "J/m^2", 1e5, 1e-30,
             1e30),
-     NEEDS(BODY), IDLE(no_triangles), LIST("E"), LIVE, ROW(12, 11, 0)},
+     NEEDS(BODY), IDLE(no_triangles), LIST("Young"), LIVE, ROW(12, 11, 0)},
     {NUMBER(poisson, "NU",
             "Poisson's ratio; near 0.5 triangles keep their area", "", 0.4, 0,
             0.499),

@@ -2,6 +2,7 @@
 # The lecture without a screen: its list, its pages one by one.
 . "$(dirname "$0")/verdict.sh"
 work_apart
+apart=$PWD
 
 "$elasto" --lecture --list >list
 pages=$(awk 'END { print NR }' list)
@@ -38,12 +39,31 @@ walk() { # FOLDER LINES...: a picture of the page that the commands end at
 }
 verdict a_page_is_the_same_when_it_is_entered_again "$(
     for name in $(awk -v stride="$([ -z "${LONG:-}" ] && echo 3 || echo 1)" \
-        '$2 !~ /race/ && NR % stride == 0 { print $2 }' list); do
+        '$2 !~ /order/ && NR % stride == 0 { print $2 }' list); do
         walk "once_$name" "page $name"
         walk "again_$name" "page $name" next next page-back page-on page-on \
             "page $name"
         cmp "once_$name/shot.png" "again_$name/shot.png" 2>&1
     done
+)"
+
+# Pages are referred to by name: with a page more at place 3 each number in a
+# text is that of the same page as before.
+numbers() { # PAGES.TXT: which pages its texts name, by number
+    awk -f src/lesson/text.awk -f src/lesson/code.awk \
+        -f src/lesson/pages.awk "$1" | grep -o 'page [0-9][0-9]*'
+}
+verdict a_page_more_makes_no_number_stale "$(
+    cd "$root" || exit 1
+    grep -nE 'pages? [0-9]' src/lesson/pages.txt src/picture/cards.txt
+    awk '/^== equation:/ { print "== added: One more"; print page }
+        /^== / { page = "" }
+        !/^==/ && !/page:/ { page = page $0 "\n" }
+        { print }' src/lesson/pages.txt >"$apart/more.txt"
+    numbers src/lesson/pages.txt | awk '{ print $1, $2 + ($2 >= 3) }' \
+        >"$apart/expected"
+    numbers "$apart/more.txt" | diff "$apart/expected" - | head -n 5
+    [ "$(wc -l <"$apart/expected")" -gt 3 ] || echo 'no page is named'
 )"
 
 exit $failed

@@ -539,15 +539,15 @@ static void session_line(const char *line)
 
 /* ---- sessions ----------------------------------------------------------- */
 
-enum { SESSIONS = 128, LINES = 4096 };
+enum { SESSIONS = 192, LINES = 4096 };
 
 typedef struct Session {
     const char *name, **line;
 } Session;
 
-static Session sessions[SESSIONS];
-static const char *lines[LINES]; /* of all of them, NULL behind each */
-static char session_text[1 << 16];
+static Session sessions[SESSIONS + 1]; /* up to one without a name */
+static const char *lines[LINES];       /* of all of them, NULL behind each */
+static char session_text[1 << 17];
 
 /* Returns how many there are. */
 static int read_sessions(void)
@@ -801,6 +801,20 @@ static void random_hands_are_written_down(void **unused)
     present = NULL;
 }
 
+/* Each page of the lecture has a session that does what its Try says. */
+static void each_try_is_tried(void **unused)
+{
+    (void)unused;
+    for (const LecturePage *page = lecture_pages; page->name; page++) {
+        const Session *session = sessions;
+        while (session->name && (strncmp(session->name, "try ", 4) != 0 ||
+                                 strcmp(session->name + 4, page->name) != 0))
+            session++;
+        if (!session->name)
+            fail_msg("no session 'try %s'", page->name);
+    }
+}
+
 int main(void)
 {
     struct CMUnitTest tests[SESSIONS + SCENES + 3];
@@ -823,6 +837,7 @@ int main(void)
         random_keys_stay_in_their_field, end_session);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
         random_hands_are_written_down, end_session);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(each_try_is_tried);
     assert_int_equal(chdir(folder), 0);
     int failed =
         _cmocka_run_group_tests("sessions", tests, (size_t)count, NULL, NULL);
