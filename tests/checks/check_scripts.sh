@@ -11,7 +11,7 @@ table=$root/include/play/command_rows.def
 awk '{ step = $1; sub("[0-9]* ", ""); n = split($0, all, "; ")
     for (i = 1; i <= n; i++) print step, all[i] }' >commands <<'END'
 0 page-on; page-back; page solid; pages; code; escape; scene SCENE; colours
-0 keys; keys; bare; bare; faster; slower; card 0; enlarge 1; fit
+0 keys; keys; letters; letters; bare; bare; faster; slower; card 0; enlarge 1; fit
 0 zoom 150 0.1 0.2; pan 0.1 -0.1; blank; blank; sheet; sheet; full-screen
 0 full-screen; select; raise; lower; default stretch; start 0.3 0.2
 0 set timestep 0.005; handle 0 0.2 0.1; flip 0; predict 0.5 0.2; cell 3
