@@ -19,8 +19,6 @@ EM_JS(void, window_size, (int *size), {
 });
 EM_JS(double, window_letter, (void), { return Page.letter(); });
 EM_JS(bool, window_has_document, (void), { return true; });
-EM_JS(void, window_set_full, (bool full), { Page.full(full); });
-EM_JS(bool, window_is_full, (void), { return !!document.fullscreenElement; });
 EM_JS(void, page_show, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
 });
@@ -42,6 +40,17 @@ void window_set_title(const char *title)
 
 void window_close(void)
 {
+}
+
+/* The browser's own keys fill the screen. */
+void window_set_full(bool full)
+{
+    (void)full;
+}
+
+bool window_is_full(void)
+{
+    return false;
 }
 
 const char *window_failure(void)

@@ -65,10 +65,8 @@ const showTexts = (word) =>
 // ---- numbers ----------------------------------------------------------------
 
 const input = (name, label, value, change, more = {}) => {
-  const element = make('input', [], { 'aria-label': label, name, value, ...more });
-  if (!more.type) element.inputMode = 'decimal';
-  element.onchange = change;
-  return element;
+  const how = { 'aria-label': label, inputmode: 'decimal', name, value, ...more };
+  return Object.assign(make('input', [], how), { onchange: change });
 };
 
 // Over two powers of ten around what the number is when the page opens, or four
@@ -119,22 +117,18 @@ const showNumbers = () => {
   const rows = now.number ?? [];
   const names = rows.map(([name, , , , , , , shown]) => name + shown);
   const shape = JSON.stringify([field('page', 2), names]);
-  const exhibit = make('span');
   if (seen.shape !== shape) {
     const made = rows.map(makeNumber);
     const of = (shown) => made.filter((item, i) => (rows[i][7] !== 'more') === shown);
-    $('numbers').replaceChildren(...of(true), exhibit);
+    $('row').replaceChildren(...of(true));
     $('more').lastElementChild.replaceChildren(...of(false));
-    Object.assign(seen, { shape, 'switch,point': '' });
+    seen.shape = shape;
   }
-  const { lastElementChild } = $('numbers');
-  if (!lastElementChild.contains(document.activeElement))
-    part(['switch', 'point'], (switches) =>
-      lastElementChild.replaceChildren(
-        ...switches.map(makeSwitch),
-        ...(now.point ?? []).map(makePoint),
-      ),
-    );
+  if (!$('exhibit').contains(document.activeElement))
+    part(['switch', 'point'], (switches) => {
+      const points = (now.point ?? []).map(makePoint);
+      $('exhibit').replaceChildren(...switches.map(makeSwitch), ...points);
+    });
   for (const [name, , value, , , help, idle] of rows) {
     const element = document.querySelector(`[name="${name}"]`);
     const slider = element.parentNode.querySelector('[type=range]');
@@ -251,8 +245,6 @@ const showDocument = (time) => {
   part(['sentence', 'page'], () => setMarkup($('sentence'), number ? '' : field('sentence')));
   part(['time'], () => setMarkup($('time'), field('time')));
   for (const word of ['text', 'formula', 'ask', 'look', 'try', 'claim', 'notes']) showTexts(word);
-  $('presenter').hidden = !now.notes || !/[?&]notes/.test(location.search);
-  $('tested').hidden = !now.claim;
   part(['asks', 'page'], showGuess);
   part(['verdict', 'page'], ([[text = '', right, guesses] = []]) =>
     setMarkup($('verdict'), text + (guesses > 1 ? ` ${right} of ${guesses} so far.` : '')),
@@ -273,7 +265,6 @@ const showDocument = (time) => {
   }
   part(['code'], (lines) => {
     const made = lines.map(([lit, text]) => make(lit === '1' ? 'mark' : 'span', [text + '\n']));
-    $('code').hidden = !lines.length;
     $('code').lastElementChild.replaceChildren(...made);
   });
   showNumbers();
@@ -312,7 +303,7 @@ $('guess').onsubmit = (event) => {
 
 // A page of the lecture with its picture at the step that it names and room to
 // write; its answer and its notes.
-const makeSheet = ([address, topic], index) => {
+const makeSheet = ([, topic], index) => {
   const head = `${index + 1}. ${topic}`;
   const pictures = make('div', [], { class: 'pictures' });
   const draw = (card, width) => {
@@ -328,9 +319,8 @@ const makeSheet = ([address, topic], index) => {
   Module._web_sheet_veil();
   const asked = read(ask('web_document', 'string'));
   const room = make('div', [], { class: 'room' });
-  const live = make('p', [make('a', [`live: elasto.html#${address}`], { href: '#' + address })]);
   const question = make('b', texts(asked.ask));
-  const words = [...texts(asked.text), ...texts(asked.formula, true), question, room, live];
+  const words = [...texts(asked.text), ...texts(asked.formula, true), question, room];
   return {
     page: make('section', [make('h2', [head]), pictures, ...words]),
     answer: make('div', [make('h3', [head]), ...texts(told.look)]),
@@ -341,22 +331,14 @@ const makeSheet = ([address, topic], index) => {
 const printLecture = () => {
   sheet = {};
   const made = lists.pages.map(makeSheet);
-  const columns = (head, parts) =>
-    make('div', [make('h2', [head]), ...parts], { class: 'columns' });
-  const answers = columns(
-    'Answers',
-    made.map(({ answer }) => answer),
-  );
-  const notes = columns(
-    'Notes for whoever presents it',
-    made.map(({ notes }) => notes),
-  );
+  const columns = (head, what, name) =>
+    make('div', [make('h2', [head]), ...made.map((one) => one[what])], { class: name });
   sheet = Module._web_sheet(-1) ?? null;
   $('handout').replaceChildren(
     make('h1', ['Reliable simulation of elastodynamics']),
     ...made.map(({ page }) => page),
-    answers,
-    /[?&]notes/.test(location.search) ? notes : '',
+    columns('Answers', 'answer', 'columns'),
+    columns('Notes for whoever presents it', 'notes', 'columns presented'),
   );
 };
 addEventListener('beforeprint', () => $('handout').children.length || printLecture());

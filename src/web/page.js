@@ -39,10 +39,6 @@ const Page = {
     const bytes = new Uint8ClampedArray(heap.buffer, at, 4 * width * height);
     target.getContext('2d').putImageData(new ImageData(bytes, width, height), 0, 0);
   },
-  full(on) {
-    const done = on ? document.documentElement.requestFullscreen() : document.exitFullscreen();
-    done.catch(() => say('This browser allows no full screen here.', true));
-  },
 };
 
 // ---- files ------------------------------------------------------------------
@@ -370,5 +366,6 @@ const start = async () => {
   if (window === top) canvas.focus({ preventScroll: true });
   stats.first = performance.now();
   new ResizeObserver(() => tell(REDRAW, { clientX: 0, clientY: 0 })).observe(canvas);
+  document.body.classList.toggle('notes', /[?&]notes/.test(location.search));
   if (/[?&]print/.test(location.search)) printLecture();
 };

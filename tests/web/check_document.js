@@ -72,11 +72,11 @@ const MATH = `[...document.querySelectorAll('math *')].filter((element) => {
 
 const SIZES = '360x740 390x844 844x390 820x1180 1366x768 1920x1080 683x384'.split(' ');
 
-const nothingIsCut = async (tab, size, resize) => {
+const nothingIsCut = async (tab, size, resize, every = 1) => {
   const [width, height] = size.split('x').map(Number);
   const wrong = [];
   await resize(width, height);
-  for (const name of PAGES) {
+  for (const name of PAGES.filter((name, i) => i % every === 0)) {
     await turnTo(tab, name);
     for (const told of [false, true]) {
       if (told) await answer(tab);
@@ -335,7 +335,7 @@ const inFirefox = async () => {
     const tab = await browser.open(at(''));
     const wrong = [];
     for (const size of ['500x800', '1366x768'])
-      wrong.push(...(await nothingIsCut(tab, size, browser.resize)));
+      wrong.push(...(await nothingIsCut(tab, size, browser.resize, 3)));
     verdict('nothing_is_cut_in_two_sizes_in_Firefox', wrong);
   } finally {
     await browser.close();
