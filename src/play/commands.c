@@ -172,8 +172,8 @@ Status command_parse(const char *line, Command *command, char *message,
         good = good && take_word(&line, next) && read_word(next, at, command);
     if (good && line[strspn(line, blanks)] == '\0')
         return STATUS_OK;
-    return refuse((Refusal){message, size}, "behind '%s' stands %s", word,
-                  takes ? takes : "nothing");
+    return refuse((Refusal){message, size}, "write it as '%s%s%s'", word,
+                  takes ? " " : "", takes ? takes : "");
 }
 
 void command_format(const Command *command, char *line, size_t size)
@@ -240,7 +240,7 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
         if (!isdigit((unsigned char)*line) || errno ||
             !isspace((unsigned char)*end))
             status = refuse((Refusal){why, sizeof why},
-                            "a line is STEP COMMAND, the step a number");
+                            "write STEP COMMAND, such as 40 grab 12");
         else
             status = command_parse(end, &command, why, sizeof why);
         if (!status)

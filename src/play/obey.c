@@ -74,10 +74,12 @@ static Status check_number(Player *player, const Command *command)
     }
     if (command->number < count)
         return STATUS_OK;
-    return player_refuse(
-        player,
-        count > 0 ? "%s: there are 0 ... %ld, no %ld" : "%s: none is here",
-        command_rows[command->kind].word, count - 1, command->number);
+    return player_refuse(player,
+                         count > 0 ? "%s: there is no number %ld; they are 0 "
+                                     "to %ld"
+                                   : "%s: this scene has none",
+                         command_rows[command->kind].word, command->number,
+                         count - 1);
 }
 
 /* Returns the command that a key stands for now, so that a script with it leads

@@ -49,7 +49,7 @@ verdict refused_lines_change_no_file "$(refusals <<END
 1|nowhere/pictures: No such|--headless --quiet --frames nowhere/pictures
 1|k.csv/.*: Not a directory|--headless --quiet --frames k.csv
 1|step .*NaN or infinite.*--timestep|--headless --quiet --integrator forward-euler --timestep 1
-2|--script: k.csv, line 1: a line is STEP COMMAND|--headless --script k.csv
+2|--script: k.csv, line 1: write STEP COMMAND|--headless --script k.csv
 2|--state 'd': Is a directory|--headless --state d
 2|--state 'nowhere': No such file|--headless --state nowhere
 2|--state 'k.csv': its first line, 'precious', has no column 'step'|--headless --state k.csv
