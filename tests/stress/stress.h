@@ -17,11 +17,11 @@ typedef struct Moment {
     double moved;
 } Moment;
 
-/* E at x_n + u, which is not rounded; J s^2.  All terms, by oracle.c. */
+/* E of all terms at x_n + u, which is not rounded, by oracle.c; J s^2 */
 long double wide_energy(const Moment *moment, const double *u);
 
-/* What rounding of coordinates, and of the slope on the way by `way`, can make
- * of E there. */
+/* Error of E at x_n + u that rounding of the coordinates, and of the slope
+ * along `way`, can cause; J s^2 */
 long double wide_noise(const Moment *moment, const double *u,
                        const double *way);
 
@@ -59,7 +59,7 @@ LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
 /* ---- judging steps (stress_watch.c) ------------------------------------ */
 
 typedef enum Verdict {
-    VERDICT_CONVERGED, /* and the test was passed when computed again */
+    VERDICT_CONVERGED, /* the judge's own test was passed, too */
     VERDICT_REPORTED,  /* not converged, and the status says so */
     VERDICT_WRONG,     /* a promise was broken */
     VERDICTS
@@ -77,9 +77,9 @@ typedef struct Tally {
  * converged. */
 typedef struct Watch {
     TimeIntegrator *run;
-    Tally *tally;       /* what is counted */
+    Tally *tally;       /* counters of all watches */
     bool residuals;     /* solve again where a step says it converged */
-    bool springs;       /* there is nothing else */
+    bool springs;       /* the system has springs alone */
     double *x, *v;      /* [2n] before the step */
     double *x_n;        /* [2n] where the present minimisation started */
     double *u;          /* [2n] m, last iterate of the minimisation */
@@ -87,13 +87,13 @@ typedef struct Watch {
     Wide *g, *H;        /* [2n], [2n 2n] workspace */
     long double start;  /* E at u = 0 */
     long double energy; /* E at u */
-    int updates;        /* of this minimisation */
+    int updates;        /* updates of the present minimisation so far */
     double tolerance;   /* m/s, as the step began */
-    long crossings;     /* of edges, where cells may turn over */
+    long crossings;     /* crossings of edges as the step began */
     bool wrong;         /* in this step */
     bool flat;          /* a cell was, as E was looked at last */
-    char reason[512];   /* what was wrong first */
-    Status status;      /* of the last step */
+    char reason[512];   /* first broken promise */
+    Status status;      /* status of the last step */
 } Watch;
 
 /* The run must stay where it is; its Newton's observer becomes the watch.

@@ -550,7 +550,8 @@ static void check_state(Watch *watch)
     check_walls(watch, run->x);
     if (watch->status == STATUS_OK && is_free(run))
         check_momentum(watch);
-    if (watch->springs && run->newton && /* else flow and breaks change E */
+    if (watch->springs &&
+        run->newton && /* with flow and breaks E changes between steps */
         run->newton->settings.search != LINE_SEARCH_NONE)
         watch_descent(watch, run->newton->at.u, "as the step ends");
 }

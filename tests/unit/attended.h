@@ -17,7 +17,7 @@
 static Player player;
 static volatile sig_atomic_t stop;
 
-/* A player of this line whom this script attends: it may go back. */
+/* Creates the player of a command line with a script: the past is kept. */
 static inline void begin_script(const char *script, const char *line)
 {
     static Options options[OPTIONS_MAX_PANES];
@@ -64,7 +64,7 @@ static inline Status obey(const char *line)
     return player_obey(&player, &command);
 }
 
-/* All of these, one after the other. */
+/* Obeys the commands of a list that NULL ends. */
 static inline void obey_all(const char *const *lines)
 {
     for (; *lines; lines++)
@@ -88,7 +88,7 @@ static inline const Machine *machine(int pane)
     return &player.past.machine[pane];
 }
 
-/* What is told of a step. */
+/* Outcome of a step of a pane */
 static inline const Outcome *told(int pane, long step)
 {
     return &past_entry(&player.past, pane, step)->outcome;

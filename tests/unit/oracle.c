@@ -1,3 +1,4 @@
+/* oracle.c - each energy once more, with dual numbers in extended precision. */
 #include "oracle.h"
 
 #include <float.h>

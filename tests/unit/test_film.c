@@ -21,7 +21,7 @@ static char folder[] = "/tmp/elasto-film-XXXXXX";
  * few colours as it is; the others are looked at in the middle of the block,
  * where they lose what no eye sees (7 of 255 with ffmpeg 5.1). */
 static const struct Row {
-    const char *name, *format; /* of its pixels */
+    const char *name, *format; /* hash of the frame's pixels */
     double rate;
     int error, width, height;
 } rows[] = {

@@ -198,7 +198,8 @@ TEST(broken_springs_do_nothing)
     CHECK_OK(plastic_energy.set(&few, NULL, (double[]){0.1, 0}));
     const Plasticity *flow = system_term_data(&few, &plastic_energy);
     plastic_energy.end_step(&(TermStep){&few, few.term, x, x, 1});
-    CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14); /* it does while it is whole */
+    CHECK_NEAR(flow->ep[0], 8 - 0.1,
+               1e-14); /* a whole spring changes the step */
     few.k[0] = 0;
     unsigned version = few.version;
     plastic_energy.end_step(&(TermStep){&few, few.term, far, far, 1});
@@ -301,7 +302,8 @@ static double dissipated_in(const TimeIntegrator *it, double *k,
     sum -= oracle_energy(&spot, NULL).f;
     at.u = dx; /* with what damping does */
     sum += oracle_energy(&spot, NULL).p;
-    if (system_find_term(&whole, &friction_energy)) /* it has its own loss */
+    if (system_find_term(&whole,
+                         &friction_energy)) /* damping books its own loss */
         sum -= oracle_energy(&spot, &friction_energy).p;
     return (double)sum;
 }
@@ -617,7 +619,7 @@ TEST(methods_have_the_order_of_their_table)
     Simulation *far = make_steps(moving_square(&verlet, FINEST), FINEST);
     Simulation *near =
         make_steps(moving_square(&verlet, 2 * FINEST), 2 * FINEST);
-    double fallen = 0; /* what springs do does not move the middle */
+    double fallen = 0; /* springs do not move the middle */
     for (int i = 1; i < 2 * 9; i += 2)
         fallen += (far->run[0].x[i] - start->x[i] - TIME * start->v[i]) / 9;
     CHECK_NEAR(fallen, -9.81 / 2 * TIME * TIME, 1e-12);

@@ -113,7 +113,7 @@ TEST(small_windows_leave_parts_out)
         CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
     }
     for (int i = 0; i < show.chips; i++)
-        show.chip[i].label++; /* they move together */
+        show.chip[i].label++; /* shorter labels move the chips together */
     CHECK(show_layout(&show, 900, 900).chips_left_out == 0);
     Layout small = show_layout(&show, 400, 300);
     CHECK(small.cards == 0 && small.settings == 0);

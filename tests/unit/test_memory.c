@@ -15,10 +15,10 @@ void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void __wrap_free(void *block);
 
-static long allocations;        /* so far */
+static long allocations;        /* allocations so far */
 static long held;               /* blocks that were not freed */
 static long first_failure = -1; /* the one that fails; -1: none */
-static bool for_good;           /* and all after it */
+static bool for_good;           /* the following allocations fail, too */
 
 static bool allocation_fails(void)
 {

@@ -597,7 +597,8 @@ TEST(claim_parts)
     CHECK_NEAR(descent->value, 0.26, 1e-15);
     make_steps(simulation, 1);
     CHECK(simulation->done && descent->count == 1);
-    for (int k = 0; k < 2; k++) /* one subtraction and one addition */
+    for (int k = 0; k < 2;
+         k++) /* rounding of one subtraction and one addition */
         CHECK_NEAR(descent->point[k], simulation->exhibit.target[k], 1e-15);
 }
 
@@ -617,7 +618,7 @@ TEST(claim_dial)
     for (int bowl = 0; bowl < 2; bowl++) {
         int bends = 0;
         simulation->run[0].h = bowl ? 0.067 : 0.0675;
-        for (int i = 0; i < 81 * 81; i++) /* all that the map shows */
+        for (int i = 0; i < 81 * 81; i++) /* every place of the map */
             bends += descent_hessian_index(simulation, 0.05 * (i % 81 - 40),
                                            0.05 * (i / 81 - 40)) > 0;
         CHECK((bends == 0) == bowl);
@@ -996,7 +997,7 @@ TEST(claim_fracture)
         }
     }
     CHECK(count > 10);
-    double most = 0; /* that of a spring that waits: it still pulls */
+    double most = 0; /* largest load of a spring that still pulls */
     for (int step = 45; step < 100; step++) {
         make_steps(simulation, 1);
         most = fmax(most, known_now(simulation, "law x"));
@@ -1097,7 +1098,7 @@ TEST(claim_trust)
     int good = 0;
     Simulation *simulation = open_page("trust", "");
     CHECK(!speaks_of_all(simulation));
-    CHECK(isnan(known_now(simulation, "known"))); /* one run is no map */
+    CHECK(isnan(known_now(simulation, "known"))); /* a single run is no map */
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
             CHECK_STATUS(envelope_visit(simulation, column, row), STATUS_OK);
@@ -1314,7 +1315,7 @@ TEST(pages_are_read_from_the_back_row)
         }
         paper_free(&paper);
     }
-    Show show; /* of a scene that is no page */
+    Show show; /* large letters outside of the lecture */
     show_create(simulate("square --big"), &show);
     CHECK(show_layout(&show, 1280, 800).em > 800 / 40);
 }

@@ -1,4 +1,4 @@
-/* What the window promises, without a window: the same commands, scene by
+/* Promises of the window, held without a window: the same commands, scene by
  * scene.
  */
 #include "test.h"

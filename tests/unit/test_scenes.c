@@ -206,7 +206,7 @@ TEST(envelope_cells_are_runs)
         CHECK(cell->updates == simulation_counters(run).iterations);
         CHECK_SAME_BITS(map->run[0].x, run->run[0].x, 2 * run->system.nodes);
     }
-    CHECK(refused >= 1); /* such cells are compared too */
+    CHECK(refused >= 1); /* cells that did not converge are compared, too */
 }
 
 /* ---- predict, then show ------------------------------------------------- */
@@ -215,8 +215,8 @@ TEST(predictions_are_compared)
 {
     Simulation *scene = simulate("arrows --integrator forward-euler");
     const Prediction *guess = &scene->prediction;
-    scene_predict(scene, 1.3, 0.9);        /* it will be (1, 0.5) */
-    for (int step = 0; step < 2; step++) { /* it is seen beside its step */
+    scene_predict(scene, 1.3, 0.9);        /* the step leads to (1, 0.5) */
+    for (int step = 0; step < 2; step++) { /* the guess stays beside its step */
         CHECK(guess->made);
         CHECK_NEAR(guess->came[1], 0.5, 1e-15);
         CHECK_NEAR(guess->distance, 0.5, 1e-15);
@@ -351,7 +351,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     newton->settings.max_iterations = 1;
     newton_start(newton, scene->run[0].x, u, 1e-4, 1e-30);
     CHECK_STATUS(newton_minimise(newton), STATUS_ITERATION_LIMIT);
-    Iterate before = newton->at; /* of the last direction */
+    Iterate before = newton->at; /* residual of the last direction */
     before.u = newton->u_trial;
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);

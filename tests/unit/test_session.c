@@ -47,8 +47,8 @@ static uint64_t shape_shown(void)
     return hash;
 }
 
-/* The picture without its message, or the cards of it; the state.  As a window
- * does it, nothing is drawn that has not changed. */
+/* Hash of the picture without its message, of its cards, of the state or of the
+ * square's shape.  The picture is drawn as in a window: only after a change. */
 static uint64_t seen(const char *what)
 {
     char note[sizeof player.note];
@@ -67,8 +67,7 @@ static uint64_t seen(const char *what)
                                 : (Box){0, 0, canvas->width, canvas->height});
 }
 
-/* The texts of the frame that was drawn last, a line each; those of the list or
- * code in the column. */
+/* Texts of the last frame, a line each; `listed` has those in the column. */
 static char written[1 << 16], listed[1 << 15];
 static Box column;
 
@@ -119,7 +118,7 @@ static void begin_session(const char *line)
     seen(""); /* a window shows the scene before anything is put in */
 }
 
-/* What makes no sense is only told. */
+/* A refused command leaves its message as a note. */
 static void tell(Status status)
 {
     CHECK(!status || status == STATUS_INVALID_INPUT ||
@@ -195,7 +194,8 @@ static bool point_in_pane(const char *place, const Layout *layout)
         return false;
     Camera camera = show_camera(&player.screen.frame.show, layout, p);
     camera_pixel(&camera, at, mouse);
-    if (place[0] == 'g' && !is_grip(layout, i)) /* it is above, on a curve */
+    if (place[0] == 'g' &&
+        !is_grip(layout, i)) /* the grip lies on a curve above the axis */
         for (mouse[1] = layout->pane[p].y; !is_grip(layout, i); mouse[1]++)
             assert_true(mouse[1] < layout->height);
     return true;
@@ -295,7 +295,7 @@ static void run_until(long step)
     if (player_is_stopped(&player))
         tell(obey("play"));
     player.given.script.count =
-        player.given.script.next; /* nothing else is due */
+        player.given.script.next; /* later lines of the script are dropped */
     CHECK_STATUS(script_add(&player.given.script, step, &pause, 0), STATUS_OK);
     player_run(&player);
 }
@@ -309,7 +309,7 @@ static void begin_step(void)
         CHECK_STATUS(past_iterate(past), STATUS_RUNNING);
 }
 
-/* How many files there are; and without them. */
+/* Counts the files of the session's folder; `away` removes them. */
 static int count_files(bool away)
 {
     glob_t found;
@@ -320,7 +320,7 @@ static int count_files(bool away)
     return count;
 }
 
-/* What Y writes leads a run without a window to the same bits. */
+/* The script that Y writes leads a run without a window to the same bits. */
 static void replay(const char *line)
 {
     char script[65536] = "", paused[160];
@@ -330,14 +330,14 @@ static void replay(const char *line)
     FILE *file = fopen(found.gl_pathv[0], "r");
     assert_true(file && fread(script, 1, sizeof script - 1, file) > 0);
     fclose(file);
-    remove(found.gl_pathv[0]); /* it may be asked again */
+    remove(found.gl_pathv[0]); /* the next Y writes a new one */
     globfree(&found);
     uint64_t hash = player_hash(&player);
     finish_session();
     snprintf(paused, sizeof paused, "%s --paused", line);
     begin_script(script, paused);
     open_player = true;
-    player_run(&player); /* of some scenes steps do not converge */
+    player_run(&player); /* some scenes have steps that do not converge */
     CHECK(player_hash(&player) == hash && !player.orders.refused);
 }
 
@@ -417,7 +417,7 @@ static bool pane_has_all(const Show *show, const Layout *layout, int p)
     return far > 0.05 * box->width;
 }
 
-/* Of a part of the window, the parts that it has several of. */
+/* Adds the facts of panes, numbers, chips and cards. */
 static void collect_parts(const Show *show)
 {
     Layout layout = layout_now();
@@ -440,7 +440,7 @@ static void collect_parts(const Show *show)
                                    : "open");
 }
 
-/* All that is shown, but the pixels. */
+/* Collects what the window shows, as lines of text. */
 static void collect_facts(void)
 {
     static const char *const kinds[] = {"none",     "node",  "spring",
@@ -748,7 +748,7 @@ static void random_keys_stay_in_their_field(void **unused)
         press_key("Escape");
         CHECK(!player.hands.lit && past_panes(&player.past) == 1 &&
               player_is_stopped(&player));
-        if (set && player.past.step == 2) /* else it begins again with it */
+        if (set && player.past.step == 2) /* a mesh size begins a new run */
             CHECK(all_but(place) == rest);
         if (!set)
             CHECK(seen("") == before);
@@ -758,7 +758,7 @@ static void random_keys_stay_in_their_field(void **unused)
     CHECK(refused > ROUNDS / 10);
 }
 
-/* All that was done, undone and done again: the same bits. */
+/* Undoing and redoing every change leads back to the same bits. */
 static void undo_and_redo(void)
 {
     int back = 0;
@@ -767,7 +767,7 @@ static void undo_and_redo(void)
     const long step = player.past.step;
     for (; player.past.now > 0; back++)
         tell(obey("undo"));
-    if (back == 0) /* nothing was done */
+    if (back == 0) /* the session changed nothing */
         return;
     tell(obey("home"));
     CHECK(player_hash(&player) == started);

@@ -333,7 +333,7 @@ TEST(what_flies_far_is_drawn_or_reported)
     view.hover = (Pick){.kind = PICK_SPRING, .index = 0};
     draw();
     CHECK(on_stage(COLOUR_NOTE) > 1000);
-    for (int part = 0; part < 2; part++) { /* one node, then all of them */
+    for (int part = 0; part < 2; part++) { /* first one node, then all nodes */
         for (int i = 0; i < (part ? size : 1); i++)
             x[i] = i % 2 ? INFINITY : NAN;
         draw();
@@ -438,7 +438,7 @@ TEST(the_mouse_finds_nodes_and_springs)
         lens_zoom(&view.lens, layout.pane[0], at[0], at[1], 2.5);
     }
     view.lens = LENS_FITS;
-    for (int s = 0; s < system->springs; s++) { /* where diagonals cross, too */
+    for (int s = 0; s < system->springs; s++) { /* also where diagonals cross */
         const double *p = x + 2 * system->e[2 * s];
         const double *q = x + 2 * system->e[2 * s + 1];
         CHECK(picks(
@@ -620,7 +620,7 @@ TEST(maps_have_levels_and_pulls)
     }
     double middle[2];
     draw_without_words();
-    for (int k = 0; k < 3; k++) { /* so is the contour itself */
+    for (int k = 0; k < 3; k++) { /* the contour itself lies there, too */
         double at[2], far = sqrt(2 * levels[k]);
         int darkest = -9;
         plot_pixel(&stage, (double[]){target[0] - far, target[1]}, at);

@@ -52,7 +52,7 @@ TEST(random_scenes_keep_the_promise)
 static const struct {
     int steps;
     const char *line;
-    Verdict worst; /* it may have */
+    Verdict worst; /* worst verdict that is allowed */
 } once_wrong[] = {
     /* a light body of stiff triangles: rounding of forces that cancel must
      * not turn it */

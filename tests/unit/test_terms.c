@@ -148,7 +148,7 @@ static void make_pair(const Row *row, Random *random, Case *c)
         square_mesh_rest_position(&mesh, i, x);
         if (i < 4)
             continue;
-        double right = x[0] + 0.5, high = x[1] - 0.5; /* of its corner */
+        double right = x[0] + 0.5, high = x[1] - 0.5; /* index of the corner */
         x[0] = 0.5 + away + cos(angle) * right - sin(angle) * high;
         x[1] = up + sin(angle) * right + cos(angle) * high;
     }

@@ -1,3 +1,5 @@
+/* testing.c - checks, random systems and runs of command lines for all suites.
+ */
 #include "testing.h"
 
 #include <math.h>

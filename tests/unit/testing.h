@@ -86,7 +86,8 @@ void random_system(Random *random, SpringState state, System *system,
 /* Full matrix [size size] of a sparse one. */
 void dense_from_sparse(const Sparse *A, double *dense);
 
-/* Cuts the part of a row before " | " off; NULL: nothing is left. */
+/* Returns the part of a row before " | " and moves the row behind it; NULL: the
+ * row is empty. */
 char *next_part(char **row);
 
 /* options_parse of the words of a line, separated by single spaces; "''" is an
@@ -100,7 +101,8 @@ Options line_options(const char *line);
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation);
 
-/* The same, freed when the test ends; the line may have formats. */
+/* The simulation of a line, which may have formats; it is freed when the test
+ * ends. */
 #define simulate(...) simulate_watched(NULL, NULL, __VA_ARGS__)
 Simulation *simulate_watched(NewtonObserver observer, void *user,
                              const char *line, ...)
@@ -113,16 +115,15 @@ Status simulation_set(Simulation *simulation, int slot, double value);
 Status simulation_pin(Simulation *simulation, int node, bool pinned);
 Status simulation_hold(Simulation *simulation, int node, double x, double y);
 
-/* So many steps, all of which converge; returns the simulation. */
+/* Makes `count` steps, all of which converge; returns the simulation. */
 Simulation *make_steps(Simulation *simulation, int count);
 
-/* One row of a ledger; of that of a run now, J. */
+/* Row of a ledger with this name, J; energy_now takes the ledger of a run. */
 #define OF(energies, name) energies_of(energies, #name)
 double energies_of(const Energies *energies, const char *name);
 double energy_now(const Simulation *simulation, int run, const char *name);
 
-/* [2n] m, where the nodes of its mesh are at rest; until the next
- * call */
+/* Rest positions of the mesh, [2n] m; valid until the next call */
 double *rest_of(const Simulation *simulation);
 
 #endif
