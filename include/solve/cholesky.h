@@ -1,7 +1,7 @@
 /* cholesky.h - sparse Cholesky factorisation (slide: spsolve), by CHOLMOD.
  *
- * Analyse once, then factor and solve as often as the values change.  Solves
- * allocate nothing.  CHOLMOD's types stay inside cholesky.c.
+ * The pattern is analysed once; each change of the values needs a new factor.
+ * Solves allocate nothing.  CHOLMOD's types stay inside cholesky.c.
  */
 #ifndef ELASTO_CHOLESKY_H
 #define ELASTO_CHOLESKY_H
@@ -27,15 +27,15 @@ void cholesky_free(Cholesky *cholesky);
  * NOT_FINITE (NaN or infinity in A), OUT_OF_MEMORY. */
 Status cholesky_factor(Cholesky *cholesky);
 
-/* Solves A x = b with the last factor.  b [size] in, x [size] out; both may
- * be the same array.  INDEFINITE refines the solution with A, which must still
- * hold the values that were factored.
- * Returns OK, NOT_FINITE (the result overflows), SINGULAR (no solution within
- * 1e-8 of b; only INDEFINITE looks). */
+/* Solves A x = b with the last factor.  b [size] in, x [size] out; x may be b.
+ * INDEFINITE refines the solution with A, which must still hold the values that
+ * were factored.
+ * Returns OK, NOT_FINITE (the result overflows), SINGULAR (only INDEFINITE: no
+ * solution within 1e-8 of b). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
-/* Negative pivots of the last factor, of kind INDEFINITE: as many as A has
- * negative eigenvalues. */
+/* The number of negative pivots of the last factor, of kind INDEFINITE, which
+ * is the number of negative eigenvalues of A. */
 int cholesky_negative_pivots(const Cholesky *cholesky);
 
 #endif

@@ -1,10 +1,10 @@
 /* incremental_potential.h - E(x) = |x - x_tilde|_M^2 / 2 + w P(x), the
  * function an implicit time step minimises (slides: IP_val, IP_grad, IP_hess).
  *
- * For implicit Euler w = h^2 and x_tilde = x_n + h v_n; other integrators only
- * choose another target and weight.  The unknown is kept as the displacement
- * u = x - x_n: v = u/h then has full accuracy even where h v is far below the
- * rounding of x.
+ * For implicit Euler w = h^2 and x_tilde = x_n + h v_n.  The other integrators
+ * have another target and weight.  The unknown is stored as the displacement
+ * u = x - x_n, so that v = u/h has full accuracy even where h v is far below
+ * the rounding of x.
  */
 #ifndef ELASTO_INCREMENTAL_POTENTIAL_H
 #define ELASTO_INCREMENTAL_POTENTIAL_H
@@ -19,7 +19,7 @@ typedef struct IncrementalPotential {
     const double *u_tilde; /* [2n] m, x_tilde - x_n */
 } IncrementalPotential;
 
-/* What travels together through a minimisation; arrays of [2n]. */
+/* E and the point at which a minimisation is; arrays of [2n]. */
 typedef struct Iterate {
     IncrementalPotential E;
     double *u; /* m, displacement from x_n */
@@ -37,24 +37,24 @@ void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x,
                                     double *g);
 
-/* A number that E's rounding errors are in proportion to: inertia plus
- * w |P(x)|, J s^2. */
+/* The size of E without cancellation, inertia plus w |P(x)|, J s^2.  Rounding
+ * errors of E are in proportion to it. */
 double incremental_potential_scale(const IncrementalPotential *E,
                                    const double *u, const double *x);
 
-/* The Hessian's pattern: triplets, 2n diagonal entries of the mass matrix
- * first, then those of each term; rows in elimination order if the system has
- * one.
+/* Makes the Hessian's pattern: triplets, first 2n diagonal entries of the mass
+ * matrix, then the entries of each term; rows in elimination order if the
+ * system has one.
  *   A     out; free it with sparse_free, also after a failure
- *   slot  out, [count] place of each triplet in A; those of pinned nodes go
- *             to the last value of A, which nobody reads, and only their mass
- *             stays, on the diagonal.  To be freed by the caller
+ *   slot  out, [count] place of each triplet in A; the caller frees it. Entries
+ *         of pinned nodes, except their masses on the diagonal, go to the last
+ *         value of A, which is unused
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status incremental_potential_pattern(const System *system, Sparse *A,
                                      int **slot);
 
-/* Whether the Hessian at u, x wants entries that the pattern did not have: it
- * has them when it is made again.  *grown out.  Returns OK, OUT_OF_MEMORY. */
+/* Whether the Hessian at u, x has entries that the pattern lacks; the pattern
+ * must then be made again.  *grown out.  Returns OK, OUT_OF_MEMORY. */
 Status incremental_potential_grow(const Iterate *iterate, bool *grown);
 
 /* A = Hessian of E at u, x, projected.  slot as above.
@@ -68,7 +68,7 @@ int incremental_potential_hessian(const Iterate *at, Projection projection,
 int incremental_potential_product(const Iterate *at, Projection projection,
                                   const double *q, double *y);
 
-/* What draws nodes to points, and nothing else, makes them heavier:
+/* Turns springs that draw nodes to fixed points into masses:
  *   m/2 |u - u_tilde|^2 + w c/2 |x - o|^2 = (m + w c)/2 |u - v|^2 + constant.
  * Writes over g and p.
  *   m        [2n] kg, out, m + w c
@@ -76,7 +76,7 @@ int incremental_potential_product(const Iterate *at, Projection projection,
 void incremental_potential_inertia(const Iterate *iterate, double *m,
                                    double *u_tilde);
 
-/* Whether each coordinate stands alone in all terms: the Hessian is diagonal.
+/* Whether the Hessian is diagonal: each coordinate stands alone in all terms.
  */
 bool incremental_potential_is_diagonal(const IncrementalPotential *E);
 
@@ -95,20 +95,20 @@ static inline double quartic_value(const Quartic *quartic, double alpha)
 
 /* E(x + alpha p) - E(x): an exact polynomial, and what some terms add that is
  * none. */
-typedef struct Along {
+typedef struct LineEnergy {
     Quartic smooth;
     const Iterate *at;
     bool rough; /* a term has a remainder, or does not allow every place */
-} Along;
+} LineEnergy;
 
 /* u, x, g, p of the iterate are read. */
-Along incremental_potential_along(const Iterate *iterate);
+LineEnergy incremental_potential_on_line(const Iterate *iterate);
 
 /* The difference at alpha, as line_search_backtrack calls it. */
-double along_difference(const void *along, double alpha);
+double line_energy_difference(const void *along, double alpha);
 
 /* The largest alpha, at most 1, that every term lets p be followed. */
-double incremental_potential_reach(const Iterate *at);
+double incremental_potential_max_step(const Iterate *at);
 
 /* Whether every term allows u, x [2n]. */
 bool incremental_potential_allowed(const IncrementalPotential *E,

@@ -1,9 +1,9 @@
 /* line_search.h - step length along a search direction (slide: Algorithm 2,
  * backtracking line search).
  *
- * The slides halve alpha while E(x + alpha p) > E(x).  Here the difference of
- * the two is asked for, so that no rounding of large energies hides a small
- * decrease (incremental_potential_along).
+ * The slides halve alpha while E(x + alpha p) > E(x).  Here a function returns
+ * the difference of the two (incremental_potential_on_line), so that rounding
+ * of large energies does not hide a small decrease.
  */
 #ifndef ELASTO_LINE_SEARCH_H
 #define ELASTO_LINE_SEARCH_H
@@ -23,9 +23,9 @@ typedef double (*EnergyDifference)(const void *function, double alpha);
 enum { LINE_SEARCH_MAX_HALVINGS = 64 };
 
 /* Algorithm 2: while E(x + alpha p) > E(x), alpha = alpha/2.
- *   alpha   in: where to start, 1 or what contact leaves of it; out: that,
- *           1/2, 1/4, ... of it; 0 after a failure
- *   trials  out, energies looked at
+ *   alpha   in: the first trial, 1 or as much as contact allows; out: the first
+ *           trial, or 1/2, 1/4, ... of it; 0 after a failure
+ *   trials  out, number of energies compared
  * Returns OK, LINE_SEARCH_LIMIT. */
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials);

@@ -28,9 +28,10 @@ typedef struct IntegratorMethod {
      * to u_tilde by completing the square:
      *   |u - u_tilde|_M^2/2 - weight m g.u
      *       = |u - (u_tilde + weight g)|_M^2/2 + constant. */
-    void (*aim)(TimeIntegrator *);
-    void (*land)(TimeIntegrator *); /* from newton->at.u; the last stage, and an
-                                       explicit method, fill new_x and new_v */
+    void (*set_target)(TimeIntegrator *);
+    void (*finish)(
+        TimeIntegrator *); /* from newton->at.u; the last stage, and an
+                            explicit method, fill new_x and new_v */
 } IntegratorMethod;
 
 /* Time as whole steps from where h was last another one: a sum of all steps

@@ -25,7 +25,7 @@ Rows rows_of(int nodes)
                   .plane = 2 * half * (nodes + 3)};
 }
 
-void *memory_piece(Memory *memory, size_t bytes)
+void *memory_take(Memory *memory, size_t bytes)
 {
     char *piece = memory->base ? memory->base + memory->used : NULL;
     bytes = (bytes + SMALL_PAGE - 1) / SMALL_PAGE * SMALL_PAGE;
@@ -59,15 +59,15 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
     double **vectors[] = {&grid->x, &grid->x_tilde, &grid->u_tilde,
                           &grid->away};
     for (int i = 0; i < 4; i++)
-        *vectors[i] = memory_piece(memory, 2 * plane);
+        *vectors[i] = memory_take(memory, 2 * plane);
     for (int kind = 0; kind < KINDS; kind++) {
-        grid->c[kind] = memory_piece(memory, plane);
-        grid->l2[kind] = memory_piece(memory, plane);
+        grid->c[kind] = memory_take(memory, plane);
+        grid->l2[kind] = memory_take(memory, plane);
     }
-    grid->m = memory_piece(memory, plane);
-    grid->per_m = memory_piece(memory, plane);
-    grid->node_shift = memory_piece(memory, shifts);
-    grid->spring_shift = memory_piece(memory, shifts);
+    grid->m = memory_take(memory, plane);
+    grid->per_m = memory_take(memory, plane);
+    grid->node_shift = memory_take(memory, shifts);
+    grid->spring_shift = memory_take(memory, shifts);
 }
 
 /* Of rows with the same numbers one after the other only the first keeps its
@@ -88,7 +88,7 @@ static void share_rows(const Rows *rows, double *const *array, int arrays,
     }
 }
 
-double unit_of(double a)
+double power_of_two_scale(double a)
 {
     return a > 0 && isfinite(a) ? ldexp(1, -ilogb(a)) : 1;
 }
@@ -104,7 +104,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
     for (int k = 0; k < rows->nodes * rows->nodes; k++)
         if (!system->pinned[k])
             grid->lightest = fmin(grid->lightest, m[2 * k]);
-    grid->mass = unit_of(grid->lightest);
+    grid->mass = power_of_two_scale(grid->lightest);
     grid->lightest *= grid->mass;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
@@ -117,7 +117,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         springs[kind] = grid->c[kind];
         springs[KINDS + kind] = grid->l2[kind];
     }
-    grid->length = unit_of(sqrt(point.l2[system->springs - 1]));
+    grid->length = power_of_two_scale(sqrt(point.l2[system->springs - 1]));
     unit = grid->length * grid->length;
     grid->energy = grid->mass * unit;
     for (int s = 0; s < system->springs; s++) {

@@ -83,7 +83,7 @@ typedef struct Memory {
 
 /* The next piece.  Arrays of one size would all stand in the same lines of the
  * cache, so each starts some lines further than the one before. */
-void *memory_piece(Memory *memory, size_t bytes);
+void *memory_take(Memory *memory, size_t bytes);
 
 /* Zeros for all pieces that were counted, in large pages where there are some.
  * Returns OK, OUT_OF_MEMORY; the caller frees base. */
@@ -93,7 +93,7 @@ Status memory_create(Memory *memory);
 void grid_lay_out(int segments, Memory *memory, Grid *grid);
 
 /* The power of two that makes a number about 1. */
-double unit_of(double a);
+double power_of_two_scale(double a);
 
 /* Pins, stiffnesses and lengths of the system; m [2n] kg, masses. */
 void grid_read_system(Grid *grid, const Iterate *at, const double *m);
@@ -115,8 +115,8 @@ double grid_remainder(const Grid *grid, const double *g, const double *p,
                       double *largest);
 
 /* E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4; q out. */
-void grid_along(const Grid *grid, const double *g, const double *p,
-                double quartic[4]);
+void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
+                          double quartic[4]);
 
 /* Moves all nodes alike, so that sum m x is sum m x_tilde, as at the minimum of
  * E where no node is pinned.  Returns the change of E, which is at most 0. */

@@ -87,8 +87,8 @@ FAST double grid_remainder(const Grid *of, const double *g, const double *p,
     return total;
 }
 
-FAST void grid_along(const Grid *of, const double *g, const double *p,
-                     double quartic[4])
+FAST void grid_line_polynomial(const Grid *of, const double *g, const double *p,
+                               double quartic[4])
 {
     for (int s = 0; s < 4; s++)
         quartic[s] = 0;
@@ -105,7 +105,7 @@ FAST void grid_along(const Grid *of, const double *g, const double *p,
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
-        spring_along_p(s, ux, uy, &f1, &f2, &f3);                              \
+        spring_line_polynomial(s, ux, uy, &f1, &f2, &f3);                      \
         IN_ORDER(f1, f2);                                                      \
         IN_ORDER(f3, p2);                                                      \
     }

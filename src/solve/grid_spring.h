@@ -34,8 +34,8 @@ INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
 
 /* E(x + a p) - E(x) is q[0] a + ... + q[3] a^4.  A spring with u = p_i - p_j
  * adds f1/4 to q[1], f2/2 to q[2] and f3/4 to q[3]. */
-INLINE void spring_along_p(Spring s, Pair ux, Pair uy, Pair *f1, Pair *f2,
-                           Pair *f3)
+INLINE void spring_line_polynomial(Spring s, Pair ux, Pair uy, Pair *f1,
+                                   Pair *f2, Pair *f3)
 {
     Pair B = 2 * (s.dx * ux + s.dy * uy), C = ux * ux + uy * uy;
     *f1 += s.c * (B * B + 2 * s.s * C);
@@ -53,7 +53,7 @@ typedef double NodeSums[AROUND][LANES];
 
 /* The sums of LANES nodes of a row.  The steps that follow wait less for each
  * other in a loop of their own. */
-INLINE void look_around(const Grid *grid, NodeRun at, NodeSums of)
+INLINE void gather_springs(const Grid *grid, NodeRun at, NodeSums of)
 {
     const double *const ax = grid->away, *const ay = ax + grid->rows.plane;
     EACH_PAIR (NEXT(at, LANES)) {
@@ -97,8 +97,8 @@ INLINE void look_around(const Grid *grid, NodeRun at, NodeSums of)
 }
 
 /* The change of E, q[0] a + ... + q[3] a^4, as the node moves by a p; q out. */
-INLINE void node_along(const NodeSums of, int e, double px, double py,
-                       double q[4])
+INLINE void node_line_polynomial(const NodeSums of, int e, double px, double py,
+                                 double q[4])
 {
     double A = of[XX][e], B = of[XY][e], C = of[YY][e], p2 = px * px + py * py;
     q[0] = of[GX][e] * px + of[GY][e] * py;

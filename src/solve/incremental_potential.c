@@ -153,12 +153,12 @@ int incremental_potential_product(const Iterate *at, Projection projection,
 }
 
 /* The inertia energy is quadratic; g.p is the slope of all terms. */
-Along incremental_potential_along(const Iterate *iterate)
+LineEnergy incremental_potential_on_line(const Iterate *iterate)
 {
     const System *system = iterate->E.system;
     const double *g = iterate->g, *p = iterate->p;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
-    Along along = {.at = iterate};
+    LineEnergy along = {.at = iterate};
     double *q = along.smooth.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
         q[0] += g[i] * p[i];
@@ -173,9 +173,9 @@ Along incremental_potential_along(const Iterate *iterate)
     return along;
 }
 
-double along_difference(const void *function, double alpha)
+double line_energy_difference(const void *function, double alpha)
 {
-    const Along *along = function;
+    const LineEnergy *along = function;
     double sum = quartic_value(&along->smooth, alpha);
     if (!along->rough)
         return sum;
@@ -189,7 +189,7 @@ double along_difference(const void *function, double alpha)
     return sum;
 }
 
-double incremental_potential_reach(const Iterate *at)
+double incremental_potential_max_step(const Iterate *at)
 {
     EvalPoint point = eval_point_of(&at->E, at->u, at->x);
     return fmin(1, system_max_step(point, at->p, false));

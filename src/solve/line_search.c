@@ -18,7 +18,7 @@ Status line_search_backtrack(EnergyDifference difference, const void *function,
 
 typedef struct Step {
     Newton *newton;
-    Along along;
+    LineEnergy along;
 } Step;
 
 /* E(x + alpha p) - E(x), or anything that is not above 0 where no line search
@@ -31,7 +31,7 @@ static double step_difference(const void *function, double alpha)
     const Iterate *at = &newton->at;
     double *u = newton->u_trial, *x = newton->x_trial;
     bool searches = newton->settings.search == LINE_SEARCH_BACKTRACK;
-    double change = along_difference(&step->along, alpha);
+    double change = line_energy_difference(&step->along, alpha);
     newton->record.change = change;
     newton->record.trials += searches;
     if (searches && !(change <= 0))
@@ -49,9 +49,9 @@ static double step_difference(const void *function, double alpha)
 Status find_step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    Step step = {newton, incremental_potential_along(&newton->at)};
+    Step step = {newton, incremental_potential_on_line(&newton->at)};
     int looks;
-    record->alpha = incremental_potential_reach(&newton->at);
+    record->alpha = incremental_potential_max_step(&newton->at);
     record->slope = step.along.smooth.q[0];
     record->trials = 0;
     Status status =

@@ -58,7 +58,7 @@ Status multigrid_create(int segments, Multigrid **multigrid)
         v_cycle_lay_out(&mg->grid, &mg->memory, &mg->cycle);
         tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
         for (int i = 0; i < 2; i++)
-            *vectors[i] = memory_piece(
+            *vectors[i] = memory_take(
                 &mg->memory, 2 * (size_t)mg->grid.rows.plane * sizeof(double));
     }
     if (status) {
@@ -102,7 +102,7 @@ static const char *refusal(const Newton *newton)
     return NULL;
 }
 
-bool multigrid_takes(Newton *newton)
+bool multigrid_accepts(Newton *newton)
 {
     Solver solver = newton->settings.solver;
     bool wanted = solver == SOLVER_AUTO
@@ -168,9 +168,10 @@ static Status grid_direction(Newton *newton)
     const double h = newton->settings.h * mg->grid.length;
     const double longest = h * newton->tolerance;
     double largest;
-    if (v_solve(&mg->cycle, mg->g, mg->square, longest, mg->p, &largest)) {
+    if (v_cycle_solve(&mg->cycle, mg->g, mg->square, longest, mg->p,
+                      &largest)) {
         double square = grid_remainder(&mg->grid, mg->g, mg->p, &largest);
-        newton->passes = v_passes(&mg->grid, largest, square, longest);
+        newton->passes = v_cycle_passes(&mg->grid, largest, square, longest);
     }
     record->residual = largest / h;
     record->kind = RESIDUAL_ESTIMATE;
@@ -204,7 +205,7 @@ static Status grid_step_length(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
-    grid_along(&mg->grid, mg->g, mg->p, mg->along.q);
+    grid_line_polynomial(&mg->grid, mg->g, mg->p, mg->along.q);
     for (int i = 0; i < 4; i++)
         mg->along.q[i] /= mg->grid.energy;
     record->slope = mg->along.q[0];

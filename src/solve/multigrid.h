@@ -30,6 +30,6 @@ void multigrid_free(Multigrid *multigrid);
 /* Whether multigrid makes the minimisation that newton->at describes: the
  * settings ask for it, and it knows all terms.  newton->refusal becomes the
  * reason why it cannot, or NULL. */
-bool multigrid_takes(Newton *newton);
+bool multigrid_accepts(Newton *newton);
 
 #endif

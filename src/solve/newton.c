@@ -28,7 +28,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     newton->change_sum = newton->change_abs_sum = 0;
     rounding_start(newton);
     newton->working =
-        multigrid_takes(newton) ? SOLVER_MULTIGRID : SOLVER_NEWTON;
+        multigrid_accepts(newton) ? SOLVER_MULTIGRID : SOLVER_NEWTON;
 }
 
 void swap_iterates(Newton *newton)
@@ -48,7 +48,7 @@ static Status update_iterate(Newton *newton)
     if (!all_finite(newton->x_trial, 2 * (size_t)newton->system->nodes))
         return STATUS_NOT_FINITE;
     if (newton->settings.search != LINE_SEARCH_NONE &&
-        !rounding_is_low(newton, newton->u_trial, newton->x_trial)) {
+        !energy_is_within_limit(newton, newton->u_trial, newton->x_trial)) {
         newton->record.alpha = newton->record.change = 0;
         return STATUS_ROUNDING_LIMIT;
     }
@@ -94,7 +94,7 @@ static Status test_iterate(Newton *newton, Status status)
     bool ended = status == STATUS_OK || status == STATUS_NOT_FINITE ||
                  status_is_unconverged(status);
     if (ended && newton->settings.search == LINE_SEARCH_NONE &&
-        !rounding_is_low(newton, newton->at.u, newton->at.x))
+        !energy_is_within_limit(newton, newton->at.u, newton->at.x))
         status = STATUS_DIVERGED;
     return status;
 }

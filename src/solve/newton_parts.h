@@ -65,13 +65,14 @@ void rounding_start(Newton *newton);
 bool below_roundoff(const Newton *newton, double change);
 
 /* Whether E at u_trial, as large as it is, agrees that it has changed by
- * record.change or fallen more; true where rounding_is_low decides, or nothing
- * has to fall. */
+ * record.change or fallen more; true where energy_is_within_limit decides, or
+ * nothing has to fall. */
 bool rounding_confirms(Newton *newton);
 
 /* Whether E at u, x [2n] is as low as at the start; always true where the
  * minimisation is not held to it. */
-bool rounding_is_low(const Newton *newton, const double *u, const double *x);
+bool energy_is_within_limit(const Newton *newton, const double *u,
+                            const double *x);
 
 /* Judges an iteration whose p did not pass the test.  Returns RUNNING; or,
  * where the residual has not become smaller for long, ROUNDING_LIMIT if E does

@@ -186,7 +186,7 @@ void dtrsm_(const char *side, const char *uplo, const char *trans,
 
 /* L L^T of D [n, n], n at most 4.  Returns the first pivot that is not above
  * 0, counted from 1; 0: all are. */
-static int factor(int n, double *D, int ldd)
+static int factor_block(int n, double *D, int ldd)
 {
     for (int q = 0; q < n; q++) {
         double *d = D + (size_t)q * ldd;
@@ -202,7 +202,7 @@ static int factor(int n, double *D, int ldd)
     return 0;
 }
 
-/* The lower triangle of A = L L^T; info: as factor returns it. */
+/* The lower triangle of A = L L^T; info: as factor_block returns it. */
 void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
              int *info)
 {
@@ -214,7 +214,7 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
         double *D = A + (size_t)j * *lda + j;
         multiply(&(Product){*n - j, wide, j, A + j, A + j, D, *lda, *lda, *lda,
                             true, NULL, 0});
-        int failed = factor(wide, D, *lda);
+        int failed = factor_block(wide, D, *lda);
         if (failed) {
             *info = j + failed;
             return;

@@ -13,8 +13,8 @@ enum { STAGNANT_ITERATIONS = 20 };
  * with contact one converged after more.) */
 enum { CIRCLING_ITERATIONS = 500 };
 
-/* Ratios of w k to m: beyond the first, rounding of the gradient may hide that E
- * rises along p; beyond the second, a direction from a factor may be wrong by
+/* Ratios of w k to m: beyond the first, rounding of the gradient may hide that
+ * E rises along p; beyond the second, a direction from a factor may be wrong by
  * more than 1e-5 of itself; beyond the third, a sum of both is w k alone in the
  * digits of a double. */
 static const double STIFF_MASSES = 1e5, BLURRED_MASSES = 1e10,
@@ -103,7 +103,8 @@ bool rounding_confirms(Newton *newton)
                                       blur(newton, at->u, at->x, rounding->E)));
 }
 
-bool rounding_is_low(const Newton *newton, const double *u, const double *x)
+bool energy_is_within_limit(const Newton *newton, const double *u,
+                            const double *x)
 {
     double most = newton->rounding.most;
     return most == INFINITY ||

@@ -30,9 +30,9 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
     int wide = (grid->rows.count[0] + LANES - 1) / LANES;
     size_t count = (size_t)high * (size_t)wide;
     *tiles = (Tiles){.grid = grid, .high = high, .wide = wide};
-    tiles->activity = memory_piece(memory, count * sizeof *tiles->activity);
-    tiles->change = memory_piece(memory, count * sizeof *tiles->change);
-    tiles->chosen = memory_piece(memory, count * sizeof *tiles->chosen);
+    tiles->activity = memory_take(memory, count * sizeof *tiles->activity);
+    tiles->change = memory_take(memory, count * sizeof *tiles->change);
+    tiles->chosen = memory_take(memory, count * sizeof *tiles->chosen);
 }
 
 /* How far to go where E changes by a q[0] + ... + a^4 q[3]: the longest of
@@ -58,7 +58,7 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
     double *const x = grid->x, *const y = x + plane;
     double *const ax = grid->away, *const ay = ax + plane;
     NodeSums of;
-    look_around(grid, at, of);
+    gather_springs(grid, at, of);
     EACH_OF (NEXT(at, LANES)) {
         const int q = at.first + e;
         double gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
@@ -70,7 +70,7 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
         double over = moves ? -1 / (det > 0 ? det : 1) : 0;
         double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
         double along[4], lower;
-        node_along(of, e, px, py, along);
+        node_line_polynomial(of, e, px, py, along);
         double go = step_of(along, &lower);
         double to_x = ax[q] + go * px, to_y = ay[q] + go * py;
         ax[q] = to_x;

@@ -26,20 +26,20 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
         level->coarse = more ? level + 1 : NULL;
         size_t bytes = (size_t)level->rows.plane * sizeof(float);
         for (int i = 0; i < 3 * KINDS; i++)
-            level->K[i / 3][i % 3] = memory_piece(memory, bytes);
+            level->K[i / 3][i % 3] = memory_take(memory, bytes);
         for (int i = 0; i < 3; i++)
-            level->D[i] = memory_piece(memory, bytes);
-        level->m = memory_piece(memory, bytes);
+            level->D[i] = memory_take(memory, bytes);
+        level->m = memory_take(memory, bytes);
         float **vectors[] = {&level->x, &level->b, &level->w};
         for (int i = 0; i < 3; i++)
-            *vectors[i] = memory_piece(memory, 2 * bytes);
+            *vectors[i] = memory_take(memory, 2 * bytes);
     }
     size_t bytes = 2 * (size_t)grid->rows.plane * sizeof(float);
     for (int kind = 0; kind < KINDS; kind++)
-        cycle->c[kind] = memory_piece(memory, bytes / 2);
+        cycle->c[kind] = memory_take(memory, bytes / 2);
     float **vectors[] = {&cycle->p, &cycle->d, &cycle->Ad};
     for (int i = 0; i < 3; i++)
-        *vectors[i] = memory_piece(memory, bytes);
+        *vectors[i] = memory_take(memory, bytes);
 }
 
 /* ---- loops in stages ----
@@ -472,7 +472,8 @@ FAST static double advance(const VCycle *of, float alpha, float beta,
     return total;
 }
 
-bool v_passes(const Grid *grid, double largest, double square, double longest)
+bool v_cycle_passes(const Grid *grid, double largest, double square,
+                    double longest)
 {
     return largest + sqrt(2 / grid->lightest * square) <= longest;
 }
@@ -486,12 +487,12 @@ enum { MAX_CYCLES = 60 };
  * norm of M^-1, is small enough.  Single precision reaches LEAST of it. */
 static const double MARGIN = 4, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
 
-FAST bool v_solve(VCycle *cycle, const double *g, double square, double longest,
-                  double *p, double *largest)
+FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
+                        double longest, double *p, double *largest)
 {
     const Grid *grid = cycle->grid;
     const int numbers = 2 * grid->rows.plane;
-    const double unit = unit_of(sqrt(square * grid->lightest));
+    const double unit = power_of_two_scale(sqrt(square * grid->lightest));
     double last = 0, alpha = 1;
     bool passes = false;
     set_up(cycle);
@@ -518,8 +519,8 @@ FAST bool v_solve(VCycle *cycle, const double *g, double square, double longest,
         double rest = advance(cycle, (float)alpha, (float)beta, largest);
         double share = sqrt(rest / square) / unit;
         *largest /= unit;
-        passes = v_passes(grid, *largest,
-                          MARGIN * MARGIN * share * share * square, longest);
+        passes = v_cycle_passes(
+            grid, *largest, MARGIN * MARGIN * share * share * square, longest);
         if (share <= (*largest > HOPEFUL * longest ? LOOSE : LEAST))
             break;
     }

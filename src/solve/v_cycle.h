@@ -50,15 +50,14 @@ void v_cycle_read_system(VCycle *cycle);
  *   longest  largest |p_x| + |p_y| of a node with which p passes the test
  *   largest  out, max over nodes of |p_x| + |p_y|
  * Returns whether p passes the test, as far as single precision tells. */
-bool v_solve(VCycle *cycle, const double *g, double square, double longest,
-             double *p, double *largest);
+bool v_cycle_solve(VCycle *cycle, const double *g, double square,
+                   double longest, double *p, double *largest);
 
 /* Whether the exact direction passes the test.  H - M is positive
- * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M, where
- * r = -g - H p is the remainder of p, and at most sqrt(2/m) times that at a
- * node.
- *   square   |r|_(M^-1)^2
- *   largest, longest  as above, of p */
-bool v_passes(const Grid *grid, double largest, double square, double longest);
+ * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M,
+ * where r = -g - H p is the remainder of p, and at most sqrt(2/m) times that at
+ * a node. square   |r|_(M^-1)^2 largest, longest  as above, of p */
+bool v_cycle_passes(const Grid *grid, double largest, double square,
+                    double longest);
 
 #endif

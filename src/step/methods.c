@@ -25,14 +25,14 @@ static void drift(TimeIntegrator *run, const double *v)
 }
 
 /* Drifts with the velocity of t_n.  Order 1. */
-static void forward_euler_land(TimeIntegrator *run)
+static void forward_euler_finish(TimeIntegrator *run)
 {
     kick(run);
     drift(run, run->v);
 }
 
 /* Drifts with the velocity of t_(n+1).  Order 1. */
-static void symplectic_euler_land(TimeIntegrator *run)
+static void symplectic_euler_finish(TimeIntegrator *run)
 {
     kick(run);
     drift(run, run->new_v);
@@ -41,7 +41,7 @@ static void symplectic_euler_land(TimeIntegrator *run)
 /* Velocity Verlet: x_(n+1) = x_n + h v_n + h^2/2 a_n,
  * v_(n+1) = v_n + h/2 (a_n + a_(n+1)).  Order 2, symplectic; a_(n+1) is
  * remembered, so a step costs one evaluation. */
-static void verlet_land(TimeIntegrator *run)
+static void verlet_finish(TimeIntegrator *run)
 {
     double *a = run->memory, h = run->h;
     double *new_x = run->new_x, *new_v = run->new_v;
@@ -61,8 +61,8 @@ static void verlet_land(TimeIntegrator *run)
  * each with its own target, weight and velocity. */
 
 /* u_tilde = h v: as far as v leads in the time h. */
-static void aim_ahead(TimeIntegrator *run, double h, const double *v,
-                      double weight)
+static void set_target_ahead(TimeIntegrator *run, double h, const double *v,
+                             double weight)
 {
     run->weight = weight;
     for (size_t i = 0; i < run->size; i++)
@@ -74,13 +74,13 @@ static void aim_ahead(TimeIntegrator *run, double h, const double *v,
  * M|v1-v0|^2/2 + P(x1) <= M|v0|^2/2 + P(x0).  It damps where P is convex from
  * x0 to x1; else the total energy M|v1|^2/2 + P(x1) may rise: a long step may
  * lead a body to the other side of another one. */
-static void backward_euler_aim(TimeIntegrator *run)
+static void backward_euler_set_target(TimeIntegrator *run)
 {
     double h = run->h;
-    aim_ahead(run, h, run->v, h * h);
+    set_target_ahead(run, h, run->v, h * h);
 }
 
-static void backward_euler_land(TimeIntegrator *run)
+static void backward_euler_finish(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->at;
     for (size_t i = 0; i < run->size; i++) {
@@ -93,12 +93,12 @@ static void backward_euler_land(TimeIntegrator *run)
  * for v and a.  With du = x_n - x_(n-1): u_tilde = du/3 + (2h/9) (4 v_n -
  * v_(n-1)), w = (4/9) h^2, v_(n+1) = (3u - du) / (2h).  Order 2.  du and v_n
  * are remembered; the first step is backward Euler. */
-static void bdf2_aim(TimeIntegrator *run)
+static void bdf2_set_target(TimeIntegrator *run)
 {
     double h = run->h, *v = run->v;
     double *du = run->memory, *v_old = du + run->size;
     if (run->memory_h != h) {
-        backward_euler_aim(run);
+        backward_euler_set_target(run);
         return;
     }
     run->weight = 4 * h * h / 9;
@@ -106,13 +106,13 @@ static void bdf2_aim(TimeIntegrator *run)
         run->newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
 }
 
-static void bdf2_land(TimeIntegrator *run)
+static void bdf2_finish(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->at;
     double h = run->h, *v = run->v;
     double *du = run->memory, *v_old = du + run->size;
     if (run->memory_h != h)
-        backward_euler_land(run);
+        backward_euler_finish(run);
     for (size_t i = 0; run->memory_h == h && i < run->size; i++) {
         run->new_x[i] = end->x[i];
         run->new_v[i] = (3 * end->u[i] - du[i]) / (2 * h);
@@ -129,12 +129,12 @@ static void bdf2_land(TimeIntegrator *run)
  * w = g^2 h^2 in both.  Order 2. */
 static const double SDIRK_G = 0.29289321881345248; /* 1 - 1/sqrt(2) */
 
-static void sdirk2_aim(TimeIntegrator *run)
+static void sdirk2_set_target(TimeIntegrator *run)
 {
     double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
     const double *v = run->v, *s = run->new_v;
     if (run->stage == 0) {
-        aim_ahead(run, gh, v, gh * gh);
+        set_target_ahead(run, gh, v, gh * gh);
         return;
     }
     run->weight = gh * gh;
@@ -144,7 +144,7 @@ static void sdirk2_aim(TimeIntegrator *run)
     }
 }
 
-static void sdirk2_land(TimeIntegrator *run)
+static void sdirk2_finish(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->at;
     double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
@@ -159,13 +159,13 @@ static void sdirk2_land(TimeIntegrator *run)
 /* Implicit midpoint: the unknown is half way, u_tilde = (h/2) v_n,
  * w = (h/2)^2, x_(n+1) = x_n + 2 u, v_(n+1) = 4 u/h - v_n.  Order 2; conserves
  * quadratic invariants, damps nothing. */
-static void midpoint_aim(TimeIntegrator *run)
+static void midpoint_set_target(TimeIntegrator *run)
 {
     double half = 0.5 * run->h;
-    aim_ahead(run, half, run->v, half * half);
+    set_target_ahead(run, half, run->v, half * half);
 }
 
-static void midpoint_land(TimeIntegrator *run)
+static void midpoint_finish(TimeIntegrator *run)
 {
     const double *u = run->newton->at.u;
     for (size_t i = 0; i < run->size; i++) {
@@ -176,16 +176,18 @@ static void midpoint_land(TimeIntegrator *run)
 
 const IntegratorMethod integrator_methods[] = {
     {"backward-euler", "backward Euler", 1, .implicit = true, .at_end = true,
-     .damps = true, .stages = 1, .aim = backward_euler_aim,
-     .land = backward_euler_land},
-    {"symplectic-euler", "symplectic Euler", 1, .land = symplectic_euler_land},
-    {"forward-euler", "forward Euler", 1, .land = forward_euler_land},
-    {"verlet", "velocity Verlet", 2, .memory = 1, .land = verlet_land},
+     .damps = true, .stages = 1, .set_target = backward_euler_set_target,
+     .finish = backward_euler_finish},
+    {"symplectic-euler", "symplectic Euler", 1,
+     .finish = symplectic_euler_finish},
+    {"forward-euler", "forward Euler", 1, .finish = forward_euler_finish},
+    {"verlet", "velocity Verlet", 2, .memory = 1, .finish = verlet_finish},
     {"midpoint", "implicit midpoint", 2, .implicit = true, .stages = 1,
-     .aim = midpoint_aim, .land = midpoint_land},
+     .set_target = midpoint_set_target, .finish = midpoint_finish},
     {"bdf2", "BDF2", 2, .implicit = true, .damps = true, .by_name = true,
-     .memory = 2, .stages = 1, .aim = bdf2_aim, .land = bdf2_land},
+     .memory = 2, .stages = 1, .set_target = bdf2_set_target,
+     .finish = bdf2_finish},
     {"sdirk2", "SDIRK2", 2, .implicit = true, .damps = true, .by_name = true,
-     .stages = 2, .aim = sdirk2_aim, .land = sdirk2_land},
+     .stages = 2, .set_target = sdirk2_set_target, .finish = sdirk2_finish},
     {.name = NULL},
 };

@@ -70,9 +70,9 @@ void time_integrator_free(TimeIntegrator *run)
  *
  * The slides' step_forward, for all methods:
  *
- *     x_tilde = x + h v                      method->aim, for backward Euler
- *     x = argmin of E                        newton_minimise
- *     v = (x - x_n) / h                      method->land
+ *     x_tilde = x + h v                      method->set_target, for backward
+ * Euler x = argmin of E                        newton_minimise v = (x - x_n) /
+ * h                      method->finish
  */
 
 /* One more step of h. */
@@ -130,7 +130,7 @@ static void begin_stage(TimeIntegrator *run)
 {
     const System *system = run->system;
     Newton *newton = run->newton;
-    run->method->aim(run);
+    run->method->set_target(run);
     if (system_has_gravity(system))
         for (size_t i = 0; i < run->size; i++)
             newton->u_tilde[i] += run->weight * system->gravity[i % 2];
@@ -202,12 +202,12 @@ Status time_integrator_advance(TimeIntegrator *run)
         run->worst = status ? status : run->worst;
 
         /* x and v, or the next stage */
-        method->land(run);
+        method->finish(run);
         if (++run->stage < method->stages)
             begin_stage(run);
     }
     if (method->stages == 0)
-        method->land(run);
+        method->finish(run);
     return end_step(run, run->worst);
 }
 

@@ -516,10 +516,10 @@ static void whole_step(Case *c, Random *random)
     if (!system_term_data(&c->system, &damping))
         near("E", incremental_potential_value(&E, c->u, c->x), part.f,
              noise.f + 1e-13L * size.f);
-    const Along along = incremental_potential_along(&iterate);
+    const LineEnergy along = incremental_potential_on_line(&iterate);
     spot.alpha = 1e-3L;
     Real change = oracle_step(&spot, u_tilde).f - part.f;
-    near("E along p", along_difference(&along, 1e-3), change,
+    near("E along p", line_energy_difference(&along, 1e-3), change,
          2 * noise.f + noise.p + 1e-13L * size.f);
 }
 
