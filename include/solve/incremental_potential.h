@@ -80,34 +80,35 @@ void incremental_potential_inertia(const Iterate *iterate, double *m,
  */
 bool incremental_potential_is_diagonal(const IncrementalPotential *E);
 
-/* What E is along a line, without its constant term:
+/* A polynomial along a line, without constant term:
  * q(alpha) = q[0] alpha + q[1] alpha^2 + q[2] alpha^3 + q[3] alpha^4 */
 typedef struct Quartic {
     double q[4]; /* J s^2 */
 } Quartic;
 
-/* q(alpha) - q(0), by Horner's rule. */
+/* Returns q(alpha) by Horner's rule. */
 static inline double quartic_value(const Quartic *quartic, double alpha)
 {
     const double *q = quartic->q;
     return alpha * (q[0] + alpha * (q[1] + alpha * (q[2] + alpha * q[3])));
 }
 
-/* E(x + alpha p) - E(x): an exact polynomial, and what some terms add that is
- * none. */
+/* E(x + alpha p) - E(x): an exact polynomial, and the remainders of the terms
+ * that are no polynomials. */
 typedef struct LineEnergy {
     Quartic smooth;
     const Iterate *at;
-    bool rough; /* a term has a remainder, or does not allow every place */
+    bool rough; /* has a term with a remainder or with forbidden points */
 } LineEnergy;
 
-/* u, x, g, p of the iterate are read. */
+/* Prepares the difference from u, x, g, p of the iterate. */
 LineEnergy incremental_potential_on_line(const Iterate *iterate);
 
-/* The difference at alpha, as line_search_backtrack calls it. */
+/* Returns the difference at alpha; an EnergyDifference of the line search. */
 double line_energy_difference(const void *along, double alpha);
 
-/* The largest alpha, at most 1, that every term lets p be followed. */
+/* Returns the largest alpha, at most 1, up to which all terms allow x + alpha
+ * p. */
 double incremental_potential_max_step(const Iterate *at);
 
 /* Whether every term allows u, x [2n]. */

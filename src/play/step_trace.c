@@ -82,11 +82,11 @@ static bool reserve_round(StepTrace *kept)
 /* Samples E along p where it is no polynomial. */
 static void sample(Round *round, const Iterate *at)
 {
-    const Along along = {.smooth = round->along, .at = at, .rough = true};
+    const LineEnergy along = {.smooth = round->along, .at = at, .rough = true};
     round->sampled = round->rough && round->x;
     for (int i = 0; i < ROUND_VALUES && round->sampled; i++)
         round->value[i] =
-            along_difference(&along, i * round->first / ROUND_PARTS);
+            line_energy_difference(&along, i * round->first / ROUND_PARTS);
 }
 
 /* Keeps E along p of the newest round. */
@@ -94,9 +94,9 @@ static void keep_line(StepTrace *kept, const Iterate *at)
 {
     Round *round = &kept->round[kept->made.count];
     const NewtonRecord *record = &kept->made.row[kept->made.count];
-    Along along = incremental_potential_along(at);
+    LineEnergy along = incremental_potential_on_line(at);
     bool ended = record->status != STATUS_RUNNING;
-    round->first = incremental_potential_reach(at);
+    round->first = incremental_potential_max_step(at);
     round->along = along.smooth;
     round->rough = along.rough;
     if (kept->all || (ended && (kept->last || record->alpha == 0)))

@@ -62,7 +62,7 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, Cholesky **out)
     common->supernodal =
         kind == CHOLESKY_DEFINITE ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
     common->quick_return_if_not_posdef = 1;
-    /* Supernodes are merged if that adds few zeros; these limits were measured
+    /* Supernodes are merged if few zeros are added.  The limits are the fastest
      * on square meshes. */
     common->nrelax[0] = 8;
     common->nrelax[1] = 20;
@@ -97,7 +97,7 @@ void cholesky_free(Cholesky *cholesky)
     free(cholesky);
 }
 
-/* max |x_i| */
+/* Returns max |x_i|. */
 static double largest_of(const double *x, size_t n)
 {
     double largest = 0;

@@ -58,7 +58,7 @@ static Status assemble(Newton *newton, Projection projection, int *projected)
     return status;
 }
 
-/* The largest entry of the diagonal; its slots come first. */
+/* The largest entry of the diagonal, whose slots are the first 2n. */
 static double largest_diagonal(const Newton *newton)
 {
     const SearchDirection *search = &newton->search;
@@ -68,8 +68,8 @@ static double largest_diagonal(const Newton *newton)
     return largest;
 }
 
-/* Factors A; with a shift if it must: only a projected A is known to be
- * semi-definite but for rounding, so only that is shifted.  Returns OK,
+/* Factors A.  A projected A is semi-definite up to rounding; if it has no
+ * factor, a shift of its diagonal is added.  Returns OK,
  * NOT_POSITIVE_DEFINITE, NOT_FINITE, OUT_OF_MEMORY. */
 static Status factor_hessian(Newton *newton)
 {
@@ -89,9 +89,9 @@ static Status factor_hessian(Newton *newton)
     }
 }
 
-/* Assembles and factors the Hessian at x as the projection asks.  Projection on
- * demand first tries it as it is; after a failure it clamps, and goes on to do
- * so for some iterations. */
+/* Assembles and factors the Hessian at x.  Projection on demand first tries the
+ * unprojected Hessian; after a failure it clamps, also in the next
+ * CLAMPS_AFTER_FAILURE iterations. */
 static Status newton_factor(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
@@ -138,7 +138,7 @@ static Status apply_factor(Newton *newton, const double *r, double *z)
 
 /* ---- conjugate gradients ---- */
 
-/* a . b */
+/* Returns a . b. */
 static double dot(int n, const double *a, const double *b)
 {
     double sum = 0;
@@ -149,7 +149,7 @@ static double dot(int n, const double *a, const double *b)
 
 /* The state of conjugate gradients for H p = -g, preconditioned with a factor
  * (Golub, Van Loan: 11.5): directions d, residual r = -g - H p, z = factor^-1
- * r.  H is applied term by term: that keeps small masses which the assembled
+ * r.  H is applied term by term, and so keeps small masses that the assembled
  * matrix has lost to rounding. */
 typedef struct ConjugateGradients {
     Projection projection;
@@ -157,8 +157,8 @@ typedef struct ConjugateGradients {
     double rz, first; /* r.z, squared size of the residual, and the first */
 } ConjugateGradients;
 
-/* One step along the next direction, z being known.  Returns false where there
- * is nothing left to gain, or E bends down along d. */
+/* A step along the next direction, for a known z.  Returns false at the end:
+ * the residual is small enough, or E bends down along d. */
 static bool conjugate_step(Newton *newton, ConjugateGradients *state)
 {
     const SearchDirection *search = &newton->search;
@@ -240,10 +240,10 @@ static Status direction_error_bound(Newton *newton, double *error)
     return status;
 }
 
-/* Internal forces cannot move the centre of mass, so at the minimum sum m u is
- * sum m u_tilde, and p leads there: summed over all nodes, H p = -g says the
- * same.  Rounding of a stiff H hides this sum; here all nodes of p are moved
- * alike so that it is exact, and linear momentum is kept. */
+/* Makes linear momentum exact.  Internal forces cannot move the centre of mass,
+ * so sum m (u + p) = sum m u_tilde, as H p = -g summed over all nodes says.
+ * Rounding of a stiff H hides this sum; the same shift of all nodes of p
+ * corrects it. */
 static void keep_momentum(Newton *newton)
 {
     const System *system = newton->system;
@@ -286,14 +286,14 @@ static double largest_row_sum(int nodes, const double *p)
     return largest;
 }
 
-/* A direction is negligible where its bound passes the test and is this part of
- * the shortest spring. */
+/* A direction is negligible if its bound passes the test and is at most this
+ * part of the shortest spring. */
 static const double NEGLIGIBLE = 1e-6;
 
-/* A factor serves again while no node has moved by more than this part of the
- * shortest spring since it was computed.  Each correction of p is then about
- * that part of the one before; it has to be at most CONVERGES of it, and the
- * last one at most REFINED of p. */
+/* A factor serves again while no node has moved by more than NEARBY of the
+ * shortest spring since it was computed.  Each correction of p has to be at
+ * most CONVERGES of the correction before, and the last one at most REFINED of
+ * p. */
 static const double NEARBY = 0.03, CONVERGES = 0.1, REFINED = 0.01;
 
 /* Near the end the Hessian hardly changes.  Then the factor of an iteration
@@ -338,10 +338,10 @@ static double largest_of_norm(const Newton *newton, double norm)
     return sqrt(2 / newton->rounding.lightest) * norm;
 }
 
-/* Residual of p, and the test of it.
- *   exact  whether p solves H p = -g up to rounding; else its error is bounded
- *          where the test is at stake.  (Rounding of g itself is not in the
- *          bound: no direction knows it.) */
+/* Computes the residual of p, and tests it.
+ *   exact  whether p solves H p = -g up to rounding.  Otherwise the bound of
+ *          its error must pass the test, too.  Rounding of g itself is not in
+ *          the bound. */
 static Status find_residual(Newton *newton, bool exact)
 {
     NewtonRecord *record = &newton->record;
@@ -361,7 +361,7 @@ static Status find_residual(Newton *newton, bool exact)
     return status;
 }
 
-/* g at x, until x moves. */
+/* Computes g at x, which is valid until x moves. */
 static void evaluate_gradient(Newton *newton)
 {
     Iterate *at = &newton->at;

@@ -17,7 +17,7 @@ enum { LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
 Rows rows_of(int nodes)
 {
     int even = (nodes + 1) / 2;
-    int half = (even + PADDED) / PADDED * PADDED; /* and a ghost */
+    int half = (even + PADDED) / PADDED * PADDED; /* has room for a ghost */
     return (Rows){.nodes = nodes,
                   .count = {even, nodes / 2},
                   .half = half,
@@ -70,8 +70,8 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
     grid->spring_shift = memory_take(memory, shifts);
 }
 
-/* Of rows with the same numbers one after the other only the first keeps its
- * own, and all move up to stand without gaps.  shift [nodes] out */
+/* Stores equal rows that follow each other once, without gaps.  shift [nodes]
+ * out: distance from a row's place to its stored numbers. */
 static void share_rows(const Rows *rows, double *const *array, int arrays,
                        int *shift)
 {
@@ -124,7 +124,8 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         const int *e = system->e + 2 * s;
         int a = e[0] < e[1] ? e[0] : e[1], b = e[0] < e[1] ? e[1] : e[0];
         int i = a / rows->nodes, q = place_of(rows, i, a % rows->nodes);
-        int kind = i == b / rows->nodes   ? UP /* of those that start at a */
+        int kind = i == b / rows->nodes
+                       ? UP /* kind of springs that start at a */
                    : b - a == rows->nodes ? RIGHT
                    : b - a > rows->nodes  ? DIAGONAL
                                           : ANTIDIAGONAL;

@@ -25,7 +25,8 @@
 #include "base/status.h"
 #include "solve/incremental_potential.h"
 
-/* From node (i, j): to (i+1, j), (i, j+1), (i+1, j+1), (i+1, j-1). */
+/* Kinds of springs, which lead from node (i, j) to (i+1, j), (i, j+1),
+ * (i+1, j+1), (i+1, j-1). */
 enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
 
 /* Nodes at once in double and in single precision. */
@@ -43,7 +44,7 @@ enum { BAND = 8 };
 
 /* Where the numbers of nodes x nodes nodes stand. */
 typedef struct Rows {
-    int nodes;    /* of a row, and rows: n + 1 */
+    int nodes;    /* number of nodes in a row, and of rows: n + 1 */
     int count[2]; /* even and odd columns */
     int half;     /* from a row's even columns to its odd ones */
     int pitch;    /* from one row to the next */
@@ -52,7 +53,7 @@ typedef struct Rows {
 
 Rows rows_of(int nodes);
 
-/* The place of node (i, j). */
+/* Returns the place of node (i, j). */
 static inline int place_of(const Rows *rows, int i, int j)
 {
     return (i + 1) * rows->pitch + (j & 1) * rows->half + j / 2;
@@ -61,14 +62,14 @@ static inline int place_of(const Rows *rows, int i, int j)
 typedef struct Grid {
     Rows rows;
     int segments, bands;
-    double length, mass, energy; /* its units: 1/m, 1/kg, 1/(J s^2) */
+    double length, mass, energy; /* units of the grid: 1/m, 1/kg, 1/(J s^2) */
     /* Rows with the same masses, or the same springs, share one place: numbers
      * of row i stand shift[i + 1] further than its nodes. */
     int *node_shift, *spring_shift; /* [nodes + 1] */
     double *c[KINDS];               /* [plane] 0: no spring */
     double *l2[KINDS];              /* [plane] */
     double *m, *per_m;              /* [plane] per_m: 0 for pins */
-    double lightest;                /* of nodes that move */
+    double lightest;                /* smallest mass of a node that moves */
     double *x, *x_tilde, *u_tilde;  /* [2 planes] */
     double *away;                   /* [2 planes] x - x_tilde in the digits of
                                        u; pins: 0 */

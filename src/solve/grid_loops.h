@@ -20,7 +20,7 @@
 #endif
 #endif
 
-/* A part of such a loop. */
+/* A function that is a part of a FAST loop. */
 #define INLINE static inline __attribute__((always_inline))
 
 /* Nodes of one row that stand side by side, and where their neighbours and
@@ -55,8 +55,8 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 #endif
 #define EACH_OF(lanes) AT_ONCE for (int e = 0; e < (lanes); e++)
 
-/* So many of a run's next nodes: where registers are narrow, lanes behind its
- * end are left out; they are outside and stay 0. */
+/* The number of a run's next nodes, up to `lanes`.  Where registers are narrow,
+ * lanes behind the end of the run, which stay 0, are left out. */
 #ifdef __wasm_simd128__
 #define AT_MOST(lanes, left)                                                   \
     ((left) < (lanes) ? ((left) + (lanes) / 4 - 1) & -((lanes) / 4) : (lanes))
@@ -114,7 +114,7 @@ enum { PAIRED = 0 };
     F(DIAGONAL, (at).next + (at).after, (at).own)                              \
     F(ANTIDIAGONAL, (at).next + (at).before, (at).own)
 
-/* The same of row i of the step's grid, whose rows may share their numbers. */
+/* nodes_in_row for row i of the step's grid, whose rows may share numbers. */
 INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
 {
     NodeRun at = nodes_in_row(&grid->rows, i, odd);

@@ -1,15 +1,15 @@
 /* grid_spring.h - the law of a spring (spring_law.h) in the grid's loops, for a
  * Pair of nodes at once, and that of a node with all its springs.
  *
- * A spring adds c/4 s^2 to E, s = |d|^2 - l2, c = 2 w k/l2.  Its gradient is
- * c s d, its Hessian c (iso I + along d d^T) with iso = s and along = 2.
+ * A spring adds c/4 s^2 to E, s = |d|^2 - l2, c = 2 w k/l2.  The gradient is
+ * c s d, the Hessian c (iso I + along d d^T) with iso = s and along = 2.
  */
 #ifndef ELASTO_GRID_SPRING_H
 #define ELASTO_GRID_SPRING_H
 
 #include "solve/grid_loops.h"
 
-/* What a loop reads of a spring: d = x_i - x_j, |d|^2, s, c, and f = c s. */
+/* The numbers of a spring in a loop: d = x_i - x_j, |d|^2, s, c, f = c s. */
 typedef struct Spring {
     Pair dx, dy, d2, s, c, f;
 } Spring;

@@ -1,9 +1,10 @@
-/* line_search.c - step length along p by backtracking (slide: Algorithm 2). */
+/* line_search.c - finds the step length along p by backtracking (slide:
+ * Algorithm 2). */
 #include "solve/newton_parts.h"
 
 #include <math.h>
 
-/* Algorithm 2. */
+/* Runs Algorithm 2. */
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials)
 {

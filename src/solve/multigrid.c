@@ -13,17 +13,17 @@
  * of the shortest spring since they were computed. */
 static const double NEARBY = 0.02;
 
-/* Tiles relax once so many directions are done and the gradient's bound falls
- * by less than this factor; and go on while a sweep lowers E by more than PACE
- * of what the last direction did for each tile. */
+/* Tiles relax after DIRECTIONS directions, if the gradient's bound falls by
+ * less than the factor STALLS.  A sweep of a tile is worth it if it lowers E by
+ * more than PACE of the last direction's decrease for each tile. */
 enum { DIRECTIONS = 2 };
 static const double STALLS = 0.3, PACE = 0.5;
 
-/* Iterations that multigrid gets; most steps need ten. */
+/* Iterations after which Newton takes over; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };
 
-/* A change of E that is this small a part of the step's first one may be
- * rounding: that is looked at. */
+/* A change of E that is at most this part of the step's largest change may be
+ * rounding, and is compared with it. */
 static const double SMALL_CHANGE = 1e-9;
 
 struct Multigrid {
@@ -39,9 +39,9 @@ struct Multigrid {
                           were computed */
     double largest;    /* J s^2, largest change of E in this step, < 0 */
     Quartic along;     /* E(x + alpha p) - E(x), J s^2 */
-    unsigned version;  /* of the system that the grid holds */
+    unsigned version;  /* System.version of the numbers in the grid */
     double weight;     /* s^2, of P, for which the grid has the numbers */
-    int directions;    /* of this step */
+    int directions;    /* number of directions in this step */
     bool stalls;       /* tiles relax in each iteration */
     bool hidden;       /* rounding hides what the last iteration changed */
 };
@@ -262,7 +262,7 @@ static Status grid_test(Newton *newton, Status status)
     if (ends && system_falls_freely(newton->system))
         record->change += grid_keep_momentum(&mg->grid) / mg->grid.energy;
     if (ends || stuck || small || last ||
-        newton->settings.observer) { /* else nobody looks at it */
+        newton->settings.observer) { /* otherwise unused */
         swap_iterates(newton);
         grid_write_state(&mg->grid, &newton->at);
     }

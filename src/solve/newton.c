@@ -41,8 +41,8 @@ void swap_iterates(Newton *newton)
     newton->x_trial = x;
 }
 
-/* u += alpha p, x = x_n + u, as the line search has tried them.  Nothing is
- * changed where the result is not finite, or E would be above its start. */
+/* u += alpha p, x = x_n + u, as the line search has tried them.  The iterate
+ * stays if the result is not finite, or E would be above its start. */
 static Status update_iterate(Newton *newton)
 {
     if (!all_finite(newton->x_trial, 2 * (size_t)newton->system->nodes))
@@ -99,9 +99,10 @@ static Status test_iterate(Newton *newton, Status status)
     return status;
 }
 
-/* Ends the minimisation's accounts.  The change of E is the sum of the updates'
- * changes, each of which is exact along its line; or the difference of E at end
- * and start, where E was so high in between that the sum has lost more digits.
+/* Books the change of E in this minimisation.  The sum of the updates' changes,
+ * each of which is exact along its line, is used unless E was so high in
+ * between that the sum has lost more digits than the difference of E at end and
+ * start.
  */
 static void book_change(Newton *newton)
 {
@@ -119,7 +120,7 @@ static void book_change(Newton *newton)
 }
 
 /* The four phases of an iteration are functions of direction.c, line_search.c
- * and this file; or, on large squares, of multigrid.c. */
+ * and this file.  Large squares use those of multigrid.c. */
 static const NewtonPhases newton_phases = {find_direction, find_step_length,
                                            update_iterate, test_iterate};
 
@@ -131,8 +132,9 @@ static const NewtonPhases newton_phases = {find_direction, find_step_length,
  *         x = x + alpha p
  *     while |p|_inf / h > tolerance
  *
- * The last p is used: it is paid for, and makes the result ten to 1e11 times
- * more accurate.  The course's Python tests p first and throws it away. */
+ * The last p is used.  Its computation is done, and its use makes the result
+ * ten to 1e11 times more accurate.  The course's Python tests p before it uses
+ * p, and throws the last p away. */
 Status newton_minimise(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
@@ -146,18 +148,18 @@ Status newton_minimise(Newton *newton)
                                  .iteration = record->iteration + 1,
                                  .solver = newton->working};
 
-        /* Search direction p */
+        /* Find the search direction p */
         Status status = phases->find_direction(newton);
 
-        /* Step length alpha */
+        /* Find the step length alpha */
         if (status == STATUS_OK)
             status = phases->find_step_length(newton);
 
-        /* Update of x */
+        /* Update x */
         if (status == STATUS_OK)
             status = phases->update(newton);
 
-        /* Test of p */
+        /* Test p */
         record->status = newton->status = phases->test(newton, status);
 
         newton->change_sum += record->change;
@@ -197,7 +199,7 @@ void newton_free(Newton *newton)
     *newton = (Newton){0};
 }
 
-/* All of them are long. */
+/* NewtonCounters has members of type long only. */
 void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
 {
     const long *more = &counters->iterations;

@@ -6,8 +6,8 @@
 
 #include "solve/newton.h"
 
-/* The phases of an iteration, each of which may end it.  They read and write
- * the iterate newton->at and the record newton->record. */
+/* The phases of an iteration, each of which may end it.  A phase reads and
+ * writes the iterate newton->at and the record newton->record. */
 typedef struct NewtonPhases {
     /* g and p at x, the residual of p, and newton->passes: whether it is at
      * most the tolerance.  Returns OK or a failure. */
@@ -31,8 +31,8 @@ void direction_free_matrix(SearchDirection *search);
 
 Status find_direction(Newton *newton);
 
-/* Largest |p_x| + |p_y| of a direction that is negligible, m: it passes the
- * test, and is a millionth of the shortest spring. */
+/* Largest |p_x| + |p_y| of a negligible direction, m, which passes the test and
+ * is at most a millionth of the shortest spring. */
 double negligible_direction(const Newton *newton);
 
 /* Whether the next direction is negligible, by a bound.  Computes g. */
@@ -58,7 +58,7 @@ extern const NewtonPhases multigrid_phases;
  * second kind of scene, and in every one without a line search, a minimisation
  * is held to what E really is. */
 
-/* At the start of a minimisation. */
+/* Starts the guard at the start of a minimisation. */
 void rounding_start(Newton *newton);
 
 /* Whether a change of E, J s^2, is at most a few units in its last place. */
@@ -74,9 +74,9 @@ bool rounding_confirms(Newton *newton);
 bool energy_is_within_limit(const Newton *newton, const double *u,
                             const double *x);
 
-/* Judges an iteration whose p did not pass the test.  Returns RUNNING; or,
- * where the residual has not become smaller for long, ROUNDING_LIMIT if E does
- * not fall any more, and ITERATION_LIMIT if no line search makes it fall. */
+/* Judges an iteration whose p did not pass the test.  If the residual has not
+ * become smaller for long, returns ROUNDING_LIMIT where E has stopped to fall,
+ * and ITERATION_LIMIT where there is no line search.  Otherwise RUNNING. */
 Status rounding_stagnation(Newton *newton);
 
 #endif

@@ -29,7 +29,7 @@ typedef double Four __attribute__((vector_size(FOUR * sizeof(double)),
 #define HAS_AVX() false
 #endif
 
-/* A loop of at most four. */
+/* An unrolled loop of at most four passes. */
 #define EACH(i, count) _Pragma("GCC unroll 4") for (int i = 0; i < (count); i++)
 
 /* C [m, n] = A [m, k] B^T or, where it subtracts, C -= A B^T, with B [n, k]
@@ -130,7 +130,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* Another case than CHOLMOD's has no answer: it ends as a pivot that is NaN. */
+/* Marks a case that CHOLMOD does not use, by a pivot that is NaN. */
 static bool unknown(bool known, double *result)
 {
     if (!known)
@@ -153,8 +153,8 @@ void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
                             0});
 }
 
-/* The lower triangle of C = A A^T; what stands right of it in a group of
- * columns is written, too. */
+/* The lower triangle of C = A A^T.  Writes over the entries right of it in a
+ * group of columns. */
 void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k,
             const double *alpha, const double *A, const int *lda,
             const double *beta, double *C, const int *ldc)
@@ -333,8 +333,8 @@ NOTHING(zherk_)
 NOTHING(ztrsm_)
 NOTHING(zpotrf_)
 
-/* OpenMP would wake a team of threads for each of CHOLMOD's supernodes, which
- * takes longer than most of them do: its loops run where they are called. */
+/* Runs a loop of OpenMP in the calling thread.  A team of threads for each of
+ * CHOLMOD's supernodes takes longer than most loops. */
 void GOMP_parallel(void (*loop)(void *), void *data, unsigned threads,
                    unsigned flags);
 

@@ -5,10 +5,10 @@
  * panel (Davis et al.: A Survey of Direct Methods for Sparse Linear Systems,
  * 2016, 5 and 9).  CHOLMOD makes them by dgemm_, dsyrk_, dtrsm_ and dpotrf_.  A
  * library of BLAS chooses its kernels, and with them the order of its sums, by
- * the processor: three kinds of processors gave three factors.  So the program
- * brings these four itself, each for the one case that CHOLMOD has, which finds
- * them before those of its library.  Every entry is one sum over ascending
- * columns: lanes of any width give its bits.
+ * the processor: three kinds of processors gave three factors.  The program
+ * therefore has its own four functions, each for the one case that CHOLMOD
+ * uses; the linker takes them before those of the library.  Every entry is one
+ * sum over ascending columns: lanes of any width give its bits.
  *
  * With one right-hand side CHOLMOD would call BLAS three times for each panel;
  * on the small panels of a square mesh these calls take longer than the
@@ -25,9 +25,9 @@ typedef struct Panel {
                             diagonal */
 } Panel;
 
-/* Solves for the panel's columns of L w = b, and takes their share from the
- * rows below; or for those of L^T w = b, the rows below being known.  w [rows]
- * in/out. */
+/* Forward: solves for the panel's columns of L w = b, and subtracts their share
+ * from the rows below.  Backward: solves for the panel's columns of L^T w = b
+ * from known rows below.  w [rows] in/out. */
 void panel_forward(const Panel *panel, double *w);
 void panel_backward(const Panel *panel, double *w);
 

@@ -8,9 +8,9 @@
  * that is left. */
 enum { STAGNANT_ITERATIONS = 20 };
 
-/* Without a line search nothing makes E fall, and updates may go round in
- * circles: this many without a smaller residual, and they do.  (Of 1100 steps
- * with contact one converged after more.) */
+/* Without a line search updates may go round in circles.  After this many
+ * iterations without a smaller residual the loop ends.  (Of 1100 steps with
+ * contact one converged later.) */
 enum { CIRCLING_ITERATIONS = 500 };
 
 /* Ratios of w k to m: beyond the first, rounding of the gradient may hide that
@@ -23,9 +23,9 @@ static const double STIFF_MASSES = 1e5, BLURRED_MASSES = 1e10,
 /* E may seem to rise by this part of its size. */
 static const double MARGIN = 1e-12;
 
-/* A change along a line is contradicted where E is above it by this part of its
- * size, and by this many times what rounding of the coordinates does to E: one
- * sample of that may be far smaller than another. */
+/* E contradicts a change along a line if it is higher by more than AGREED of
+ * its size and by more than BLURS times the effect of rounded coordinates.
+ * (Samples of this effect differ by large factors.) */
 static const double AGREED = 1e-10, BLURS = 100;
 
 void rounding_start(Newton *newton)
@@ -80,8 +80,8 @@ static double blur(Newton *newton, const double *u, const double *x, double E)
     return fabs(incremental_potential_value(&newton->at.E, near_u, near_x) - E);
 }
 
-/* What E may be away from the line's change: its own digits, and what those of
- * the coordinates do to it.  Asked only where a first look says no. */
+/* E may differ from the line's change by its own rounding and by the effect of
+ * rounded coordinates, which is computed only if a simpler test fails. */
 bool rounding_confirms(Newton *newton)
 {
     Rounding *rounding = &newton->rounding;

@@ -5,7 +5,7 @@
 
 #include "solve/grid_spring.h"
 
-/* Rows of a tile; it is LANES even and LANES odd columns wide. */
+/* Rows of a tile, whose columns are LANES even and LANES odd ones. */
 enum { TILE_ROWS = 4 };
 
 /* Newton's step of a node is made longer by this factor; a shorter one is
@@ -20,8 +20,7 @@ static const double DEFINITE = 0.0025;
  * their neighbours hear SPREAD, while the best stands out from the mean. */
 static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
 
-/* So often at most: where E falls by less than its rounding, nothing else may
- * end it. */
+/* Most rounds of a relaxation, where E falls by less than its rounding. */
 enum { MAX_ROUNDS = 10000 };
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
@@ -99,9 +98,9 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
     return sum_of(sum);
 }
 
-/* Sweeps of the tiles with at least this activity.  Tiles of a colour have no
- * neighbours among each other, so it does not matter who relaxes first.
- *   visits  out, how many they were
+/* Sweeps the tiles with at least this activity.  Tiles of one colour are not
+ * neighbours, so their order is without effect.
+ *   visits  out, number of sweeps
  * Returns the change of E. */
 FAST static double relax_active(Tiles *tiles, double activity, int *visits)
 {

@@ -2,8 +2,8 @@
  * the whole square.
  *
  * When the square buckles, a dislocation of some ten nodes runs along a row,
- * less than a cell for each Newton direction of the whole square.  Here tiles
- * of 4 x 16 nodes relax by vertex block descent (Chen, Liu, Yang, Yuksel 2024):
+ * less than a cell for each Newton direction of the whole square.  Tiles of
+ * 4 x 16 nodes relax by vertex block descent (Chen, Liu, Yang, Yuksel 2024):
  * each node in turn makes Newton's step for itself alone, with its 2x2 block of
  * the Hessian as it is.  Where E bends up there, a fold is followed that the
  * clamped Hessian sees as flat.  What E does along such a step is a quartic
@@ -21,7 +21,7 @@ typedef struct Tiles {
     double *activity; /* [tiles] what a tile may lower E by, < 0 */
     double *change;   /* [tiles] by its last sweep */
     int *chosen;      /* [tiles] those that relax next */
-    long sweeps;      /* of tiles, since somebody has set it to 0 */
+    long sweeps;      /* sweeps of tiles since the object was made */
 } Tiles;
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);

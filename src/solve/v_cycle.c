@@ -76,7 +76,8 @@ INLINE Few narrow(Pair low, Pair high)
 #endif
 }
 
-/* Those of springs that start in a row: iso and along clamped (psd.h). */
+/* Computes the tensors of the springs that start in row i, with iso and along
+ * clamped (psd.h). */
 INLINE void tensor_row(const VCycle *cycle, int i)
 {
     const Grid grid = *cycle->grid;
@@ -173,7 +174,7 @@ INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
         }
 }
 
-/* One plane of coarse row I: to = P^T from. */
+/* Restricts one plane of coarse row I: to = P^T from. */
 INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
                          const float *from, float *to)
 {
@@ -236,10 +237,10 @@ void v_cycle_read_system(VCycle *cycle)
 
 /* ---- the V-cycle: A x = b ---- */
 
-/* What a pass over one colour of a row does. */
+/* The work of a pass over one colour of a row. */
 typedef enum Visit {
     FIRST, /* from x = 0: x = D b', with the springs to earlier colours in b' */
-    LEFT,  /* and then with those to later ones: w = b - A x */
+    LEFT,  /* after FIRST, with the springs to later colours: w = b - A x */
     SMOOTH, /* x += D (b - A x) */
     PRODUCT /* w = A x, and the parts of x.b and x.w are added up */
 } Visit;
@@ -405,7 +406,7 @@ FAST static void ascend(const Level *l, double *sums)
     }
 }
 
-/* All of the coarsest level at once, forward or backward. */
+/* Smooths the coarsest level, forward or backward. */
 FAST static void smooth_coarsest(const Level *l, bool back)
 {
     for (int second = 0; second < 2; second++)
@@ -413,7 +414,7 @@ FAST static void smooth_coarsest(const Level *l, bool back)
             smooth_row(l, i, back);
 }
 
-/* x = about A^-1 b; of the finest level also w = A x.
+/* x = about A^-1 b on all levels, and w = A x on the finest level.
  *   sums  [2] out, x.b and x.w */
 static void v_cycle(VCycle *cycle, double *sums)
 {

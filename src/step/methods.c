@@ -1,5 +1,5 @@
-/* All time integrators: what they aim at and where they land, and the table of
- * them. */
+/* methods.c - the time integrators: target and result of each method, and
+ * their table. */
 #include "step/time_integrator.h"
 
 #include <string.h>
@@ -60,7 +60,7 @@ static void verlet_finish(TimeIntegrator *run)
 /* ---- implicit methods: min |u - u_tilde|_M^2 / 2 + w P(x_n + u), u = x - x_n,
  * each with its own target, weight and velocity. */
 
-/* u_tilde = h v: as far as v leads in the time h. */
+/* u_tilde = h v, the way of the velocity v in the time h. */
 static void set_target_ahead(TimeIntegrator *run, double h, const double *v,
                              double weight)
 {
@@ -71,9 +71,9 @@ static void set_target_ahead(TimeIntegrator *run, double h, const double *v,
 
 /* The implicit Euler step of the slides (Algorithm 3): u_tilde = h v_n,
  * w = h^2, v_(n+1) = u/h.  Order 1.  E(x1) <= E(x0) says
- * M|v1-v0|^2/2 + P(x1) <= M|v0|^2/2 + P(x0).  It damps where P is convex from
- * x0 to x1; else the total energy M|v1|^2/2 + P(x1) may rise: a long step may
- * lead a body to the other side of another one. */
+ * M|v1-v0|^2/2 + P(x1) <= M|v0|^2/2 + P(x0).  The method damps where P is
+ * convex from x0 to x1.  Elsewhere the total energy M|v1|^2/2 + P(x1) may rise:
+ * a long step may lead a body to the other side of another one. */
 static void backward_euler_set_target(TimeIntegrator *run)
 {
     double h = run->h;

@@ -1,11 +1,11 @@
 /* prescribed.c - walls and pins that move as prescribed, and an obstacle that a
  * hand pushes.
  *
- * Within a step they are put where they belong before E is minimised, not drawn
- * there by a stiff spring: their position is exact, and E has nothing stiff in
- * it.  Where the way would leave no room (a gap or a cell would end), half of
- * it is made first, then E is minimised, then the rest: each round begins at a
- * place that all terms allow.
+ * Within a step they get their final position before E is minimised.  No stiff
+ * spring draws them there, so the position is exact and E stays soft.  Where
+ * the way would close a gap or turn a cell over, half of it is made first, then
+ * E is minimised, then the rest follows: each minimisation begins at a point
+ * that all terms allow.
  */
 #include "step/prescribed.h"
 
@@ -16,10 +16,10 @@
 #include "model/friction.h"
 #include "model/inertia_energy.h"
 
-/* Most halvings of a part of the way, and most parts of it; a wall at 50 m/s in
- * steps of 0.01 s onto cells of 1/8 m needs 19 parts.  A body that leaves room
- * for less than a thousandth of the way is pressed flat: there a step ends, for
- * each further part takes more updates than the one before. */
+/* Most halvings of a part of the way, and most parts of it.  A wall at 50 m/s
+ * in steps of 0.01 s onto cells of 1/8 m needs 19 parts.  A body that leaves
+ * room for less than a thousandth of the way is pressed flat, and the step
+ * ends, because each further part takes more updates than the one before. */
 enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
 
 /* Nodes that a wall would touch are carried along and keep this much of the
@@ -45,7 +45,7 @@ static bool hand_moves(const Contact *contact)
            moves(contact, contact->push.obstacle);
 }
 
-/* An obstacle that would pass the place at which it stops goes just there. */
+/* Shortens the way of an obstacle that would pass its stop, to end there. */
 static void stop_obstacle(Obstacle *obstacle, double h)
 {
     double *v = obstacle->v, square = v[0] * v[0] + v[1] * v[1], left = 0;
@@ -54,7 +54,7 @@ static void stop_obstacle(Obstacle *obstacle, double h)
         way[c] = obstacle->motion.stop[c] - obstacle->o[c];
         left += way[c] * v[c]; /* times |v|^2, s */
     }
-    bool here = left <= 1e-9 * h * square; /* but for rounding */
+    bool here = left <= 1e-9 * h * square; /* up to rounding */
     for (int c = 0; c < 2; c++)
         v[c] = here ? 0 : left < h * square ? way[c] / h : v[c];
 }
@@ -94,7 +94,7 @@ static void move_obstacles(Contact *contact, double way)
             contact->obstacle[k].o[c] += way * contact->obstacle[k].v[c];
 }
 
-/* Carries nodes along, which stay in front of the obstacles that come nearer.
+/* Carries along the nodes in front of obstacles that come nearer.
  *   way     s, for which the obstacles have moved
  *   before  [2n] m, positions of the nodes before that
  *   u       [2n] m, displacements of the nodes, in and out */
@@ -109,7 +109,7 @@ static void carry(const System *system, const Contact *contact, double way,
             continue;
         for (int i = 0; i < system->nodes; i++) {
             if (!contact_has_pair(contact, system, i, k) ||
-                system->pinned[i]) /* it gives no way */
+                system->pinned[i]) /* a pinned node stays */
                 continue;
             double now[2] = {x_n[2 * i] + u[2 * i],
                              x_n[2 * i + 1] + u[2 * i + 1]};
@@ -160,7 +160,7 @@ static bool make_part(TimeIntegrator *run, double part)
  *   part      in, the first one that is tried
  *   halvings  in, how many are tried, each half the one before
  *   parts     in, most parts of the whole way
- * Returns the part; 0: there was no room. */
+ * Returns the part, or 0 if there was no room. */
 static double make_most(TimeIntegrator *run, double part, int halvings,
                         int parts)
 {
@@ -186,7 +186,7 @@ void prescribed_start(TimeIntegrator *run)
     if (part == 0 && others)
         part = make_most(run, run->left, MAX_HALVINGS, MAX_PARTS);
     run->blocked = part == 0 && others;
-    if (part == 0) /* nothing moves any more in this step */
+    if (part == 0) /* no further motion in this step */
         make_part(run, 0);
     else
         run->moved += part;

@@ -14,10 +14,10 @@
  * whether anything moves. */
 bool prescribed_begin(TimeIntegrator *run);
 
-/* Puts things on their way, as far as there is room, and starts to minimise E
- * with u_tilde as target from there.  Where another part follows, the minimiser
- * is only a guess, and the tolerance is loose.  What a hand moves stops where
- * there is no room, and all else goes on. */
+/* Moves walls and pins as far as there is room, and starts to minimise E from
+ * there.  Where another part of the way follows, the minimiser is only a guess,
+ * and the tolerance is loose.  An obstacle that a hand moves stops where there
+ * is no room; walls and pins go on. */
 void prescribed_start(TimeIntegrator *run);
 
 /* Whether another minimisation follows the one that has ended.  The end of the
@@ -26,10 +26,9 @@ void prescribed_start(TimeIntegrator *run);
  *           where things could not be put where they belong */
 bool prescribed_goes_on(TimeIntegrator *run, Status *status);
 
-/* Work of the prescribed motion in a step, J.  That of the pins is their
- * reaction, which is the gradient of E there, times their way.  That of the
- * obstacles is the forces on the nodes, normal and of friction, times the
- * obstacle's way.
+/* Work of the prescribed motion in a step, J.  The pins' work is their
+ * reaction, the gradient of E there, times their way.  The obstacles' work is
+ * the force on the nodes, normal and of friction, times the obstacle's way.
  *   weight  s^2, factor of P in E */
 double prescribed_work(const TimeIntegrator *run, double weight);
 

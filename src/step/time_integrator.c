@@ -75,7 +75,7 @@ void time_integrator_free(TimeIntegrator *run)
  * h                      method->finish
  */
 
-/* One more step of h. */
+/* Counts a step of h. */
 static void tick(StepClock *clock, double h)
 {
     if (h != clock->h)
@@ -106,7 +106,7 @@ static void end_terms(TimeIntegrator *run)
                 &(TermStep){system, &system->term[t], run->x, run->v, run->h});
 }
 
-/* Where the hand pulls in this step. */
+/* Sets the target of the hand for this step. */
 static void begin_hand(TimeIntegrator *run)
 {
     System *system = run->system;
@@ -117,15 +117,15 @@ static void begin_hand(TimeIntegrator *run)
     if (!run->newton) {
         hand->k = 0;
         system_acceleration(system, run->x, run->new_x);
-        run->memory_h = 0; /* it was another force */
+        run->memory_h = 0; /* Verlet's a_n had no hand */
     }
     hand_begin_step(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
                     run->newton ? NULL : run->new_x + i);
     system_mark_changed(system, false);
 }
 
-/* The minimisation of the present stage begins: u_tilde, gravity in it, and
- * where Newton starts. */
+/* Begins the minimisation of the present stage: target with gravity, and
+ * Newton's start. */
 static void begin_stage(TimeIntegrator *run)
 {
     const System *system = run->system;
@@ -142,8 +142,8 @@ static void begin_stage(TimeIntegrator *run)
                      newton->settings.tolerance);
 }
 
-/* The step ends: made, if its status is OK or an unconverged one; else x and v
- * stay. */
+/* Ends the step.  x and v become new_x and new_v if the status is OK or an
+ * unconverged one. */
 static Status end_step(TimeIntegrator *run, Status status)
 {
     size_t both = 2 * run->size; /* v is behind x, new_v behind new_x */
@@ -187,12 +187,12 @@ Status time_integrator_advance(TimeIntegrator *run)
 {
     const IntegratorMethod *method = run->method;
     while (run->stage < method->stages) {
-        /* Minimum of E */
+        /* Minimise E */
         Status status = newton_minimise(run->newton);
         if (status == STATUS_RUNNING)
             return status;
 
-        /* Walls and pins go on from there, if their way was too long */
+        /* Move walls and pins further, if their way was too long */
         if (run->moves && prescribed_goes_on(run, &status)) {
             prescribed_start(run);
             continue;
@@ -201,7 +201,7 @@ Status time_integrator_advance(TimeIntegrator *run)
             return end_step(run, status);
         run->worst = status ? status : run->worst;
 
-        /* x and v, or the next stage */
+        /* Compute x and v, or begin the next stage */
         method->finish(run);
         if (++run->stage < method->stages)
             begin_stage(run);
