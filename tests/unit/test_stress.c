@@ -140,27 +140,27 @@ TEST(faults_of_the_past_stay_away)
 /* Steps that break one promise each, and else are those of the slides. */
 static void go_back_a_little(TimeIntegrator *run)
 {
-    integrator_methods[0].land(run);
+    integrator_methods[0].finish(run);
     for (size_t i = 0; i < run->size; i++)
         run->newton->at.u[i] *= 0.9;
 }
 
 static void fall_through(TimeIntegrator *run)
 {
-    integrator_methods[0].land(run);
+    integrator_methods[0].finish(run);
     run->new_x[1] = -0.7;
 }
 
 static void shift(TimeIntegrator *run)
 {
-    integrator_methods[0].land(run);
+    integrator_methods[0].finish(run);
     for (size_t i = 0; i < run->size; i++)
         run->new_v[i] += 1e-5;
 }
 
 static void turn(TimeIntegrator *run)
 {
-    integrator_methods[0].land(run);
+    integrator_methods[0].finish(run);
     for (size_t i = 0; i < run->size; i++)
         run->new_v[i] += (i % 2 ? 1e-3 : -1e-3) * run->new_x[i ^ 1];
 }
@@ -172,20 +172,20 @@ static void be_content(TimeIntegrator *run)
 {
     tolerance = run->newton->settings.tolerance;
     run->newton->settings.tolerance = 1;
-    integrator_methods[0].aim(run);
+    integrator_methods[0].set_target(run);
 }
 
 static void be_strict_again(TimeIntegrator *run)
 {
     run->newton->settings.tolerance = tolerance;
-    integrator_methods[0].land(run);
+    integrator_methods[0].finish(run);
 }
 
 TEST(broken_promises_are_noticed)
 {
     static const struct {
         const char *line;
-        void (*aim)(TimeIntegrator *), (*land)(TimeIntegrator *);
+        void (*set_target)(TimeIntegrator *), (*finish)(TimeIntegrator *);
         const char *why;
     } rows[] = {
         {"--segments 2", NULL, go_back_a_little, "E rises"},
@@ -205,8 +205,9 @@ TEST(broken_promises_are_noticed)
         IntegratorMethod method = *run->method;
         CHECK(watch_create(run, &tally, &watch));
         CHECK(watch_step(&watch) == VERDICT_CONVERGED);
-        method.aim = rows[i].aim ? rows[i].aim : method.aim;
-        method.land = rows[i].land;
+        method.set_target =
+            rows[i].set_target ? rows[i].set_target : method.set_target;
+        method.finish = rows[i].finish;
         run->method = &method;
         CHECK(watch_step(&watch) == VERDICT_WRONG);
         CHECK(strstr(watch.reason, rows[i].why) != NULL);
