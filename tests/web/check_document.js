@@ -52,6 +52,8 @@ const CUT = `(() => {
     if (/^(p|h1|summary|button|label|output)$/.test(element.localName) && element.clientWidth && element.scrollWidth > element.clientWidth + 1)
       wrong.push(element.localName + ' ' + words + ' is cut by ' + (element.scrollWidth - element.clientWidth));
   }
+  const [bar, last] = [$('bar'), $('after')].map((element) => element.getBoundingClientRect());
+  if (last.bottom > bar.bottom + 1) wrong.push('a button is cut');
   const ask = document.querySelector('#ask p');
   if (ask) {
     ask.scrollIntoView({ block: 'center' });
