@@ -1,6 +1,5 @@
-/* mass_picture.c - pictures of single masses: the circle, and motion with
- * its arrows.
- */
+/* mass_picture.c - pictures of single masses: the circle, and one mass with the
+ * arrows of its step. */
 #include <math.h>
 #include <string.h>
 
@@ -9,16 +8,20 @@
 
 enum { TRAIL = 256, MASS_GUESSES = 6, MASS_AHEAD = 50, EIGEN_PIECES = 200 };
 
-static const double MASS_REACH = 1.9; /* m, seen at least */
+static const double MASS_REACH = 1.9; /* m, half a side of the view, at least */
 static const double CIRCLE_REACH = 1.75;
-static const double CIRCLE_MOST = 4; /* and at most */
-static const double MASS_TURN = 6.283185307179586;
-static const double EIGEN_REACH = 1.35; /* of the complex plane, at least */
-static const double EIGEN_MOST = 5;     /* and where it follows */
-static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12; /* ems, numbers */
+static const double CIRCLE_MAX = 4; /* m, the view follows a run up to here */
+static const double TWO_PI = 6.283185307179586;
+static const double EIGEN_REACH =
+    1.35; /* half a side of the complex plane that is seen, at least */
+static const double EIGEN_MAX =
+    5; /* the view follows an eigenvalue up to here */
+static const double MATRIX_WIDE = 16.4,
+                    MATRIX_HIGH = 12; /* ems, room for the numbers */
 static const double origin[2] = {0, 0};
 
-/* Runs have the colours of their methods, the only one of arrows that of x. */
+/* Colour of a run: that of its method.  A single mass with arrows has the
+ * colour of x. */
 static Colour run_colour(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
@@ -26,7 +29,8 @@ static Colour run_colour(const Simulation *simulation, int run)
                : colour_of_name(simulation->run[run].method->name);
 }
 
-/* Where the runs have been in the newest steps; with a disc for each. */
+/* Draws where the runs have been in the newest steps; steps true: with a disc
+ * for each step. */
 static void draw_trails(const Plot *stage, bool steps)
 {
     const History *history = stage->show->pane[stage->pane].history;
@@ -52,7 +56,8 @@ static double mass_energy(const double *x, const double *v)
     return 0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
 }
 
-/* On the circle the radius of each run, else its energy; then its trail. */
+/* Samples for each run its radius (circle) or its energy, and then its
+ * position. */
 int mass_sample(const Simulation *simulation, Energy *row)
 {
     static const char *const places[] = {"x0", "y0", "x1", "y1", "x2", "y2"};
@@ -70,8 +75,8 @@ int mass_sample(const Simulation *simulation, Energy *row)
 
 /* ---- the circle ---------------------------------------------------------- */
 
-/* The exact path and its radius; after the guess, dashed, twice the radius;
- * trails, and a disc where each run is now. */
+/* Draws the exact path and its radius, dashed the doubled radius (on a page
+ * after the answer), the trails, and a disc for each run. */
 void circle_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -88,18 +93,18 @@ void circle_draw(Plot *stage)
         plot_disc(stage, simulation->run[r].x, 7, run_colour(simulation, r));
 }
 
-/* It grows with the runs, as far as a circle can be seen in it. */
+/* The view grows with the runs as long as the circle stays visible. */
 void circle_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
     double most = 0;
     for (int r = 0; r < simulation->runs; r++)
         most =
-            fmax(most, fmin(vector_length(simulation->run[r].x), CIRCLE_MOST));
+            fmax(most, fmin(vector_length(simulation->run[r].x), CIRCLE_MAX));
     bounds_grow(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
 }
 
-/* The node of a run. */
+/* Picks the mass of a run. */
 void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     const Simulation *simulation = stage->simulation;
@@ -109,17 +114,17 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
             pick->index = r;
 }
 
-/* The matrix {xx, xv; -xv, vv} of a step of (x, v/omega), t = h omega, and its
- * eigenvalues in the complex plane. */
+/* Matrix {xx, xv; -xv, vv} of a step of (x, v/omega) with t = h omega, and its
+ * eigenvalues. */
 typedef struct StepMatrix {
     double xx, xv, vv;
-    double lambda[2][2]; /* real and imaginary part: a pair, or two real ones
-                            of which the second is the larger one */
+    double lambda[2][2]; /* real and imaginary part: a complex pair, or two real
+                            ones in ascending order */
 } StepMatrix;
 
-/* Returns false where the method is none of the three. */
-static bool step_matrix(const IntegratorMethod *method, double t,
-                        StepMatrix *step)
+/* Returns false if the method is none of the three Euler methods. */
+static bool find_step_matrix(const IntegratorMethod *method, double t,
+                             StepMatrix *step)
 {
     bool forward = strcmp(method->name, "forward-euler") == 0;
     bool symplectic = strcmp(method->name, "symplectic-euler") == 0;
@@ -140,7 +145,7 @@ static void add_matrix(const IntegratorMethod *method, double t,
                        LiveValues *values)
 {
     StepMatrix step;
-    if (!step_matrix(method, t, &step))
+    if (!find_step_matrix(method, t, &step))
         return;
     const double *least = step.lambda[0], *most = step.lambda[1];
     bool pair = most[1] > 0;
@@ -155,7 +160,7 @@ static void add_matrix(const IntegratorMethod *method, double t,
     values_add(values, "size", fmax(vector_length(least), vector_length(most)));
 }
 
-/* The eigenvalues of a run's step, and thin their way from h = 0, where all
+/* Draws the eigenvalues of a run's step, and a thin line from h = 0, where all
  * are 1. */
 static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
                              double turn)
@@ -163,7 +168,7 @@ static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
     Colour colour = colour_of_name(method->name);
     StepMatrix before, step;
     for (int i = 0; i <= EIGEN_PIECES; i++) {
-        if (!step_matrix(method, turn * i / EIGEN_PIECES, &step))
+        if (!find_step_matrix(method, turn * i / EIGEN_PIECES, &step))
             return;
         for (int k = 0; k < 2 && i > 0; k++)
             plot_line(plot, before.lambda[k], step.lambda[k], 1.4, colour);
@@ -173,20 +178,20 @@ static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
         plot_disc(plot, step.lambda[k], 5, colour);
 }
 
-/* The complex plane with the unit circle; the view grows with the eigenvalues,
- * as far as the circle can be seen in it. */
-static void draw_plane(const Plot *card)
+/* Draws the complex plane with the unit circle.  The view grows with the
+ * eigenvalues as long as the circle stays visible. */
+static void draw_complex_plane(const Plot *card)
 {
     static const double one[2] = {1, 0}, i[2] = {0, 1};
     const Simulation *simulation = card->simulation;
-    double turn = simulation->run[0].h * MASS_TURN, most = 0;
+    double turn = simulation->run[0].h * TWO_PI, most = 0;
     double bounds[4];
     StepMatrix step;
     for (int r = 0; r < simulation->runs; r++)
         for (int k = 0; k < 2; k++)
-            if (step_matrix(simulation->run[r].method, turn, &step))
+            if (find_step_matrix(simulation->run[r].method, turn, &step))
                 most =
-                    fmax(most, fmin(vector_length(step.lambda[k]), EIGEN_MOST));
+                    fmax(most, fmin(vector_length(step.lambda[k]), EIGEN_MAX));
     bounds_grow(EIGEN_REACH, 1.1 * most, 1.2, bounds);
     Plot plot = *card;
     plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
@@ -202,8 +207,8 @@ static void draw_plane(const Plot *card)
     plot_label(&plot, 1, i, COLOUR_FAINT, "i");
 }
 
-/* The numbers, without the matrices where the card is low; the plane at their
- * right, or below them in a card that is higher than wide. */
+/* Draws the numbers, and the complex plane at their right, or below them in a
+ * card that is higher than wide.  In a low card the matrices are left out. */
 void matrix_draw(const Plot *card)
 {
     Plot numbers = *card, plane = *card;
@@ -219,14 +224,15 @@ void matrix_draw(const Plot *card)
     card_write_text(&numbers, &show_pane(card->show)->values,
                     box->height < high ? text_eigenvalues : text_matrix);
     Box before = canvas_set_clip(&card->paper->canvas, plane.box);
-    draw_plane(&plane);
+    draw_complex_plane(&plane);
     canvas_set_clip(&card->paper->canvas, before);
 }
 
-/* What each run knows of itself; colour and name are the method's. */
+/* Adds the values of each run. */
 void circle_add_values(const Simulation *simulation, LiveValues *values)
 {
-    double turn = simulation->run[0].h * MASS_TURN; /* on the circle */
+    double turn = simulation->run[0].h *
+                  TWO_PI; /* 2 pi h, the angle of a step on the circle */
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
     const char *first = simulation->run[0].method->name;
     for (int r = 0; r < simulation->runs; r++) {
@@ -239,7 +245,7 @@ void circle_add_values(const Simulation *simulation, LiveValues *values)
         if (circle)
             add_matrix(run->method, turn, values);
     }
-    values->run = 0; /* steps of forward Euler until the radius is doubled */
+    values->run = 0; /* steps of forward Euler until the radius has doubled */
     if (circle && strcmp(first, "forward-euler") == 0)
         values_add(values, "doubling", ceil(2 * log(2) / log1p(turn * turn)));
     values_add(values, "h", simulation->run[0].h);
@@ -247,9 +253,9 @@ void circle_add_values(const Simulation *simulation, LiveValues *values)
 
 /* ---- the arrows ---------------------------------------------------------- */
 
-/* What is farthest from the middle, in steps of sqrt(2), so that the view does
- * not move all the time; of a page that is about one step the first one from
- * near: the middle, the mass and the tips of its arrows. */
+/* Finds a view with all masses and arrows.  It grows by factors of sqrt(2), so
+ * that it seldom moves.  A page about a single step sees the first step from
+ * near. */
 void mass_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
@@ -279,30 +285,30 @@ void mass_bounds(const Plot *stage, double bounds[4])
     bounds_grow(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
-/* Where the exact motion from here is after h. */
-static Point exact_step(const MassStep *step, double h)
+/* Position after time h of exact motion. */
+static Point exact_position(const MassStep *step, double h)
 {
     const Point x = point_along(origin, cos(h), step->x);
     return point_along(x.at, sin(h), step->v);
 }
 
-/* What a step of forward Euler lacks: the exact end is h^2/2 a away, or about
- * that. */
-static void draw_miss(const Plot *stage, const MassStep *step, double h,
-                      const char *words)
+/* Draws the error of a step of forward Euler: the exact end is about h^2/2 a
+ * away. */
+static void draw_step_error(const Plot *stage, const MassStep *step, double h,
+                            const char *words)
 {
     const Point to = point_along(step->x, h, step->v);
     const Point at[2] = {point_along(to.at, 0.5 * h * h, step->a),
                          point_along(to.at, 0.25 * h * h, step->a)};
-    plot_hollow_disc(stage, exact_step(step, h).at, 6, 3.4, COLOUR_GREY);
+    plot_hollow_disc(stage, exact_position(step, h).at, 6, 3.4, COLOUR_GREY);
     plot_ring(stage, to.at, 6, 2, COLOUR_X);
     plot_arrow(stage, to.at, step->a, 0.5 * h * h, 2, COLOUR_WARNING);
     plot_label(stage, 2, at->at, COLOUR_WARNING, "%s", words);
 }
 
-/* The exact end of the step; of backward Euler x' as it is found: x + h v, then
- * with the force there, and so on; the next points of symplectic Euler, and the
- * ellipse on which they lie. */
+/* Draws what a page explains: the exact end of the step; for backward Euler the
+ * fixed-point iterates of x'; for symplectic Euler the next points and the
+ * ellipse through them. */
 static void draw_mass_lesson(Plot *stage)
 {
     MassStep step;
@@ -310,11 +316,11 @@ static void draw_mass_lesson(Plot *stage)
     bool implicit = stage->simulation->run[0].method->implicit;
     if (!mass_next_step(stage->simulation, 0, &step))
         return;
-    const Point end = exact_step(&step, h);
+    const Point end = exact_position(&step, h);
     plot_hollow_disc(stage, end.at, 6, 3.4, COLOUR_GREY);
     if (step.by_old_v) {
-        draw_miss(stage, &step, 0.5 * h, "with h/2: a quarter");
-        draw_miss(stage, &step, h, "\u00bdh\u00b2 a^{n}");
+        draw_step_error(stage, &step, 0.5 * h, "with h/2: a quarter");
+        draw_step_error(stage, &step, h, "\u00bdh\u00b2 a^{n}");
     }
     plot_label(stage, 1, end.at, COLOUR_FAINT, "exact");
     Point x = point_along(step.x, 0, step.v),
@@ -346,9 +352,8 @@ static void draw_mass_lesson(Plot *stage)
                      COLOUR_ALPHA);
 }
 
-/* The arrows of one method in the order in which it makes them; what a page
- * tells beside them; then their words, unless an arrow is short, the most
- * important ones first. */
+/* Draws the arrows of one step in the order in which the method makes them,
+ * then their labels, the most important first; a short arrow has none. */
 static void draw_mass_step(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -363,7 +368,7 @@ static void draw_mass_step(Plot *stage)
                 to = vector_between(step.x, step.new_x);
     const Point push = point_along(origin, simulation->run[0].h, a);
     const struct MassArrow {
-        const double *a, *d; /* m, from a along d */
+        const double *a, *d; /* m, start and vector */
         double width;
         Colour colour;
         const char *word;
@@ -392,16 +397,16 @@ static void draw_mass_step(Plot *stage)
     }
 }
 
-/* Of several runs the way that each goes next.  Before the answer of a page
- * arrows would tell it. */
+/* Draws path, trails and the next step of each run.  Before a guess the arrows
+ * of the step would give the answer and are left out. */
 void mass_draw(Plot *stage)
 {
     const Show *show = stage->show;
     const Simulation *simulation = stage->simulation;
     const TimeIntegrator *run = simulation->run;
-    double start[2], across[2]; /* the axes of the exact path */
+    double start[2], across[2]; /* semi-axes of the exact path */
     mass_exact(simulation, 0, start);
-    mass_exact(simulation, 0.25 * MASS_TURN, across);
+    mass_exact(simulation, 0.25 * TWO_PI, across);
     plot_ellipse(stage, origin, start, across, 4, false, COLOUR_GRID);
     for (int r = 0; r < simulation->runs; r++)
         plot_line(stage, origin, run[r].x, 1.4, COLOUR_REST);
@@ -424,8 +429,8 @@ void mass_draw(Plot *stage)
 
 /* ---- the formula with its numbers --------------------------------------- */
 
-/* What symplectic Euler keeps: |x|^2 + |v|^2 - h x.v. */
-static double kept_energy(const double *x, const double *v, double h)
+/* The invariant of symplectic Euler: |x|^2 + |v|^2 - h x.v. */
+static double invariant(const double *x, const double *v, double h)
 {
     return 2 * mass_energy(x, v) - h * (x[0] * v[0] + x[1] * v[1]);
 }
@@ -464,17 +469,18 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     if (!step.by_old_v && !backward) {
         values_add(values, "h limit", 2);
         values_add_flag(values, "ellipse", h < 2);
-        if (h < 2) { /* beyond, digits cancel as both squares grow */
-            values_add(values, "kept", kept_energy(step.x, step.v, h));
+        if (h < 2) { /* for larger h the difference of growing squares loses all
+                        digits */
+            values_add(values, "kept", invariant(step.x, step.v, h));
             values_add(values, "kept later",
-                       kept_energy(step.new_x, step.new_v, h));
+                       invariant(step.new_x, step.new_v, h));
         }
     }
     values_add(values, "miss",
-               point_distance(step.new_x, exact_step(&step, h).at));
+               point_distance(step.new_x, exact_position(&step, h).at));
     if (step.by_old_v) {
         const Point half = point_along(step.x, 0.5 * h, step.v);
         values_add(values, "half miss",
-                   point_distance(half.at, exact_step(&step, 0.5 * h).at));
+                   point_distance(half.at, exact_position(&step, 0.5 * h).at));
     }
 }

@@ -1,4 +1,4 @@
-/* plot.c - axes, curves, points and labels of a graph. */
+/* plot.c - axes, curves, points and shapes of a plot. */
 #include "picture/plot.h"
 
 #include <math.h>
@@ -8,20 +8,21 @@
 #include "base/mathematics.h"
 
 enum {
-    PLOT_INTERVALS = 4,   /* between numbers, upwards */
-    PLOT_MOST_LINES = 40, /* of any axis */
-    PLOT_POINTS = 400,    /* of a graph */
-    PLOT_CORNERS = 120    /* of an ellipse */
+    PLOT_INTERVALS = 4,   /* most intervals between the numbers of y */
+    PLOT_MOST_LINES = 40, /* most numbers of an axis */
+    PLOT_POINTS = 400,    /* points of a graph */
+    PLOT_CORNERS = 120    /* corners of an ellipse */
 };
 
 static const double TURN = 6.283185307179586; /* 2 pi */
 
-static const double TICK_SIZE = 0.82;    /* ems, letters at the axes */
-static const double TICK_ROOM = 5;       /* ems, a number to the right needs */
-static const double LINE_ROOM = 1.6;     /* ems, one above the other needs */
-static const double NUMBER_ROOM = 3.1;   /* ems, left of the plot */
-static const double NUMBER_BELOW = 0.25; /* ems, from the plot to a number */
-static const double HEAD = 0.62;         /* ems, length of an arrow's head */
+static const double TICK_SIZE = 0.82;  /* ems, letters of the axes */
+static const double TICK_ROOM = 5;     /* ems, width for a number of x */
+static const double LINE_ROOM = 1.6;   /* ems, height for a number of y */
+static const double NUMBER_ROOM = 3.1; /* ems, width left of the plot */
+static const double NUMBER_BELOW =
+    0.25;                        /* ems, gap between plot and numbers of x */
+static const double HEAD = 0.62; /* ems, length of arrow heads */
 
 double plot_round_up(double value)
 {
@@ -36,44 +37,48 @@ double plot_round_axis(double value)
     return step * ceil(value / step * (1 - 1e-12));
 }
 
-/* Where a value stands on its axis. */
-static double on_axis(const Axis *axis, double value)
+/* Coordinate of a value on its axis: its logarithm if the axis is logarithmic.
+ */
+static double axis_coordinate(const Axis *axis, double value)
 {
     return axis->log ? log10(value) : value;
 }
 
 void plot_pixel(const Plot *plot, const double *at, double pixel[2])
 {
-    const double on[2] = {on_axis(&plot->x, at[0]), on_axis(&plot->y, at[1])};
+    const double on[2] = {axis_coordinate(&plot->x, at[0]),
+                          axis_coordinate(&plot->y, at[1])};
     camera_pixel(&plot->camera, on, pixel);
 }
 
-/* The axis k that the box shows from low to high. */
+/* Sets the camera so that the box shows axis k from low to high. */
 static void set_camera(Plot *plot, int k, const Axis *axis)
 {
     const Box *box = &plot->box;
-    double low = on_axis(axis, axis->low), high = on_axis(axis, axis->high);
+    double low = axis_coordinate(axis, axis->low),
+           high = axis_coordinate(axis, axis->high);
     double scale = (k ? box->height : box->width) / (high - low);
     plot->camera.scale[k] = scale;
     plot->camera.origin[k] =
         k ? box->y + box->height + scale * low : box->x - scale * low;
 }
 
-/* A number of an axis; rounding must not show as 1e-17. */
+/* Number of a tick; rounding would show 1e-17 instead of 0. */
 static Number tick_number(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
-    bool nothing = !axis->log && fabs(value) < 1e-9 * span;
-    return format_number(nothing ? 0 : value);
+    bool is_zero = !axis->log && fabs(value) < 1e-9 * span;
+    return format_number(is_zero ? 0 : value);
 }
 
-/* The values that carry a number where the axis is so many ems long; returns
- * how many.  upright: it is that of y */
+/* Finds the values with numbers on an axis of this length.  Returns how many.
+ *   upright  is the axis of y */
 static int axis_ticks(const Axis *axis, bool upright, double ems, double *ticks)
 {
     double room = upright ? fmax(ems / LINE_ROOM, 1) : fmax(ems / TICK_ROOM, 2);
     double intervals = fmin(room, (upright ? 1 : 2) * PLOT_INTERVALS);
-    double low = on_axis(axis, axis->low), high = on_axis(axis, axis->high);
+    double low = axis_coordinate(axis, axis->low),
+           high = axis_coordinate(axis, axis->high);
     double step = plot_round_up((high - low) / intervals);
     int count = 0;
     if (!(high - low > 0) || !isfinite(high - low))
@@ -102,8 +107,8 @@ static int tick_width(Paper *paper, const char *words)
     return paper_width(paper, FACE_REGULAR, TICK_SIZE, words);
 }
 
-/* Light lines across, darker at 0, with their numbers on the left; numbers
- * below as far as there is room beside the label. */
+/* Draws light lines across, darker at 0, with their numbers on the left; and
+ * the numbers of x as far as the label leaves room. */
 static void draw_axes(const Plot *plot)
 {
     Paper *paper = plot->paper;
@@ -141,8 +146,8 @@ static void draw_axes(const Plot *plot)
     }
 }
 
-/* So many ems of room above and below a plot, and left of it for the widest of
- * its numbers. */
+/* Box of the plot without the room above and below, ems, and left for the
+ * widest number. */
 static Box inner_box(const Plot *outer, const Axis *y, double above,
                      double below)
 {
@@ -174,7 +179,7 @@ Plot plot_create(const Plot *card, Axis x, Axis y)
     return plot;
 }
 
-/* What the camera sees from low to high. */
+/* Sets the axis to the range low ... high of camera coordinates. */
 static void set_range(Axis *axis, double low, double high)
 {
     axis->low = axis->log ? pow(10, low) : low;
@@ -188,7 +193,8 @@ Plot plot_on_stage(const Plot *stage, Axis x, Axis y)
     const Box *box = &plot.box;
     plot.x = x;
     plot.y = y;
-    for (int pass = 0; pass < 2; pass++) { /* the first one for the numbers */
+    for (int pass = 0; pass < 2; pass++) { /* the first pass finds the numbers,
+                                              whose width the second needs */
         if (stage->has_text && pass > 0)
             plot.box = inner_box(stage, &plot.y, 2.2, 1.7);
         camera_world(&stage->camera, box->x, box->y + box->height, low);
@@ -206,19 +212,19 @@ Plot plot_on_stage(const Plot *stage, Axis x, Axis y)
 
 /* ---- shapes ------------------------------------------------------------- */
 
-/* Whether it has axes: then it is cut at its box. */
+/* Whether the plot has axes and therefore clips at its box. */
 static bool has_axes(const Plot *plot)
 {
     return plot->x.high > plot->x.low;
 }
 
-/* Of a line so many units wide. */
+/* Width of a line in pixels, at least 1. */
 static double pixels_wide(const Plot *plot, double width)
 {
     return fmax(1, width * plot->paper->unit);
 }
 
-/* The line between two pixels, as far as it is inside; NaN draws nothing. */
+/* Draws the visible part of a line between two pixels; NaN draws nothing. */
 static void draw_line(const Plot *plot, const double *a, const double *b,
                       double width, Colour colour)
 {
@@ -285,9 +291,9 @@ void plot_quad(const Plot *plot, const double *const corner[4], Colour colour)
     canvas_triangle(&plot->paper->canvas, half, false, colour);
 }
 
-/* The end of each line is moved to the middle between two pixels of the
- * direction in which it is longer, so that the next one begins where no pixel
- * is covered by parts of both: their joint would be paler. */
+/* Each joint is moved to the middle between two pixels in the direction in
+ * which the line is longer.  Otherwise both lines would cover parts of one
+ * pixel, and the joint would look paler. */
 void plot_curve(const Plot *plot, int count, const double *x, const double *y,
                 double width, Colour colour)
 {
@@ -298,7 +304,7 @@ void plot_curve(const Plot *plot, int count, const double *x, const double *y,
         if (isfinite(p[0] + p[1]) && isfinite(q[0] + q[1])) {
             const double d[2] = {q[0] - p[0], q[1] - p[1]};
             if (fabs(d[0]) < 1 && fabs(d[1]) < 1 && i + 1 < count)
-                continue; /* less than a pixel: wait for the next point */
+                continue; /* shorter than a pixel: waits for the next point */
             int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
             double end = floor(q[k] + 0.5);
             q[1 - k] += (end - q[k]) * d[1 - k] / d[k];
@@ -323,8 +329,8 @@ void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
     plot_curve(plot, PLOT_POINTS + 1, at, value, width, colour);
 }
 
-/* Whether a point is to be seen; p [2] pixels, out. */
-static bool find_place(const Plot *plot, const double *at, double p[2])
+/* Maps a point to pixels p [2], out.  Returns whether it is visible. */
+static bool find_pixel(const Plot *plot, const double *at, double p[2])
 {
     plot_pixel(plot, at, p);
     return !has_axes(plot) || (at[0] >= plot->x.low && at[0] <= plot->x.high &&
@@ -334,7 +340,7 @@ static bool find_place(const Plot *plot, const double *at, double p[2])
 bool plot_disc(const Plot *plot, const double *at, double radius, Colour colour)
 {
     double p[2];
-    bool seen = find_place(plot, at, p);
+    bool seen = find_pixel(plot, at, p);
     if (seen)
         canvas_disc(&plot->paper->canvas, p[0], p[1],
                     radius * plot->paper->unit, colour);
@@ -352,12 +358,12 @@ void plot_ring(const Plot *plot, const double *at, double radius, double width,
                Colour colour)
 {
     double p[2], unit = plot->paper->unit;
-    if (find_place(plot, at, p))
+    if (find_pixel(plot, at, p))
         canvas_ring(&plot->paper->canvas, p[0], p[1], radius * unit,
                     pixels_wide(plot, width), colour);
 }
 
-/* A dark square with a light middle. */
+/* Draws a dark square with a light middle. */
 void plot_pin(const Plot *plot, const double *at, double radius)
 {
     Canvas *canvas = &plot->paper->canvas;

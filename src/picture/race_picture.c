@@ -1,6 +1,5 @@
-/* race_picture.c - the graph of run time against error, one curve for each
- * method.
- */
+/* race_picture.c - the graph of run time against error, with one curve for each
+ * method, and its table. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,12 +7,14 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-enum { HALVED = 4 };               /* times, in the table */
-static const double NAMED = 45;    /* ems, for names beside the lines */
-static const double NEAR = 0.01;   /* m, the error that is asked for */
-static const double FINEST = 1e-8; /* m, what tolerance and reference leave */
+enum { HALVED = 4 }; /* columns of the table for halved time steps */
+static const double NAMES_WIDTH =
+    45; /* ems, width of a plot with names beside the lines */
+static const double TARGET_ERROR =
+    0.01; /* m, the error that the picture compares run times for */
+static const double REFERENCE_ERROR = 1e-8; /* m, accuracy of the reference */
 
-/* Powers of ten. */
+/* Bounds in powers of ten. */
 void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.parts;
@@ -23,20 +24,21 @@ void race_bounds(const Plot *stage, double bounds[4])
     bounds[3] = over_h ? 2.5 : 3; /* below the switch */
 }
 
-/* Their names in a column at the left of some points, or at the right of the
- * others, from the highest one down, each with a line to its point. */
+/* Writes the methods' names in a column left or right of their points, from top
+ * to bottom, each with a line to its point.
+ *   side  true: the column at the left (explicit methods, or all over h) */
 static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
-                        bool over_h, bool side)
+                        bool over_h, bool on_left)
 {
     Paper *paper = plot->paper;
-    double at[RACE_METHODS][2], column = NAN, way = side ? -1 : 1;
+    double at[RACE_METHODS][2], column = NAN, way = on_left ? -1 : 1;
     double line = 1.25 * paper->em, end = plot->box.x + plot->box.width;
-    double row = plot->box.y + line; /* below the legend, above the axis */
+    double row = plot->box.y + line; /* below the legend */
     double last = plot->box.y + plot->box.height - line;
     for (int i = 0; i < RACE_METHODS; i++) {
         plot_pixel(plot, point[i], at[i]);
         bool left = over_h || !race_method(i)->implicit;
-        at[i][1] = left == side ? at[i][1] : NAN;
+        at[i][1] = left == on_left ? at[i][1] : NAN;
         last -= isnan(at[i][1]) ? 0 : line;
         if (!isnan(at[i][1]))
             column = way * fmax(way * column, way * at[i][0]);
@@ -51,32 +53,32 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
         Colour colour = colour_of_name(method->name);
         double wide = paper_width(paper, FACE_BOLD, 1, method->label);
         double x = column + way * 1.4 * paper->em;
-        x = side ? x : fmin(x, end - wide);
+        x = on_left ? x : fmin(x, end - wide);
         last += line;
         row = fmin(fmax(at[next][1], row + line), last);
         canvas_line(&paper->canvas, at[next][0], at[next][1],
                     x - way * 0.3 * paper->em, row, 1, colour);
         paper_panel(paper, FACE_BOLD, 1, colour, x, row - 0.65 * paper->em,
-                    side ? ALIGN_RIGHT : ALIGN_LEFT, method->label);
+                    on_left ? ALIGN_RIGHT : ALIGN_LEFT, method->label);
         at[next][1] = NAN;
     }
 }
 
-/* The points of each method joined, hollow where it explodes later, and its
- * name beside the last one, of explicit methods over run time beside the first;
- * over h how steep errors of order 1 and 2 are, too. */
+/* Draws the points of each method, joined; hollow where the method explodes
+ * later.  Over h also the slopes of errors of order 1 and 2. */
 void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Race *race = &simulation->exhibit.race;
-    double named[RACE_METHODS][2]; /* NaN: it has no point */
+    double named[RACE_METHODS][2]; /* point with the name; NaN: none */
     bool over_h = simulation->exhibit.parts;
-    bool wide = stage->has_text && stage->box.width > NAMED * stage->em;
+    bool wide = stage->has_text && stage->box.width > NAMES_WIDTH * stage->em;
     Plot plot = plot_on_stage(
         stage,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true});
-    const double at[2][2] = {{plot.x.low, NEAR}, {plot.x.high, NEAR}};
+    const double at[2][2] = {{plot.x.low, TARGET_ERROR},
+                             {plot.x.high, TARGET_ERROR}};
     if (!over_h)
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
     for (int method = 0; method < RACE_METHODS; method++) {
@@ -103,11 +105,11 @@ void race_draw(Plot *stage)
         plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
         plot_label(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
-    for (int side = 0; side < 2 && wide; side++)
-        name_points(&plot, named, over_h, side);
+    for (int on_left = 0; on_left < 2 && wide; on_left++)
+        name_points(&plot, named, over_h, on_left);
 }
 
-/* The quickest run that is near: a stable one of an explicit method and of an
+/* Adds the fastest runs with the target error: a stable explicit one, an
  * implicit one, and an explicit one that explodes later. */
 void race_add_values(const Simulation *simulation, LiveValues *values)
 {
@@ -121,7 +123,8 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
         const RacePoint *best = NULL, *at = race->point;
         for (; at < race->point + race->count; at++)
             if (at->method->implicit == (i == 1) && at->stable == (i < 2) &&
-                at->error <= NEAR && (!best || at->seconds < best->seconds))
+                at->error <= TARGET_ERROR &&
+                (!best || at->seconds < best->seconds))
                 best = at;
         values_add_words(values, names[i][0],
                          best ? best->method->label : NULL);
@@ -129,7 +132,7 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
         values_add(values, names[i][2], best ? 1e3 * best->h : NAN);
         values_add_flag(values, i ? "" : "no explicit", !best && all);
     }
-    bool failed = false; /* of those in the table */
+    bool failed = false; /* in the table */
     for (int i = RACE_SHOWN * RACE_METHODS; i < race->count; i++)
         failed = failed || (isnan(race->point[i].error) &&
                             i < (RACE_SHOWN + HALVED + 1) * RACE_METHODS);
@@ -142,7 +145,8 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "failed", simulation->status);
 }
 
-/* A number of a row of the table; nothing where it is not known. */
+/* Writes a number of the table; a number that is not finite leaves the cell as
+ * it is. */
 static void put_cell(char *cell, size_t size, const char *sign, double value,
                      int digits, const char *unit)
 {
@@ -153,10 +157,9 @@ static void put_cell(char *cell, size_t size, const char *sign, double value,
 
 enum { COLUMNS = 9, CELL = 64 };
 
-/* A method a row: its error with h, by what it is divided as h is halved again
- * and again (what is below 10 nm is left to the tolerance), with h what is left
- * of the energy after a second, the longest stable step that was tried, and how
- * long it took. */
+/* Fills the row of a method: error with h, its quotient each time h is halved
+ * (below the reference error only epsilon), energy left after a second with h,
+ * longest stable step, run time. */
 static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
 {
     const IntegratorMethod *shown = race_method(method);
@@ -172,10 +175,12 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
         const RacePoint *half = point + RACE_METHODS;
         if (race->count <= half - race->point)
             break;
-        snprintf(cell[1 + k], CELL, half->error < FINEST ? "\u03b5" : "\u2013");
+        snprintf(cell[1 + k], CELL,
+                 half->error < REFERENCE_ERROR ? "\u03b5" : "\u2013");
         put_cell(cell[1 + k], CELL, "\u00f7 ",
-                 half->error < FINEST ? NAN : point->error / half->error, 2,
-                 "");
+                 half->error < REFERENCE_ERROR ? NAN
+                                               : point->error / half->error,
+                 2, "");
         point = half;
     }
     if (shown->implicit)
@@ -186,8 +191,7 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
              shown->implicit ? NAN : 1e3 * race_stable(race, method), 3, " ms");
 }
 
-/* As many columns as there is room for, in one order: over h first those of
- * halving it, else what the picture does not show. */
+/* Draws as many columns as there is room for, the most important first. */
 void table_draw(const Plot *card)
 {
     static const char heads[COLUMNS][CELL] = {"",       "error, m", "h/2",

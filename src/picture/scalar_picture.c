@@ -1,5 +1,6 @@
-/* Newton in one unknown: f with its quadratic models (overshoot), and g with
- * its tangents above E with its parabolas (tangent). */
+/* scalar_picture.c - Newton's method in one unknown: f with its quadratic
+ * models (overshoot), and g with its tangents above E with its parabolas
+ * (tangent). */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,68 +10,69 @@
 
 enum { ROOT_UPDATES = 60, ITERATE_TEXT = 48 };
 
-static const double TANGENT_REACH = 3;    /* m, x from -3 to 3 at least */
+static const double TANGENT_REACH = 3; /* m, x is seen from -3 to 3, at least */
 static const double ITERATES_WIDE = 11.5; /* ems */
 
-/* The last update, or the first one that is to come, and the model that it
- * comes from: q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2 at x0, least at
- * x1 = x0 + p. */
-typedef struct Update {
+/* An update and its model q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2, which is
+ * least at x1 = x0 + p. */
+typedef struct ScalarUpdate {
     const Simulation *simulation;
-    double x0, x1, f, first, second;
-    double alpha; /* 0: not known yet, or refused */
-    int refused;  /* lengths 1, 1/2, ... that the line search did not take */
-    int number;   /* of the iterate x0 */
-    bool made;
-    bool slopes; /* graphs are of f' and of the tangent q' */
-} Update;
+    double x0, x1, f, slope, curvature;
+    double alpha; /* step length; 0: not known yet, or all were refused */
+    int refusals; /* lengths 1, 1/2, ... refused by the line search */
+    int number;   /* number of the iterate x0 */
+    bool is_made;
+    bool slopes; /* curve_at and model_at return derivatives: f' and its tangent
+                  */
+} ScalarUpdate;
 
 static Local scalar_at(const Simulation *simulation, double x)
 {
     return descent_at(simulation, PROJECTION_NONE, x, 0);
 }
 
-/* Update i, 0, 1, ...; -1: the first one, which is still to come. */
-static Update update_at(const Simulation *simulation, int i)
+/* Update 0, 1, ...; -1: the first one, which is still to come. */
+static ScalarUpdate update_at(const Simulation *simulation, int i)
 {
     const Descent *descent = &simulation->descent;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
-    Update update = {
+    ScalarUpdate update = {
         .simulation = simulation, .x0 = descent->point[0], .alpha = whole};
     if (i >= 0) {
         const NewtonRecord *record = &descent->record[i];
         update.x0 = record->from[0];
         update.alpha = record->alpha;
-        update.refused = record->trials - (record->alpha > 0);
+        update.refusals = record->trials - (record->alpha > 0);
         update.number = i;
-        update.made = true;
+        update.is_made = true;
     }
     Local at = scalar_at(simulation, update.x0);
     update.f = at.value;
-    update.first = at.g[0];
-    update.second = at.H[0];
+    update.slope = at.g[0];
+    update.curvature = at.H[0];
     update.x1 = update.x0 - at.g[0] / at.H[0];
     return update;
 }
 
-/* The function and its model, for graphs. */
+/* Function and model for plot_graph. */
 static double curve_at(const void *data, double x)
 {
-    const Update *update = data;
+    const ScalarUpdate *update = data;
     Local at = scalar_at(update->simulation, x);
     return update->slopes ? at.g[0] : at.value;
 }
 
 static double model_at(const void *data, double x)
 {
-    const Update *update = data;
-    double d = x - update->x0, first = update->first, second = update->second;
-    return update->slopes ? first + d * second
-                          : update->f + d * (first + 0.5 * d * second);
+    const ScalarUpdate *update = data;
+    double d = x - update->x0, slope = update->slope,
+           curvature = update->curvature;
+    return update->slopes ? slope + d * curvature
+                          : update->f + d * (slope + 0.5 * d * curvature);
 }
 
-/* Iterate i, the present one after all others. */
-static double iterate(const Descent *descent, int i)
+/* Iterate i of 0 ... count; the last one is the present point. */
+static double iterate_at(const Descent *descent, int i)
 {
     return i == descent->count ? descent->point[0] : descent->record[i].from[0];
 }
@@ -78,10 +80,10 @@ static double iterate(const Descent *descent, int i)
 /* ---- a function, its model and the iterates --------------------------------
  */
 
-/* The model of E or its tangent, its minimum or zero, and from there the way to
- * the curve, where the full step leads. */
-static void draw_model(const Plot *plot, const Update *update, double width,
-                       double radius, Colour colour)
+/* Draws the model, its minimum (or the tangent's zero), and the line from there
+ * to the curve, where the full step leads. */
+static void draw_scalar_model(const Plot *plot, const ScalarUpdate *update,
+                              double width, double radius, Colour colour)
 {
     const double low[2] = {update->x1, model_at(update, update->x1)};
     const double high[2] = {update->x1, curve_at(update, update->x1)};
@@ -90,32 +92,32 @@ static void draw_model(const Plot *plot, const Update *update, double width,
     plot_hollow_disc(plot, low, radius, 0.6 * radius, COLOUR_P);
 }
 
-/* E or its slope, and its model, if that is to be seen.  Rings where the line
- * search looked and went on; discs on the curve, the last one is black, with
- * their numbers below and above in turn, unless there is no room beside the one
- * before. */
-static void draw_search(const Plot *plot, const Update *update, bool model)
+/* Draws the function (or its derivative) and the model.  Rings mark the lengths
+ * that the line search refused; discs mark the iterates, the last one black,
+ * with numbers where there is room. */
+static void draw_search(const Plot *plot, const ScalarUpdate *update,
+                        bool model)
 {
     const Descent *descent = &update->simulation->descent;
     double x1 = update->x1, used[2] = {-1e9, -1e9}, alpha = 1, p[2];
     bool right = x1 > plot->x.high, left = x1 < plot->x.low;
     plot_graph(plot, curve_at, update, 2.4, COLOUR_X);
     if (model)
-        draw_model(plot, update, 1.6, 6, COLOUR_P);
+        draw_scalar_model(plot, update, 1.6, 6, COLOUR_P);
     const double edge[2] = {right ? plot->x.high : plot->x.low,
                             0.2 * plot->y.low};
     if (model && !update->slopes && isfinite(x1) && (left || right))
         plot_label(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
                    right ? "" : "\u2190 ", format_number(x1).text,
                    right ? " \u2192" : "");
-    for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
+    for (int i = 0; i < update->refusals; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (x1 - update->x0);
         plot_hollow_disc(plot, (double[2]){x, curve_at(update, x)}, 5, 3.2,
                          COLOUR_WARNING);
     }
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
-        double x = iterate(descent, i);
+        double x = iterate_at(descent, i);
         const double at[2] = {x, curve_at(update, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         bool seen = plot_disc(plot, at, last ? 7 : 5.5, colour);
@@ -128,27 +130,26 @@ static void draw_search(const Plot *plot, const Update *update, bool model)
     }
 }
 
-/* Below all, pale, the models of the whole updates before the last one, and
- * from the minimum of each the way to the curve. */
+/* Draws f with the iterates, and pale below them the models of earlier full
+ * updates. */
 void curve_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
-    Update update = update_at(simulation, simulation->descent.count - 1);
+    ScalarUpdate update = update_at(simulation, simulation->descent.count - 1);
     Plot plot = plot_on_stage(stage, (Axis){.label = "x"}, (Axis){0});
     for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
-        Update earlier = update_at(simulation, i);
-        draw_model(&plot, &earlier, 1.4, 4, pale);
+        ScalarUpdate earlier = update_at(simulation, i);
+        draw_scalar_model(&plot, &earlier, 1.4, 4, pale);
     }
     draw_search(&plot, &update, !stage->show->veiled);
 }
 
-/* The update that is shown, from its iterate to the next one. */
 /* The step length that backtracking finds from the present iterate. */
 static double first_length(const Simulation *simulation)
 {
-    Update from = update_at(simulation, -1);
+    ScalarUpdate from = update_at(simulation, -1);
     double alpha = 1, p = from.x1 - from.x0;
     while (alpha > DBL_EPSILON &&
            scalar_at(simulation, from.x0 + alpha * p).value > from.f)
@@ -156,17 +157,18 @@ static double first_length(const Simulation *simulation)
     return alpha;
 }
 
+/* Adds the values of the update shown, from its iterate to the next one. */
 void scalar_add_values(const Simulation *simulation, LiveValues *values)
 {
-    Update update = update_at(simulation, simulation->descent.count - 1);
+    ScalarUpdate update = update_at(simulation, simulation->descent.count - 1);
     double x = update.x0, p = update.x1 - update.x0;
     double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
     bool tangent = simulation->scene->picture == PICTURE_TANGENT;
     values_add_flag(values, "tangent", tangent);
     values_add(values, "number", update.number);
     values_add(values, "next number", update.number + 1);
-    values_add_flag(values, "refused lengths", update.refused > 0);
-    values_add(values, "iterate", x);
+    values_add_flag(values, "refusals lengths", update.refusals > 0);
+    values_add(values, "iterate_at", x);
     values_add(values, "next", next);
     values_add(values, "double sinh", sinh(2 * x));
     values_add_flag(values, "no length", !(update.alpha > 0));
@@ -174,30 +176,30 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     if (update.alpha > 0 && update.alpha < 1)
         values_add(values, "shorter", update.alpha);
     values_add(values, "first length", first_length(simulation));
-    values_add(values, "slope", update.first);
-    values_add(values, "curvature", update.second);
+    values_add(values, "slope", update.slope);
+    values_add(values, "curvature", update.curvature);
     values_add(values, "direction", p);
     values_add(values, "E", update.f);
-    values_add_flag(values, update.second > 0 ? "lowest" : "highest", true);
+    values_add_flag(values, update.curvature > 0 ? "lowest" : "highest", true);
 }
 
 /* ---- g and its tangents above E and its parabolas ------------------------ */
 
-/* Only x counts: both plots share it. */
+/* Both plots share the range of x; y is theirs. */
 void tangent_bounds(const Plot *stage, double bounds[4])
 {
     double x = stage->simulation->descent.point[0];
     bounds_grow(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
 }
 
-/* Upper half (0): g.  Lower half (1): E.  Both fit |g| and E of all iterates,
- * and have a line at 0. */
+/* Plot of g in the upper half (0) or of E in the lower half (1), with a line at
+ * 0.  Its y covers |g| or E of all iterates. */
 static Plot tangent_plot(const Plot *stage, int half)
 {
     const Descent *descent = &stage->simulation->descent;
     double high = half ? 2 : 4;
     for (int i = 0; i <= descent->count; i++) {
-        Local at = scalar_at(stage->simulation, iterate(descent, i));
+        Local at = scalar_at(stage->simulation, iterate_at(descent, i));
         high = fmax(high, half ? at.value : fabs(at.g[0]));
     }
     high = plot_round_axis(fmin(high, 1e12));
@@ -216,12 +218,12 @@ void tangent_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const double target[2] = {simulation->exhibit.target[0], 0};
-    Update update = update_at(simulation, simulation->descent.count - 1);
+    ScalarUpdate update = update_at(simulation, simulation->descent.count - 1);
     const Plot plot[2] = {tangent_plot(stage, 0), tangent_plot(stage, 1)};
     bool asked = stage->show->veiled;
     for (int half = 0; half < 2; half++) {
         update.slopes = half == 0;
-        draw_search(&plot[half], &update, update.made || !asked);
+        draw_search(&plot[half], &update, update.is_made || !asked);
     }
     if (!stage->has_text)
         return;
@@ -237,8 +239,8 @@ void tangent_draw(Plot *stage)
                 "E(x) = m/2 (x \u2212 {xt}^{n})\u00b2 + h\u00b2 P(x)");
 }
 
-/* The zero of g to which full updates lead from the present iterate; NaN: they
- * lead to none. */
+/* Zero of g that full updates reach from the present iterate; NaN: they do not
+ * converge. */
 static double find_root(const Simulation *simulation)
 {
     double x = simulation->descent.point[0], p = INFINITY;
@@ -251,7 +253,7 @@ static double find_root(const Simulation *simulation)
     return fabs(p) <= 1e-14 * fmax(1, fabs(x)) ? x : NAN;
 }
 
-/* As many digits as a double has right here. */
+/* Writes all digits that a double has here. */
 static void write_digits(double x, char text[ITERATE_TEXT])
 {
     bool plain = fabs(x) < 1e4;
@@ -259,21 +261,21 @@ static void write_digits(double x, char text[ITERATE_TEXT])
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
-/* The newest iterates that there is room for.  The digits that they have in
- * common with the zero of g are black on a light ground. */
+/* Writes the newest iterates that fit.  The digits that agree with the zero of
+ * g are black on a light ground. */
 static void draw_iterates(const Plot *card)
 {
     const double size = 0.95, pitch = 1.38; /* ems */
     const Descent *descent = &card->simulation->descent;
     Paper *paper = card->paper;
     int rows = (int)(card->box.height / (pitch * paper->em));
-    int first = descent->count + 1 > rows ? descent->count + 1 - rows : 0;
+    int slope = descent->count + 1 > rows ? descent->count + 1 - rows : 0;
     char root[ITERATE_TEXT], x[ITERATE_TEXT], words[3 * ITERATE_TEXT];
     write_digits(find_root(card->simulation), root);
-    for (int i = first; i <= descent->count; i++) {
-        int y = card->box.y + paper_pixels(paper, pitch * (i - first));
+    for (int i = slope; i <= descent->count; i++) {
+        int y = card->box.y + paper_pixels(paper, pitch * (i - slope));
         int right = 0;
-        write_digits(iterate(descent, i), x);
+        write_digits(iterate_at(descent, i), x);
         while (x[right] && x[right] == root[right])
             right++;
         snprintf(words, sizeof words, "#x{x^{%d}}  ", i);
@@ -289,7 +291,7 @@ static void draw_iterates(const Plot *card)
     }
 }
 
-/* The update with its numbers, and at its right all iterates. */
+/* Draws the update with its numbers, and at its right all iterates. */
 void update_draw(const Plot *card)
 {
     Plot left = *card, right = *card;
@@ -299,7 +301,7 @@ void update_draw(const Plot *card)
     draw_iterates(&right);
 }
 
-/* By x alone. */
+/* Picks the handle that is nearest in x. */
 void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     double at[SCENE_MAX_HANDLES][2];

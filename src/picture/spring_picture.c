@@ -1,5 +1,4 @@
-/* spring_picture.c - the picture of one spring, and of its energy and force
- * over its length.
+/* spring_picture.c - the picture of one spring, and its energy over its length.
  */
 #include <math.h>
 #include <string.h>
@@ -10,9 +9,11 @@
 
 enum { SPRING_COILS = 12 };
 
-static const double SPRING_REACH = 1.7;   /* m, seen at least */
-static const double SPRING_ARROW = 0.005; /* m/N, of the force */
-static const double SPRING_BESIDE = 0.13; /* m, beside the spring */
+static const double SPRING_REACH =
+    1.7; /* m, half a side of the view, at least */
+static const double SPRING_ARROW = 0.005; /* m/N, scale of the force */
+static const double SPRING_BESIDE =
+    0.13; /* m, distance of the force's arrow from the spring */
 static const double origin[2] = {0, 0};
 
 void spring_bounds(const Plot *stage, double bounds[4])
@@ -26,7 +27,7 @@ static SpringFacts spring_at(const double d[2], const System *system)
     return spring_facts(d, system->l2[0], system->k[0]);
 }
 
-/* The energies at a signed length along d. */
+/* Energies at a signed length d, for plot_graph. */
 static double energy_over(const void *system, double d)
 {
     return spring_at((double[2]){d, 0}, system).energy;
@@ -37,9 +38,9 @@ static double root_over(const void *system, double d)
     return spring_at((double[2]){d, 0}, system).root_energy;
 }
 
-/* A circle of this radius around the held end, in dashes. */
-static void spring_circle(Plot *stage, double radius, Colour colour,
-                          const char *word)
+/* Draws a dashed circle of this radius around the held end. */
+static void draw_length_circle(Plot *stage, double radius, Colour colour,
+                               const char *word)
 {
     const double a[2] = {radius, 0}, b[2] = {0, radius};
     const double label[2] = {-0.7071 * radius, -0.7071 * radius};
@@ -47,8 +48,8 @@ static void spring_circle(Plot *stage, double radius, Colour colour,
     plot_label(stage, 1, label, colour, "%s", word);
 }
 
-/* A zigzag from the held end to x. */
-static void spring_coil(Plot *stage, const double *x, Colour colour)
+/* Draws a zigzag from the held end to x. */
+static void draw_coil(Plot *stage, const double *x, Colour colour)
 {
     const Point across = {{-x[1], x[0]}};
     Point from = {{0, 0}};
@@ -63,9 +64,9 @@ static void spring_coil(Plot *stage, const double *x, Colour colour)
     }
 }
 
-/* Shorter than at rest: projection changes its block.  Beside the spring its
- * force; on a page of them the eigenvectors of the block, (q, -q), longer the
- * larger the eigenvalue, red where it is negative. */
+/* Draws the spring (in another colour where projection changes its block) and
+ * its force.  On a page about modes it draws the eigenvectors (q, -q) of the
+ * block instead: longer for larger eigenvalues, red for negative ones. */
 void spring_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -75,10 +76,10 @@ void spring_draw(Plot *stage)
     SpringFacts spring = spring_at(x, &simulation->system);
     bool projects = spring.across < 0 && !show->veiled;
     bool modes = simulation->options.layers & LAYER_MODES;
-    spring_circle(stage, l, COLOUR_FAINT, "l");
+    draw_length_circle(stage, l, COLOUR_FAINT, "l");
     if (!show->lecture || modes)
-        spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
-    spring_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
+        draw_length_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
+    draw_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
     const double value[2] = {spring.along, spring.across};
     for (int i = 0; i < 4 && modes && !show->veiled && spring.length > 0; i++) {
@@ -100,8 +101,8 @@ void spring_draw(Plot *stage)
 
 /* ---- cards -------------------------------------------------------------- */
 
-/* On a page its force and Hessian once more, by differences of the energy and
- * of the force at two places. */
+/* Adds force and Hessian once more, by central differences of energy and force.
+ */
 static void add_differences(const Simulation *simulation, LiveValues *values)
 {
     static const double step = 1e-4; /* m */
@@ -131,7 +132,8 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     const double *d = simulation->run[0].x, k = system->k[0];
     double l2 = system->l2[0], H[3];
     SpringFacts now = spring_at(d, system);
-    double along = 2 * now.along, across = 2 * now.across; /* of its block */
+    double along = 2 * now.along,
+           across = 2 * now.across; /* eigenvalues of the block */
     bool page = simulation->options.page;
     bool folds = simulation->options.projection == PROJECTION_ABS && !page;
     Projection projection = folds ? PROJECTION_ABS : PROJECTION_CLAMP;
@@ -153,7 +155,7 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "projected across",
                project_eigenvalue(projection, across));
     values_add(values, "negative", fmin(fmin(along, across), 0));
-    for (int i = 0; i < 2; i++) { /* the Hessian, and the projected one */
+    for (int i = 0; i < 2; i++) { /* before and after projection */
         spring_hessian(d, l2, k, i == 0 ? PROJECTION_NONE : projection, H);
         values_add_matrix(values, names[i], H, 1e-12 * k);
     }

@@ -1,6 +1,5 @@
 /* square_contact.c - walls, balls and contact forces in the picture of the
- * square.
- */
+ * square. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,9 +8,10 @@
 #include "picture/square_pen.h"
 #include "base/mathematics.h"
 
-static const double SLAB = 1;           /* ems, depth of a thin wall */
-static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
-static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
+static const double SLAB = 1;        /* ems, depth of a slab */
+static const double FORCE_ARROW = 4; /* ems, arrow of the force in the legend */
+static const double MIN_FORCE =
+    0.02; /* smallest force that is drawn, as a part of the largest */
 
 ElementIterator square_contacts(const SquarePen *pen)
 {
@@ -44,7 +44,7 @@ ContactForce square_contact_force(const SquarePen *pen, const Element *element)
 void square_contact_forces(const SquarePen *pen, int runs)
 {
     Plot *stage = pen->stage;
-    double most = 0; /* the largest force, N */
+    double most = 0; /* N, the largest force */
     for (int r = 0; r < runs; r++)
         for (ElementIterator at = square_contacts(&pen[r]);
              elements_next(&at);) {
@@ -54,14 +54,14 @@ void square_contact_forces(const SquarePen *pen, int runs)
     if (most == 0 || !isfinite(most))
         return;
     double round = plot_round_up(most);
-    double factor = FORCE_ROOM * stage->em / stage->camera.scale[0] / round;
+    double factor = FORCE_ARROW * stage->em / stage->camera.scale[0] / round;
     for (int r = runs - 1; r >= 0; r--)
         for (ElementIterator at = square_contacts(&pen[r]);
              elements_next(&at);) {
             ContactForce contact = square_contact_force(&pen[r], &at.element);
             const double *x = pen[r].x + 2 * contact.node, *f = contact.force;
             double radius = fmax(pen[r].radius, 2);
-            if (vector_length(f) > FORCE_LEAST * most)
+            if (vector_length(f) > MIN_FORCE * most)
                 plot_arrow(stage, point_along(x, -factor, f).at, f, factor, 1.8,
                            COLOUR_FORCE);
             if (contact.has_friction && contact.slides)
@@ -88,13 +88,14 @@ void square_contact_slope(const SquarePen *pen)
     double left = from[0];
     for (int i = 0; i < pen->system->nodes; i++)
         from[0] = fmax(from[0], pen->x[2 * (size_t)i]);
-    if (!(from[0] > left)) /* it has left the picture */
+    if (!(from[0] > left)) /* the body has left the picture */
         return;
     from[0] += 2 * em / stage->camera.scale[0];
     from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
     plot_pixel(stage, from, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
-    low = fmax(low, 0); /* then further up along the wall */
+    low = fmax(low, 0); /* distance by which the words move up along the wall to
+                           stay visible */
     snprintf(words, sizeof words, "\u03bc = %s tan %s\u00b0",
              format_number(wall->friction / fabs(slope)).text,
              format_number(fabs(atan(slope)) / DEGREE).text);
@@ -105,16 +106,16 @@ void square_contact_slope(const SquarePen *pen)
                 ALIGN_LEFT, "%s", words);
 }
 
-/* The half plane as far as the stage goes, or a slab, and how far it reaches.
- */
+/* Draws a wall as a half plane, or as a slab, and dashed the distance d_hat at
+ * which its force begins. */
 static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
-                      bool thin)
+                      bool as_slab)
 {
     const Box *box = &stage->box;
     const double *n = wall->n, t[2] = {n[1], -n[0]};
     double scale = stage->camera.scale[0], middle[2];
     double far = 2 * (box->width + box->height) / scale;
-    double deep = thin ? SLAB * stage->em / scale : far;
+    double deep = as_slab ? SLAB * stage->em / scale : far;
     camera_world(&stage->camera, box->x + 0.5 * box->width,
                  box->y + 0.5 * box->height, middle);
     const double *o = wall->o;

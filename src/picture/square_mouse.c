@@ -1,5 +1,5 @@
-/* square_mouse.c - what of the square is under the mouse, and the small card
- * beside it. */
+/* square_mouse.c - picks the part of the square under the mouse, and writes the
+ * note about it. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,12 +10,13 @@
 #include "picture/colour_map.h"
 #include "picture/cards.h"
 
-static const double SMALL = 0.9; /* ems, size of the note's letters */
-static const double WIDTH = 17;  /* ems, of it at least */
+static const double NOTE_SIZE = 0.9; /* ems, letters of the note */
+static const double NOTE_WIDTH = 17; /* ems, least width of the note */
 
-/* The nearest node, else the nearest spring, within reach of the mouse, which
- * before the first step, on the left or right edge, is that edge; else an
- * obstacle of the options.  A hand takes nodes that are farther away, too. */
+/* Picks the nearest node within reach of the mouse, else the nearest spring,
+ * else an obstacle of the options.  Before the first step a spring of the left
+ * or right edge stands for that edge.  pick->near has a larger reach, for
+ * dragging. */
 void square_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     const Simulation *simulation = stage->simulation;
@@ -71,7 +72,8 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
 
 /* ---- the card beside it ------------------------------------------------- */
 
-/* A text in a lower corner of the stage, the one farther from the mouse. */
+/* Writes a text into the lower corner of the stage that is farther from the
+ * mouse. */
 static void draw_note(const Plot *stage, const LiveValues *values,
                       const char *text)
 {
@@ -79,8 +81,8 @@ static void draw_note(const Plot *stage, const LiveValues *values,
     Plot note = *stage;
     Box *box = &note.box;
     double middle = stage->box.x + 0.5 * stage->box.width, mouse[2];
-    double size = fmax(SMALL, paper->min_letter), wide = WIDTH * paper->em,
-           high = 0;
+    double size = fmax(NOTE_SIZE, paper->min_letter),
+           wide = NOTE_WIDTH * paper->em, high = 0;
     int margin = paper_pixels(paper, 0.7);
     for (TextLine line = text_begin(values, text); text_next(&line);) {
         wide = fmax(wide, paper_width(paper, line.face, size, line.words));
@@ -98,7 +100,7 @@ static void draw_note(const Plot *stage, const LiveValues *values,
     card_write_text(&note, values, text);
 }
 
-/* Its force is m g - grad P, without friction. */
+/* Writes the note about a node; its force is m g - grad P, without friction. */
 static void note_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;
@@ -129,20 +131,23 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     values_add_point(&values, "velocity", v);
     values_add_point(&values, "force", force);
     values_add_point(&values, "inertia", tilde);
-    values_add_words(&values, "pin", /* where time passes */
+    values_add_words(&values, "pin", /* only in scenes where time passes */
                      !simulation_is_draggable(simulation) ? NULL
                      : system->pinned[node]               ? "frees"
                                                           : "pins");
     draw_note(stage, &values, text_node);
 }
 
-/* The eigenvalues of a spring's 4x4 block are twice those of H, beside 0, 0. */
+/* Writes the note about a spring.  The eigenvalues of its 4x4 block are 0, 0
+ * and twice those of its 2x2 Hessian. */
 static void note_spring(Plot *stage, const Pane *pane, int s)
 {
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
     Projection projection = pane->simulation->options.projection;
-    double k = neo_hookean_of(system) ? NAN : system->k[s]; /* NaN: no block */
+    double k = neo_hookean_of(system)
+                   ? NAN
+                   : system->k[s]; /* NaN: the spring has no block */
     double l2 = system->l2[s], d[2];
     double d2 = spring_vector(e, pane_x(pane), d);
     const FlowLaw law = plasticity_get_law(system, s);

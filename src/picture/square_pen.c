@@ -1,6 +1,5 @@
 /* square_pen.c - the layers of the square's picture: springs, nodes, faces,
- * outlines.
- */
+ * outlines. */
 #include "picture/square_pen.h"
 
 #include <math.h>
@@ -12,16 +11,20 @@
 #include "model/spring_law.h"
 #include "picture/colour_map.h"
 
-enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
+enum {
+    GHOST_SPRINGS = 700
+}; /* a mesh with more springs has only its outline as a ghost */
 
-static const double FLOWN = 30; /* times its side: nodes have flown so far */
-static const double NODE = 0.1; /* of the distance of two nodes */
-static const double FACE = 4;   /* pixels, the smallest side of one */
+static const double FLOWN =
+    30; /* view that counts as flown apart, times the side of the square */
+static const double NODE =
+    0.1; /* radius of a node, times the distance of two nodes */
+static const double FACE = 4; /* pixels, smallest side of a face */
 
 /* ---- sizes and colours -------------------------------------------------- */
 
-/* A range for the colours: half the strain of the start, or half of the largest
- * plastic one, at least 5 %. */
+/* Strain of the end colours: half the strain at the start, or half the largest
+ * plastic strain, at least 5 %. */
 static double strain_range(const Simulation *simulation, const double *ep)
 {
     double most = ep ? 0 : fabs(fabs(simulation->options.stretch) - 1);
@@ -63,7 +66,7 @@ SquarePen square_pen_create(Plot *stage, int run)
     double unit = stage->paper->unit;
     double seen =
         show->view->lens.zoom * stage->box.width / stage->camera.scale[0];
-    if (seen > FLOWN * mesh->side) /* the rest shape is nothing beside it */
+    if (seen > FLOWN * mesh->side) /* the rest shape would be a dot */
         pen.spacing *= seen / mesh->side;
     for (int i = 0; pen.fixed_bodies && i < mesh->nodes; i++) {
         int node = i;
@@ -92,10 +95,10 @@ SquarePen square_pen_create(Plot *stage, int run)
     return pen;
 }
 
-/* What springs and faces tell alike: plastic flow, strain, or whether their
- * block is projected, where they are shorter than at rest.  0: nothing. */
-static Colour told_colour(const SquarePen *pen, double plastic, double strain,
-                          bool shorter)
+/* Colour of a spring or face by plastic strain, by strain, or by projection
+ * (springs shorter than at rest); 0: none of these. */
+static Colour state_colour(const SquarePen *pen, double plastic, double strain,
+                           bool shorter)
 {
     if (pen->colour_range > 0)
         return colour_of_strain(pen->shows_plastic ? plastic : strain,
@@ -120,7 +123,7 @@ void square_spring(const SquarePen *pen, int s, double width, Colour colour)
                 width * unit, colour);
 }
 
-/* They are most of a frame's time. */
+/* Springs take most of a frame's time. */
 void square_springs(const SquarePen *pen)
 {
     const System *system = pen->system;
@@ -128,31 +131,33 @@ void square_springs(const SquarePen *pen)
         const int *e = system->e + 2 * (size_t)s;
         double l2 = system->l2[s], d[2], d2 = spring_vector(e, pen->x, d);
         double strain = pen->colour_range > 0 ? sqrt(d2 / l2) - 1 : 0;
-        Colour told =
-            told_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
-        square_spring(pen, s, (told == COLOUR_PROJECT ? 1.15 : 1) * pen->width,
-                      told ? told : COLOUR_X);
+        Colour colour =
+            state_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
+        square_spring(pen, s,
+                      (colour == COLOUR_PROJECT ? 1.15 : 1) * pen->width,
+                      colour ? colour : COLOUR_X);
     }
 }
 
 /* ---- cells -------------------------------------------------------------- */
 
-/* Twice its area, m^2: > 0 if the triangle a b c was not turned over. */
-static double turn(const double *x, int a, int b, int c)
+/* Twice the signed area of the triangle a b c, m^2; negative if it has turned
+ * over. */
+static double signed_area(const double *x, int a, int b, int c)
 {
     const double *p = x + 2 * a, *q = x + 2 * b, *r = x + 2 * c;
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-/* A face of four nodes, anticlockwise at rest: one of its triangles has turned
- * over. */
+/* Whether one of the two triangles of a face has turned over; nodes are
+ * anticlockwise at rest. */
 static bool is_folded(const double *x, const int node[4])
 {
-    return turn(x, node[0], node[1], node[2]) < 0 ||
-           turn(x, node[0], node[2], node[3]) < 0;
+    return signed_area(x, node[0], node[1], node[2]) < 0 ||
+           signed_area(x, node[0], node[2], node[3]) < 0;
 }
 
-/* Whether the springs of a cell are whole; node [4] out. */
+/* Whether all springs of a cell are unbroken; node [4] out. */
 static bool cell_is_whole(const Simulation *simulation, int cell, int node[4])
 {
     int spring[6], broken = 0;
@@ -179,8 +184,8 @@ static void fill_face(const SquarePen *pen, const int node[4], Colour colour)
     plot_quad(pen->stage, corner, colour);
 }
 
-/* From dark at 0 over the springs' blue at 1/2 to light at 1. */
-static Colour shade(double part)
+/* Shade from dark at 0 over the blue of springs at 1/2 to light at 1. */
+static Colour shade_of_blue(double part)
 {
     double dark = fmin(fmax(1 - 2 * part, 0), 1);
     double light = fmin(fmax(2 * part - 1, 0), 1);
@@ -188,16 +193,16 @@ static Colour shade(double part)
                       COLOUR_WHITE, 0.7 * light);
 }
 
-/* The triangles of a solid by the area that each has kept, in pale colours:
- * darker where it is pressed. */
+/* Triangles of a solid are pale, and darker the more they are compressed. */
 int square_cells(const SquarePen *pen, bool all)
 {
     const NeoHookean *solid = neo_hookean_of(pen->system);
     int folded = 0, node[4];
     for (int t = 0; solid && t < solid->triangles; t++) {
         const int *n = solid->node[t], face[4] = {n[0], n[1], n[2], n[2]};
-        double J = fabs(turn(pen->x, n[0], n[1], n[2])) / (2 * solid->area);
-        Colour colour = shade(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
+        double J =
+            fabs(signed_area(pen->x, n[0], n[1], n[2])) / (2 * solid->area);
+        Colour colour = shade_of_blue(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
         fill_face(pen, face,
                   is_fixed(pen, n[0]) ? COLOUR_SOLID
                                       : colour_mix(colour, COLOUR_WHITE, 0.6));
@@ -213,14 +218,14 @@ int square_cells(const SquarePen *pen, bool all)
     return folded;
 }
 
-/* A face says what its springs would; else how far it is stretched and turned.
- *   side   m, of the face at rest
- *   cell   in its lower left corner, whose plastic strain counts */
+/* Colour of a face: that of its springs, else a shade by stretch and rotation.
+ *   side  m, of the face at rest
+ *   cell  number of its lower left cell, whose plastic strain counts */
 static Colour face_colour(const SquarePen *pen, const int node[4], double side,
                           int cell)
 {
     int corner[4], spring[6];
-    double l2 = 2 * side * side, plastic = 0, d[2]; /* d: of a diagonal */
+    double l2 = 2 * side * side, plastic = 0, d[2]; /* d is a diagonal */
     double other2 = spring_vector((int[2]){node[3], node[1]}, pen->x, d);
     double d2 = spring_vector((int[2]){node[2], node[0]}, pen->x, d);
     double strain = (sqrt(d2) + sqrt(other2)) / (2 * sqrt(l2)) - 1;
@@ -229,13 +234,13 @@ static Colour face_colour(const SquarePen *pen, const int node[4], double side,
     for (int k = 0; pen->ep && k < 6; k++)
         if (fabs(pen->ep[spring[k]]) > fabs(plastic))
             plastic = pen->ep[spring[k]];
-    Colour told = told_colour(pen, plastic, strain, d2 < l2 || other2 < l2);
+    Colour colour = state_colour(pen, plastic, strain, d2 < l2 || other2 < l2);
     double seen = copysign(sqrt(fabs(strain) / pen->shade_strain), strain);
     double turned = (d[1] - d[0]) / sqrt(d2); /* 0 at rest */
-    return told ? told : shade(0.55 + 0.9 * seen + 0.3 * turned);
+    return colour ? colour : shade_of_blue(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
-/* Those that have folded over are drawn last, each cell of them. */
+/* Folded cells are drawn last, cell by cell. */
 void square_faces(const SquarePen *pen)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
@@ -258,7 +263,8 @@ void square_nodes(const SquarePen *pen)
     const System *system = pen->system;
     double radius = pen->radius;
     Colour colour = pen->colour_range > 0 ? COLOUR_FAINT : COLOUR_X;
-    if (pen->colour_range > 0) /* they would hide the colours of a fine mesh */
+    if (pen->colour_range >
+        0) /* larger nodes would hide the colours of a fine mesh */
         radius *= 0.75;
     for (int i = 0; i < system->nodes; i++) {
         if (radius >= 0.5 * pen->width && !is_fixed(pen, i))

@@ -1,6 +1,5 @@
-/* square_picture.c - the picture of the square: what is seen of the world,
- * and its layers.
- */
+/* square_picture.c - the picture of the square: its view of the world, its
+ * layers, its live values. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,37 +12,38 @@
 #include "base/mathematics.h"
 #include "run/control.h"
 
-enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
-static const double ARROW_LEAST = 1.5; /* ems, the longest arrow has */
-enum { LEAST_CELL = 5 }; /* pixels; smaller cells are drawn as faces */
-enum { NUMBERED = 121 }; /* nodes, at most, whose numbers are shown */
+enum { ARROW_SPACING = 16 }; /* pixels between nodes with arrows, at least */
+static const double MIN_ARROW =
+    1.5;                 /* ems, the longest arrow of p has at least */
+enum { MIN_CELL = 5 };   /* pixels; smaller cells are drawn as faces */
+enum { NUMBERED = 121 }; /* the most nodes whose numbers are shown */
 
-static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
-static const double ROOM = 1.14;       /* of the stage around the square */
-static const double LENS = 12;         /* ems, the side of a lens, at most; */
-enum { LENS_SIZES = 3 };
+static const double MAX_VIEW = 1e303; /* largest view, times the first view */
+static const double ROOM = 1.14;      /* size of the stage, times the square */
+static const double MAGNIFIER = 12;   /* ems, side of the magnifier, at most */
+enum { MAGNIFIER_SIZES = 3 };
 static const double FAR = 5;          /* times the view: then it follows */
-static const double BALL_REACH = 4;   /* times the view, balls are shown in; */
-static const double GROUND_REACH = 2; /* and grounds */
-static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
+static const double BALL_REACH = 4;   /* reach for balls, times the view */
+static const double GROUND_REACH = 2; /* reach for grounds, times the view */
+static const double BARE_ROOM = 1.75; /* size of a bare stage, times the square */
 
 /* ---- how much of the world is seen -------------------------------------- */
 
-/* Whether the scene says what is to be seen. */
-static bool has_frame(const Simulation *simulation)
+/* Whether the scene sets its view. */
+static bool scene_sets_view(const Simulation *simulation)
 {
     const double *frame = simulation->scene->frame;
     return frame[2] > frame[0];
 }
 
-/* A part of the world: so far, m, from its middle to its sides. */
+/* A part of the world, m: its middle, and the distances to its sides. */
 typedef struct Extent {
     double middle[2], size[2];
 } Extent;
 
-/* Whether the scene has nothing that holds the body or is in its way: then the
- * view follows the body from the start. */
-static bool is_free(const Simulation *simulation)
+/* Whether nothing holds the body or is in its way; then the view follows the
+ * body from the start. */
+static bool moves_freely(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     return options->grounds + options->balls == 0 &&
@@ -51,8 +51,8 @@ static bool is_free(const Simulation *simulation)
            simulation->runs == 1;
 }
 
-/* The view of the scene; else the square as it starts, or with the room that a
- * squeezed one needs to spring out and bulge. */
+/* The view of the scene; else the square at its start, with the room that a
+ * compressed one needs to spring out and bulge. */
 static Extent first_view(const Show *show, const Simulation *simulation)
 {
     const Options *options = &simulation->options;
@@ -63,14 +63,14 @@ static Extent first_view(const Show *show, const Simulation *simulation)
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
     view.size[0] = half * extent;
     view.size[1] = half * (show->bare ? extent : fmin(extent, 1.25));
-    for (int k = 0; k < 2 && has_frame(simulation); k++) {
+    for (int k = 0; k < 2 && scene_sets_view(simulation); k++) {
         view.middle[k] = 0.5 * (frame[2 + k] + frame[k]);
         view.size[k] = 0.5 * (frame[2 + k] - frame[k]);
     }
     return view;
 }
 
-/* What the stage shows when the view fits it: more at two sides. */
+/* What the stage shows if the view fits: more at two sides. */
 static Extent view_seen(const Plot *stage, const Extent *view)
 {
     Extent seen = *view;
@@ -81,9 +81,10 @@ static Extent view_seen(const Plot *stage, const Extent *view)
     return seen;
 }
 
-/* Widens the view so that it has a point that is not seen and so much around
- * it, m, if that is at most so many times as far from the middle as the sides
- * of the view are. */
+/* Widens the view to a hidden point and its surroundings, if the point is near
+ * enough.
+ *   around  m, room around the point
+ *   times   largest distance from the middle, times the view */
 static void widen_view(const Extent *seen, const double at[2], double around,
                        double times, Extent *view)
 {
@@ -104,8 +105,8 @@ static void widen_view(const Extent *seen, const double at[2], double around,
     }
 }
 
-/* Widens the view by the balls and grounds in reach; of a ground as much is
- * seen as a hand needs to take hold of it. */
+/* Widens the view by the balls and grounds in reach.  Of a ground a strip is
+ * shown that is wide enough for the mouse. */
 static void add_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
@@ -125,8 +126,8 @@ static void add_obstacles(const Plot *stage, Extent *view)
     }
 }
 
-/* Moves the view as little as needed so that the middle of the body is in its
- * inner half. */
+/* Moves the view just enough for the middle of the body to be in its inner
+ * half. */
 static void follow_body(const Simulation *simulation, const double *x,
                         Extent *view)
 {
@@ -141,9 +142,9 @@ static void follow_body(const Simulation *simulation, const double *x,
     }
 }
 
-/* How many times as large the view must be to have all nodes of all runs of a
- * pane.  tall  in/out: the same upwards alone. */
-static double pane_needs(const Pane *pane, const Extent *view, double *tall)
+/* Factor by which the view must grow to show all nodes of all runs.
+ *   tall  in/out, the same upwards only */
+static double needed_growth(const Pane *pane, const Extent *view, double *tall)
 {
     const Simulation *simulation = pane->simulation;
     double need = 1;
@@ -160,25 +161,25 @@ static double pane_needs(const Pane *pane, const Extent *view, double *tall)
     return need;
 }
 
-/* The first view; where nodes have left that, 1.5, 1.5^2, ... times as much, so
- * that the view jumps seldom; and the balls and grounds in reach.  Where nodes
- * are too far, and where the body is free, the view follows the body. */
+/* The view is the first view.  If nodes leave it, it grows by factors of 1.5,
+ * so that it seldom jumps; it follows a free body, and nodes that are far away.
+ * Last come balls and grounds in reach. */
 void square_bounds(const Plot *stage, double bounds[4])
 {
     const Show *show = stage->show;
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = stage->simulation;
     Extent view = first_view(show, simulation);
-    double tall = 0, grown = 1, need = pane_needs(pane, &view, &tall);
-    if (is_free(simulation) || need > FAR) {
+    double tall = 0, grown = 1, need = needed_growth(pane, &view, &tall);
+    if (moves_freely(simulation) || need > FAR) {
         follow_body(simulation, pane_x(pane), &view);
         tall = 0;
-        need = pane_needs(pane, &view, &tall);
+        need = needed_growth(pane, &view, &tall);
     }
-    while (grown < need && grown < MOST_SEEN)
+    while (grown < need && grown < MAX_VIEW)
         grown *= 1.5;
-    /* A wide window has no less room for it than beside cards. */
-    double low = show->bare && !has_frame(simulation)
+    /* A wide bare window has less room above the square. */
+    double low = show->bare && !scene_sets_view(simulation)
                      ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown)
                      : 1;
     view.size[0] *= grown;
@@ -192,16 +193,16 @@ void square_bounds(const Plot *stage, double bounds[4])
 
 /* ---- what Newton does --------------------------------------------------- */
 
-/* p as arrows, of a fine mesh every few nodes, that end where a full step leads
- * if that can be seen: else a power of ten times as long, so that the longest
- * fills at most half of the stage. */
+/* Draws p as arrows to where a full step leads.  Arrows that would be too short
+ * or too long are scaled by a power of ten, which the legend tells.  A fine
+ * mesh has an arrow every few nodes. */
 static void draw_direction(const SquarePen *pen)
 {
     Plot *stage = pen->stage;
     const Trace *trace = pen->pane->trace;
     double scale = stage->camera.scale[0], factor = 1, longest = 0;
     double most = 0.5 * fmin(stage->box.width, stage->box.height);
-    double least = fmin(ARROW_LEAST * stage->em, 0.1 * most);
+    double least = fmin(MIN_ARROW * stage->em, 0.1 * most);
     int apart = (int)ceil(ARROW_SPACING * stage->paper->unit / pen->spacing);
     if (!trace || !trace->p || trace->line < LINE_SOLVE ||
         trace->line > LINE_SEARCH)
@@ -225,7 +226,7 @@ static void draw_direction(const SquarePen *pen)
                 factor == 1 ? "" : format_number(factor).text);
 }
 
-/* Where the hand wants the ball that it pushes. */
+/* Draws the line from a pushed ball to the mouse. */
 static void draw_push(const SquarePen *pen, const Control *hand)
 {
     const Obstacle *obstacle = &pen->contact->obstacle[hand->push];
@@ -235,7 +236,7 @@ static void draw_push(const SquarePen *pen, const Control *hand)
     plot_disc(pen->stage, hand->at, 4, COLOUR_HAND);
 }
 
-/* What the mouse is over, and the hand's spring. */
+/* Marks what the mouse is over, and draws the spring of the hand. */
 static void draw_mouse(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
@@ -265,13 +266,13 @@ static void draw_mouse(const SquarePen *pen)
 
 /* ---- all of it ---------------------------------------------------------- */
 
-/* Below the springs: rest shape, ghosts, cells.  Returns how many cells have
- * folded over. */
-static int draw_ground(const SquarePen *pen)
+/* Draws what is below the springs: rest shape, cells, ghosts.  Returns the
+ * number of folded cells. */
+static int draw_below_springs(const SquarePen *pen)
 {
     const Pane *pane = pen->pane;
     const Trace *trace = pane->trace;
-    if (!has_frame(pen->simulation) && !pen->contact &&
+    if (!scene_sets_view(pen->simulation) && !pen->contact &&
         pen->simulation->options.bodies == 0) {
         square_outline(pen, NULL, false, COLOUR_RULE);
         if (pen->stage->pane == 0)
@@ -293,8 +294,7 @@ static int draw_ground(const SquarePen *pen)
     return folded;
 }
 
-/* In words what cannot be drawn: nodes without a place, folded cells, and a
- * tolerance at which bodies would hang in the air or freeze. */
+/* Adds warnings to the legend: nodes that cannot be drawn, folded cells. */
 static void draw_warnings(const SquarePen *pen, int folded)
 {
     Plot *stage = pen->stage;
@@ -320,8 +320,7 @@ static void draw_warnings(const SquarePen *pen, int folded)
                     folded == 1 ? "" : "s");
 }
 
-/* Where the rest shape is but a dot: its name below all nodes that are seen,
- * with an arrow to it. */
+/* Marks the place of the square when it is too small to be seen. */
 static void draw_origin(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
@@ -340,8 +339,7 @@ static void draw_origin(const SquarePen *pen)
                 ALIGN_CENTRE, "the square was here");
 }
 
-/* What the colours mean: the ends of the strains, or the largest plastic one.
- */
+/* Adds the meaning of the colours to the legend. */
 static void draw_colours(const SquarePen *pen)
 {
     double percent = 100 * pen->colour_range;
@@ -357,7 +355,7 @@ static void draw_colours(const SquarePen *pen)
                 format_number(percent).text);
 }
 
-/* The number of each node beside it. */
+/* Writes the number of each node beside it. */
 static void draw_numbers(const SquarePen *pen)
 {
     double at[2], em = pen->stage->em;
@@ -376,8 +374,8 @@ static void draw_numbers(const SquarePen *pen)
     }
 }
 
-/* An arrow for each node, so many times as long as d, but no longer than nine
- * tenths of a cell; 0: the longest has that. */
+/* Draws an arrow factor * d at each node, cut at nine tenths of a cell; factor
+ * 0: the longest arrow has that length. */
 static void draw_arrows(const SquarePen *pen, const double *d, double factor,
                         Colour colour, const char *word)
 {
@@ -395,15 +393,14 @@ static void draw_arrows(const SquarePen *pen, const double *d, double factor,
                 factor * longest > 1.001 * most ? ", cut" : "");
 }
 
-/* Where all springs have their rest length. */
-static void rest_places(const Simulation *simulation, double *x)
+/* Computes the positions at rest, x [2n], out. */
+static void rest_positions(const Simulation *simulation, double *x)
 {
     for (int i = 0; i < simulation->mesh.nodes; i++)
         square_mesh_rest_position(&simulation->mesh, i, x + 2 * i);
 }
 
-/* The force on each node, or how far it is from there, where a page wants it.
- */
+/* Draws the arrows that a page wants: forces, or displacements from rest. */
 static void draw_page_arrows(const SquarePen *pen)
 {
     unsigned layers = pen->simulation->options.layers;
@@ -412,7 +409,7 @@ static void draw_page_arrows(const SquarePen *pen)
     if (system->nodes > NUMBERED)
         return;
     if (layers & LAYER_MODES) {
-        rest_places(pen->simulation, arrow);
+        rest_positions(pen->simulation, arrow);
         for (int k = 0; k < 2 * system->nodes; k++)
             arrow[k] = pen->x[k] - arrow[k];
         draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
@@ -427,11 +424,11 @@ static void draw_page_arrows(const SquarePen *pen)
                "node %d", system->nodes - 1);
 }
 
-/* Springs in the colours of their kinds, which words have, too; of all kinds of
- * which the mouse can switch some, the one that is written is wider. */
+/* Draws springs in the colours of their kinds.  On a page with switches for the
+ * kinds, the kind of the newest spring is wider. */
 static void draw_kinds(const SquarePen *pen)
 {
-    static const int colours[] = {0, 1, 3, 3}; /* of runs */
+    static const int colours[] = {0, 1, 3, 3}; /* colours of these runs */
     const System *system = pen->system;
     int newest = exhibit_kind(pen->simulation, newest_spring(pen->simulation));
     bool wide = pen->simulation->options.layers & LAYER_KINDS;
@@ -443,10 +440,10 @@ static void draw_kinds(const SquarePen *pen)
     }
 }
 
-/* The gap of the page's law so large that it is seen, in the corner of the
- * stage, below its legend, where a lens hides least, right ones first; a
- * smaller one where it would hide something in all of them. */
-static void draw_lens(const SquarePen *pen)
+/* Draws a magnifier on the gap of the page's law.  It is placed in the corner of
+ * the stage where it hides least, right ones first, and is smaller if it would
+ * hide something in all of them. */
+static void draw_magnifier(const SquarePen *pen)
 {
     Plot lens = *pen->stage;
     Canvas *canvas = &lens.paper->canvas;
@@ -455,11 +452,11 @@ static void draw_lens(const SquarePen *pen)
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
     int air = (int)lens.em;
-    if (!lens.revealed || lens.box.width < 2 * LENS * lens.em ||
+    if (!lens.revealed || lens.box.width < 2 * MAGNIFIER * lens.em ||
         !law_find_gap(pen->simulation, &gap))
         return;
-    for (int i = 0; i < 4 * LENS_SIZES; i++) {
-        int side = (int)((LENS - 2 * (i / 4)) * lens.em);
+    for (int i = 0; i < 4 * MAGNIFIER_SIZES; i++) {
+        int side = (int)((MAGNIFIER - 2 * (i / 4)) * lens.em);
         int left = i & 2 ? air : stage.width - side - air;
         int top = i & 1 ? stage.height - side - 2 * air : 2 * air;
         Box box = {stage.x + left, stage.y + top, side, side};
@@ -491,11 +488,10 @@ static void draw_lens(const SquarePen *pen)
     canvas_set_clip(canvas, before);
 }
 
-/* How far a body has slid, from its left edge at the start, and how far a rigid
- * one would. */
-static void draw_way(const Plot *stage)
+/* Draws how far a body has slid, and how far a rigid one would. */
+static void draw_slide(const Plot *stage)
 {
-    static const double ABOVE = 0.04; /* m, of the body */
+    static const double ABOVE = 0.04; /* m, height above the body */
     const SquareMesh *mesh = &stage->simulation->mesh;
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};
@@ -516,8 +512,8 @@ static void draw_way(const Plot *stage)
                format_number(gone[0]).text);
 }
 
-/* From the ground up; of several runs the first one is drawn last, and no wall
- * hides a body. */
+/* Draws all layers from the ground up.  The first of several runs comes last,
+ * and walls are below all bodies. */
 void square_draw(Plot *stage)
 {
     SquarePen pen[SIMULATION_MAX_RUNS];
@@ -540,7 +536,7 @@ void square_draw(Plot *stage)
         square_nodes(&pen[r]);
     }
     if (!show->bare)
-        folded = draw_ground(pen);
+        folded = draw_below_springs(pen);
     bool cuts = layers & LAYER_CUTS, solid = cuts && show->veiled;
     if (cuts)
         square_cells(pen, true);
@@ -548,7 +544,7 @@ void square_draw(Plot *stage)
         square_outline(pen, pen->x, false, COLOUR_X);
     else if (stage->revealed && layers & (LAYER_CUTS | LAYER_KINDS))
         draw_kinds(pen);
-    else if (pen->spacing >= LEAST_CELL || system_term_data(system, &fracture))
+    else if (pen->spacing >= MIN_CELL || system_term_data(system, &fracture))
         square_springs(pen);
     else
         square_faces(pen);
@@ -558,7 +554,7 @@ void square_draw(Plot *stage)
         return;
     square_contact_forces(pen, runs);
     if (simulation->mesh.side * stage->camera.scale[0] < 4 &&
-        !has_frame(simulation))
+        !scene_sets_view(simulation))
         draw_origin(pen);
     if (pen->shows_projected)
         plot_legend(stage, COLOUR_PROJECT, "projected spring");
@@ -570,8 +566,8 @@ void square_draw(Plot *stage)
         draw_numbers(pen);
     if (pen->colour_range > 0)
         draw_colours(pen);
-    draw_way(stage);
-    draw_lens(pen);
+    draw_slide(stage);
+    draw_magnifier(pen);
 }
 
 /* ---- its numbers --------------------------------------------------------- */
@@ -582,7 +578,7 @@ int newest_spring(const Simulation *simulation)
     return simulation->steps < last ? (int)simulation->steps : last;
 }
 
-/* Of h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and its
+/* Adds h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and its
  * rows. */
 static void add_block(const Simulation *simulation, LiveValues *values)
 {
@@ -596,11 +592,12 @@ static void add_block(const Simulation *simulation, LiveValues *values)
     for (int i = 0; i < 4; i++)
         values_add(values, rows[i], 2 * e[i / 2] + i % 2);
     spring_vector(e, simulation->run[0].x, d);
-    spring_hessian(d, l2, k, PROJECTION_CLAMP, H); /* as the page has it */
+    spring_hessian(d, l2, k, PROJECTION_CLAMP, H); /* the page projects */
     values_add_matrix(values, names, H, 1e-7 * k);
 }
 
-/* The last node's force and acceleration, and how many nodes have none. */
+/* Adds force and acceleration of the last node, and the number of nodes without
+ * force. */
 static void add_force_values(const Simulation *simulation, const double *x,
                              LiveValues *values)
 {
@@ -608,7 +605,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
     double a[2 * NUMBERED] = {0}, m = simulation->system.m[last];
     double *at = a + 2 * last;
     system_acceleration(&simulation->system, x, a);
-    for (int i = 0; i <= last; i++) /* but for rounding */
+    for (int i = 0; i <= last; i++) /* up to rounding */
         balanced += vector_length(a + 2 * i) <= 1e-9 * vector_length(at);
     values_add_point(values, "a", at);
     values_add_point(values, "f", (double[2]){m * at[0], m * at[1]});
@@ -616,7 +613,8 @@ static void add_force_values(const Simulation *simulation, const double *x,
     values_add(values, "balanced", balanced);
 }
 
-/* What pages say of the mesh, the Hessian and one row of M a = f. */
+/* Adds the values that pages have about mesh, Hessian and one row of M a = f.
+ */
 void square_add_values(const Simulation *simulation, LiveValues *values)
 {
     const System *system = &simulation->system;
@@ -651,7 +649,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
         add_block(simulation, values);
     law_add_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
-        rest_places(simulation, start);
+        rest_positions(simulation, start);
         double omega = simulation_fastest_mode(simulation, start, mode);
         values_add(values, "fastest", omega);
         values_add(values, "h limit", 2 / omega);
@@ -663,7 +661,8 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
         add_force_values(simulation, x, values);
 }
 
-/* All energies of the first run, J; cards leave out those that are 0. */
+/* Samples all energies of the first run, J; cards leave out those that are 0.
+ */
 int square_sample(const Simulation *simulation, Energy *row)
 {
     Energies energies = simulation_energies(simulation, 0);
