@@ -114,7 +114,7 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     values_add_flag(values, all ? "all runs" : "some runs", true);
     values_add_flag(values, "all converged", all && converged == known);
-    values_add_flag(values, only_rounding ? "only_rounding" : "refused",
+    values_add_flag(values, only_rounding ? "rounded" : "refused",
                     all && converged < known);
     values_add(values, "known", known > 1 ? known : NAN);
     values_add(values, "converged", converged);

@@ -167,8 +167,8 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "tangent", tangent);
     values_add(values, "number", update.number);
     values_add(values, "next number", update.number + 1);
-    values_add_flag(values, "refusals lengths", update.refusals > 0);
-    values_add(values, "iterate_at", x);
+    values_add_flag(values, "refused lengths", update.refusals > 0);
+    values_add(values, "iterate", x);
     values_add(values, "next", next);
     values_add(values, "double sinh", sinh(2 * x));
     values_add_flag(values, "no length", !(update.alpha > 0));

@@ -22,10 +22,10 @@ static const double MAX_VIEW = 1e303; /* largest view, times the first view */
 static const double ROOM = 1.14;      /* size of the stage, times the square */
 static const double MAGNIFIER = 12;   /* ems, side of the magnifier, at most */
 enum { MAGNIFIER_SIZES = 3 };
-static const double FAR = 5;          /* times the view: then it follows */
 static const double BALL_REACH = 4;   /* reach for balls, times the view */
 static const double GROUND_REACH = 2; /* reach for grounds, times the view */
-static const double BARE_ROOM = 1.75; /* size of a bare stage, times the square */
+static const double BARE_ROOM =
+    1.75; /* size of a bare stage, times the square */
 
 /* ---- how much of the world is seen -------------------------------------- */
 
@@ -81,25 +81,29 @@ static Extent view_seen(const Plot *stage, const Extent *view)
     return seen;
 }
 
-/* Widens the view to a hidden point and its surroundings, if the point is near
- * enough.
- *   around  m, room around the point
- *   times   largest distance from the middle, times the view */
-static void widen_view(const Extent *seen, const double at[2], double around,
-                       double times, Extent *view)
+/* Widens the view to a circle that is partly hidden and not too far.  The wider
+ * view begins as what is seen, and returns to that between `reach` and 1.5
+ * times `reach`, so that the camera never jumps. reach  distance from the
+ * middle, times the view, up to which the circle is seen */
+static void widen_view(const Extent *seen, const double at[2], double radius,
+                       double reach, Extent *view)
 {
-    bool hidden[2];
-    for (int k = 0; k < 2; k++) {
-        double away = fabs(at[k] - seen->middle[k]);
-        hidden[k] = away > seen->size[k];
-        if (!(away < times * seen->size[k]))
-            return;
-    }
-    for (int k = 0; k < 2; k++) {
-        double low = fmin(view->middle[k] - view->size[k], at[k] - around);
-        double high = fmax(view->middle[k] + view->size[k], at[k] + around);
-        if (!hidden[k])
+    double far = 0;
+    for (int k = 0; k < 2; k++)
+        far = fmax(far, fabs(at[k] - seen->middle[k]) / seen->size[k]);
+    double part = fmin(3 - 2 * far / reach, 1);
+    for (int k = 0; k < 2 && part > 0; k++) {
+        double low = seen->middle[k] - seen->size[k];
+        double high = seen->middle[k] + seen->size[k];
+        double beyond = at[k] - radius < low    ? at[k] - radius - low
+                        : at[k] + radius > high ? at[k] + radius - high
+                                                : 0;
+        if (beyond == 0)
             continue;
+        low =
+            fmin(low + part * fmin(beyond, 0), view->middle[k] - view->size[k]);
+        high = fmax(high + part * fmax(beyond, 0),
+                    view->middle[k] + view->size[k]);
         view->middle[k] = 0.5 * (low + high);
         view->size[k] = 0.5 * (high - low);
     }
@@ -126,6 +130,22 @@ static void add_obstacles(const Plot *stage, Extent *view)
     }
 }
 
+/* Bounding box of the nodes of all runs: left, bottom, right, top. */
+static void find_node_bounds(const Pane *pane, double bounds[4])
+{
+    const Simulation *simulation = pane->simulation;
+    bounds[0] = bounds[1] = INFINITY;
+    bounds[2] = bounds[3] = -INFINITY;
+    for (int r = 0; r < simulation->runs; r++) {
+        const double *x = r > 0 ? simulation->run[r].x : pane_x(pane);
+        for (int i = 0; i < simulation->run[r].system->nodes; i++, x += 2)
+            for (int k = 0; k < 2 && isfinite(x[0] + x[1]); k++) {
+                bounds[k] = fmin(bounds[k], x[k]);
+                bounds[2 + k] = fmax(bounds[2 + k], x[k]);
+            }
+    }
+}
+
 /* Moves the view just enough for the middle of the body to be in its inner
  * half. */
 static void follow_body(const Simulation *simulation, const double *x,
@@ -142,42 +162,54 @@ static void follow_body(const Simulation *simulation, const double *x,
     }
 }
 
-/* Factor by which the view must grow to show all nodes of all runs.
- *   tall  in/out, the same upwards only */
-static double needed_growth(const Pane *pane, const Extent *view, double *tall)
+/* Moves the view just enough for the box to be in it; centres a larger box. */
+static void pan_view(const double box[4], Extent *view)
 {
-    const Simulation *simulation = pane->simulation;
-    double need = 1;
-    for (int r = 0; r < simulation->runs; r++) {
-        const double *x = r > 0 ? simulation->run[r].x : pane_x(pane);
-        for (int i = 0; i < simulation->run[r].system->nodes; i++, x += 2) {
-            double right = fabs(x[0] - view->middle[0]) / view->size[0];
-            double up = fabs(x[1] - view->middle[1]) / view->size[1];
-            if (isfinite(right) && isfinite(up))
-                need = fmax(need, fmax(right, up));
-            *tall = fmax(*tall, up);
-        }
+    for (int k = 0; k < 2; k++) {
+        double low = box[2 + k] - view->size[k], high = box[k] + view->size[k];
+        if (low > high)
+            low = high = 0.5 * (box[k] + box[2 + k]);
+        view->middle[k] = fmin(fmax(view->middle[k], low), high);
     }
-    return need;
 }
 
-/* The view is the first view.  If nodes leave it, it grows by factors of 1.5,
- * so that it seldom jumps; it follows a free body, and nodes that are far away.
- * Last come balls and grounds in reach. */
+/* Factor by which the view must grow to show the box.
+ *   tall  out, the same upwards only */
+static double needed_growth(const double box[4], const Extent *view,
+                            double *tall)
+{
+    double need[2];
+    for (int k = 0; k < 2; k++)
+        need[k] = fmax(box[2 + k] - view->middle[k], view->middle[k] - box[k]) /
+                  view->size[k];
+    *tall = fmax(need[1], 0);
+    return fmax(need[0], need[1]);
+}
+
+/* The view is the first view, or 1.5 times as large if nodes have left that;
+ * then it moves with the nodes.  It grows further, by factors of 1.5, if nodes
+ * are too far from each other.  From the start it follows a body that nothing
+ * holds.  Last come balls and grounds in reach. */
 void square_bounds(const Plot *stage, double bounds[4])
 {
+    static const double GROWTH = 1.5;
     const Show *show = stage->show;
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = stage->simulation;
     Extent view = first_view(show, simulation);
-    double tall = 0, grown = 1, need = needed_growth(pane, &view, &tall);
-    if (moves_freely(simulation) || need > FAR) {
+    double box[4], tall, grown = 1;
+    find_node_bounds(pane, box);
+    if (moves_freely(simulation))
         follow_body(simulation, pane_x(pane), &view);
-        tall = 0;
-        need = needed_growth(pane, &view, &tall);
+    while (grown < needed_growth(box, &view, &tall) * (1 - 1e-12) &&
+           grown < MAX_VIEW) {
+        Extent larger = view;
+        grown *= GROWTH;
+        larger.size[0] *= grown;
+        larger.size[1] *= grown;
+        pan_view(box, &larger);
+        memcpy(view.middle, larger.middle, sizeof view.middle);
     }
-    while (grown < need && grown < MAX_VIEW)
-        grown *= 1.5;
     /* A wide bare window has less room above the square. */
     double low = show->bare && !scene_sets_view(simulation)
                      ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown)
@@ -440,9 +472,9 @@ static void draw_kinds(const SquarePen *pen)
     }
 }
 
-/* Draws a magnifier on the gap of the page's law.  It is placed in the corner of
- * the stage where it hides least, right ones first, and is smaller if it would
- * hide something in all of them. */
+/* Draws a magnifier on the gap of the page's law.  It is placed in the corner
+ * of the stage where it hides least, right ones first, and is smaller if it
+ * would hide something in all of them. */
 static void draw_magnifier(const SquarePen *pen)
 {
     Plot lens = *pen->stage;

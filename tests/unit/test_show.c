@@ -372,6 +372,37 @@ static bool is_seen(const Camera *camera, const double at[2], double around)
     return true;
 }
 
+/* From step to step the camera moves by a small part of the stage, except where
+ * the view grows or shrinks by a factor of 1.5, once each way. */
+TEST(the_camera_does_not_jump)
+{
+    static const char *const lines[] = {
+        "square --stretch 1 --ground 0,1,0,-0.6 --velocity 3,0 --timestep 0.02",
+        "square --stretch 1 --ball 1.1,0,0.2 --velocity -2,0 --timestep 0.02",
+        "drop --velocity 3,3 --timestep 0.02"};
+    for (int i = 0; i < 3; i++) {
+        stand_up(lines[i], 0);
+        Camera was = show_camera(&show, &layout, 0);
+        int jumps = 0;
+        for (int step = 0; step < 150; step++) {
+            const Box *box = &layout.pane[0];
+            double middle[2], pixel[2];
+            camera_world(&was, box->x + 0.5 * box->width,
+                         box->y + 0.5 * box->height, middle);
+            CHECK(!simulation_step(&simulation));
+            Camera is = show_camera(&show, &layout, 0);
+            camera_pixel(&is, middle, pixel);
+            double change = fabs(log(is.scale[0] / was.scale[0]));
+            double moved = hypot(pixel[0] - box->x - 0.5 * box->width,
+                                 pixel[1] - box->y - 0.5 * box->height);
+            CHECK_AT_MOST(change, log(1.5) + 1e-9);
+            jumps += change > 0.1 || moved > 0.1 * box->width;
+            was = is;
+        }
+        CHECK_AT_MOST(jumps, 2);
+    }
+}
+
 /* Wherever bodies are thrown, all their nodes are in the picture, and no body
  * is but a dot; so are balls and grounds in reach. */
 TEST(the_picture_loses_nothing)
