@@ -320,8 +320,9 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 }
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
- * The loop never ends if tol is below the rounding errors of p.  elasto adds the
- * last p, too: ten to 1e11 times more accurate.  table: updates, or NULL. */
+ * The loop never ends if tol is below the rounding errors of p.  elasto adds
+ * the last p, too: ten to 1e11 times more accurate.  table: updates, or NULL.
+ */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
 {
@@ -552,7 +553,7 @@ int main(int argc, char **argv)
     Parameter h = {"h", 0.004, 1e-30, 1e30};    /* s */
     Parameter tol = {"tol", 1e-2, 1e-30, 1e30}; /* m/s */
     Parameter method = {"method", 0, 0, 2};  /* implicit, symplectic, forward */
-    Parameter steps = {"steps", -1, 0, 1e9}; /* -1: a window */
+    Parameter steps = {"steps", -1, 0, 1e9}; /* -1: opens a window */
     Parameter *all[] = {&side_len, &rho, &k,      &stretch, &n_seg,
                         &h,        &tol, &method, &steps,   NULL};
     const char *states = "/dev/null"; /* the file for x and v */

@@ -9,7 +9,8 @@
 
 #include "run/options.h"
 
-enum { LINES_WALKED = 9 }; /* of Algorithm 3, from 1 */
+/* Lines of Algorithm 3 that a page can show; line 1 is the first. */
+enum { LINES_WALKED = 9 };
 
 typedef struct LecturePage {
     const char *name;    /* one word, for --lecture */
@@ -42,7 +43,7 @@ typedef struct LecturePage {
     int picture;             /* the step that the printed page shows */
     double speed;            /* steps a frame; 0: the scene's */
     const char *open;        /* commands when it opens, ';' between; or NULL */
-    const char *tell;        /* and when N shows the answer; or NULL */
+    const char *tell;        /* commands when N shows the answer; or NULL */
     int lines;               /* or so many lines on from where the page opens */
     unsigned layers;         /* bits of Layer */
     NextDeed next;           /* what N does */
@@ -73,8 +74,9 @@ bool page_wants_click(const LecturePage *page);
 /* Puts a page, and what its picture shows, into options with its scene. */
 void lecture_enter(const LecturePage *page, Options *options);
 
-/* The options of a page: its line on top of the defaults.  Returns OK, or
- * INVALID_INPUT with a message [size] out, which a test rules out. */
+/* Returns the options of a page: the defaults changed by its command line.
+ * Returns OK, or INVALID_INPUT with a message [size] out, which a test rules
+ * out. */
 Status lecture_options(const LecturePage *page, Options *options, char *message,
                        size_t size);
 

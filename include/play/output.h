@@ -65,7 +65,8 @@ typedef struct Table {
         char name[TABLE_LETTERS];
         char kind; /* 'w'hole, 't'ext; 0: a number */
     } column[TABLE_COLUMNS];
-    const char *(*text)(const char *column, int place); /* for 't' columns */
+    /* Gives the text of a column of kind 't' for the number `place`. */
+    const char *(*text)(const char *column, int place);
 } Table;
 
 /* Adds columns: names with commas between them, or NULL; a name that is there

@@ -85,7 +85,7 @@ typedef struct Branch {
     Command edit; /* edit that began the branch */
 } Branch;
 
-/* A simulation, which stands at an entry of the present branch. */
+/* A simulation, which has the state of an entry of the present branch. */
 typedef struct Machine {
     Simulation simulation;
     const Control *start;   /* at step 0 of its run, or NULL */
@@ -180,7 +180,8 @@ void past_aim(Past *past, long step, bool again);
  * the aim is shown; else a failure: the last whole step is shown. */
 Status past_iterate(Past *past);
 
-/* Iterates to the end of the work; returns as past_iterate does there. */
+/* Repeats past_iterate until it does not return RUNNING; returns its last
+ * status. */
 Status past_finish(Past *past);
 
 /* Makes the shown step once more if E along p is drawn at this place of its

@@ -175,7 +175,7 @@ typedef struct Mouse {
 typedef struct Hands {
     Mouse mouse;
     bool holds;           /* a node or an obstacle is grabbed */
-    long pulled;          /* step at which it was last moved */
+    long pulled;          /* step at which node or obstacle last moved */
     const OptionRow *lit; /* selected number, or NULL */
     uint64_t added;       /* bit r: row r of the options was added to the row */
     bool typing;          /* a field is open: keys go into `typed` */

@@ -26,6 +26,7 @@ typedef struct Records {
 /* Makes room for this many records.  Returns false if memory is missing. */
 bool records_fit(Records *records, int count);
 
+/* A round is one Newton iteration. */
 typedef struct Round {
     double *x, *p, *u; /* [size] m, x^i, p^i, x^i - x_n; NULL: not kept */
     double first;      /* alpha, first trial of the line search */
@@ -47,7 +48,7 @@ typedef struct TracePlace {
 typedef struct StepTrace {
     Trace start;       /* h and epsilon of the step */
     int size;          /* 2n; 0: no rounds are kept */
-    Records made;      /* record of each round */
+    Records made;      /* Newton's record of each iteration */
     Round *round;      /* [made.count] */
     int room;          /* rounds that memory was reserved for */
     bool all;          /* each round is sampled */
@@ -65,8 +66,8 @@ typedef struct StepTrace {
 void step_trace_begin(StepTrace *kept, const Simulation *simulation, bool all,
                       bool last);
 
-/* Whether the round at a place, or the last one for place -1, is not sampled
- * but would be if the step was made once more with `all`. */
+/* Whether the samples of the round at a place are missing, but would be there
+ * if the step was made again with `all`.  place -1: the last round. */
 bool step_trace_lacks_line(const StepTrace *kept, int place);
 
 /* Adds the round of a Newton iteration.  Without memory only its record is

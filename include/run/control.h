@@ -35,8 +35,8 @@ bool control_holds(const Control *control);
 void simulation_obstacle(const Simulation *simulation, int run, int number,
                          double at[2]);
 
-/* Takes the place of an obstacle from the simulation into the options, if all
- * runs have it at the same place. */
+/* Copies the position of an obstacle from the simulation to the options, if it
+ * is the same in all runs. */
 void control_keep_place(Control *control, int number,
                         const Simulation *simulation);
 

@@ -71,7 +71,9 @@ typedef struct Options {
             double ball[OPTIONS_MAX_BALLS][3];
             double bodies; /* number of rows of body that are used */
             double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
-            double ceiling[3]; /* velocity 0: no ceiling */
+            /* height, velocity, height at which it stops; velocity 0: no
+             * ceiling */
+            double ceiling[3];
             double barrier[2]; /* 0: side/100 and 4 k */
             double friction, slip_speed, cells, self_contact;
             double self_friction; /* -1: equal to friction */

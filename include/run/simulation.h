@@ -20,7 +20,7 @@ enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
  * motion passes, such as a body on the other side of another one. */
 typedef struct Gain {
     long steps;
-    double energy; /* J, sum over these steps */
+    double energy; /* J, growth beyond the work, summed over `steps` */
 } Gain;
 
 /* Energies that a run has booked since its start. */

@@ -53,7 +53,7 @@ typedef struct MassStep {
 
 /* Computes the next step of a run.
  *   step  out
- * Returns false if the method is not one of the three. */
+ * Returns false if the method is not forward, symplectic or backward Euler. */
 bool mass_next_step(const Simulation *simulation, int run, MassStep *step);
 
 /* Exact solution x(t), m, out; t seconds since the start or the last drag. */

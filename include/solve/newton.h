@@ -103,7 +103,7 @@ typedef struct SearchDirection {
     double *r, *z, *q, *d; /* vectors of conjugate gradients */
 } SearchDirection;
 
-/* Guard of the digits of a minimisation (rounding.c). */
+/* Data for the rounding errors of a minimisation (rounding.c). */
 typedef struct Rounding {
     unsigned known;  /* 1 + System.version at which lightest, stiffest and
                         shortest were computed */

@@ -39,7 +39,7 @@ typedef struct IntegratorMethod {
  * steps would have wrong last digits: 60 steps of 0.002 s would not be 0.12 s.
  */
 typedef struct StepClock {
-    double now;   /* s, since + steps h */
+    double now;   /* s, `since` + steps h */
     double since; /* s, time of the last change of h */
     double h;     /* s, time step since the last change */
     long steps;   /* steps since the last change of h */

@@ -508,7 +508,7 @@ Status options_put(Options *options, const OptionRow *row, double value,
 {
     const Line line = {.options = options, .told = {message, size}};
     char text[32] = "";
-    if (row->kind == OPTION_NAME) /* the scene's own choice: the first */
+    if (row->kind == OPTION_NAME) /* -1, the scene's own choice: the first */
         value = fmax(value, 0);
     if (check_scene(&line, row))
         return STATUS_INVALID_INPUT;

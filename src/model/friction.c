@@ -33,7 +33,8 @@ static double remainder_on_piece(double y, double t, double z, double e)
            6;
 }
 
-/* The remainder from y >= 0 to y + t >= 0; t may be negative. */
+/* Returns f0(z) - f0(y) - f0'(y) t for y >= 0 and z = y + t >= 0; t may be
+ * negative. */
 static double remainder_on_side(double y, double t, double e)
 {
     double z = y + t;
@@ -41,7 +42,7 @@ static double remainder_on_side(double y, double t, double e)
         return remainder_on_piece(y, t, z, e);
     if (y > e && z > e)
         return 0;
-    if (y > e) /* from outside to inside [0, e]: slopes at y and e are equal */
+    if (y > e) /* into [0, e]: from y to e, f0 is linear and adds 0 */
         return remainder_on_piece(e, z - e, z, e);
     /* from inside to outside: beyond e the slope is 1, larger by `missing` */
     double missing = 1 - y / e;
@@ -163,7 +164,7 @@ static bool slide_get(const EvalPoint *at, int i, double way, Element *element)
     return true;
 }
 
-/* Friction uses the blocks of its contact term. */
+/* The Hessian of friction has the same blocks as that of its contact term. */
 static int slide_block_count(const EvalPoint *at)
 {
     EvalPoint source = point_of_contact_term(at);

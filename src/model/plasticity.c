@@ -18,8 +18,9 @@ static double strain_within(FlowLaw law, double e)
     return fabs(e) < law.yield ? fabs(e) : law.yield;
 }
 
-/* Returns V(e).  For |e| far beyond Y, e^2/2 and (|e| - Y)^2 flow/2 would
- * cancel, so the parts of |e| within and beyond Y are computed separately. */
+/* Returns V(e) = e^2/2 - flow (|e| - Y)_+^2/2, plus theta (e - e_n)^2/2 with
+ * damping.  For |e| far beyond the yield strain Y the two squares would cancel,
+ * so the parts of |e| within and beyond Y are computed separately. */
 static double flow_law_value(FlowLaw law, double e)
 {
     double over = strain_beyond(law, e), change = e - law.e_n;

@@ -301,7 +301,7 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
 static double pair_max_step(const EvalPoint *at, const Element *element,
                             const double P[4])
 {
-    static const double ENDS = 1e-9; /* allowance for rounding of r */
+    static const double ENDS = 1e-9; /* r in [-ENDS, 1 + ENDS] is on the edge */
     const double *q = element->v, *e = element->v + 2, *dq = P, *de = P + 2;
     double c0 = cross(e, q), c1 = cross(de, q) + cross(e, dq);
     double c2 = cross(de, dq), discriminant = c1 * c1 - 4 * c2 * c0;

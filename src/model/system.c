@@ -98,7 +98,8 @@ void system_remove_term(System *system, const TermKind *kind)
     system_mark_changed(system, true);
 }
 
-/* A kind without a row yet gets the first free one. */
+/* Adds to the lost energy of the kind's name.  A name that is not in the table
+ * yet takes the first free row. */
 void system_book_loss(System *system, const TermKind *kind, double energy)
 {
     Loss *loss = system->lost;

@@ -11,7 +11,8 @@ static const double AXIS_END =
     1.42; /* end of the axis, times the first trial */
 static const double MAX_ABOVE =
     2.2; /* range above 0, times the range below 0, at most */
-static const double MAX_UPHILL = 10; /* the same if p points uphill */
+static const double MAX_UPHILL =
+    10; /* like MAX_ABOVE, but where p points uphill */
 static const double WORD_SIZE = 0.88,
                     WORDS_HEIGHT =
                         1.25; /* ems, letters of the words, and their rows */

@@ -98,7 +98,7 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show)
     return inside;
 }
 
-/* As much as its words take, ems. */
+/* Returns the height, ems, that a page's words need at this width. */
 double page_needs(const Show *show, double wide, double em)
 {
     Paper paper = {.text = show->text, .em = em, .min_letter = 1};

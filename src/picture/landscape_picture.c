@@ -60,7 +60,7 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
     }
 }
 
-/* Whether the page is answered and shows this layer. */
+/* Whether the answer of the page is shown and this layer is on. */
 static bool has_layer(const Plot *plot, Layer layer)
 {
     return plot->revealed && plot->simulation->options.layers & layer;

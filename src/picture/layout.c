@@ -183,8 +183,8 @@ static Box place_zones(const Show *show, Layout *layout)
 typedef struct CardRow {
     int card, cards; /* index of the first card, number of cards */
     bool bar;        /* is closed: only the title is seen */
-    double least,
-        weight; /* ems, minimum height; share of the height that is left over */
+    double least;    /* ems, minimum height */
+    double weight;   /* share of the height left over */
 } CardRow;
 
 /* Whether a card stands below the picture, on a page that has a star.  Beside

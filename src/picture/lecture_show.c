@@ -65,7 +65,8 @@ void show_lecture(Column column, const LecturePage *left, Show *show)
     show->topic = page->topic;
     show->hidden = show->veils = 0;
     for (int c = 0; c < picture->count; c++) {
-        const char *name = picture->cards[c]->name; /* in no other name */
+        /* strstr is safe: no card's name is part of another's. */
+        const char *name = picture->cards[c]->name;
         bool open = strstr(page->cards, name);
         if (show->veiled && page->veils && strstr(page->veils, name))
             show->veils |= 1u << c;

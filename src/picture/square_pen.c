@@ -193,7 +193,9 @@ static Colour shade_of_blue(double part)
                       COLOUR_WHITE, 0.7 * light);
 }
 
-/* Triangles of a solid are pale, and darker the more they are compressed. */
+/* Draws the triangles of a solid in pale colours, darker where the area is
+ * smaller than at rest; or the cells of springs, the folded ones in red and, if
+ * `all`, the others too.  Returns the number of folded cells. */
 int square_cells(const SquarePen *pen, bool all)
 {
     const NeoHookean *solid = neo_hookean_of(pen->system);

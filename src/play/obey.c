@@ -64,7 +64,8 @@ static long count_targets(const Player *player, int pane, CommandKind kind)
     }
 }
 
-/* Refuses a number that not all panes have. */
+/* Refuses a command whose number, of an obstacle for example, does not exist in
+ * every pane. */
 static Status check_number(Player *player, const Command *command)
 {
     long count = LONG_MAX;

@@ -28,8 +28,9 @@ long past_newest(const Past *past)
     return present(past)->first + present(past)->count - 1;
 }
 
-/* Returns the entry of a step as a branch sees it, from the branch or one
- * below; behind the last one the entry that is being made. */
+/* Returns the entry of a step in a branch; steps before the branch are looked
+ * up in the branches it grew from.  For the step after the last one: the entry
+ * that is being made.  NULL: there is none. */
 static Entry *branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first && !branch->fresh; branch--)
@@ -238,8 +239,8 @@ static Status keep_state(Past *past, int pane, Entry *entry)
     return STATUS_OK;
 }
 
-/* Leaves the step at which a machine stands; the state that was kept for edits
- * of this step is dropped unless it is due. */
+/* Leaves the step of which a machine has the state; the state that was kept for
+ * edits of this step is dropped unless it is due. */
 static void machine_leave_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
@@ -406,7 +407,7 @@ static Status machine_take_state(Machine *machine, Kept kept)
 }
 
 /* Brings the machine to the last step up to `goal` that it can load.  (If no
- * states are kept it stands there already, or at step 0.) */
+ * states are kept it is there already, or at step 0.) */
 static Status machine_seek(Past *past, int pane, long goal)
 {
     Machine *machine = &past->machine[pane];
@@ -516,7 +517,8 @@ static Status machine_fail(Past *past, int pane, Status status)
         machine->failed = machine->known = true;
         machine->outcome.status = status;
     }
-    machine->stands = false; /* some runs may have made the step */
+    /* Some runs may already have made the step after machine->step. */
+    machine->stands = false;
     past->aim = past->step;
     return status;
 }
@@ -549,7 +551,8 @@ static Status machine_finish_step(Past *past, int pane)
     return status ? machine_fail(past, pane, status) : STATUS_RUNNING;
 }
 
-/* Goes on after an iteration; at the end of a simulation's step, books it. */
+/* Called after each iteration.  If a step of the simulation has ended, stores
+ * its outcome, and begins the next part of the step or ends it. */
 static Status machine_advance(Past *past, int pane, Status status)
 {
     Machine *machine = &past->machine[pane];

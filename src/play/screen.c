@@ -151,8 +151,9 @@ Status obey_card(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Chooses the next cell of the sheet to the left or right, or, with Up and
- * Down, the next one whose left edge is not on the other side. */
+/* Moves the choice on the sheet: Left and Right by one cell; Up to the last
+ * cell of a row above that starts at the same x or further left, Down to the
+ * first cell of a row below that starts at the same x or further right. */
 Status obey_choose(Player *player, const Command *command)
 {
     const Show *show = &player->screen.frame.show;

@@ -18,7 +18,7 @@ static const double LIVING = 0.008; /* s of a frame for all steps */
  * cell for each scene. */
 typedef struct Sheet {
     int cells;
-    int next;              /* cell whose turn it is */
+    int next;              /* cell that gets the next step */
     int page;              /* index of the page in the first cell */
     int age[LAYOUT_CELLS]; /* frames; 0: the cell has no simulation yet */
     Simulation simulation[LAYOUT_CELLS];
@@ -115,8 +115,9 @@ void sheet_fill(const Player *player, Show *show)
     snprintf(show->state, SHOW_VALUE, "digits: a page of the tour");
 }
 
-/* Opens the chosen cell by a command that a script can repeat; where the page
- * of the tour is open, closing the sheet is enough. */
+/* Opens the chosen cell by a command line, so that scripts can repeat it.  If
+ * that cell is the tour and a page of the tour is already shown behind the
+ * sheet, only closes the sheet. */
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";

@@ -93,7 +93,7 @@ Status player_write_remaining(Player *player)
 
 /* ---- beginning ----------------------------------------------------------- */
 
-/* Shows the whole step in all panes, no line of it. */
+/* Shows the whole step in all panes, not one line of Algorithm 3. */
 static void leave_lines(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)

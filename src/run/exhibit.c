@@ -62,7 +62,8 @@ int exhibit_kind(const Simulation *simulation, int spring)
     return spring < half ? 0 : spring < 2 * half ? 1 : 2 + spring % 2;
 }
 
-/* For kinds of springs a bit of `parts` is 1 if the kind is off. */
+/* Lists the switches of the scene and whether each is on.  For kinds of springs
+ * a bit of `parts` is 1 if the kind is off; elsewhere 1 means on. */
 int exhibit_switches(const Simulation *simulation,
                      Switch out[SCENE_MAX_SWITCHES])
 {

@@ -32,8 +32,9 @@ const Scene scenes[] = {
      "the squeezed square: without projection Newton is stuck", SQUARE,
      "--timestep 0.02 --stretch 0.5 --projection none", create_square,
      .explains = true},
-    /* In the first step E rises to 2e16 J s^2 and nodes fly 1.7 km (found by a
-     * scan of 2560 squares); projection or line search prevents that. */
+    /* Nodes fly 1.7 km in the first step, in which E rises to 2e16 J s^2;
+     * projection or line search prevents that.  The setting was found by trying
+     * 2560 squares. */
     {"explosion", "Newton's method explodes",
      "one step without projection and line search: nodes fly", SQUARE,
      "--segments 3 --timestep 0.02 --stretch 0.485 --projection none "

@@ -68,9 +68,10 @@ static double largest_diagonal(const Newton *newton)
     return largest;
 }
 
-/* Factors A.  A projected A is semi-definite up to rounding; if it has no
- * factor, a shift of its diagonal is added.  Returns OK,
- * NOT_POSITIVE_DEFINITE, NOT_FINITE, OUT_OF_MEMORY. */
+/* Factors A.  If this fails for a projected A, which is semi-definite, rounding
+ * is the reason: adds a shift to the diagonal and tries again.  Without
+ * projection returns the failure.  Returns OK, NOT_POSITIVE_DEFINITE,
+ * NOT_FINITE, OUT_OF_MEMORY. */
 static Status factor_hessian(Newton *newton)
 {
     SearchDirection *search = &newton->search;

@@ -22,7 +22,9 @@ enum { MAX_LEVELS = 24 };
 typedef struct Level {
     Rows rows;
     struct Level *coarse; /* NULL: it is the coarsest */
-    float *K[KINDS][3];   /* [plane] tensors xx, xy, yy at their first node */
+    /* [plane] blocks of A that join two nodes, by kind of spring: parts xx, xy,
+     * yy, stored at the first of the two */
+    float *K[KINDS][3];
     float *D[3];      /* [plane] inverse 2x2 blocks; 0 where held, outside */
     float *m;         /* [plane] 0 where held */
     float *x, *b, *w; /* [2 planes] about A^-1 b; what is left, or A x */

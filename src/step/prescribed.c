@@ -124,10 +124,9 @@ static void carry(const System *system, const Contact *contact, double way,
     }
 }
 
-/* Makes a part of the way: obstacles move, and u, in new_x, becomes Newton's
- * displacement with pins and carried nodes moved.  Returns whether all terms
- * allow that, and no body passes another on the way; if not, obstacles are put
- * back. */
+/* Moves obstacles, pins and carried nodes by a part of the step.  Sets new_x to
+ * u: Newton's displacement plus that motion.  Returns whether all terms allow u
+ * and no body passes through another; if not, moves the obstacles back. */
 static bool make_part(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
