@@ -320,9 +320,8 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 }
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
- * The loop never ends if tol is below the rounding errors of p.  elasto adds
- * the last p, too: ten to 1e11 times more accurate.  table: updates, or NULL.
- */
+ * The loop never ends if tol is below the rounding errors of p.  elasto adds the
+ * last p, too: ten to 1e11 times more accurate.  table: updates, or NULL. */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
 {
@@ -375,7 +374,7 @@ typedef struct Screen {
     SDL_Surface *picture; /* drawn on if there is no window, or NULL */
     SDL_Renderer *renderer;
     double scale, radius; /* pixels in a metre; of a node */
-    Vec2 *start, mouse;   /* [nodes] m, positions at the beginning; m */
+    Vec2 *x_start, mouse; /* [nodes] m, positions at the beginning; m */
     int held;             /* the node that the mouse pulls, or -1 */
     bool paused;
 } Screen;
@@ -430,8 +429,8 @@ static Screen open_screen(const Solid *solid)
 {
     double size = fmax(fabs(solid->x[0].x), fabs(solid->x[0].y));
     Screen screen = {.scale = PIXELS / (4 * size), .held = -1};
-    screen.start = allocate(solid->nodes, sizeof(Vec2));
-    memcpy(screen.start, solid->x, (size_t)solid->nodes * sizeof(Vec2));
+    screen.x_start = allocate(solid->nodes, sizeof(Vec2));
+    memcpy(screen.x_start, solid->x, (size_t)solid->nodes * sizeof(Vec2));
     screen.radius = fmax(0.1 * screen.scale * sqrt(solid->e[0].l2), 1.5);
     SDL_Window *window = NULL;
     if (SDL_Init(SDL_INIT_VIDEO) == 0 &&
@@ -462,7 +461,7 @@ static bool handle(Screen *screen, Solid *solid, const SDL_Event *event)
     SDL_Keycode key = event->type == SDL_KEYDOWN ? event->key.keysym.sym : 0;
     screen->paused ^= key == SDLK_SPACE;
     for (int i = 0; i < solid->nodes && key == SDLK_r; i++) {
-        solid->x[i] = screen->start[i];
+        solid->x[i] = screen->x_start[i];
         solid->v[i] = (Vec2){0, 0};
     }
     if (event->type == SDL_MOUSEMOTION)

@@ -294,7 +294,7 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y);
 int show_help_row(const Show *show, const Layout *layout, double x, double y);
 
 /* The step whose bar is under x; 0 ... bars. */
-long show_step_at(const Show *show, const Layout *layout, double x);
+long show_find_step(const Show *show, const Layout *layout, double x);
 
 /* ---- what it knows ------------------------------------------------------ */
 

@@ -90,7 +90,7 @@ typedef struct Machine {
     Simulation simulation;
     const Control *start;   /* at step 0 of its run, or NULL */
     const Control *control; /* in use */
-    bool stands;            /* the simulation has the state of `step` */
+    bool has_state;         /* the simulation has the state of `step` */
     long step;
     bool iterating;  /* a step of the simulation has begun */
     int substeps;    /* steps of the simulation since `step` */
@@ -206,7 +206,7 @@ const Control *past_control(const Past *past, int pane);
 const Control *past_start(const Past *past, int pane);
 
 /* Whether the shown state is a start or was dragged, not made by a step. */
-bool past_is_start(const Past *past);
+bool past_is_state_set(const Past *past);
 
 /* The last step that a pane has made, if a failure has ended it before `step`;
  * else -1. */

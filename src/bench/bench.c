@@ -203,10 +203,10 @@ static const double enough = 60;
 
 /* Results of one program on one square, for each start. */
 typedef struct Runs {
-    double ms[STARTS];      /* processor time a step */
-    double updates[STARTS]; /* Newton updates a step */
-    double energy[STARTS];  /* energy at the end, % of that at the start */
-    long unconverged;       /* steps that did not converge, of all starts */
+    double ms[STARTS];             /* processor time a step */
+    double newton_updates[STARTS]; /* Newton updates a step */
+    double energy[STARTS]; /* energy at the end, % of that at the start */
+    long unconverged;      /* steps that did not converge, of all starts */
 } Runs;
 
 /* Runs a program from one start and stores its results. */
@@ -232,7 +232,7 @@ static Status measure_start(Program program, int segments, int start, int steps,
         }
     }
     runs->ms[start] = 1e3 * (clock_processor() - began) / steps;
-    runs->updates[start] =
+    runs->newton_updates[start] =
         (double)simulation_counters(&simulation).iterations / steps;
     if (!status)
         runs->energy[start] =
@@ -262,7 +262,7 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
         ms[m] = median(all->ms, count); /* sorts ms */
         printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
                programs[m].name, count, ms[m], all->ms[0], all->ms[count - 1],
-               median(all->updates, count), median(all->energy, count),
+               median(all->newton_updates, count), median(all->energy, count),
                all->unconverged);
     }
     return status;

@@ -64,13 +64,13 @@ enum {
 };
 
 /* Memory that the process of a check shares with its parent. */
-typedef struct Shared {
+typedef struct SharedMemory {
     char doing[TEXT];    /* name of the case for messages, or "" */
     char sentence[TEXT]; /* description of the fault, or "" */
     bool finished;       /* whether the check came to its end */
     bool must_end;       /* whether the function must now call FAIL */
-} Shared;
-static Shared *shared;
+} SharedMemory;
+static SharedMemory *shared;
 
 /* Writes the description of a fault. */
 static void report(const char *format, ...)

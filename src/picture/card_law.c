@@ -35,7 +35,7 @@ typedef struct Law {
     const TermKind *kind, *source; /* the term, and the term whose elements are
                                       shown; NULL: springs */
     double (*value)(const void *now, double x);
-    double low, high; /* ends of the axis, in units of `reach` */
+    double axis_low, axis_high; /* ends of the axis, in units of `reach` */
 } Law;
 
 static double gap_value(const void *data, double d)
@@ -63,7 +63,7 @@ static double triangle_value(const void *data, double J)
     return gap_value(&there, J) / neo_hookean_of(there.at.system)->area;
 }
 
-static double slip_value(const void *now, double v)
+static double friction_force_at(const void *now, double v)
 {
     return friction_slope(v, ((const LawPoint *)now)->reach);
 }
@@ -86,7 +86,7 @@ static const Law laws[] = {
     {"barrier", "gap \u03b4 in m", "W in J", &contact_energy, &contact_energy,
      gap_value, 0, 1.2},
     {"rub", "slip in m/s", "f/(\u03bc f_{N})", &self_friction_energy,
-     &self_contact_energy, slip_value, 0, 2},
+     &self_contact_energy, friction_force_at, 0, 2},
     {"triangle", "det F", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
      &neo_hookean_energy, triangle_value, 0, 1.5},
     {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, spring_value, -1,
@@ -142,7 +142,7 @@ static const Law *find_law(const Simulation *simulation, int run,
         most->reach = most->d_hat = contact_of(system)->barrier.d_hat;
     if (law->source == &self_contact_energy)
         most->reach = most->d_hat = self_contact_of(system)->d_hat;
-    if (law->value == slip_value)
+    if (law->value == friction_force_at)
         most->reach = ((const Friction *)term->data)->slip_speed;
     LawPoint now = *most;
     for (int s = 0; s < system->springs && !law->source; s++) {
@@ -159,7 +159,7 @@ static const Law *find_law(const Simulation *simulation, int run,
         now.element = *element;
         now.load = -element->s;
         now.x = element->s;
-        if (law->value == slip_value) {
+        if (law->value == friction_force_at) {
             now.load = walk.kind->friction_limit(&now.at, element, t, &slip);
             element_vectors(element, v, w);
             for (int i = 0; i < 2 * element->vectors; i++)
@@ -169,7 +169,7 @@ static const Law *find_law(const Simulation *simulation, int run,
         }
         *most = now.load > most->load ? now : *most;
     }
-    most->x = law->value == slip_value ? now.x : most->x;
+    most->x = law->value == friction_force_at ? now.x : most->x;
     return law;
 }
 
@@ -178,7 +178,7 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap)
     LawPoint now;
     const Law *law = find_law(simulation, 0, &now);
     if (!law || simulation->runs > 1 || isnan(now.x) ||
-        (law->value != gap_value && law->value != slip_value))
+        (law->value != gap_value && law->value != friction_force_at))
         return false;
     bool self = law->source == &self_contact_energy;
     gap->d_hat = now.d_hat;
@@ -310,8 +310,8 @@ void law_draw(const Plot *card)
         law = find_law(simulation, run, &now[run]);
     if (!law)
         return;
-    bool both = law->low < 0;
-    double low = law->low * now->reach, high = law->high * now->reach;
+    bool both = law->axis_low < 0;
+    double low = law->axis_low * now->reach, high = law->axis_high * now->reach;
     double most = both ? 1.4 * now->spring.yield
                        : fmax(law->value(now, 0.9 * low + 0.1 * high),
                               law->value(now, 0.25 * low + 0.75 * high));

@@ -117,7 +117,7 @@ void line_draw(const Plot *card)
     words.y -= air;
     words.height += air;
     Box before = canvas_set_clip(&paper->canvas, words);
-    while (text_next(&line))
+    while (text_next_line(&line))
         card_flow_words(card, at, WORD_SIZE, 1, &line);
     canvas_set_clip(&paper->canvas, before);
     Plot plot = plot_create(&rest, x, y);

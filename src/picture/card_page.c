@@ -36,7 +36,7 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
         box.x += width;
         box.width -= width;
     }
-    while (text_next(&line)) {
+    while (text_next_line(&line)) {
         int lines = (int)((inside.y + inside.height - box.y) / text_line(em));
         if (!draw || lines > 0)
             box.y += paper_paragraph(paper, FACE_REGULAR, letters, COLOUR_TEXT,

@@ -362,7 +362,7 @@ TextLine text_begin(const LiveValues *values, const char *text)
     return (TextLine){.values = values, .rest = text ? text : ""};
 }
 
-bool text_next(TextLine *line)
+bool text_next_line(TextLine *line)
 {
     for (;;) {
         if (*line->rest == '@') {
@@ -388,14 +388,14 @@ bool text_next(TextLine *line)
 TextLine text_first_line(const LiveValues *values, const char *text)
 {
     TextLine line = text_begin(values, text);
-    text_next(&line);
+    text_next_line(&line);
     return line;
 }
 
 bool text_has_line(const LiveValues *values, const char *text)
 {
     TextLine line = text_begin(values, text);
-    return text_next(&line);
+    return text_next_line(&line);
 }
 
 /* Draws a line at the upper edge of the box, or only measures it; long lines
@@ -418,14 +418,14 @@ void card_write_text(const Plot *card, const LiveValues *values,
     if (card->show->lecture) /* a star is read from farther away */
         size = box.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
-    for (TextLine line = begin; text_next(&line);) {
+    for (TextLine line = begin; text_next_line(&line);) {
         int width = paper_width(paper, line.face, 1, line.words);
         height += put_line(paper, box, 1, &line, false);
         if (width > 0)
             size = fmin(size, (double)box.width / width);
     }
     size = fmax(fmin(size, box.height / height), paper->min_letter);
-    for (TextLine line = begin; text_next(&line);)
+    for (TextLine line = begin; text_next_line(&line);)
         box.y += put_line(paper, box, size, &line, true);
 }
 

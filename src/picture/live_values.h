@@ -48,10 +48,10 @@ typedef struct TextLine {
 } TextLine;
 
 /* Walks over the known lines of a text (NULL: no lines):
- *     for (TextLine line = text_begin(values, text); text_next(&line);)
+ *     for (TextLine line = text_begin(values, text); text_next_line(&line);)
  * After the last line `words` is empty. */
 TextLine text_begin(const LiveValues *values, const char *text);
-bool text_next(TextLine *line);
+bool text_next_line(TextLine *line);
 
 /* The first known line of a text, and whether a text has a known line. */
 TextLine text_first_line(const LiveValues *values, const char *text);

@@ -269,11 +269,11 @@ static void draw_iterates(const Plot *card)
     const Descent *descent = &card->simulation->descent;
     Paper *paper = card->paper;
     int rows = (int)(card->box.height / (pitch * paper->em));
-    int slope = descent->count + 1 > rows ? descent->count + 1 - rows : 0;
+    int first = descent->count + 1 > rows ? descent->count + 1 - rows : 0;
     char root[ITERATE_TEXT], x[ITERATE_TEXT], words[3 * ITERATE_TEXT];
     write_digits(find_root(card->simulation), root);
-    for (int i = slope; i <= descent->count; i++) {
-        int y = card->box.y + paper_pixels(paper, pitch * (i - slope));
+    for (int i = first; i <= descent->count; i++) {
+        int y = card->box.y + paper_pixels(paper, pitch * (i - first));
         int right = 0;
         write_digits(iterate_at(descent, i), x);
         while (x[right] && x[right] == root[right])

@@ -252,7 +252,7 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
     return pick;
 }
 
-long show_step_at(const Show *show, const Layout *layout, double x)
+long show_find_step(const Show *show, const Layout *layout, double x)
 {
     const Box *bars = &layout->bars;
     double step = (x - bars->x) / fmax(bars->width, 1) * time_line_steps(show);
@@ -353,7 +353,7 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
         stage.has_text = false; /* a star has taken its room */
     picture->draw(&stage);
     TextLine line = text_begin(&show->pane[pane].values, picture->legend);
-    while (stage.has_text && text_next(&line))
+    while (stage.has_text && text_next_line(&line))
         plot_legend(&stage, line.colour, "%s", line.words);
     if (stage.has_text && picture->shows_scale)
         plot_scale(&stage);

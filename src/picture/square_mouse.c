@@ -84,7 +84,7 @@ static void draw_note(const Plot *stage, const LiveValues *values,
     double size = fmax(NOTE_SIZE, paper->min_letter),
            wide = NOTE_WIDTH * paper->em, high = 0;
     int margin = paper_pixels(paper, 0.7);
-    for (TextLine line = text_begin(values, text); text_next(&line);) {
+    for (TextLine line = text_begin(values, text); text_next_line(&line);) {
         wide = fmax(wide, paper_width(paper, line.face, size, line.words));
         high += paper_paragraph(paper, line.face, size, line.colour, *box, 0,
                                 line.words) +

@@ -125,7 +125,8 @@ static void set_at(Pen *pen, double x, double y, MarkupPart part, int depth)
     extend_pen(pen, inner.top, inner.bottom);
 }
 
-static void set_rule(const Pen *pen, double x0, double y0, double x1, double y1)
+static void draw_rule_line(const Pen *pen, double x0, double y0, double x1,
+                           double y1)
 {
     if (pen->canvas)
         canvas_line(pen->canvas, x0, y0, x1, y1,
@@ -185,7 +186,7 @@ static void set_fraction(Pen *pen, MarkupPart part, int depth)
            depth);
     set_at(&small, left + 0.5 * (wide - b.width), y + thin + b.above, below,
            depth);
-    set_rule(pen, left, y, left + wide, y);
+    draw_rule_line(pen, left, y, left + wide, y);
     extend_pen(pen, small.top, small.bottom);
     pen->x = left + wide + thin;
 }
@@ -240,9 +241,9 @@ static void set_matrix(Pen *pen, MarkupPart part, int depth)
     for (int side = 0; side < 2; side++) { /* the brackets */
         double x = floor(side ? right : pen->x + THIN * em) + 0.5;
         double in = x + (side ? -0.2 : 0.2) * em;
-        set_rule(pen, x, top - 0.5, x, bottom + 0.5);
-        set_rule(pen, x, top, in, top);
-        set_rule(pen, x, bottom, in, bottom);
+        draw_rule_line(pen, x, top - 0.5, x, bottom + 0.5);
+        draw_rule_line(pen, x, top, in, top);
+        draw_rule_line(pen, x, bottom, in, bottom);
     }
     extend_pen(pen, top, bottom);
     pen->x = right + 1.5 * THIN * em;

@@ -315,9 +315,9 @@ static Status drag_held(Player *player)
     case COMMAND_SET:
         return drag_number(player, &under);
     case COMMAND_GOTO:
-        return ask(
-            player, COMMAND_GOTO,
-            show_step_at(&player->screen.frame.show, &under.layout, mouse->x));
+        return ask(player, COMMAND_GOTO,
+                   show_find_step(&player->screen.frame.show, &under.layout,
+                                  mouse->x));
     case COMMAND_PAN:
         lens_move(&player->screen.view.lens, under.layout.pane[under.pane], dx,
                   dy);

@@ -166,7 +166,7 @@ Status obey_set(Player *player, const Command *command)
     Command change = *command;
     change.x = options[player->active].number[row->slot];
     bool again =
-        (!past_is_start(&player->past) || player_machine(player)->failed) &&
+        (!past_is_state_set(&player->past) || player_machine(player)->failed) &&
         (row->effect == EFFECT_AGAIN ||
          (player_settings(player)->law && player->past.step > 0 &&
           player_is_stopped(player)) ||

@@ -196,7 +196,7 @@ static Kept find_kept(const Past *past, int pane, long step)
                   i > 0 ? entry[-branch->panes].control : entry->control};
 }
 
-bool past_is_start(const Past *past)
+bool past_is_state_set(const Past *past)
 {
     return find_kept(past, 0, past->step).dragged;
 }
@@ -244,12 +244,12 @@ static Status keep_state(Past *past, int pane, Entry *entry)
 static void machine_leave_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
-    if (!machine->stands)
+    if (!machine->has_state)
         return;
     Kept kept = find_kept(past, pane, machine->step);
     if (!kept.due)
         drop_state(past, kept.entry);
-    machine->stands = false;
+    machine->has_state = false;
 }
 
 static void leave_all_steps(Past *past)
@@ -356,7 +356,7 @@ static void machine_free(Machine *machine)
     control_drop(machine->control);
     control_drop(machine->start);
     machine->control = machine->start = NULL;
-    machine->stands = machine->iterating = false;
+    machine->has_state = machine->iterating = false;
     machine_forget_step(machine);
 }
 
@@ -389,7 +389,7 @@ static Status machine_set_step(Past *past, int pane, long step, State *state)
     Status status =
         machine_use_control(machine, find_entry(past, pane, step)->control);
     machine->step = step;
-    machine->stands = !status;
+    machine->has_state = !status;
     if (!status && state) {
         state->time = simulation_time(&machine->simulation);
         state->rows = show_sample(&machine->simulation, state->row);
@@ -415,7 +415,7 @@ static Status machine_seek(Past *past, int pane, long goal)
     long from = goal;
     while (past->keeps && from > 0 && !find_kept(past, pane, from).entry->state)
         from--;
-    bool near = machine->stands && machine->step <= goal &&
+    bool near = machine->has_state && machine->step <= goal &&
                 (machine->step >= from || machine->step >= goal - 1);
     if (near &&
         machine->control == find_entry(past, pane, machine->step)->control)
@@ -424,7 +424,7 @@ static Status machine_seek(Past *past, int pane, long goal)
     if (!kept.entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
-    if (!machine->stands || machine->step != from) {
+    if (!machine->has_state || machine->step != from) {
         machine_leave_step(past, pane);
         machine_forget_step(machine);
         machine->outcome = find_entry(past, pane, from)->outcome;
@@ -462,7 +462,7 @@ static void abandon_work(Past *past)
         Machine *machine = &past->machine[p];
         if (machine->iterating || machine->substeps > 0 ||
             machine->step > past_newest(past))
-            machine->stands = false;
+            machine->has_state = false;
         machine->iterating = false;
         machine->substeps = 0;
         if (past_makes(past))
@@ -518,7 +518,7 @@ static Status machine_fail(Past *past, int pane, Status status)
         machine->outcome.status = status;
     }
     /* Some runs may already have made the step after machine->step. */
-    machine->stands = false;
+    machine->has_state = false;
     past->aim = past->step;
     return status;
 }
@@ -694,8 +694,8 @@ static bool is_short_work(const Past *past)
         const Simulation *simulation = &machine->simulation;
         const Entry *entry = past_entry(past, p, past->aim);
         long behind = past->aim - machine->step;
-        bool knows =
-            machine->stands && (behind == 1 || (behind == 0 && machine->known));
+        bool knows = machine->has_state &&
+                     (behind == 1 || (behind == 0 && machine->known));
         if (!knows && simulation->run[0].newton && entry->substeps > 0 &&
             simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
@@ -790,7 +790,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
 }
 
 /* Whether an edit makes another state, which its branch keeps. */
-static bool makes_state(const Command *edit)
+static bool is_state_edit(const Command *edit)
 {
     return edit->kind == COMMAND_HANDLE || edit->kind == COMMAND_FLIP ||
            edit->kind == COMMAND_PLACE;
@@ -800,7 +800,7 @@ static bool makes_state(const Command *edit)
  * node. */
 static bool changes_state(const Command *edit)
 {
-    return makes_state(edit) || edit->kind == COMMAND_PIN;
+    return is_state_edit(edit) || edit->kind == COMMAND_PIN;
 }
 
 /* Returns the control after an edit, or NULL if memory is missing.
@@ -843,7 +843,7 @@ static Status edit_entry(Past *past, int pane, const Command *edit,
                          Entry *entry)
 {
     Simulation *simulation = &past->machine[pane].simulation;
-    if (!makes_state(edit)) {
+    if (!is_state_edit(edit)) {
         const Control *control =
             edited_control(entry->control, edit, simulation);
         if (!control)
@@ -875,8 +875,8 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     bool joins = gesture && branch->gesture == gesture && !branch->fresh &&
                  panes == branch->panes && !again &&
                  past->step == past_newest(past) &&
-                 makes_state(edit) == makes_state(&branch->edit) &&
-                 (!makes_state(edit) || branch->count == 1);
+                 is_state_edit(edit) == is_state_edit(&branch->edit) &&
+                 (!is_state_edit(edit) || branch->count == 1);
     const Branch wanted = {.first = past->step - again,
                            .given = 1 + again,
                            .panes = panes,
@@ -900,7 +900,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
 
 /* Makes the samples for plots again at the first steps of branches low ...
  * high, with the control that now follows. */
-static void sample_again(Past *past, int low, int high)
+static void resample_first_steps(Past *past, int low, int high)
 {
     for (int b = low; b <= high; b++) {
         const Branch *branch = &past->branch[b];
@@ -937,7 +937,7 @@ const Command *past_undo(Past *past, int way)
     past->now = to;
     past->step = present(past)->shown;
     long shown = past->step;
-    sample_again(past, low + 1, high);
+    resample_first_steps(past, low + 1, high);
     past->step = shown;
     past_aim(past, shown, false);
     return &past->branch[high].edit;

@@ -141,12 +141,12 @@ static bool next_row(Reader *reader, double *value)
 
 /* Part of a table: rows of one step, which the second column numbers from 0. */
 typedef struct Part {
-    const char *option; /* option with the table, for messages */
-    const char *name;   /* name of the file */
-    const char *what;   /* "node" or "spring" */
-    double step;        /* below 0: the last step */
-    int size;           /* rows of a run */
-    int run, runs;      /* the run that is read, and their number */
+    const char *option;       /* option with the table, for messages */
+    const char *name;         /* name of the file */
+    const char *element_name; /* "node" or "spring" */
+    double step;              /* below 0: the last step */
+    int size;                 /* rows of a run */
+    int run, runs;            /* the run that is read, and their number */
 } Part;
 
 /* Stores row i of a run.  Returns why it does not fit, or NULL. */
@@ -171,7 +171,7 @@ static void read_rows(Reader *reader, const Part *part, TakeRow *take,
         if (value[1] != count)
             snprintf(reader->why, sizeof reader->why,
                      "line %ld has %s %g where %s %d is missing", reader->line,
-                     part->what, value[1], part->what, count);
+                     part->element_name, value[1], part->element_name, count);
         else if (why)
             snprintf(reader->why, sizeof reader->why, "line %ld: %s",
                      reader->line, why);
@@ -187,7 +187,8 @@ static void read_rows(Reader *reader, const Part *part, TakeRow *take,
              (!reader->has_panes && bodies > part->runs))
         snprintf(reader->why, sizeof reader->why,
                  "its %sstep has %d %ss, the body %d; --segments may differ",
-                 part->step < 0 ? "last " : "", count, part->what, part->size);
+                 part->step < 0 ? "last " : "", count, part->element_name,
+                 part->size);
     else if (part->run >= bodies)
         snprintf(reader->why, sizeof reader->why,
                  "body %d of the scene is not in it", part->run + 1);

@@ -17,22 +17,22 @@ Status line_search_backtrack(EnergyDifference difference, const void *function,
     return STATUS_LINE_SEARCH_LIMIT;
 }
 
-typedef struct Step {
+typedef struct SearchContext {
     Newton *newton;
     LineEnergy along;
-} Step;
+} SearchContext;
 
 /* E(x + alpha p) - E(x), or anything that is not above 0 where no line search
  * is wanted; NaN where the terms do not allow the place, or E itself
  * contradicts the change. */
 static double step_difference(const void *function, double alpha)
 {
-    const Step *step = function;
-    Newton *newton = step->newton;
+    const SearchContext *search = function;
+    Newton *newton = search->newton;
     const Iterate *at = &newton->at;
     double *u = newton->u_trial, *x = newton->x_trial;
     bool searches = newton->settings.search == LINE_SEARCH_BACKTRACK;
-    double change = line_energy_difference(&step->along, alpha);
+    double change = line_energy_difference(&search->along, alpha);
     newton->record.change = change;
     newton->record.trials += searches;
     if (searches && !(change <= 0))
@@ -50,13 +50,13 @@ static double step_difference(const void *function, double alpha)
 Status find_step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    Step step = {newton, incremental_potential_on_line(&newton->at)};
+    SearchContext search = {newton, incremental_potential_on_line(&newton->at)};
     int looks;
     record->alpha = incremental_potential_max_step(&newton->at);
-    record->slope = step.along.smooth.q[0];
+    record->slope = search.along.smooth.q[0];
     record->trials = 0;
     Status status =
-        line_search_backtrack(step_difference, &step, &record->alpha, &looks);
+        line_search_backtrack(step_difference, &search, &record->alpha, &looks);
     if (!status)
         return STATUS_OK;
     record->change = 0;

@@ -80,7 +80,7 @@ void multigrid_free(Multigrid *mg)
 
 /* Why multigrid does not take it, or NULL: only springs, with or without
  * damping, may have an energy, and what draws nodes to points. */
-static const char *refusal(const Newton *newton)
+static const char *reason_against(const Newton *newton)
 {
     const NewtonSettings *settings = &newton->settings;
     const System *system = newton->system;
@@ -108,7 +108,7 @@ bool multigrid_accepts(Newton *newton)
     bool wanted = solver == SOLVER_AUTO
                       ? newton->system->segments > AUTO_NEWTON_SEGMENTS
                       : solver == SOLVER_MULTIGRID;
-    newton->refusal = wanted ? refusal(newton) : NULL;
+    newton->refusal = wanted ? reason_against(newton) : NULL;
     return wanted && !newton->refusal;
 }
 

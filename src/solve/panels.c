@@ -32,7 +32,7 @@ typedef double Four __attribute__((vector_size(FOUR * sizeof(double)),
 /* An unrolled loop of at most four passes. */
 #define EACH(i, count) _Pragma("GCC unroll 4") for (int i = 0; i < (count); i++)
 
-/* C [m, n] = A [m, k] B^T or, where it subtracts, C -= A B^T, with B [n, k]
+/* C [m, n] = A [m, k] B^T or, if is_subtracted, C -= A B^T, with B [n, k]
  * and n at most 4; and then, where there is L [n, n], C = C L^-T.  All are
  * stored by columns, lda, ldb, ldc, ldl numbers apart. */
 typedef struct Product {
@@ -40,7 +40,7 @@ typedef struct Product {
     const double *A, *B;
     double *C;
     int lda, ldb, ldc;
-    bool subtracts;
+    bool is_subtracted;
     const double *L;
     int ldl;
 } Product;
@@ -60,7 +60,7 @@ typedef struct Product {
             EACH (q, n) {                                                      \
                 double *to = at->C + (size_t)q * at->ldc + i + r * lanes;      \
                 Lanes *c = (Lanes *)to;                                        \
-                s[q][r] = at->subtracts ? *c - s[q][r] : s[q][r];              \
+                s[q][r] = at->is_subtracted ? *c - s[q][r] : s[q][r];          \
                 if (at->L) {                                                   \
                     EACH (p, GROUP)                                            \
                         if (p < q)                                             \

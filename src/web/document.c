@@ -82,7 +82,7 @@ unsigned document_colour(Colour colour)
 static void put_text(Writer *to, const LiveValues *values, const char *words,
                      const char *text)
 {
-    for (TextLine line = text_begin(values, text); text_next(&line);)
+    for (TextLine line = text_begin(values, text); text_next_line(&line);)
         put(to, "%s\t#%06x\t%d\t%s\n", words, document_colour(line.colour),
             line.face == FACE_BOLD, line.words);
 }
@@ -158,7 +158,7 @@ static void put_graph(Writer *to, const Show *show, const char *name)
                 format_number(trace->record[i].alpha).text);
     } else if (strcmp(name, "line") == 0) {
         for (TextLine line = text_begin(&pane->values, text_trials);
-             text_next(&line);)
+             text_next_line(&line);)
             put(to, "%s; ", line.words);
     }
 }

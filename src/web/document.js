@@ -192,7 +192,7 @@ const showCards = () => {
   }
   for (const [index, graph] of cards)
     if (graph.clientWidth && graph.clientHeight)
-      Module._web_card(index, pixels(graph.clientWidth), pixels(graph.clientHeight));
+      Module._web_draw_card(index, pixels(graph.clientWidth), pixels(graph.clientHeight));
 };
 
 // ---- all of it --------------------------------------------------------------

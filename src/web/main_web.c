@@ -19,24 +19,25 @@ enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
  * made again. */
 static const size_t PAST_ROOM = 8 << 20;
 
-/* A run, with the words that its options point into.  The next one is begun
+/* A player, with the words that its options point into.  The next one is begun
  * beside it: after a bad command line the old one goes on. */
-typedef struct Run {
+typedef struct Session {
     Player player;
     char text[MOST_TEXT];
     char *word[MOST_WORDS + 1]; /* NULL ends them */
-} Run;
+} Session;
 
 static volatile sig_atomic_t never = 0;
-static Run runs[2];
-static Run *run = &runs[0]; /* the one that is shown, if `plays` */
+static Session sessions[2];
+static Session *session = &sessions[0]; /* the one that is shown, if `plays` */
 static bool plays;
 
 /* Begins a command line, a word a line.  Returns PROGRAM_PLAYS, or the exit
  * code where nothing new is played. */
 EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
 {
-    Run *next = plays && run == &runs[0] ? &runs[1] : &runs[0];
+    Session *next =
+        plays && session == &sessions[0] ? &sessions[1] : &sessions[0];
     int count = 1;
     snprintf(next->text, sizeof next->text, "elasto\n%s", words);
     next->word[0] = strtok(next->text, "\n");
@@ -49,9 +50,9 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
         return code;
     }
     if (plays)
-        player_free(&run->player);
-    run = next;
-    run->player.past.limit = PAST_ROOM;
+        player_free(&session->player);
+    session = next;
+    session->player.past.limit = PAST_ROOM;
     plays = true;
     return code;
 }
@@ -63,7 +64,7 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
 EMSCRIPTEN_KEEPALIVE const char *web_address(void)
 {
     static char words[MOST_TEXT];
-    Player *player = &run->player;
+    Player *player = &session->player;
     const Options *given = &player->given.options[0];
     Options now[OPTIONS_MAX_PANES], base[OPTIONS_MAX_PANES];
     words[0] = '\0';
@@ -71,7 +72,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
         return words;
     int count, panes = player_options(player, now);
     bool same = now->page == given->page && now->scene == given->scene;
-    base[0] = *given; /* what the run began with */
+    base[0] = *given; /* what the session began with */
     if ((panes != given->panes && !now->page) ||
         (!same && player_default_options(player, now->scene->name, now->page,
                                          base, &count)))
@@ -100,7 +101,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_document(void)
 {
     static char text[DOCUMENT_SIZE];
     if (plays)
-        document_write(&run->player, text);
+        document_write(&session->player, text);
     return text;
 }
 
@@ -123,10 +124,10 @@ EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
 
 /* Draws a card of the last frame on a canvas of the page: Page.show().  The
  * page may ask for a card of the scene before. */
-EMSCRIPTEN_KEEPALIVE void web_card(int card, int width, int height)
+EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
 {
     static Paper paper;
-    Player *player = &run->player;
+    Player *player = &session->player;
     const Picture *picture = picture_of(player_simulation(player)->scene);
     if (card >= picture->count || !picture->cards[card]->draw)
         return;
@@ -141,7 +142,7 @@ EMSCRIPTEN_KEEPALIVE void web_card(int card, int width, int height)
 /* Obeys lines of a script, "set timestep 0.004; flip 1". */
 EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
 {
-    Player *player = &run->player;
+    Player *player = &session->player;
     if (!plays)
         return;
     player->orders.gesture = player->hands.mouse.gesture =
@@ -153,7 +154,7 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
 /* A guess of the number that the page asks for; "": shows the answer. */
 EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 {
-    Player *player = &run->player;
+    Player *player = &session->player;
     if (plays && player_hides_answer(player))
         player_report(player, player_answer(player, *guess ? guess : NULL));
     player->screen.changed = true;
@@ -162,16 +163,16 @@ EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 /* ---- the printed lecture --------------------------------------------------
  */
 
-/* Plays a page of the lecture, from 0, up to the picture that is printed. Until
- * -1 leads back to the run of the window, web_document and web_card are of it.
- */
+/* Plays a page of the lecture, from 0, up to the picture that is printed;
+ * web_document and web_draw_card then show that page.  Page -1 leads back to
+ * the session of the window. */
 EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
 {
     static bool played, prints;
     const Command next = {.kind = COMMAND_NEXT};
     const LecturePage *row = &lecture_pages[page];
-    Run *other = run == &runs[0] ? &runs[1] : &runs[0];
-    Player *player = prints ? &run->player : &other->player;
+    Session *other = session == &sessions[0] ? &sessions[1] : &sessions[0];
+    Player *player = prints ? &session->player : &other->player;
     Options options;
     char message[256];
     if (prints)
@@ -180,9 +181,9 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
         played = prints ? played : plays;
         plays = prints ? played : true;
         prints = !prints;
-        run = other;
+        session = other;
     }
-    run->player.screen.changed = true;
+    session->player.screen.changed = true;
     if (page < 0)
         return;
     Status status = lecture_options(row, &options, message, sizeof message);
@@ -207,7 +208,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
  */
 EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
 {
-    Player *player = &run->player;
+    Player *player = &session->player;
     player->screen.size[0] = width;
     player->screen.size[1] = height;
     Paper *paper = player_paper(player);
@@ -222,9 +223,9 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
 /* Its texts as before the guess. */
 EMSCRIPTEN_KEEPALIVE void web_sheet_veil(void)
 {
-    run->player.given.asks = true;
-    run->player.tour.revealed = NULL;
-    player_fill(&run->player);
+    session->player.given.asks = true;
+    session->player.tour.revealed = NULL;
+    player_fill(&session->player);
 }
 
 /* ---- the loop ----------------------------------------------------------- */
@@ -233,7 +234,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_veil(void)
  * until the next one is due; below 0: the end. */
 EMSCRIPTEN_KEEPALIVE int web_frame(void)
 {
-    Player *player = &run->player;
+    Player *player = &session->player;
     double begin = clock_now();
     Status status = STATUS_OK;
     if (!plays)

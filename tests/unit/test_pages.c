@@ -1233,7 +1233,7 @@ static const char *missing_line(const Show *show, const char *text)
 {
     static TextLine line;
     line = text_begin(&show_pane(show)->values, text);
-    while (text_next(&line))
+    while (text_next_line(&line))
         if (!strstr(seen.texts, line.words))
             return line.words;
     return NULL;

@@ -231,7 +231,7 @@ static void point_at(const char *place)
         long step = atol(place + 5);
         mouse[0] = layout.bars.x;
         mouse[1] = layout.time_line.y + layout.time_line.height / 2;
-        while (show_step_at(&player.screen.frame.show, &layout, mouse[0]) <
+        while (show_find_step(&player.screen.frame.show, &layout, mouse[0]) <
                    step &&
                mouse[0] < layout.width)
             mouse[0]++;

@@ -300,11 +300,11 @@ TEST(bars_are_steps)
     for (long count = 1; count <= 500; count += 61) {
         show.bars = count;
         draw();
-        CHECK(show_step_at(&show, &layout, 0) == 0);
-        CHECK(show_step_at(&show, &layout, 1280) == count);
+        CHECK(show_find_step(&show, &layout, 0) == 0);
+        CHECK(show_find_step(&show, &layout, 1280) == count);
         long before = 0;
         for (int x = 0; x < 1280; x++) {
-            long step = show_step_at(&show, &layout, x);
+            long step = show_find_step(&show, &layout, x);
             CHECK(step >= before && step <= count);
             before = step;
         }
@@ -580,7 +580,7 @@ TEST(texts_say_what_is_known)
         TextLine line = text_first_line(&values, rows[i].text);
         assert_string_equal(line.words, rows[i].line);
         CHECK((line.colour == COLOUR_WARNING) == (i == 1));
-        CHECK(!text_next(&line) && line.words[0] == 0);
+        CHECK(!text_next_line(&line) && line.words[0] == 0);
     }
 }
 
