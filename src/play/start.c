@@ -141,8 +141,10 @@ Status obey_restart(Player *player, const Command *command)
         player->time.mode = MODE_RUN;
     if (!moves)
         player->screen.view.lens = LENS_FITS;
-    player->orders.queue.plays = !moves && plays_again(player, options->page);
-    return player_begin_again(player, options, panes, command);
+    bool plays = !moves && plays_again(player, options->page);
+    Status status = player_begin_again(player, options, panes, command);
+    player->orders.queue.plays = plays && !status;
+    return status;
 }
 
 /* ---- the lecture --------------------------------------------------------- */
