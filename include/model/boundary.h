@@ -35,7 +35,7 @@ typedef struct Boundary {
     int points, edges;    /* numbers of points and edges */
     int *point;           /* [nodes] node of each point */
     Box2 *edge_box;       /* [springs] boxes of the edges, sorted */
-    Box2 *point_box;      /* [nodes] box of each point, by node */
+    Box2 *point_box;      /* [nodes] box of a node that is a point */
     unsigned char *sides; /* [springs] number of solid triangles at it */
     unsigned char *role;  /* [nodes] in a triangle, on an edge, both, neither */
 
@@ -44,7 +44,8 @@ typedef struct Boundary {
     bool has_motion;  /* false: the boxes are those of x alone */
     double *x, *p;    /* [2n] m */
     double alpha;     /* part of p that is covered */
-    double mean[2];   /* m, mean of p over the points */
+    double mean[2];   /* m, mean of p over the points; a motion that all points
+                         share brings none closer to an edge */
     double margin;    /* m, each box is wider by it at all sides */
     double widest;    /* m, largest extent of an edge's box, coordinate 0 */
     bool sorts_by_y;  /* whether coordinate 0 of the boxes is y */

@@ -20,7 +20,8 @@
 /* Part of a gap or an area that one Newton update may use up. */
 #define ELEMENT_LIMIT 0.9
 
-/* An element at given positions. */
+/* An element is a group of one to three nodes with an energy W, such as a
+ * triangle or a node near a wall, at given positions. */
 typedef struct Element {
     int nodes;                 /* 1 ... 3 */
     int vectors;               /* 1: a alone, 2: a and b */

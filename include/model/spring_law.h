@@ -55,7 +55,8 @@ static inline double spring_hessian_factor(double l2, double k)
     return 2 * k / l2;
 }
 
-/* Returns the eigenvalue of H/c along d, m^2. */
+/* Returns the eigenvalue of H/c for the eigenvector d, m^2: H is the spring's
+ * Hessian, c = spring_hessian_factor and d = x_i - x_j. */
 static inline double spring_eigenvalue_along(double d2, double l2)
 {
     return 3 * d2 - l2;

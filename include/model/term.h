@@ -147,7 +147,8 @@ struct TermKind {
     /* Frees the allocations that data points to, not data itself. */
     void (*free)(void *data);
 
-    bool diagonal;            /* P is c/2 |x_i - o|^2 of single nodes */
+    bool diagonal;            /* P is a sum of c/2 |x_i - o|^2 over nodes i, so
+                                 its Hessian is a diagonal matrix */
     bool internal;            /* the forces add up to 0: the centre of mass does
                                  not feel them */
     bool backward_euler_only; /* refused by all other integrators, since

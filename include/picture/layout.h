@@ -55,9 +55,9 @@ typedef struct Layout {
 typedef enum Zone {
     ZONE_NONE,
     ZONE_STRIP,
-    ZONE_STAGE,      /* index: the pane */
-    ZONE_CARD,       /* index: the card */
-    ZONE_CARD_CLOSE, /* index: the card whose cross was hit */
+    ZONE_STAGE,      /* a stage; Hit.index: its pane */
+    ZONE_CARD,       /* a card; Hit.index: its number */
+    ZONE_CARD_CLOSE, /* the cross of a card; Hit.index: the card's number */
     ZONE_PAGE,       /* help or code */
     ZONE_PAGE_CLOSE, /* the cross of that page */
     ZONE_SETTING,    /* index: the setting */

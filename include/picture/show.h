@@ -121,8 +121,8 @@ typedef struct Pane {
 /* What the mouse is over, or holds. */
 typedef enum PickKind {
     PICK_NONE,
-    PICK_NODE,     /* index: the node */
-    PICK_SPRING,   /* index: the spring */
+    PICK_NODE,     /* a node; Pick.index: its number */
+    PICK_SPRING,   /* a spring; Pick.index: its number */
     PICK_OBSTACLE, /* index: a ground of the options or, behind those, a ball */
     PICK_EDGE,     /* index: 0 left, 1 right edge: sets the stretch */
     PICK_PLACE,    /* any other point of a map or curve: a click starts there */

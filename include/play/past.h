@@ -95,7 +95,8 @@ typedef struct Machine {
     bool iterating;  /* a step of the simulation has begun */
     int substeps;    /* steps of the simulation since `step` */
     long before;     /* steps of the simulation before the present substep */
-    Outcome outcome; /* outcome of the present step, or of the last one */
+    Outcome outcome; /* outcome of the step in progress, else of the last step
+                      */
     bool failed;     /* the step after `step` could not be made */
     StepTrace trace;
     bool known;      /* trace and records are those of `step`, or of the step

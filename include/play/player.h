@@ -26,7 +26,8 @@
 /* The command line, and how it is played. */
 typedef struct Given {
     Options options[OPTIONS_MAX_PANES]; /* options of each pane */
-    char *const *words; /* [...] the command line, NULL at its end; or NULL */
+    char *const *words; /* words of the command line, then NULL; NULL itself
+                           where there is no command line */
     Script script;
     const volatile sig_atomic_t *stop; /* not 0 after a signal: the run ends */
     double started; /* s, time on the wall clock when the run began */
@@ -38,8 +39,9 @@ typedef struct Given {
 /* ---- time ---------------------------------------------------------------- */
 
 enum {
-    SPEED_LEAST = -6, /* a frame every second */
-    SPEED_MOST = 10   /* 1024 steps a frame */
+    SPEED_LEAST = -6, /* lowest speed: a frame lasts 64 times as long, about 1 s
+                       */
+    SPEED_MOST = 10   /* highest speed: 1024 steps a frame */
 };
 
 /* Whether steps are made.  From MODE_PAUSE on none is; MODE_END and MODE_REST
@@ -101,7 +103,7 @@ typedef struct Queue {
 typedef struct Orders {
     Queue queue;
     int gesture;         /* id of the present gesture: undone as a whole */
-    int gestures;        /* id of the newest gesture */
+    int gestures;        /* number of gestures so far, the id of the newest */
     int held;            /* id of the last grab or push, for its drags */
     Script journal;      /* the commands so far, with undo and redo */
     CommandKind leaving; /* COMMAND_ESCAPE or COMMAND_QUIT, if a second one ends

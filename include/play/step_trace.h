@@ -49,20 +49,20 @@ typedef struct StepTrace {
     Trace start;       /* h and epsilon of the step */
     int size;          /* 2n; 0: no rounds are kept */
     Records made;      /* Newton's record of each iteration */
-    Round *round;      /* [made.count] */
+    Round *round;      /* [made.count] one for each Newton iteration */
     int room;          /* rounds that memory was reserved for */
-    bool all;          /* each round is sampled */
-    bool last;         /* the last round is sampled */
+    bool all;          /* E along p is kept for each Newton iteration */
+    bool last;         /* E along p is kept for the last Newton iteration */
     double *x_tilde;   /* [size] m, or NULL */
-    double *end;       /* [size] m, iterate after the last round, or NULL */
+    double *end;       /* [size] m, x after the last iteration, or NULL */
     size_t bytes;      /* memory of the rounds */
     TracePlace *place; /* [places] in the order of the listing */
     int places;        /* 0 also where memory is missing */
 } StepTrace;
 
 /* Begins a step.
- *   all   each round is sampled, for a walk through the step
- *   last  the last round is sampled: E along p is drawn */
+ *   all   E along p is kept for each round, for a walk through the step
+ *   last  E along p is kept for the last round, since it is drawn */
 void step_trace_begin(StepTrace *kept, const Simulation *simulation, bool all,
                       bool last);
 

@@ -158,7 +158,8 @@ typedef enum Effect {
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionField {
-    int place;   /* in the row of numbers, from 1; 0: only on request */
+    int place;   /* position in the window's row of numbers, from 1; 0: it is
+                    in the row after the user has added it */
     int letters; /* length of the longest value */
     double pace; /* step of the wheel; 0: factors, or the next name */
 } OptionField;

@@ -110,7 +110,8 @@ typedef struct Rounding {
     double lightest; /* kg, the smallest mass */
     double stiffest; /* J/m^2, the largest curvature of a term */
     double shortest; /* m, the shortest spring at rest; 1 without springs */
-    bool stiff;      /* w stiffest > 1e5 lightest: slopes are looked at twice */
+    bool stiff;      /* w stiffest > 1e5 lightest, with w the weight of P in E:
+                        a decrease of E is checked by a second computation */
     bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
     double first;    /* J s^2, E at the start; NAN: E cannot rise */
     double most;     /* J s^2, upper limit of E: its value at the start plus

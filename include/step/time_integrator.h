@@ -41,8 +41,8 @@ typedef struct IntegratorMethod {
 typedef struct StepClock {
     double now;   /* s, `since` + steps h */
     double since; /* s, time of the last change of h */
-    double h;     /* s, time step since the last change */
-    long steps;   /* steps since the last change of h */
+    double h;     /* s, time step of the steps that are counted */
+    long steps;   /* number of steps since the last change of h */
 } StepClock;
 
 struct TimeIntegrator {
@@ -62,7 +62,8 @@ struct TimeIntegrator {
     double *new_v;   /* [2n] m/s, v at the end of a step; before that
                         workspace */
     double *memory;  /* [memory * 2n] arrays that the method remembers */
-    double memory_h; /* s, time step of the memory; 0: it holds nothing */
+    double memory_h; /* s, time step at which the method filled `memory`; 0: the
+                        contents of `memory` are not valid */
     Newton *newton;  /* NULL for explicit methods */
     /* State of an unfinished step: */
     int stage;     /* 0 ... stages - 1 */
@@ -71,7 +72,7 @@ struct TimeIntegrator {
     double left;   /* part of the prescribed way that is not done yet */
     int part;      /* parts of the prescribed way so far */
     long before;   /* Newton's iterations before the first part */
-    bool blocked;  /* is stopped: the prescribed way has no room */
+    bool blocked;  /* walls and pins cannot move on: a body is in their way */
 };
 
 /* The table of methods.  The last row has the name NULL. */

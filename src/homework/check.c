@@ -128,7 +128,7 @@ typedef struct Case {
 
 /* Makes a square or a single short spring, out of shape.  Each node and each
  * spring has different numbers. */
-static void draw_solid(int trial, Solid *solid)
+static void random_solid(int trial, Solid *solid)
 {
     *solid = square(1.2, trial == 2 ? 1 : 2, 300, 2e3);
     if (trial == 1) {
@@ -148,7 +148,7 @@ static void draw_solid(int trial, Solid *solid)
 }
 
 /* Makes the start of a step, of the lecture or with alpha < 1. */
-static void draw_start(int trial, Case *c)
+static void random_start(int trial, Case *c)
 {
     c->solid = square(1, 2, 1000, 1e5);
     c->h = trial ? 0.05 : 0.004;
@@ -185,9 +185,9 @@ static void draw_case(const Task *task, int trial, Case *c)
                 scale[trial] * (300 * draw_number() + (r == k) * shift[trial]);
     c->h = 0.02;
     if (task->number == TASK_step_forward)
-        draw_start(trial, c);
+        random_start(trial, c);
     else
-        draw_solid(searches ? 0 : trial, &c->solid);
+        random_solid(searches ? 0 : trial, &c->solid);
     c->x_tilde = draw_points(NODES, 0.7);
     c->p = draw_points(NODES, 1);
     c->p[1] = (Vec2){-1.5, -1.2}; /* largest |p_x| + |p_y|, both below 0 */

@@ -34,7 +34,7 @@ static Text list_text(Names names)
 
 /* Whether a typed letter stands for a letter of a name: case is ignored, and
  * '_' stands for '-'. */
-static bool alike(char typed, char letter)
+static bool letters_match(char typed, char letter)
 {
     return tolower((unsigned char)typed) == tolower((unsigned char)letter) ||
            (typed == '_' && letter == '-');
@@ -57,9 +57,10 @@ static int count_mistakes(const char *text, const char *name)
             least[i][j] = i + j;
             if (i == 0 || j == 0)
                 continue;
-            bool same = alike(text[i - 1], name[j - 1]);
-            bool turned = i > 1 && j > 1 && alike(text[i - 1], name[j - 2]) &&
-                          alike(text[i - 2], name[j - 1]);
+            bool same = letters_match(text[i - 1], name[j - 1]);
+            bool turned = i > 1 && j > 1 &&
+                          letters_match(text[i - 1], name[j - 2]) &&
+                          letters_match(text[i - 2], name[j - 1]);
             double best = fmin(least[i - 1][j], least[i][j - 1]) + 1;
             best = fmin(best, least[i - 1][j - 1] + !same);
             best = turned ? fmin(best, least[i - 2][j - 2] + 1) : best;
@@ -143,7 +144,7 @@ typedef struct Line {
 /* An option, or a value of one, that an earlier version had. */
 typedef struct Gone {
     const char *option;
-    const char *value;   /* "": the whole option is gone */
+    const char *value;   /* the removed value; "": the whole option */
     const char *instead; /* end of the sentence: what to use now */
 } Gone;
 
@@ -690,7 +691,7 @@ static Status begin_options(Line *line)
     Status status = split_words(options->scene->line, copy, sizeof copy, &own);
     for (int i = 0; i < own.words && !status; i++)
         status = apply(&own, own.word[i].row, own.word[i].text);
-    if (!given(line, option_find("body"))) /* the pins are of its own body */
+    if (!given(line, option_find("body"))) /* pins of the scene's body */
         options->pin = options->scene->pin;
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->times && given(line, row))

@@ -1,11 +1,13 @@
 /* area.h - energies that depend on the area of a triangle, for cells.c and
  * neo_hookean.c.
  *
- * Two vectors f = (f1, f2) have the area J = f1 x f2.  grad J = K f, and the
- * Hessian of J is K = [[0, S], [-S, 0]] with S v = (v_y, -v_x).  K has the
- * eigenvalues 1 and -1, twice each (Smith et al.: Stable Neo-Hookean Flesh
- * Simulation, 2018).  In the functions below `unit` is a factor on J: unit J is
- * 1 at rest.
+ * The edges f1 and f2 of a triangle span a parallelogram of area J = f1 x f2.
+ * With f = (f1, f2), a vector of four numbers, the gradient of J is K f.  The
+ * matrix K = [[0, S], [-S, 0]], where S v = (v_y, -v_x), is the Hessian of J.
+ * K has the eigenvalues 1 and -1, twice each (Smith et al.: Stable Neo-Hookean
+ * Flesh Simulation, 2018).
+ *
+ * `unit` below is a factor that makes J relative: unit J is 1 at rest.
  */
 #ifndef ELASTO_AREA_H
 #define ELASTO_AREA_H

@@ -20,9 +20,10 @@ static int cell_block_nodes(const EvalPoint *at, int t, int node[3])
     return 3;
 }
 
-/* A triangle whose three springs are whole, with a = e1, b = e2, s = J.  If e1
- * and e2 change by `way` at most, J changes by q way (|e1| + |e2| + way) at
- * most, q = 1/(2 A0). */
+/* Whether triangle t can have an energy: no spring of it is broken, and J may
+ * fall below CELL_J_HAT.  The element has a = e1, b = e2 and s = J.
+ *   way  m, most change of e1 and of e2.  J changes by at most
+ *        q way (|e1| + |e2| + way), q = 1/(2 A0). */
 static bool cell_get(const EvalPoint *at, int t, double way, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};

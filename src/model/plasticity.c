@@ -211,7 +211,8 @@ static void plastic_end_step(const TermStep *step)
         system_mark_changed(system, false);
 }
 
-/* Replaces the elastic springs.  number: Y and H. */
+/* Makes all springs plastic: the term takes the place of the elastic one.
+ *   number  [2] yield strain Y and hardening H */
 static Status plastic_set(System *system, const struct SquareMesh *mesh,
                           const double *number)
 {

@@ -14,9 +14,9 @@ static const double MAX_AXIS_RATIO =
 static const double LOG_GROWTH =
     1e6; /* growth of the energy at which the axis becomes logarithmic */
 static const double LOG_HIGH =
-    1e9; /* upper end of that axis, times the energy at the start */
+    1e9; /* upper end of a logarithmic axis, times the energy at the start */
 static const double LOG_LOW =
-    1e-12; /* lower end of that axis, times the energy at the start */
+    1e-12; /* lower end of a logarithmic axis, times the energy at the start */
 static const double MIN_VISIBLE =
     2e-3; /* smaller parts of the largest energy cannot be told from 0 */
 static const double

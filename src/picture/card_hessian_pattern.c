@@ -114,7 +114,7 @@ void hessian_pattern_draw(const Plot *card)
                     ALIGN_LEFT, k ? "order of elimination" : "rows 2i, 2i + 1");
         draw_matrix(card, (Box){x, inside.y + line, side, side}, !k, springs);
     }
-    Plot rest = *card; /* the block of the newest spring */
+    Plot rest = *card; /* room below, for the newest spring's block of H */
     box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
     if (rest.box.height > 7 * paper->em)
         card_write_text(&rest, &show_pane(card->show)->values, text_newest);

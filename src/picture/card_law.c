@@ -119,8 +119,9 @@ static double law_value_at(const Law *law, const LawPoint *now)
     return law->value == break_value ? now->x : law->value(now, now->x);
 }
 
-/* Finds the page's law and the most loaded element of a run.  For friction the
- * position is the mean speed of all contacts, weighted by normal force.
+/* Finds the law that the scene draws, and the run's point on its curve, which
+ * is the one of the most loaded element.  For friction it is at the mean speed
+ * of all contacts, weighted by normal force.
  * Returns NULL if the scene has no law. */
 static const Law *find_law(const Simulation *simulation, int run,
                            LawPoint *most)

@@ -18,7 +18,8 @@ static const double WORD_SIZE = 0.88,
                         1.25; /* ems, letters of the words, and their rows */
 static const double WORDS_WIDTH = 28; /* ems, width of all words in one row */
 
-/* The functions on one grid of alpha. */
+/* Change of E along p, exact and as the quadratic model has it, at the same
+ * values of alpha. */
 typedef struct LineCurves {
     double alpha[LINE_POINTS], exact[LINE_POINTS], model[LINE_POINTS];
     double other[LINE_POINTS]; /* exact along the projected p; NaN: not drawn */

@@ -201,7 +201,7 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         [COLUMN_KEYS] = "Keys and mouse",
         [COLUMN_OPTIONS] = "Numbers of this scene"};
     bool code = show->column == COLUMN_CODE;
-    if (layout->page) { /* a list or code in the whole column */
+    if (layout->page) { /* help or code takes the place of the cards */
         Box inside = draw_frame(
             paper, box_inset(layout->column, paper_pixels(paper, 0.9)),
             code ? show->lecture->file : titles[show->column], false);

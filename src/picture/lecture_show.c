@@ -17,8 +17,8 @@ const char *lecture_lit_code(const Show *show)
     return walks ? page->walk[trace->line] : page->lit;
 }
 
-/* The pages below the headings of their sections, the open one or the one that
- * was left with a mark. */
+/* Lists all pages of the lecture, each section below its heading.
+ *   marked  page that gets a mark: the open one, or the one last open */
 static void list_pages(const LecturePage *marked, Show *show)
 {
     HelpRow *row = show->help;

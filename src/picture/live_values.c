@@ -415,7 +415,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
     Paper *paper = card->paper;
     Box box = card->box;
     double height = 0, size = 1;
-    if (card->show->lecture) /* a star is read from farther away */
+    if (card->show->lecture) /* an audience reads the page from far away */
         size = box.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {

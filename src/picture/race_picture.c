@@ -24,9 +24,11 @@ void race_bounds(const Plot *stage, double bounds[4])
     bounds[3] = over_h ? 2.5 : 3; /* below the switch */
 }
 
-/* Writes the methods' names in a column left or right of their points, from top
- * to bottom, each with a line to its point.
- *   side  true: the column at the left (explicit methods, or all over h) */
+/* Writes names of methods in a column beside their points, from top to bottom,
+ * each with a line to its point.
+ *   over_h   whether the plot is over h, where the left column has every name
+ *   on_left  the left column, else the right one; explicit methods are in the
+ *            left one, implicit methods in the right one */
 static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
                         bool over_h, bool on_left)
 {

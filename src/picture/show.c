@@ -371,7 +371,8 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
 
 /* A scene on the sheet: its bare picture, its name, over it the heading of the
  * group that it begins. */
-static void draw_cell(Paper *paper, Box box, const SheetCell *cell, bool chosen)
+static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
+                            bool chosen)
 {
     Layout layout = {.em = paper->em, .panes = 1, .pane = {box}};
     Box *inside = &layout.pane[0];
@@ -424,8 +425,8 @@ void show_draw(Paper *paper, const Show *show)
         show_layout(show, paper->canvas.width, paper->canvas.height);
     begin_paper(paper, layout.em, show);
     for (int i = 0; i < layout.cells; i++)
-        draw_cell(paper, layout.cell[i], &show->cell[i],
-                  i == show->view->chosen);
+        draw_sheet_cell(paper, layout.cell[i], &show->cell[i],
+                        i == show->view->chosen);
     if (layout.cells > 0) {
         if (!show->document)
             frame_draw(paper, &layout, show);

@@ -151,7 +151,7 @@ static const char *find_outside(MarkupPart part, const char *word)
 }
 
 /* Reduces the size of a script or of a fraction's parts, down to min_size. */
-static void shrink(TextStyle *style, double factor)
+static void shrink_letters(TextStyle *style, double factor)
 {
     style->size =
         fmin(style->size, fmax(factor * style->size, style->min_size));
@@ -162,7 +162,7 @@ static void set_raised(Pen *pen, MarkupPart part, int depth)
 {
     Pen inner = *pen;
     inner.y += (part.from[-2] == '^' ? -RAISE : LOWER) * pen->style.size;
-    shrink(&inner.style, SCRIPT_SIZE);
+    shrink_letters(&inner.style, SCRIPT_SIZE);
     set_part(&inner, part, depth);
     extend_pen(pen, inner.top, inner.bottom);
     pen->x = inner.x;
@@ -176,7 +176,7 @@ static void set_fraction(Pen *pen, MarkupPart part, int depth)
     MarkupPart above = {part.from, middle}, below = {middle, part.end};
     below.from += middle < part.end ? strlen(over) : 0;
     Pen small = *pen;
-    shrink(&small.style, PART_SIZE);
+    shrink_letters(&small.style, PART_SIZE);
     TextExtent a = measure(&small, above, depth);
     TextExtent b = measure(&small, below, depth);
     double thin = THIN * pen->style.size;

@@ -164,7 +164,7 @@ static Status drag_number(Player *player, const Under *under)
 
 /* Opens the square with the numbers of a cell of the map, by commands that a
  * script can repeat. */
-static Status load_cell(Player *player, long cell)
+static Status open_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;
     const struct {
@@ -218,7 +218,7 @@ static Status take_under_mouse(Player *player, const Under *under)
     case PICK_SWITCH:
         return ask(player, COMMAND_FLIP, under->pick.index);
     case PICK_CELL:
-        return load_cell(player, under->pick.index);
+        return open_cell(player, under->pick.index);
     case PICK_PLACE:
         if (page_wants_click(page) && !player_simulation(player)->done)
             return ask_at(player, COMMAND_PREDICT, 0, under->pick.point);

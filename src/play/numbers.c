@@ -189,7 +189,8 @@ Status player_paced(Player *player, const OptionRow *row, int paces,
     return STATUS_OK;
 }
 
-/* Changes the selected number, or the first one, by a pace. */
+/* Raises or lowers the selected number, or the first one, by one step of the
+ * wheel. */
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];

@@ -303,7 +303,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 /* ---- machines ------------------------------------------------------------ */
 
 /* Time step, s; 1 in scenes without time. */
-static double step_length(const Machine *machine)
+static double timestep_of(const Machine *machine)
 {
     const Simulation *simulation = &machine->simulation;
     return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
@@ -577,7 +577,7 @@ static Status machine_advance(Past *past, int pane, Status status)
     machine->substeps += moved;
     if (past_makes(past) && status)
         past->worst = status;
-    double middle = simulation_time(simulation) + 0.5 * step_length(machine);
+    double middle = simulation_time(simulation) + 0.5 * timestep_of(machine);
     const Entry *to = past_entry(past, pane, machine->step + 1);
     bool more = to ? machine->substeps < to->substeps
                    : moved && middle < past->target &&
@@ -622,7 +622,7 @@ static Status begin_new_step(Past *past)
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
-        double pace = step_length(machine);
+        double pace = timestep_of(machine);
         if (pace <= longest || has_failed(past_entry(past, p, machine->step)))
             continue;
         longest = pace;

@@ -55,8 +55,9 @@ static bool plays_again(const Player *player, const LecturePage *page)
            strstr(page->tell, "play");
 }
 
-/* Moves obstacles out of the start of the body, back to where they began.
- * Returns INVALID_INPUT if there were others at the start. */
+/* Makes room for the body at its start: obstacles that overlap it go back to
+ * where they were when the run began.
+ * Returns INVALID_INPUT if the run began with another number of obstacles. */
 static Status clear_start(Player *player, int pane, Options *options)
 {
     Options began = past_start(&player->past, pane)->options;
@@ -118,8 +119,9 @@ Status player_begin_again(Player *player, const Options *options, int panes,
     return status;
 }
 
-/* Begins again with the present numbers, pins, balls and grounds, or at another
- * start.  MODE_END and MODE_REST end; a page opens and plays again. */
+/* Begins the run again with the present numbers, pins, balls and grounds;
+ * COMMAND_START begins it, in a pause, from the point of the command.  A run
+ * that was at its end or at rest plays again, and so does a page. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];

@@ -94,7 +94,7 @@ Status player_write_remaining(Player *player)
 /* ---- beginning ----------------------------------------------------------- */
 
 /* Shows the whole step in all panes, not one line of Algorithm 3. */
-static void leave_lines(Player *player)
+static void end_line_walk(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
         player->side[p].place = -1;
@@ -105,7 +105,7 @@ void player_forget_step(Player *player)
     player->screen.changed = true;
     if (player->time.mode > MODE_END)
         player->time.mode = MODE_END;
-    leave_lines(player);
+    end_line_walk(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->side[p].ghost);
         player->side[p].ghost = NULL;
@@ -496,7 +496,7 @@ Status obey_pause(Player *player, const Command *command)
     bool runs = command->kind == COMMAND_PLAY;
     player->time.mode = runs ? MODE_RUN : MODE_PAUSE;
     if (runs)
-        leave_lines(player);
+        end_line_walk(player);
     return STATUS_OK;
 }
 
@@ -509,7 +509,7 @@ Status obey_next(Player *player, const Command *command)
     if (after == AFTER_ENTER && walk_lines(player, 1))
         return STATUS_OK;
     if (after == AFTER_PEAK && player->side[player->active].place >= 0) {
-        leave_lines(player); /* from an explosion's height to its end */
+        end_line_walk(player); /* from an explosion's height to its end */
         return STATUS_OK;
     }
     return player_seek(player, player->past.step + 1, after);
@@ -557,7 +557,7 @@ Status obey_finer(Player *player, const Command *command)
     player->time.fine = (player->time.fine + 1) % 3;
     player_pause(player);
     if (player->time.fine == 0)
-        leave_lines(player);
+        end_line_walk(player);
     player_note(player, "N and \u2190 go by %s", paces[player->time.fine]);
     return STATUS_OK;
 }

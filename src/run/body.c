@@ -234,9 +234,10 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
                                  options->slip_speed);
 }
 
-/* Adds the terms of the options, or gives present terms their numbers.  Terms
- * with several options are set here; the others by the rows of their options.
- */
+/* Adds the terms that the options ask for, changes the numbers of those that
+ * the system has, and removes those whose option is off.  Obstacles,
+ * self-contact and cells depend on several options each; every other term
+ * belongs to one row of option_rows. */
 static Status set_terms(const Options *options, System *system)
 {
     const SquareMesh shape = body_shape(options);

@@ -59,10 +59,10 @@ bool control_holds(const Control *control)
     return control->hand >= 0 || control->push >= 0;
 }
 
-/* m, how much higher a run has an obstacle than the options say; only grounds
- * differ between runs. */
-static double lift_of(const Simulation *simulation, int run,
-                      const Obstacle *obstacle)
+/* Returns how much higher an obstacle is than in the options, m.  Only
+ * grounds differ between runs; a ball has 0. */
+static double obstacle_lift(const Simulation *simulation, int run,
+                            const Obstacle *obstacle)
 {
     return obstacle->kind == OBSTACLE_WALL ? simulation->variant[run].lift : 0;
 }
@@ -73,7 +73,7 @@ void simulation_obstacle(const Simulation *simulation, int run, int number,
     const Contact *contact = contact_of(simulation->run[run].system);
     const Obstacle *obstacle = &contact->obstacle[number];
     at[0] = obstacle->o[0];
-    at[1] = obstacle->o[1] - lift_of(simulation, run, obstacle);
+    at[1] = obstacle->o[1] - obstacle_lift(simulation, run, obstacle);
 }
 
 void control_keep_place(Control *control, int number,
@@ -219,7 +219,7 @@ static void use_push(Simulation *simulation, const Control *control)
                                .shape = simulation->mesh};
         if (contact->push.on)
             contact->push.to[1] +=
-                lift_of(simulation, r, &contact->obstacle[control->push]);
+                obstacle_lift(simulation, r, &contact->obstacle[control->push]);
     }
 }
 

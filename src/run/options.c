@@ -396,7 +396,8 @@ void option_unit(const OptionRow *row, char *text, size_t size)
              row->unit[length] == '^' ? "\u00b2" : "");
 }
 
-/* An option that changes by factors is not shown while it is 0. */
+/* Lists the options of the row of numbers by their place.  A number that
+ * changes by factors is left out while it is 0, as no factor changes it. */
 int options_list_fields(const Options *options,
                         const OptionRow *found[OPTIONS_MOST])
 {

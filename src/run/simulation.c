@@ -292,7 +292,8 @@ double simulation_fastest_mode(const Simulation *simulation, const double *x,
     int n = 2 * system->nodes;
     if (n > ROOM)
         return NAN;
-    for (int i = 0; i < n; i++) /* without symmetry, so every mode is in it */
+    /* A first vector without symmetry has a part of every mode */
+    for (int i = 0; i < n; i++)
         mode[i] = sin(1 + i + 0.1 * i * i);
     for (int k = 0; k < ITERATIONS; k++) {
         double length2 = 0;

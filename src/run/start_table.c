@@ -215,7 +215,7 @@ static Status read_part(const Part *part, const char *const *names,
 
 /* ---- nodes --------------------------------------------------------------- */
 
-static const char *take_node(void *into, int i, const double *value)
+static const char *read_node(void *into, int i, const double *value)
 {
     double *const *xv = into;
     memcpy(xv[0] + 2 * i, value + 2, 2 * sizeof *value);
@@ -230,7 +230,7 @@ Status start_table_read(const char *name, double step, int nodes, int run,
                                         "vx",   "vy",   NULL};
     const Part part = {"state", name, "node", step, nodes, run, runs};
     double *xv[] = {x, v};
-    return read_part(&part, names, take_node, xv, told);
+    return read_part(&part, names, read_node, xv, told);
 }
 
 /* ---- springs ------------------------------------------------------------- */

@@ -334,7 +334,7 @@ static bool refine_with_last_factor(Newton *newton)
 
 /* m, bound of |p_x| + |p_y| of a direction with this |p|_M: each node has
  * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
-static double largest_of_norm(const Newton *newton, double norm)
+static double largest_movement(const Newton *newton, double norm)
 {
     return sqrt(2 / newton->rounding.lightest) * norm;
 }
@@ -356,7 +356,7 @@ static Status find_residual(Newton *newton, bool exact)
     newton->passes = record->residual <= newton->tolerance;
     if (!exact && newton->passes)
         status = direction_error_bound(newton, &error);
-    if (record->residual + largest_of_norm(newton, error) / h >
+    if (record->residual + largest_movement(newton, error) / h >
         newton->tolerance)
         newton->passes = false;
     return status;
@@ -385,7 +385,7 @@ bool next_direction_is_negligible(Newton *newton)
         return false;
     evaluate_gradient(newton);
     double norm = system_inverse_mass_norm(newton->system, newton->at.g);
-    return largest_of_norm(newton, norm) <= negligible_direction(newton);
+    return largest_movement(newton, norm) <= negligible_direction(newton);
 }
 
 /* Whether the last factor is of a Hessian nearby, in the same minimisation. */

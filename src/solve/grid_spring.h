@@ -32,8 +32,9 @@ INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
     __typeof__(d2) along = 2 + ((s)-iso) / (d2);                               \
     along = WHERE(along > 0, along)
 
-/* E(x + a p) - E(x) is q[0] a + ... + q[3] a^4.  A spring with u = p_i - p_j
- * adds f1/4 to q[1], f2/2 to q[2] and f3/4 to q[3]. */
+/* Adds a spring with u = p_i - p_j to the sums f1, f2, f3, from which E along a
+ * direction p follows: E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 +
+ * q[3] a^4, and q[1] has f1/4, q[2] has f2/2, q[3] has f3/4 of the springs. */
 INLINE void spring_line_polynomial(Spring s, Pair ux, Pair uy, Pair *f1,
                                    Pair *f2, Pair *f3)
 {

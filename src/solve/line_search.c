@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-/* Runs Algorithm 2. */
+/* Halves alpha until E(x + alpha p) is at most E(x) (slide: Algorithm 2).
+ * Returns LINE_SEARCH_LIMIT with alpha = 0 after too many halvings. */
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials)
 {

@@ -16,7 +16,8 @@ typedef struct NewtonPhases {
      * no step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT,
      * NOT_FINITE; alpha and change are then 0. */
     Status (*find_step_length)(Newton *newton);
-    /* u and x.  Returns OK, NOT_FINITE, ROUNDING_LIMIT. */
+    /* Makes the end of the trial step the iterate (u and x).  Returns OK,
+     * NOT_FINITE, ROUNDING_LIMIT. */
     Status (*update)(Newton *newton);
     /* Whether the loop ends.
      *   status  in, of the phases before

@@ -34,9 +34,10 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
     tiles->chosen = memory_take(memory, count * sizeof *tiles->chosen);
 }
 
-/* How far to go where E changes by a q[0] + ... + a^4 q[3]: the longest of
- * three steps that lower it, or 0. */
-INLINE double step_of(const double q[4], double *lower)
+/* Returns the longest of three step lengths a that lower E, or 0, where E
+ * changes by a q[0] + ... + a^4 q[3].
+ *   lower  out, the change of E */
+INLINE double lowering_step(const double q[4], double *lower)
 {
     const double far[3] = {SHORTER, 1, OVER_RELAXED};
     double go = 0;
@@ -70,7 +71,7 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
         double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
         double along[4], lower;
         node_line_polynomial(of, e, px, py, along);
-        double go = step_of(along, &lower);
+        double go = lowering_step(along, &lower);
         double to_x = ax[q] + go * px, to_y = ay[q] + go * py;
         ax[q] = to_x;
         ay[q] = to_y;

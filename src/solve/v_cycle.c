@@ -53,8 +53,8 @@ INLINE bool has_row(int rows, int i)
     return i >= 0 && i < rows;
 }
 
-/* A level's rows, or one more, outside, of which the coarser one has the half.
- */
+/* Number of a level's rows; if it is even and a coarser level exists, plus one
+ * row outside of the grid, so that the last coarse row lies on a row, too. */
 INLINE int rows_for_both(const Level *level)
 {
     int nodes = level->rows.nodes;

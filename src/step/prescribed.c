@@ -26,8 +26,8 @@ enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
  * barrier's width. */
 #define CARRIED_GAP 0.3
 
-/* Most halvings of a part of the way of an obstacle that a hand moves, and most
- * parts of it; the hand goes on in the next step. */
+/* Limits like MAX_HALVINGS and MAX_PARTS for an obstacle that a hand moves:
+ * lower, as the rest of its way can wait for the next step. */
 enum { HAND_HALVINGS = 6, HAND_PARTS = 8 };
 
 /* Whether obstacle k moves in the rest of this step. */

@@ -192,7 +192,7 @@ Status time_integrator_advance(TimeIntegrator *run)
         if (status == STATUS_RUNNING)
             return status;
 
-        /* Move walls and pins further, if their way was too long */
+        /* Move walls and pins by the next part of their way */
         if (run->moves && prescribed_goes_on(run, &status)) {
             prescribed_start(run);
             continue;

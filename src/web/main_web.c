@@ -177,7 +177,8 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
     char message[256];
     if (prints)
         player_free(player);
-    if (prints != (page >= 0)) { /* the first one, or back */
+    /* Change between the session of the window and that of the print */
+    if (prints != (page >= 0)) {
         played = prints ? played : plays;
         plays = prints ? played : true;
         prints = !prints;
