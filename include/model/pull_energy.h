@@ -33,11 +33,13 @@ Status pull_set(System *system, const TermKind *kind, const Pull *pull);
 /* Sets k and target of the hand before a step.  The node moves part of the way
  * to the mouse: the distance falls by the factor e in 0.06 s, by at most half
  * in one step.  The node also moves at most half a cell or, if cells are small,
- * half a side a second.  Twice that speed turns cells at a corner over. x, v
- * [2] m, m/s, in, of the node m     kg, mass of the node h     s, time step
+ * half a side a second.  Twice that speed turns cells at a corner over.
+ *   x, v  [2] m, m/s, in, of the node
+ *   m     kg, mass of the node
+ *   h     s, time step
  *   free  [2] m/s^2, in, acceleration of the node without the hand, for an
  *         explicit integrator: the force then moves the node by this way
- * exactly. NULL: an implicit integrator, whose stiff spring does so */
+ *         exactly.  NULL: an implicit integrator, whose stiff spring does so */
 void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
                      double h, const double *free);
 

@@ -71,8 +71,10 @@ void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
                               int side[3]);
 
 /* Returns the first of the cells cell ... end-1 that contains a point; -1:
- * none. x   [2n] m, in, positions of the nodes at  [2] m, in, the point Contact
- * tests nodes only, so a small ball could be inside a cell unnoticed. */
+ * none.  Contact tests nodes only, so a small ball could be inside a cell
+ * unnoticed.
+ *   x   [2n] m, in, positions of the nodes
+ *   at  [2] m, in, the point */
 int square_mesh_find_cell(const SquareMesh *shape, const double *x,
                           const double *at, int cell, int end);
 
@@ -82,8 +84,8 @@ bool square_mesh_is_half(const SquareMesh *shape, int t);
 
 /* Writes the corners of the patch of cells x cells cells whose lower left cell
  * is c; patches at the right and upper side may be smaller.  The patches cover
- * the square once. node  [4] out, anticlockwise from the lower left Returns
- * whether a patch begins at c. */
+ * the square once.  Returns whether a patch begins at c.
+ *   node  [4] out, anticlockwise from the lower left */
 bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
                            int node[4]);
 

@@ -50,9 +50,9 @@ int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
 int paper_width(Paper *paper, Face face, double size, const char *markup);
 
 /* Draws a paragraph in the width of the box, broken at blanks outside of
- * braces. The last line ends with an ellipsis if text is left.  Returns the
- * height in pixels. lines  the most lines to draw; 0: only measures the whole
- * paragraph */
+ * braces.  The last line ends with an ellipsis if text is left.  Returns the
+ * height in pixels.
+ *   lines  the most lines to draw; 0: only measures the whole paragraph */
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup);
 

@@ -273,6 +273,10 @@ static inline const Pane *show_pane(const Show *show)
 /* Positions that a pane shows, [2n] m. */
 const double *pane_x(const Pane *pane);
 
+/* Bounding box of the nodes of the first runs: left, bottom, right, top, m.
+ * Nodes that are not finite are left out. */
+void pane_node_bounds(const Pane *pane, int runs, double bounds[4]);
+
 /* Cells of which a triangle has turned over. */
 int pane_folded(const Pane *pane);
 

@@ -212,14 +212,17 @@ const OptionRow *option_find(const char *name);
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 
 /* Writes the value of an option in short, for the window, or "none" if the
- * option is not given.  A repeated option has its last value written. text
- * [size] out */
+ * option is not given.  A repeated option has its last value written.
+ *   text  [size] out */
 void option_value(const OptionRow *row, const Options *options, char *text,
                   size_t size);
 
 /* Whether the option is given with a number other than 0, so that its term is
  * part of the energy. */
 bool option_is_on(const OptionRow *row, const Options *options);
+
+/* Returns what the window and the page call an option: "h" for timestep. */
+const char *option_label(const OptionRow *row);
 
 /* Writes the unit of an option as the window shows it, "J/m\u00b2", or "".
  *   text  [size] out */

@@ -167,6 +167,9 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
 /* Whether the mouse can drag the nodes. */
 bool simulation_is_draggable(const Simulation *simulation);
 
+/* Whether a time step consists of updates of Newton's method. */
+bool simulation_has_updates(const Simulation *simulation);
+
 /* Whether the method projects a Hessian, and whether it searches a line; an
  * explicit integrator does neither. */
 bool simulation_has_projection(const Simulation *simulation);

@@ -72,9 +72,30 @@ static int count_mistakes(const char *text, const char *name)
     return best;
 }
 
-/* A hint such as "; did you mean --timestep?", with the nearest name of the
- * table, or "".  A text of 3 to 4 letters may have one mistake, of 5 to 7 two.
+/* A hint such as "; did you mean --timestep?".
  *   before  in, dashes to write before the name */
+static Text suggest(const char *before, const char *name)
+{
+    Text hint;
+    snprintf(hint.text, sizeof hint.text, "; did you mean %s%s?", before, name);
+    return hint;
+}
+
+/* A word of another program or of a book, and the name that it has here. */
+typedef struct Synonym {
+    const char *word, *name; /* NULL ends a table */
+} Synonym;
+
+/* Returns the name for a word, or NULL. */
+static const char *find_synonym(const Synonym *row, const char *word)
+{
+    while (row->word && strcasecmp(word, row->word) != 0)
+        row++;
+    return row->name;
+}
+
+/* Suggests the nearest name of the table, or returns "" if no name is near.  A
+ * text of 3 to 4 letters may have one mistake, of 5 to 7 two. */
 static Text meant(const char *text, const char *before, Names names)
 {
     Text hint = {""};
@@ -86,8 +107,7 @@ static Text meant(const char *text, const char *before, Names names)
         int mistakes = count_mistakes(text, name);
         if (name[0] && mistakes < fewest) {
             fewest = mistakes;
-            snprintf(hint.text, sizeof hint.text, "; did you mean %s%s?",
-                     before, name);
+            hint = suggest(before, name);
         }
     }
     return hint;
@@ -97,27 +117,23 @@ static Text meant(const char *text, const char *before, Names names)
  * by its name in lecture.c. */
 static Text meant_option(const char *text)
 {
-    static const char *const others[][2] = {{"h", "timestep"},
-                                            {"dt", "timestep"},
-                                            {"k", "stiffness"},
-                                            {"rho", "density"},
-                                            {"e", "young"},
-                                            {"nu", "poisson"},
-                                            {"mu", "friction"},
-                                            {"eta", "damping"},
-                                            {"g", "gravity"},
-                                            {"method", "integrator"},
-                                            {"n_seg", "segments"},
-                                            {"side_len", "side"},
-                                            {"initial_stretch", "stretch"}};
-    Text hint;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (strcasecmp(text, others[i][0]) == 0) {
-            snprintf(hint.text, sizeof hint.text, "; did you mean --%s?",
-                     others[i][1]);
-            return hint;
-        }
-    return meant(text, "--", NAMES_OF(option_rows));
+    static const Synonym others[] = {{"h", "timestep"},
+                                     {"dt", "timestep"},
+                                     {"k", "stiffness"},
+                                     {"rho", "density"},
+                                     {"e", "young"},
+                                     {"nu", "poisson"},
+                                     {"mu", "friction"},
+                                     {"eta", "damping"},
+                                     {"g", "gravity"},
+                                     {"method", "integrator"},
+                                     {"n_seg", "segments"},
+                                     {"side_len", "side"},
+                                     {"initial_stretch", "stretch"},
+                                     {NULL, NULL}};
+    const char *name = find_synonym(others, text);
+    return name ? suggest("--", name)
+                : meant(text, "--", NAMES_OF(option_rows));
 }
 
 /* A word of a line: an option with its value, or the name of a scene. */
@@ -316,7 +332,7 @@ static Text hint_at_comma(const Line *line, const OptionRow *row, int count,
 /* The value that other programs and books call `text`: a hint, or "". */
 static Text meant_value(const OptionRow *row, const char *text)
 {
-    static const char *const others[][2] = {
+    static const Synonym others[] = {
         {"euler", "backward-euler"},
         {"implicit-euler", "backward-euler"},
         {"explicit-euler", "forward-euler"},
@@ -335,14 +351,12 @@ static Text meant_value(const OptionRow *row, const char *text)
         {"no", "off"},
         {"triangles", "neo-hookean"},
         {"solid", "neo-hookean"},
-        {"rubber", "neo-hookean"}};
-    Text hint = meant(text, "", row->names);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (strcasecmp(text, others[i][0]) == 0 &&
-            name_place(row->names, others[i][1]) >= 0)
-            snprintf(hint.text, sizeof hint.text, "; did you mean %s?",
-                     others[i][1]);
-    return hint;
+        {"rubber", "neo-hookean"},
+        {NULL, NULL}};
+    const char *name = find_synonym(others, text);
+    return name && name_place(row->names, name) >= 0
+               ? suggest("", name)
+               : meant(text, "", row->names);
 }
 
 /* Refuses a value with a message such as "is not X,Y, each from -1 to 1, in m".

@@ -89,19 +89,11 @@ function end_page(    i)
 
 BEGIN {
     split("text run cards look try code claim notes minutes", needed)
+    split("open cards claim ask answer tell veils star law notes section", same)
+    for (i in same)
+        texts[same[i]] = same[i]
     texts["run"] = "line"
-    texts["open"] = "open"
-    texts["cards"] = "cards"
     texts["try"] = "touch"
-    texts["claim"] = "claim"
-    texts["ask"] = "ask"
-    texts["answer"] = "answer"
-    texts["tell"] = "tell"
-    texts["veils"] = "veils"
-    texts["star"] = "star"
-    texts["law"] = "law"
-    texts["notes"] = "notes"
-    texts["section"] = "section"
     prose["text"] prose["ask"] prose["look"] prose["try"] prose["notes"]
     read_names(ARGV[1])
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]

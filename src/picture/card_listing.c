@@ -10,42 +10,47 @@ static const double PAGE_PITCH = 2.1; /* ems, height of a line on a page */
 static const double PRINT_WIDTH =
     36; /* ems, width of printed lines in size 1 */
 
+ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
+{
+    const LiveValues *values = &pane->values;
+    const Trace *trace = pane->update;
+    bool reached =
+        trace && (trace->line == LINE_NONE || trace->line >= row->line);
+    bool struck = text_has_line(values, row->struck_if);
+    return (ShownRow){.lit = row->lit_if ? text_has_line(values, row->lit_if)
+                                         : trace && trace->line == row->line,
+                      .struck = struck,
+                      .text = text_first_line(values, row->text),
+                      .value = text_first_line(
+                          values, reached || struck ? row->value : NULL)};
+}
+
 /* Draws a row of the listing: number, text, value. */
 static void draw_row(const Plot *card, Box box, const ListingRow *row,
                      int number)
 {
     Paper *paper = card->paper;
-    const Pane *pane = show_pane(card->show);
-    const Trace *trace = pane->update;
-    const LiveValues *values = &pane->values;
-    bool lit = row->lit_if ? text_has_line(values, row->lit_if)
-                           : trace && trace->line == row->line;
-    bool reached =
-        trace && (trace->line == LINE_NONE || trace->line >= row->line);
-    bool struck = text_has_line(values, row->struck_if);
-    TextLine words = text_first_line(values, row->text);
-    TextLine value =
-        text_first_line(values, reached || struck ? row->value : NULL);
+    const ShownRow now = listing_show_row(show_pane(card->show), row);
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indented);
-    int wide = paper_width(paper, FACE_REGULAR, 0.88 * size, value.words);
+    int wide = paper_width(paper, FACE_REGULAR, 0.88 * size, now.value.words);
     Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
     Box room = {box.x + indent, box.y,
                 box.width - indent - wide - paper_pixels(paper, 1.4),
                 box.height};
     bool both = paper_width(paper, FACE_REGULAR, paper->min_letter,
-                            words.words) <= room.width;
+                            now.text.words) <= room.width;
     room.width += both ? 0 : wide;
-    if (lit)
+    if (now.lit)
         canvas_fill(&paper->canvas, box, COLOUR_LIT);
     snprintf(digits, sizeof digits, "%d", number);
     paper_fit(paper, FACE_REGULAR, 0.82, COLOUR_GREY, count, ALIGN_RIGHT,
               digits);
-    int text =
-        paper_fit(paper, FACE_REGULAR, size, struck ? COLOUR_GREY : COLOUR_TEXT,
-                  room, ALIGN_LEFT, words.words);
-    if (struck)
+    int text = paper_fit(paper, FACE_REGULAR, size,
+                         now.struck ? COLOUR_GREY : COLOUR_TEXT, room,
+                         ALIGN_LEFT, now.text.words);
+    if (now.struck)
         canvas_fill(&paper->canvas,
                     (Box){room.x, box.y + box.height / 2, text,
                           (int)fmax(1, 1.3 * paper->unit)},
@@ -53,8 +58,8 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
     box.width -= paper_pixels(paper, 0.6);
     if (both)
         paper_fit(paper, FACE_REGULAR, 0.88 * size,
-                  lit ? COLOUR_TEXT : COLOUR_FAINT, box, ALIGN_RIGHT,
-                  value.words);
+                  now.lit ? COLOUR_TEXT : COLOUR_FAINT, box, ALIGN_RIGHT,
+                  now.value.words);
 }
 
 /* Draws the known rows in lines of this height; draw NULL: only counts them. */

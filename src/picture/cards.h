@@ -24,6 +24,13 @@ typedef struct ListingRow {
     const char *value; /* right of the text, once the run has reached it */
 } ListingRow;
 
+/* State of a row of a listing in the present frame. */
+typedef struct ShownRow {
+    bool lit, struck;
+    TextLine text;
+    TextLine value; /* no words before the run has reached the row */
+} ShownRow;
+
 /* Tables and texts that are generated from cards.txt; only those that sources
  * name are declared. */
 extern const Picture pictures[PICTURE_COUNT];
@@ -114,6 +121,9 @@ Box card_inner_box(Box card, double em);
 /* Writes the first known line of a text into the middle of a card that has
  * nothing to show yet. */
 void card_write_hint(const Plot *card, const char *text);
+
+/* Returns what a row of a listing shows. */
+ShownRow listing_show_row(const Pane *pane, const ListingRow *row);
 
 /* Writes the known rows of a listing; the row of the current line is lit. */
 void card_write_rows(const Plot *card, const ListingRow *row);

@@ -83,8 +83,9 @@ static Extent view_seen(const Plot *stage, const Extent *view)
 
 /* Widens the view to a circle that is partly hidden and not too far.  The wider
  * view begins as what is seen, and returns to that between `reach` and 1.5
- * times `reach`, so that the camera never jumps. reach  distance from the
- * middle, times the view, up to which the circle is seen */
+ * times `reach`, so that the camera never jumps.
+ *   reach  distance from the middle, times the view, up to which the circle is
+ *          seen */
 static void widen_view(const Extent *seen, const double at[2], double radius,
                        double reach, Extent *view)
 {
@@ -130,13 +131,12 @@ static void add_obstacles(const Plot *stage, Extent *view)
     }
 }
 
-/* Bounding box of the nodes of all runs: left, bottom, right, top. */
-static void find_node_bounds(const Pane *pane, double bounds[4])
+void pane_node_bounds(const Pane *pane, int runs, double bounds[4])
 {
     const Simulation *simulation = pane->simulation;
     bounds[0] = bounds[1] = INFINITY;
     bounds[2] = bounds[3] = -INFINITY;
-    for (int r = 0; r < simulation->runs; r++) {
+    for (int r = 0; r < runs; r++) {
         const double *x = r > 0 ? simulation->run[r].x : pane_x(pane);
         for (int i = 0; i < simulation->run[r].system->nodes; i++, x += 2)
             for (int k = 0; k < 2 && isfinite(x[0] + x[1]); k++) {
@@ -198,7 +198,7 @@ void square_bounds(const Plot *stage, double bounds[4])
     const Simulation *simulation = stage->simulation;
     Extent view = first_view(show, simulation);
     double box[4], tall, grown = 1;
-    find_node_bounds(pane, box);
+    pane_node_bounds(pane, simulation->runs, box);
     if (moves_freely(simulation))
         follow_body(simulation, pane_x(pane), &view);
     while (grown < needed_growth(box, &view, &tall) * (1 - 1e-12) &&

@@ -90,7 +90,8 @@ void commands_help(FILE *file)
 static const char blanks[] = " \t\r\n";
 
 /* Takes the next word of a line.  Returns false if there is none, or if it is
- * too long. word  [COMMAND_TEXT_SIZE] out */
+ * too long.
+ *   word  [COMMAND_TEXT_SIZE] out */
 static bool take_word(const char **line, char *word)
 {
     const char *at = *line + strspn(*line, blanks);

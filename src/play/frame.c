@@ -78,7 +78,7 @@ static void fill_settings(const Player *player, Frame *frame)
         const OptionRow *row = frame->number[i];
         Setting *setting = &show->setting[show->settings++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
-        setting->name = row->label ? row->label : row->name;
+        setting->name = option_label(row);
         setting->letters = row->field.letters;
         player_format_value(row, options, player_simulation(player),
                             setting->value, SHOW_VALUE);
@@ -150,7 +150,7 @@ static void fill_chips(const Player *player, Frame *frame)
     const Options *options = player_settings(player);
     bool time = simulation->scene->needs & NEEDS_TIME;
     bool nears = options->next == NEXT_NEARER;
-    bool newton = simulation->run[0].newton && time && !nears;
+    bool newton = simulation_has_updates(simulation) && !nears;
     bool ended = simulation->done || player->time.mode > MODE_END;
     bool stands = player_is_stopped(player);
     if (player->screen.sheet) {
@@ -235,9 +235,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
                    .trouble = machine->outcome.status};
     if (past_panes(&player->past) > 1)
         pane->label = frame->label[p];
-    bool newton =
-        simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
-    if (machine->known && newton) {
+    if (machine->known && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
         pane->x = step_trace_at(&machine->trace, side->place, &frame->trace[p]);
     }

@@ -66,8 +66,8 @@ static Status ask(Player *player, CommandKind kind, long number)
 
 static Status ask_set(Player *player, const OptionRow *row, double value)
 {
-    return ask_at(player, COMMAND_SET, row - option_rows,
-                  (const double[2]){value, 0});
+    const Command command = set_command(row, value);
+    return player_obey(player, &command);
 }
 
 /* Raises a number by some paces. */
@@ -240,9 +240,7 @@ static Status take_under_mouse(Player *player, const Under *under)
 static Status put_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_simulation(player);
-    Command command = {.kind = COMMAND_SET,
-                       .number = option_find("ball") - option_rows,
-                       .joins = true};
+    Command command = set_command(option_find("ball"), 0);
     double radius =
         fmax(simulation->options.side / 8, 0.7 * simulation->mesh.spacing);
     for (int i = 0; i < simulation->system.nodes; i++) {

@@ -86,6 +86,9 @@ void player_pause(Player *player);
  * that ends the run. */
 Status player_tolerate_failure(Player *player, Status status);
 
+/* Returns the command that gives an option a value, in the present gesture. */
+Command set_command(const OptionRow *row, double value);
+
 /* Put commands into the queue: one; a new value of an option, which joins the
  * present gesture; lines of a script with a ; between them, or NULL, likewise.
  * A command of a drag replaces the same one before it. */

@@ -234,12 +234,18 @@ void player_enqueue(Player *player, const Command *command)
         queue->command[queue->count++] = *command;
 }
 
+Command set_command(const OptionRow *row, double value)
+{
+    return (Command){.kind = COMMAND_SET,
+                     .number = row - option_rows,
+                     .x = value,
+                     .joins = true};
+}
+
 void player_enqueue_set(Player *player, const OptionRow *row, double value)
 {
-    player_enqueue(player, &(Command){.kind = COMMAND_SET,
-                                      .number = row - option_rows,
-                                      .x = value,
-                                      .joins = true});
+    const Command command = set_command(row, value);
+    player_enqueue(player, &command);
 }
 
 Status player_enqueue_lines(Player *player, const char *lines)

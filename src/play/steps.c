@@ -519,11 +519,9 @@ Status obey_next(Player *player, const Command *command)
 static bool has_updates(const Player *player)
 {
     bool any = false;
-    for (int p = 0; p < past_panes(&player->past); p++) {
-        const Simulation *simulation = &player->past.machine[p].simulation;
-        any = any || ((simulation->scene->needs & NEEDS_TIME) &&
-                      simulation->run[0].newton);
-    }
+    for (int p = 0; p < past_panes(&player->past); p++)
+        any =
+            any || simulation_has_updates(&player->past.machine[p].simulation);
     return any;
 }
 

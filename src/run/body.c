@@ -381,8 +381,8 @@ const char *body_needs_end_of_step(const Options *options)
 }
 
 /* Names an obstacle for a message: "the ball", or "ball 2" if there are
- * several. number  of the obstacle: grounds, balls, the ceiling, that of the
- * scene */
+ * several.
+ *   number  of the obstacle: grounds, balls, the ceiling, that of the scene */
 static void name_obstacle(const Options *options, int number, char *name,
                           size_t size)
 {

@@ -117,8 +117,8 @@ static void dissipated_so_far(const Simulation *simulation, double *out)
 }
 
 /* Books the energy that a changed stiffness or pin has added as work, so that
- * no other number of the ledger jumps. had  [runs] J, dissipated before the
- * change */
+ * no other number of the ledger jumps.
+ *   had  [runs] J, dissipated before the change */
 static void book_external_work(Simulation *simulation, const double *had)
 {
     for (int r = 0; r < simulation->runs; r++)

@@ -388,6 +388,11 @@ bool option_is_on(const OptionRow *row, const Options *options)
     return on;
 }
 
+const char *option_label(const OptionRow *row)
+{
+    return row->label ? row->label : row->name;
+}
+
 void option_unit(const OptionRow *row, char *text, size_t size)
 {
     int length = (int)strcspn(row->unit, " ^");

@@ -256,6 +256,11 @@ NewtonCounters simulation_counters(const Simulation *simulation)
     return sum;
 }
 
+bool simulation_has_updates(const Simulation *simulation)
+{
+    return simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
+}
+
 /* A projection needs springs, a method that uses their Hessian, and a scene
  * that shows the projection. */
 bool simulation_has_projection(const Simulation *simulation)

@@ -29,8 +29,9 @@ void direction_free_matrix(SearchDirection *search)
 /* A = the Hessian at x.  Pattern and symbolic analysis: once, and again only
  * when the system's pattern or the kind of factor is another, or x wants more.
  * Projection NONE: for a factor L D L^T, which allows negative eigenvalues;
- * ON_DEMAND: as it is, for one that does not. projected  out, blocks projected
- * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+ * ON_DEMAND: as it is, for one that does not.  Returns OK, TOO_LARGE,
+ * OUT_OF_MEMORY.
+ *   projected  out, blocks projected */
 static Status assemble(Newton *newton, Projection projection, int *projected)
 {
     SearchDirection *search = &newton->search;

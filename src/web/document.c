@@ -124,21 +124,22 @@ static void write_page(Writer *to, const Show *show)
 static void write_rows(Writer *to, const Show *show, int card,
                        const ListingRow *row)
 {
-    const LiveValues *values = &show_pane(show)->values;
-    const Trace *trace = show_pane(show)->update;
+    const Pane *pane = show_pane(show);
     for (; row->shown_if; row++) {
-        bool struck = text_has_line(values, row->struck_if);
-        bool reached =
-            trace && (trace->line == LINE_NONE || trace->line >= row->line);
-        bool lit = row->lit_if ? text_has_line(values, row->lit_if)
-                               : trace && trace->line == row->line;
-        TextLine value =
-            text_first_line(values, reached || struck ? row->value : NULL);
-        if (text_has_line(values, row->shown_if))
-            put(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, lit, struck,
-                row->indented, text_first_line(values, row->text).words,
-                value.words);
+        const ShownRow now = listing_show_row(pane, row);
+        if (text_has_line(&pane->values, row->shown_if))
+            put(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.lit, now.struck,
+                row->indented, now.text.words, now.value.words);
     }
+}
+
+/* The energies of the first run. */
+static void put_energies(Writer *to, const Simulation *simulation)
+{
+    const Energies energies = simulation_energies(simulation, 0);
+    for (int i = 0; i < energies.rows; i++)
+        put(to, "%s%s %s J", i ? ", " : "", energies.row[i].name,
+            format_number(energies.row[i].value).text);
 }
 
 /* What a graph of energies, or of the updates of a step, shows. */
@@ -147,10 +148,7 @@ static void put_graph(Writer *to, const Show *show, const char *name)
     const Pane *pane = show_pane(show);
     const Trace *trace = pane->update;
     if (strcmp(name, "energies") == 0 || strcmp(name, "budget") == 0) {
-        const Energies energies = simulation_energies(pane->simulation, 0);
-        for (int i = 0; i < energies.rows; i++)
-            put(to, "%s%s %s J", i ? ", " : "", energies.row[i].name,
-                format_number(energies.row[i].value).text);
+        put_energies(to, pane->simulation);
     } else if (trace && strstr("residual prints updates", name)) {
         for (int i = 0; i < trace->updates; i++)
             put(to, "%supdate %d: residual %s, step length %s", i ? "; " : "",
@@ -200,7 +198,7 @@ static void put_cards(Writer *to, const Show *show)
 /* Whether "Drag ..." of a text names an option, up to the end of the clause. */
 static bool is_tried(const char *text, const OptionRow *row)
 {
-    const char *name = row->label ? row->label : row->name;
+    const char *name = option_label(row);
     size_t length = strlen(name);
     for (; text && (text = strstr(text, "Drag ")); text++)
         for (const char *at = text; *at && !strchr(".;:", *at); at++)
@@ -226,8 +224,8 @@ static void put_numbers(Writer *to, const Player *player)
             shown = shown || player->screen.frame.number[k] == row[i];
         option_value(row[i], &now, value, sizeof value);
         option_unit(row[i], unit, sizeof unit);
-        put(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
-            row[i]->label ? row[i]->label : row[i]->name, value, unit);
+        put(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name, option_label(row[i]),
+            value, unit);
         bool named = row[i]->kind == OPTION_NAME;
         for (int k = 0; named && name_at(row[i]->names, k); k++)
             put(to, "%s%s", k ? "|" : "", name_at(row[i]->names, k));
@@ -256,19 +254,14 @@ static void put_exhibit(Writer *to, const Simulation *simulation)
 static void put_shape(Writer *to, const Pane *pane)
 {
     const Simulation *simulation = pane->simulation;
-    const double *x = pane_x(pane);
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    double at[2];
+    double box[4], at[2];
     int nodes = simulation->system.nodes;
-    for (int i = 0; i < 2 * nodes; i++) {
-        low[i & 1] = fmin(low[i & 1], x[i]);
-        high[i & 1] = fmax(high[i & 1], x[i]);
-    }
-    if (nodes > 1)
+    if (nodes > 1) {
+        pane_node_bounds(pane, 1, box);
         put(to, " %d masses, %d springs, %s m wide and %s m high.", nodes,
-            simulation->system.springs, format_number(high[0] - low[0]).text,
-            format_number(high[1] - low[1]).text);
-    else if (simulation_point(simulation, at) == 1)
+            simulation->system.springs, format_number(box[2] - box[0]).text,
+            format_number(box[3] - box[1]).text);
+    } else if (simulation_point(simulation, at) == 1)
         put(to, " The point is at %s.", format_digits(at[0], 4).text);
     else if (simulation_point(simulation, at) == 2)
         put(to, " The point is at (%s, %s).", format_digits(at[0], 4).text,
@@ -293,11 +286,8 @@ static void put_picture(Writer *to, const Player *player)
     }
     put(to, " %s, %s.", show->time_text, show->state);
     if (simulation->scene->needs & NEEDS_BODY) {
-        const Energies energies = simulation_energies(simulation, 0);
-        put(to, " Energies:");
-        for (int i = 0; i < energies.rows; i++)
-            put(to, "%s %s %s J", i ? "," : "", energies.row[i].name,
-                format_number(energies.row[i].value).text);
+        put(to, " Energies: ");
+        put_energies(to, simulation);
         put(to, ".");
     }
     put(to, "\n");
