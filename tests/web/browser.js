@@ -115,4 +115,21 @@ const launch = async () => {
   return { open, close };
 };
 
-module.exports = { launch, sleep, untilIn };
+// Prints ok or not ok for a promise, with what is wrong.
+let failed = 0;
+const verdict = (name, wrong) => {
+  const most = Number(process.env.MOST || 12);
+  console.log(wrong.length ? `not ok ${name}: ${wrong.slice(0, most).join('; ')}` : `ok ${name}`);
+  failed += wrong.length > 0;
+};
+
+// Makes the checks and ends with what they have found.
+const finish = (checks) =>
+  checks()
+    .then(() => process.exit(failed ? 1 : 0))
+    .catch((error) => {
+      console.log(`not ok ${error.stack}`);
+      process.exit(1);
+    });
+
+module.exports = { launch, sleep, untilIn, verdict, finish };

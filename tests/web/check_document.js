@@ -7,7 +7,7 @@ const { spawnSync } = require('child_process');
 const fs = require('fs');
 const os = require('os');
 const path = require('path');
-const { launch, sleep } = require('./browser.js');
+const { launch, sleep, verdict, finish } = require('./browser.js');
 const firefox = require('./firefox.js');
 
 const [elasto, page, axe] = process.argv.slice(2).map((name) => path.resolve(name));
@@ -15,16 +15,6 @@ const at = (line, query = '') => `file://${page}${query}#${line.replace(/ /g, '+
 const listed = (line) =>
   spawnSync(elasto, line.split(' '), { encoding: 'utf8' }).stdout.trim().split('\n');
 const PAGES = listed('--list --lecture').map((row) => row.trim().split(/\s+/)[1]);
-
-let failed = 0;
-const verdict = (name, wrong) => {
-  console.log(
-    wrong.length
-      ? `not ok ${name}: ${wrong.slice(0, Number(process.env.MOST || 12)).join('; ')}`
-      : `ok ${name}`,
-  );
-  failed += wrong.length > 0;
-};
 
 // Opens a page of the tour in a tab and waits until the document says so.
 const turnTo = async (tab, name) => {
@@ -344,7 +334,7 @@ const inFirefox = async () => {
   }
 };
 
-(async () => {
+finish(async () => {
   const only = process.env.ONLY;
   const checks = { sizes, tourByKeys, keysOfBrowser, history, frames, print, serious };
   if (!only || only === 'firefox') await inFirefox();
@@ -355,8 +345,4 @@ const inFirefox = async () => {
   } finally {
     await browser.close();
   }
-  process.exit(failed ? 1 : 0);
-})().catch((error) => {
-  console.log(`not ok ${error.stack}`);
-  process.exit(1);
 });

@@ -8,7 +8,7 @@ const crypto = require('crypto');
 const fs = require('fs');
 const os = require('os');
 const path = require('path');
-const { launch, sleep } = require('./browser.js');
+const { launch, sleep, verdict, finish } = require('./browser.js');
 const firefox = require('./firefox.js');
 
 const [elasto, page] = process.argv.slice(2).map((name) => path.resolve(name));
@@ -17,12 +17,6 @@ const at = (line) => `file://${page}#${line.replace(/ /g, '+')}`;
 const native = (line, more = {}) =>
   spawnSync(elasto, line.split(' '), { encoding: 'utf8', cwd: folder, ...more });
 const hashIn = (text) => (/state(?: hash)? +([0-9a-f]{16})/.exec(text) || [])[1];
-
-let failed = 0;
-const verdict = (name, wrong) => {
-  console.log(wrong.length ? `not ok ${name}: ${wrong.join('; ')}` : `ok ${name}`);
-  failed += wrong.length > 0;
-};
 
 // A line without a window, in a tab that is open already; its summary.
 const headless = async (tab, line) => {
@@ -355,7 +349,7 @@ const lacking = async (browser) => {
   );
 };
 
-(async () => {
+finish(async () => {
   const size = fs.statSync(page).size;
   verdict('the_page_has_at_most_1100_kB', size <= 1.1e6 ? [] : [`${size} bytes`]);
   if (spawnSync('firefox-esr', ['--version']).error)
@@ -372,8 +366,4 @@ const lacking = async (browser) => {
     await browser.close();
     fs.rmSync(folder, { recursive: true, force: true });
   }
-  process.exit(failed ? 1 : 0);
-})().catch((error) => {
-  console.log(`not ok ${error.stack}`);
-  process.exit(1);
 });
