@@ -15,8 +15,8 @@
 #include "base/status.h"
 
 enum {
-    OUTPUT_NAME = 4096 + 64,       /* bytes of a path */
-    OUTPUT_TOLD = OUTPUT_NAME + 64 /* bytes of a path and a reason */
+    OUTPUT_NAME = 4096 + 64,          /* bytes of a path */
+    OUTPUT_MESSAGE = OUTPUT_NAME + 64 /* bytes of a path and a reason */
 };
 
 /* A zeroed one is not open. */
@@ -24,7 +24,7 @@ typedef struct Output {
     FILE *file;                  /* NULL: not open */
     char name[OUTPUT_NAME];      /* as it was given, for messages */
     char temporary[OUTPUT_NAME]; /* NAME.part, or "": written directly */
-    char *told; /* [OUTPUT_TOLD] out, not owned: "NAME: why" of the first
+    char *message; /* [OUTPUT_MESSAGE] out, not owned: "NAME: why" of the first
                    failure; or NULL */
 } Output;
 
@@ -32,17 +32,17 @@ typedef struct Output {
  * or is removed. */
 typedef enum Keep { KEEP_WHOLE, KEEP_PART, KEEP_NOTHING } Keep;
 
-/* Opens it.  Returns OK, FILE_FAILED (told, and errno tells why). */
-Status output_open(const char *name, char *told, Output *output);
+/* Opens it.  Returns OK, FILE_FAILED (message, and errno tells why). */
+Status output_open(const char *name, char *message, Output *output);
 
 /* Flushes and closes a file if it is open; output->name stays.  Returns OK, or
  * FILE_FAILED and leaves NAME.part. */
 Status output_close(Output *output, Keep keep);
 
-/* Write "NAME: why" into `told` if it is empty.
+/* Write "NAME: why" into `message` if it is empty.
  *   why  NULL: the text of the status, after FILE_FAILED of errno
  * Return the status; the second one FILE_FAILED. */
-Status output_report(char *told, const char *name, Status status,
+Status output_report(char *message, const char *name, Status status,
                      const char *why);
 Status output_report_failure(const Output *output, const char *why);
 
@@ -75,13 +75,13 @@ typedef struct Table {
 void table_columns(Table *table, const char *names);
 
 /* Opens it, and writes the line of names.  Returns as output_open. */
-Status table_open(const char *name, char *told, Table *table);
+Status table_open(const char *name, char *message, Table *table);
 
 /* Adds a row, value [columns]; table_check reports failures. */
 void table_add(Table *table, const double *value);
 
-/* Returns FILE_FAILED (told) if a write has failed; OK also if the table is not
- * open. */
+/* Returns FILE_FAILED (message) if a write has failed; OK also if the table is
+ * not open. */
 Status table_check(const Table *table);
 
 #endif

@@ -1,5 +1,5 @@
 /* player.h - simulations that are played: stepped, drawn, recorded, gone back
- * in, and told what to do by keys, mouse and scripts.
+ * in, and ordered by keys, mouse and scripts.
  *
  *   keys, mouse, chips, scripts, pages  ->  Command      (hands.c, command.h)
  *   player_obey: the function of its kind                (obey.c)

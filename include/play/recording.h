@@ -39,10 +39,10 @@ typedef struct Film {
 
 /* Begins a film; the file begins with the first frame.
  *   name  in, its end says the kind
- *   told  as of output_open
+ *   message  as of output_open
  *   film  out; end it with film_close in any case
  * Returns OK, INVALID_INPUT (no such kind, or no ffmpeg), FILE_FAILED. */
-Status film_open(const char *name, char *told, Film *film);
+Status film_open(const char *name, char *message, Film *film);
 
 /* Adds a frame `shown` times.  Pixels beyond the size of the first frame are
  * cut off, missing ones are white.  Returns OK, FILE_FAILED. */
@@ -79,7 +79,7 @@ typedef struct Recording {
     Table table[RECORDING_TABLES]; /* the open ones are written */
     bool tables;                   /* a table is open */
     bool standard;                 /* a table goes to standard output */
-    char message[OUTPUT_TOLD];     /* the first failure, or "" */
+    char message[OUTPUT_MESSAGE];  /* the first failure, or "" */
 } Recording;
 
 /* Opens what options->frames, film and the tables ask for; makes the folders.
@@ -110,6 +110,6 @@ Status recording_close(Recording *recording, Keep keep);
 
 /* One picture as a PNG file, whole or not at all (output.h).
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
-Status png_file_write(const char *name, char *told, const Canvas *canvas);
+Status png_file_write(const char *name, char *message, const Canvas *canvas);
 
 #endif

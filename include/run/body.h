@@ -38,7 +38,7 @@ const char *body_needs_end_of_step(const Options *options);
 /* Checks that the body can start: obstacles make sense, no body overlaps an
  * obstacle or another body, no cell is turned over.
  * Returns OK, INVALID_INPUT with a message, OUT_OF_MEMORY. */
-Status body_check(const Options *options, Refusal told);
+Status body_check(const Options *options, Message message);
 
 /* Reads positions and velocities of a run from a table that --states wrote, or
  * which of its springs are broken and have flowed from one of --springs.
@@ -52,8 +52,8 @@ Status body_check(const Options *options, Refusal told);
  * cannot be read, or is about another number of nodes, springs or runs.  Of a
  * table with several panes the first one is read. */
 Status start_table_read(const char *name, double step, int nodes, int run,
-                        int runs, double *x, double *v, Refusal told);
+                        int runs, double *x, double *v, Message message);
 Status start_springs_read(const Options *options, int run, int runs,
-                          System *system, Refusal told);
+                          System *system, Message message);
 
 #endif

@@ -24,14 +24,14 @@ bool is_one_line(const char *text);
 void append(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Buffer for the message that says why an input is refused. */
-typedef struct Refusal {
-    char *message;
-    size_t size;
-} Refusal;
+/* Buffer for the message of a call that fails.  {0}: no message is written. */
+typedef struct Message {
+    char *text;
+    size_t size; /* bytes of text */
+} Message;
 
-/* Writes the message as one line.  Returns INVALID_INPUT. */
-Status refuse(Refusal told, const char *format, ...)
+/* Writes a message as one line.  Returns INVALID_INPUT. */
+Status refuse(Message message, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -149,7 +149,7 @@ enum { WORDS_MOST = 256 };
 /* A line while it is read. */
 typedef struct Line {
     Options *options; /* out */
-    Refusal told;     /* message about the first mistake */
+    Message message;  /* message about the first mistake */
     int words;
     Word word[WORDS_MOST];
 } Line;
@@ -365,7 +365,7 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
                            const char *text)
 {
     if (row->kind == OPTION_PAGE)
-        return refuse(line->told,
+        return refuse(line->message,
                       "--%s: there is no page '%.60s'%s; pages are 1 to %d, or "
                       "names: elasto --lecture --list",
                       row->name, text,
@@ -373,14 +373,15 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
                       lecture_count());
     const Gone *went = find_gone(row->name, text);
     if (went)
-        return refuse(line->told, "--%s: '%s' is gone: %s", row->name, text,
+        return refuse(line->message, "--%s: '%s' is gone: %s", row->name, text,
                       went->instead);
     if (row->kind == OPTION_NAME)
-        return refuse(line->told, "--%s: '%.60s' is none of: %s%s", row->name,
-                      text, list_text(row->names).text,
+        return refuse(line->message, "--%s: '%.60s' is none of: %s%s",
+                      row->name, text, list_text(row->names).text,
                       meant_value(row, text).text);
-    return refuse(line->told, "--%s: '%.60s' is not %s%s from %g to %g%s%s%s",
-                  row->name, text, count > 1 ? row->value : "",
+    return refuse(line->message,
+                  "--%s: '%.60s' is not %s%s from %g to %g%s%s%s", row->name,
+                  text, count > 1 ? row->value : "",
                   count > 1                    ? ", each"
                   : row->kind == OPTION_NUMBER ? "a number"
                                                : "a whole number",
@@ -404,7 +405,7 @@ static Status apply_numbers(const Line *line, const OptionRow *row,
                                  : !read_numbers(row, count, text, number))
         return refuse_value(line, row, count, text);
     if (row->times && *given >= row->times)
-        return refuse(line->told,
+        return refuse(line->message,
                       "--%s: '%.60s' is one too many; at most %d are possible",
                       row->name, text, row->times);
     if (row->times)
@@ -436,10 +437,10 @@ static Status apply_text(const Line *line, const OptionRow *row,
 {
     const char *other = row->table ? other_format(text) : NULL;
     if (!text[0])
-        return refuse(line->told, "--%s: the value is empty: --%s %s",
+        return refuse(line->message, "--%s: the value is empty: --%s %s",
                       row->name, row->name, row->value);
     if (other)
-        return refuse(line->told,
+        return refuse(line->message,
                       "--%s: '%.60s': tables are CSV, but %s is another "
                       "format; use .csv",
                       row->name, text, other);
@@ -479,8 +480,8 @@ static Status check_scene(const Line *line, const OptionRow *row)
                                                      : "minimum to find";
     return !row->needs || (row->needs & scene->needs)
                ? STATUS_OK
-               : refuse(line->told, "--%s: the scene '%s' has no %s", row->name,
-                        scene->name, lacks);
+               : refuse(line->message, "--%s: the scene '%s' has no %s",
+                        row->name, scene->name, lacks);
 }
 
 /* Checks that the integrator can do what the body asks for. */
@@ -490,7 +491,7 @@ static Status check_integrator(const Line *line)
     const IntegratorMethod *method = options_method(line->options);
     return !end || method->at_end
                ? STATUS_OK
-               : refuse(line->told,
+               : refuse(line->message,
                         "--integrator: '%s' has no %s; only backward-euler has",
                         method->name, end);
 }
@@ -502,17 +503,17 @@ static Status check_change(const Line *line, const OptionRow *row)
     bool begins = row->effect == EFFECT_START && (row->needs & NEEDS_SQUARE) &&
                   (options->scene->needs & NEEDS_BODY);
     Status status = check_integrator(line);
-    return status || !begins ? status : body_check(options, line->told);
+    return status || !begins ? status : body_check(options, line->message);
 }
 
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size)
 {
-    const Line line = {.options = options, .told = {message, size}};
+    const Line line = {.options = options, .message = {message, size}};
     const OptionRow *row = option_find(name);
     if (!row || row->kind == OPTION_SWITCH)
-        return refuse(line.told, "there is no option '%.60s' that has a value",
-                      name);
+        return refuse(line.message,
+                      "there is no option '%.60s' that has a value", name);
     if (check_scene(&line, row) || apply(&line, row, value))
         return STATUS_INVALID_INPUT;
     return check_change(&line, row);
@@ -521,7 +522,7 @@ Status options_set(Options *options, const char *name, const char *value,
 Status options_put(Options *options, const OptionRow *row, double value,
                    char *message, size_t size)
 {
-    const Line line = {.options = options, .told = {message, size}};
+    const Line line = {.options = options, .message = {message, size}};
     char text[32] = "";
     if (row->kind == OPTION_NAME) /* -1, the scene's own choice: the first */
         value = fmax(value, 0);
@@ -559,7 +560,7 @@ static Status refuse_unknown(const Line *line, const char *what,
                              const char *word, Text hint, const char *look)
 {
     int length = (int)fmin(strcspn(word, "="), 60);
-    return refuse(line->told, "%s '%.*s'%s", what, length, word,
+    return refuse(line->message, "%s '%.*s'%s", what, length, word,
                   hint.text[0] ? hint.text : look);
 }
 
@@ -577,7 +578,7 @@ static const OptionRow *find_option(const Line *line, const char *word)
     const Gone *went = dashes == 2 ? find_gone(name, "") : NULL;
     const Word *before = line->words > 0 ? &line->word[line->words - 1] : NULL;
     if (went)
-        refuse(line->told, "--%s is gone: %s", name, went->instead);
+        refuse(line->message, "--%s is gone: %s", name, went->instead);
     else if (!found)
         refuse_unknown(line, "there is no option", word,
                        isdigit((unsigned char)name[0])
@@ -594,7 +595,7 @@ static Status read_words(int argc, char **argv, Line *line)
         const char *next = i < argc ? argv[i] : "--";
         Word word = {NULL, text, NULL, ""};
         if (line->words == WORDS_MOST)
-            return refuse(line->told, "'%.60s': more than %d words", text,
+            return refuse(line->message, "'%.60s': more than %d words", text,
                           WORDS_MOST);
         if (text[0] == '-' && text[1]) {
             const OptionRow *row = word.row = find_option(line, text);
@@ -604,11 +605,12 @@ static Status read_words(int argc, char **argv, Line *line)
             bool bare = row->kind == OPTION_PAGE && next[0] == '-';
             bool follows = !equals && !alone && !bare;
             if (equals && alone)
-                return refuse(line->told, "%s: --%s takes no value", text,
+                return refuse(line->message, "%s: --%s takes no value", text,
                               row->name);
             if (follows && strncmp(next, "--", 2) == 0)
-                return refuse(line->told, "--%s: the value is missing: --%s %s",
-                              row->name, row->name, row->value);
+                return refuse(line->message,
+                              "--%s: the value is missing: --%s %s", row->name,
+                              row->name, row->value);
             word.text = equals ? equals + 1 : follows ? next : "";
             i += follows;
         }
@@ -666,13 +668,13 @@ static Status check_words(Line *line)
         const Word *word = &line->word[i], *last = given(line, word->row);
         const OptionRow *row = word->row;
         if (row && row->kind == OPTION_TEXT && last != word)
-            return refuse(line->told,
+            return refuse(line->message,
                           "--%s: '%.60s' and '%.60s': only one can be given",
                           row->name, word->text, last->text);
         if (row && row->kind == OPTION_PAGE && apply(line, row, word->text))
             return STATUS_INVALID_INPUT;
         if (!row && options->scene)
-            return refuse(line->told,
+            return refuse(line->message,
                           "'%.60s': only one scene can be given, and '%s' is "
                           "one%s",
                           word->text, options->scene->name,
@@ -681,7 +683,7 @@ static Status check_words(Line *line)
             return refuse_scene(line, word);
     }
     if (options->scene && options->page)
-        return refuse(line->told,
+        return refuse(line->message,
                       "--lecture: each page has its own scene; leave '%s' out",
                       options->scene->name);
     if (!options->scene)
@@ -695,10 +697,10 @@ static Status begin_options(Line *line)
 {
     Options *options = line->options;
     char copy[512];
-    Line own = {options, line->told, 0, {{0}}};
+    Line own = {options, line->message, 0, {{0}}};
     if (options->page)
-        return lecture_options(options->page, options, line->told.message,
-                               line->told.size);
+        return lecture_options(options->page, options, line->message.text,
+                               line->message.size);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->standard != 0)
             options->number[row->slot] = row->standard;
@@ -730,7 +732,7 @@ static Status pick_values(Line *line, int pane)
             continue;
         line->options->panes *= count;
         if (line->options->panes > most)
-            return refuse(line->told,
+            return refuse(line->message,
                           "--%s: '%.60s' makes more than %d side by side%s",
                           row->name, text, most,
                           drawn ? "; with --headless, where nothing is drawn, "
@@ -757,7 +759,7 @@ static Status check_pins(const Line *line, const SquareMesh *shape)
         snprintf(part, sizeof part, "%.*s", (int)length, at);
         const char *colon = strchr(part, ':');
         if (pins_read(part, shape, NULL))
-            return refuse(line->told,
+            return refuse(line->message,
                           "--pin: '%s' is no node from 0 to %d, and none "
                           "of: " PINS_WORDS "%s",
                           part, shape->nodes - 1,
@@ -784,12 +786,12 @@ static Status check_effects(Line *line)
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
         if (row && row->idle && row->idle(options))
-            return refuse(line->told, "--%s: %s", row->name,
+            return refuse(line->message, "--%s: %s", row->name,
                           row->idle(options));
     }
     for (int i = 0; fixed && explicit && minimising[i]; i++)
         if (given(line, option_find(minimising[i])))
-            return refuse(line->told,
+            return refuse(line->message,
                           "--%s: '%s' minimises nothing; choose an implicit "
                           "--integrator such as backward-euler",
                           minimising[i], method->name);
@@ -810,14 +812,14 @@ static Status check_body(Line *line)
         options->cells = 0; /* triangles do not turn over anyway */
     if (options->material != 0 &&
         (options->yield > 0 || options->tear > 0 || options->damping > 0))
-        return refuse(line->told,
+        return refuse(line->message,
                       "--material: the scene '%s' is about springs; triangles "
                       "do not yield or tear, and have no damping",
                       options->scene->name);
     if ((options->cells || options->material != 0 || options->self_contact) &&
         !given(line, option_find("projection")))
         options->projection = PROJECTION_ON_DEMAND;
-    return body_check(options, line->told);
+    return body_check(options, line->message);
 }
 
 /* Puts the words of a line into the options of a pane. */
@@ -829,7 +831,7 @@ static Status apply_words(Line *line, int pane)
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
         if (row && line->options->page && row->needs)
-            return refuse(line->told,
+            return refuse(line->message,
                           "--%s: a page of --lecture has its own value; change "
                           "it in the window, or leave --lecture out",
                           row->name);

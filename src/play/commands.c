@@ -160,10 +160,10 @@ Status command_parse(const char *line, Command *command, char *message,
                                     strcmp(command_rows[kind].word, word) != 0))
         kind++;
     if (strcmp(word, "box") == 0)
-        return refuse((Refusal){message, size},
+        return refuse((Message){message, size},
                       "'box' is gone: place puts one node somewhere");
     if (kind == COMMAND_KINDS)
-        return refuse((Refusal){message, size},
+        return refuse((Message){message, size},
                       "there is no command '%.20s': elasto --help commands",
                       word);
     command->kind = (CommandKind)kind;
@@ -173,7 +173,7 @@ Status command_parse(const char *line, Command *command, char *message,
         good = good && take_word(&line, next) && read_word(next, at, command);
     if (good && line[strspn(line, blanks)] == '\0')
         return STATUS_OK;
-    return refuse((Refusal){message, size}, "write it as '%s%s%s'", word,
+    return refuse((Message){message, size}, "write it as '%s%s%s'", word,
                   takes ? " " : "", takes ? takes : "");
 }
 
@@ -222,7 +222,7 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
 {
     char *text = NULL, why[600] = "", shown[80];
     size_t room = 0;
-    const Refusal told = {message, size};
+    const Message problem = {message, size};
     *script = (Script){0};
     if (!name)
         return STATUS_OK;
@@ -240,7 +240,7 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
         long step = strtol(line, &end, 10);
         if (!isdigit((unsigned char)*line) || errno ||
             !isspace((unsigned char)*end))
-            status = refuse((Refusal){why, sizeof why},
+            status = refuse((Message){why, sizeof why},
                             "write STEP COMMAND, such as 40 grab 12");
         else
             status = command_parse(end, &command, why, sizeof why);
@@ -248,9 +248,9 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
             status = script_add(script, step, &command, 0);
     }
     if (!file || (!status && !feof(file)))
-        status = refuse(told, "--script: %s: %s", shown, strerror(errno));
+        status = refuse(problem, "--script: %s: %s", shown, strerror(errno));
     else if (status == STATUS_INVALID_INPUT)
-        refuse(told, "--script: %s, line %ld: %s", shown, number, why);
+        refuse(problem, "--script: %s, line %ld: %s", shown, number, why);
     free(text);
     if (file)
         fclose(file);

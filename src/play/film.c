@@ -25,7 +25,7 @@ static const struct FilmKind {
     {NULL, 0, NULL},
 };
 
-Status film_open(const char *name, char *told, Film *film)
+Status film_open(const char *name, char *message, Film *film)
 {
     const char *end = strrchr(name, '.'), *why = NULL;
     *film = (Film){.kind = film_kinds};
@@ -37,14 +37,14 @@ Status film_open(const char *name, char *told, Film *film)
     else if (system("command -v ffmpeg >/dev/null 2>&1") != 0)
         why = "a film needs the program ffmpeg: apt-get install ffmpeg; "
               "--frames DIR needs nothing";
-    else if (output_open(name, told, &film->output))
+    else if (output_open(name, message, &film->output))
         return STATUS_FILE_FAILED;
     else if (!film->output.temporary[0])
         why = "a film is a regular file";
     if (!why)
         return STATUS_OK;
     output_close(&film->output, KEEP_NOTHING);
-    return output_report(told, name, STATUS_INVALID_INPUT, why);
+    return output_report(message, name, STATUS_INVALID_INPUT, why);
 }
 
 /* Starts ffmpeg with the first frame, whose size the film has.  Its messages

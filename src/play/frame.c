@@ -88,8 +88,8 @@ static void fill_settings(const Player *player, Frame *frame)
         setting->changed = strcmp(now, start) != 0;
         const char *idle = player_idle_reason(player, row);
         setting->off = strcmp(setting->value, "none") == 0 || idle;
-        bool told = over ? i == mouse->index : row == player->hands.lit;
-        if (told && (idle || row->help[0]))
+        bool is_explained = over ? i == mouse->index : row == player->hands.lit;
+        if (is_explained && (idle || row->help[0]))
             snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
                      idle ? idle : row->help);
         if (row == player->hands.lit)
@@ -374,7 +374,7 @@ void player_fill(Player *player)
 
 Paper *player_paper(Player *player)
 {
-    static bool told;
+    static bool is_warned; /* stderr has the warning about the font */
     const char *font = getenv("ELASTO_FONT"); /* "": no words */
     Paper *paper = &player->screen.paper;
     const Canvas *canvas = &paper->canvas;
@@ -393,10 +393,10 @@ Paper *player_paper(Player *player)
         return NULL;
     }
     player->screen.frame.show.text = paper->text;
-    if (!paper->text && !told && (!font || font[0])) {
+    if (!paper->text && !is_warned && (!font || font[0])) {
         fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
                         "no words (ELASTO_FONT=FILE.ttf names another font)\n");
-        told = true;
+        is_warned = true;
     }
     return paper;
 }

@@ -50,20 +50,20 @@ Status obey_shot(Player *player, const Command *command)
 /* Begins a film of all frames, or ends it. */
 Status obey_film(Player *player, const Command *command)
 {
-    char name[80], told[OUTPUT_TOLD] = "";
+    char name[80], message[OUTPUT_MESSAGE] = "";
     Film *film = &player->recording.film;
     bool ends = film_runs(film);
     if (!player->screen.draws)
         return player_refuse(player, "nothing is drawn that could be filmed");
     free_name(player, ".mp4", name, sizeof name);
-    film->output.told = told;
+    film->output.message = message;
     Status status =
-        ends ? film_close(film, KEEP_WHOLE) : film_open(name, told, film);
-    film->output.told = player->recording.message;
+        ends ? film_close(film, KEEP_WHOLE) : film_open(name, message, film);
+    film->output.message = player->recording.message;
     player->screen.sampled =
         -1; /* the present frame is the first, or drawn again */
     if (status)
-        player_note(player, "no film: %s", told);
+        player_note(player, "no film: %s", message);
     else if (ends)
         player_note(player, "film ends: %ld frames, in %s", film->frames,
                     film->output.name);

@@ -18,28 +18,29 @@ const char *output_reason(Status status)
                                         : strerror(errno ? errno : EIO);
 }
 
-Status output_report(char *told, const char *name, Status status,
+Status output_report(char *message, const char *name, Status status,
                      const char *why)
 {
-    if (told && !told[0])
-        snprintf(told, OUTPUT_TOLD, "%s: %s", name,
+    if (message && !message[0])
+        snprintf(message, OUTPUT_MESSAGE, "%s: %s", name,
                  why ? why : output_reason(status));
     return status;
 }
 
 Status output_report_failure(const Output *output, const char *why)
 {
-    return output_report(output->told, output->name, STATUS_FILE_FAILED, why);
+    return output_report(output->message, output->name, STATUS_FILE_FAILED,
+                         why);
 }
 
 /* ---- files --------------------------------------------------------------- */
 
-Status output_open(const char *name, char *told, Output *output)
+Status output_open(const char *name, char *message, Output *output)
 {
     struct stat info;
     bool standard = output_is_standard(name);
     bool exists = !standard && stat(name, &info) == 0;
-    *output = (Output){.told = told};
+    *output = (Output){.message = message};
     snprintf(output->name, sizeof output->name, "%s",
              standard ? "standard output" : name);
     if (standard)
@@ -91,9 +92,9 @@ void table_columns(Table *table, const char *names)
     }
 }
 
-Status table_open(const char *name, char *told, Table *table)
+Status table_open(const char *name, char *message, Table *table)
 {
-    Status status = output_open(name, told, &table->output);
+    Status status = output_open(name, message, &table->output);
     if (status)
         return status;
     for (int c = 0; c < table->columns; c++)

@@ -74,7 +74,7 @@ void player_note(Player *player, const char *format, ...);
 
 /* Refuses a command with a formatted reason.  Returns INVALID_INPUT. */
 #define player_refuse(player, ...)                                             \
-    refuse((Refusal){(player)->message, sizeof(player)->message}, __VA_ARGS__)
+    refuse((Message){(player)->message, sizeof(player)->message}, __VA_ARGS__)
 
 /* Shows the reason of INVALID_INPUT as a message; returns any other status. */
 Status player_report(Player *player, Status status);

@@ -279,14 +279,14 @@ static const char *file_of(const Options *options, const OptionRow *row)
 }
 
 /* Refuses one file for two options, since one would replace the other. */
-static Status check_files(const Options *options, Refusal told)
+static Status check_files(const Options *options, Message message)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
         for (const OptionRow *other = option_rows; other < row; other++) {
             const char *one = file_of(options, other);
             const char *two = file_of(options, row);
             if (one && two && is_one_file(one, two))
-                return refuse(told,
+                return refuse(message,
                               "--%s and --%s are one file, '%.200s': "
                               "each needs a name of its own",
                               other->name, row->name, one);
@@ -315,7 +315,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
                   Player *player)
 {
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
-    char message[OUTPUT_TOLD] = "";
+    char message[OUTPUT_MESSAGE] = "";
     *player = (Player){0};
     if (argc == 3 && strcmp(argv[1], "--help") == 0 &&
         strcmp(argv[2], "commands") == 0) {
@@ -334,7 +334,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
-    if (check_files(options, (Refusal){message, sizeof message}))
+    if (check_files(options, (Message){message, sizeof message}))
         return print_error(EXIT_MISUSED, "%s", message);
     print_forgotten(options);
     Status status = player_create(options, options->panes, argv, stop, player);

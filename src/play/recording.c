@@ -125,16 +125,16 @@ static Status png_write(FILE *file, const Canvas *canvas)
                              : STATUS_FILE_FAILED;
 }
 
-Status png_file_write(const char *name, char *told, const Canvas *canvas)
+Status png_file_write(const char *name, char *message, const Canvas *canvas)
 {
     Output output;
-    Status status = output_open(name, told, &output);
+    Status status = output_open(name, message, &output);
     if (status)
         return status;
     status = png_write(output.file, canvas);
     if (!status)
         return output_close(&output, KEEP_WHOLE);
-    output_report(told, name, status, NULL);
+    output_report(message, name, status, NULL);
     output_close(&output, KEEP_PART);
     return status;
 }
@@ -203,14 +203,14 @@ Status recording_open(const Options *options, int panes, Recording *recording)
 {
     const char *folder = options->frames;
     *recording = (Recording){.folder = folder, .panes = panes};
-    char *told = recording->message;
+    char *message = recording->message;
     Status status = STATUS_OK;
     if (folder && mkdir(folder, 0777) && errno != EEXIST)
-        status = output_report(told, folder, STATUS_FILE_FAILED, NULL);
+        status = output_report(message, folder, STATUS_FILE_FAILED, NULL);
     if (!status && folder)
         find_older(recording);
     if (!status && options->film)
-        status = film_open(options->film, told, &recording->film);
+        status = film_open(options->film, message, &recording->film);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
         status = open_table(options, recording, t);
     return status;

@@ -63,8 +63,8 @@ static Status clear_start(Player *player, int pane, Options *options)
     Options began = past_start(&player->past, pane)->options;
     Options kept = *options;
     int count = (int)(options->grounds + options->balls);
-    Refusal told = {player->message, sizeof player->message};
-    if (!(options->scene->needs & NEEDS_BODY) || !body_check(options, told))
+    Message message = {player->message, sizeof player->message};
+    if (!(options->scene->needs & NEEDS_BODY) || !body_check(options, message))
         return STATUS_OK;
     if (began.grounds != options->grounds || began.balls != options->balls)
         return STATUS_INVALID_INPUT;
@@ -73,11 +73,11 @@ static Status clear_start(Player *player, int pane, Options *options)
     for (int k = 0; k < count; k++) {
         double *at = obstacle_at(&kept, k);
         memcpy(at, obstacle_at(options, k), sizeof began.at);
-        if (body_check(&kept, told))
+        if (body_check(&kept, message))
             memcpy(at, obstacle_at(&began, k), sizeof began.at);
     }
     *options = kept;
-    return body_check(options, told);
+    return body_check(options, message);
 }
 
 Status player_restore_pins(Player *player, const Control *before)

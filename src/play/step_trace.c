@@ -306,17 +306,17 @@ const double *step_trace_at(const StepTrace *kept, int place, Trace *trace)
     const TracePlace at =
         over ? (TracePlace){count, LINE_END, 0} : kept->place[place];
     bool end = at.line == LINE_END;
-    TracePlace told = at;
+    TracePlace shown = at;
     if (end && count > 0) /* the last round has led there */
-        told = (TracePlace){count - 1, LINE_END, last->trials};
+        shown = (TracePlace){count - 1, LINE_END, last->trials};
     *trace = kept->start;
     trace->line = over ? LINE_NONE : at.line;
-    trace->iteration = told.round;
+    trace->iteration = shown.round;
     trace->updates = at.round;
     trace->record = row;
     trace->x_tilde = kept->x_tilde;
-    if (at.line != LINE_START && told.round < count)
-        trace_round(kept, &told, trace);
+    if (at.line != LINE_START && shown.round < count)
+        trace_round(kept, &shown, trace);
     trace->given_up =
         given_up && (end || (at.line == LINE_SEARCH && at.round == count - 1 &&
                              at.trials == last->trials && last->alpha == 0));

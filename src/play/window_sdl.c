@@ -182,7 +182,7 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
     bool letter = key >= SDLK_a && key <= SDLK_z;
     bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
     bool down = event->state == SDL_PRESSED, is_tab = key == SDLK_TAB;
-    bool told = is_tab ? tab && !down : down;
+    bool is_command = is_tab ? tab && !down : down;
     if (is_tab)
         tab_held = down;
     if ((mod & (KMOD_ALT | KMOD_GUI)) || (typed && !(mod & KMOD_CTRL)) ||
@@ -190,7 +190,7 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
         return;
     if (down || is_tab)
         tab = down && is_tab;
-    if (!told)
+    if (!is_command)
         return;
     input->kind = INPUT_KEY;
     input->repeats = event->repeat != 0;

@@ -144,10 +144,10 @@ void window_wait(int milliseconds)
 
 /* ---- films --------------------------------------------------------------- */
 
-Status film_open(const char *name, char *told, Film *film)
+Status film_open(const char *name, char *message, Film *film)
 {
     *film = (Film){0};
-    return output_report(told, name, STATUS_INVALID_INPUT,
+    return output_report(message, name, STATUS_INVALID_INPUT,
                          "a page makes no films; the program does");
 }
 

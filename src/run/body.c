@@ -269,7 +269,7 @@ static int count_runs(const Options *options)
  * scene's ball starts where the scene has it.
  *   x, v  [2 nodes] out, m, m/s */
 static Status place_body(const Options *options, int run, double *x, double *v,
-                         Refusal told)
+                         Message message)
 {
     const SquareMesh shape = body_shape(options);
     const double *at = options->at, *speed = options->velocity;
@@ -279,7 +279,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
     if (options->state)
         return start_table_read(options->state, options->state_step,
                                 shape.nodes + (ball >= 0), run,
-                                count_runs(options), x, v, told);
+                                count_runs(options), x, v, message);
     for (int i = 0; i < shape.nodes; i++) {
         double rest[2];
         int node = i, body = square_mesh_locate_body(&shape, &node);
@@ -317,7 +317,7 @@ static Options options_of_run(const Simulation *simulation, int run,
  *   system  out; free it in any case
  *   x       out, [2 nodes] m, followed by v [2 nodes] m/s; NULL: no memory */
 static Status build_body(const Options *options, int run, System *system,
-                         double **x, Refusal told)
+                         double **x, Message message)
 {
     Status status = create_system(options, system);
     size_t size = 2 * (size_t)system->nodes;
@@ -326,11 +326,11 @@ static Status build_body(const Options *options, int run, System *system,
     *x = status ? NULL : malloc(2 * size * sizeof **x);
     if (status || !*x)
         return status ? status : STATUS_OUT_OF_MEMORY;
-    status = place_body(options, run, *x, *x + size, told);
+    status = place_body(options, run, *x, *x + size, message);
     return status || !options->state_springs
                ? status
                : start_springs_read(options, run, count_runs(options), system,
-                                    told);
+                                    message);
 }
 
 /* Pinned nodes start with velocity 0. */
@@ -340,7 +340,7 @@ Status body_create(Simulation *simulation, int run)
         options_of_run(simulation, run, &simulation->options);
     System *system = run ? &simulation->more[run] : &simulation->system;
     double *x;
-    Status status = build_body(&options, run, system, &x, (Refusal){0});
+    Status status = build_body(&options, run, system, &x, (Message){0});
     simulation->mesh = body_shape(&options);
     if (!status) {
         double *v = x + 2 * (size_t)system->nodes;
@@ -406,16 +406,17 @@ static void name_obstacle(const Options *options, int number, char *name,
 /* Refuses an obstacle whose gap to a body, m, is not above 0; NaN: a ball
  * inside the body. */
 static Status refuse_place(const Options *options, int number, double gap,
-                           Refusal told)
+                           Message message)
 {
     bool square = options->bodies <= 1 && options->scene->body.aspect == 0;
     const char *body = square ? "the square" : "a body";
     char name[32];
     name_obstacle(options, number, name, sizeof name);
     if (gap < 0)
-        return refuse(told, "%s would overlap %s by %.3g m; move one of them",
-                      name, body, -gap);
-    return refuse(told, "%s would %s %s; move one of them", name,
+        return refuse(message,
+                      "%s would overlap %s by %.3g m; move one of them", name,
+                      body, -gap);
+    return refuse(message, "%s would %s %s; move one of them", name,
                   gap == 0 ? "touch" : "be inside", body);
 }
 
@@ -424,7 +425,7 @@ static Status refuse_place(const Options *options, int number, double gap,
  *   apart  m, smallest gap to the obstacle `number`; to others it is 0 */
 static Status check_places(const Options *options, const System *system,
                            const double *x, double apart, int number,
-                           Refusal told)
+                           Message message)
 {
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
     for (int t = 0; t < system->terms; t++) {
@@ -439,8 +440,8 @@ static Status check_places(const Options *options, const System *system,
                 continue;
             return kind == &contact_energy
                        ? refuse_place(options, element->source, element->s,
-                                      told)
-                       : refuse(told,
+                                      message)
+                       : refuse(message,
                                 "the cell at node %d would be turned over at "
                                 "the start: its area would be %.3g of that at "
                                 "rest; choose another --stretch",
@@ -451,26 +452,27 @@ static Status check_places(const Options *options, const System *system,
 }
 
 /* Checks that the obstacles of the options make sense. */
-static Status check_numbers(const Options *options, Refusal told)
+static Status check_numbers(const Options *options, Message message)
 {
     const double *ceiling = options->ceiling;
     for (int i = 0; i < options->grounds; i++)
         if (options->ground[i][0] == 0 && options->ground[i][1] == 0)
-            return refuse(told, "--ground: the normal NX,NY is 0,0; 0,1 points "
-                                "upwards");
+            return refuse(message,
+                          "--ground: the normal NX,NY is 0,0; 0,1 points "
+                          "upwards");
     if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2])))
-        return refuse(told,
+        return refuse(message,
                       "--ceiling: V is %g; the ceiling moves down, so V must "
                       "be below 0",
                       ceiling[1]);
     if (ceiling[2] > ceiling[0])
-        return refuse(told,
+        return refuse(message,
                       "--ceiling: STOP is %g; the ceiling moves down, so STOP "
                       "must be at most Y",
                       ceiling[2]);
     for (int i = 0; i < options->balls; i++)
         if (!(options->ball[i][2] > 0))
-            return refuse(told,
+            return refuse(message,
                           "--ball: the radius R is %g; it must be above 0",
                           options->ball[i][2]);
     return STATUS_OK;
@@ -486,12 +488,13 @@ static double side_of(const double *a, const double *b, const double *p)
 /* Checks that no ball is inside a cell.  Contact looks at nodes only, and a
  * small ball may have none near it. */
 static Status check_balls(const Options *options, const SquareMesh *mesh,
-                          const double *x, Refusal told)
+                          const double *x, Message message)
 {
     for (int k = 0; k < options->balls; k++)
         if (square_mesh_find_cell(mesh, x, options->ball[k], 0, mesh->cells) >=
             0)
-            return refuse_place(options, (int)options->grounds + k, NAN, told);
+            return refuse_place(options, (int)options->grounds + k, NAN,
+                                message);
     return STATUS_OK;
 }
 
@@ -499,9 +502,9 @@ static Status check_balls(const Options *options, const SquareMesh *mesh,
  *   apart  smallest gap to the obstacle `number`, as a part of the barrier's
  *          width; to others it is 0 */
 static Status check_room(const Simulation *simulation, const Options *options,
-                         double apart, int number, Refusal told)
+                         double apart, int number, Message message)
 {
-    Status status = check_numbers(options, told);
+    Status status = check_numbers(options, message);
     for (int run = 0; run < simulation->runs && !status; run++) {
         const Options its = options_of_run(simulation, run, options);
         System system = *simulation->run[run].system;
@@ -513,17 +516,17 @@ static Status check_room(const Simulation *simulation, const Options *options,
         system.terms = 1;
         system.term[0] = (Term){&contact_energy, &contact};
         status = check_places(&its, &system, simulation->run[run].x,
-                              apart * contact.barrier.d_hat, number, told);
+                              apart * contact.barrier.d_hat, number, message);
     }
     return status ? status
                   : check_balls(options, &simulation->mesh,
-                                simulation->run[0].x, told);
+                                simulation->run[0].x, message);
 }
 
 Status simulation_has_room(const Simulation *simulation, const Options *options,
                            char *message, size_t size)
 {
-    return check_room(simulation, options, 0, -1, (Refusal){message, size});
+    return check_room(simulation, options, 0, -1, (Message){message, size});
 }
 
 double simulation_free_way(const Simulation *simulation, const Options *options,
@@ -535,13 +538,13 @@ double simulation_free_way(const Simulation *simulation, const Options *options,
     double *at = obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
     memcpy(at, to, sizeof from);
-    if (!check_room(simulation, &moved, 0, -1, (Refusal){0}))
+    if (!check_room(simulation, &moved, 0, -1, (Message){0}))
         return 1;
     double step = 0.5;
     for (int i = 0; i < HALVINGS; i++, step /= 2) {
         for (int c = 0; c < 2; c++)
             at[c] = from[c] + (free + step) * (to[c] - from[c]);
-        if (!check_room(simulation, &moved, APART, number, (Refusal){0}))
+        if (!check_room(simulation, &moved, APART, number, (Message){0}))
             free += step;
     }
     return free;
@@ -563,7 +566,7 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
 /* Checks that no body is inside another one.  The outlines do not cross, so one
  * node of each body is enough. */
 static Status check_inside(const Options *options, const SquareMesh *shape,
-                           const double *x, Refusal told)
+                           const double *x, Message message)
 {
     int cells = shape->cells / shape->bodies;
     int nodes = shape->nodes / shape->bodies;
@@ -572,7 +575,7 @@ static Status check_inside(const Options *options, const SquareMesh *shape,
             if (inner != outer &&
                 square_mesh_find_cell(shape, x, x + 2 * inner * nodes,
                                       outer * cells, (outer + 1) * cells) >= 0)
-                return refuse(told,
+                return refuse(message,
                               "--body: body %d would be inside body %d; move "
                               "one of them, or --self-contact off",
                               inner + 1, outer + 1);
@@ -581,7 +584,7 @@ static Status check_inside(const Options *options, const SquareMesh *shape,
 
 /* Checks that the outlines of bodies do not cross each other or themselves. */
 static Status check_overlap(const Options *options, const double *x,
-                            Refusal told)
+                            Message message)
 {
     const SquareMesh shape = body_shape(options);
     int edge[2], other[2];
@@ -594,38 +597,38 @@ static Status check_overlap(const Options *options, const double *x,
                 continue;
             int a = square_mesh_locate_body(&shape, &other[0]) + 1;
             int b = square_mesh_locate_body(&shape, &edge[0]) + 1;
-            return a == b ? refuse(told,
+            return a == b ? refuse(message,
                                    "--self-contact: body %d would cross itself "
                                    "at the start; --self-contact off allows it",
                                    a)
-                          : refuse(told,
+                          : refuse(message,
                                    "--body: bodies %d and %d would overlap at "
                                    "the start; move one of them, or "
                                    "--self-contact off",
                                    a, b);
         }
     }
-    return check_inside(options, &shape, x, told);
+    return check_inside(options, &shape, x, message);
 }
 
-Status body_check(const Options *options, Refusal told)
+Status body_check(const Options *options, Message message)
 {
     Obstacle list[CONTACT_MAX_OBSTACLES];
-    Status status = check_numbers(options, told);
+    Status status = check_numbers(options, message);
     if (status ||
         (list_obstacles(options, list) == 0 && !options->cells &&
          !options->state && options->material == 0 && !options->self_contact))
         return status;
     System system = {0};
     double *x = NULL;
-    status = build_body(options, 0, &system, &x, told);
+    status = build_body(options, 0, &system, &x, message);
     if (!status)
-        status = check_overlap(options, x, told);
+        status = check_overlap(options, x, message);
     if (!status)
-        status = check_places(options, &system, x, 0, -1, told);
+        status = check_places(options, &system, x, 0, -1, message);
     if (!status) {
         const SquareMesh shape = body_shape(options);
-        status = check_balls(options, &shape, x, told);
+        status = check_balls(options, &shape, x, message);
     }
     free(x);
     system_free(&system);

@@ -97,13 +97,13 @@ void append(char *text, size_t size, const char *format, ...)
     va_end(arguments);
 }
 
-Status refuse(Refusal told, const char *format, ...)
+Status refuse(Message message, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(told.message, told.size, format, arguments);
+    vsnprintf(message.text, message.size, format, arguments);
     va_end(arguments);
-    if (told.size > 0)
-        one_line(told.message, told.message, told.size);
+    if (message.size > 0)
+        one_line(message.text, message.text, message.size);
     return STATUS_INVALID_INPUT;
 }

@@ -195,7 +195,7 @@ static void read_rows(Reader *reader, const Part *part, TakeRow *take,
 }
 
 static Status read_part(const Part *part, const char *const *names,
-                        TakeRow *take, void *into, Refusal told)
+                        TakeRow *take, void *into, Message message)
 {
     Reader reader = {.file = fopen(part->name, "r"), .names = names};
     errno = reader.file ? 0 : errno;
@@ -208,7 +208,7 @@ static Status read_part(const Part *part, const char *const *names,
     free(reader.text);
     if (reader.file)
         fclose(reader.file);
-    return reader.why[0] ? refuse(told, "--%s '%.60s': %s", part->option,
+    return reader.why[0] ? refuse(message, "--%s '%.60s': %s", part->option,
                                   part->name, reader.why)
                          : STATUS_OK;
 }
@@ -224,13 +224,13 @@ static const char *read_node(void *into, int i, const double *value)
 }
 
 Status start_table_read(const char *name, double step, int nodes, int run,
-                        int runs, double *x, double *v, Refusal told)
+                        int runs, double *x, double *v, Message message)
 {
     static const char *const names[] = {"step", "node", "x", "y",
                                         "vx",   "vy",   NULL};
     const Part part = {"state", name, "node", step, nodes, run, runs};
     double *xv[] = {x, v};
-    return read_part(&part, names, read_node, xv, told);
+    return read_part(&part, names, read_node, xv, message);
 }
 
 /* ---- springs ------------------------------------------------------------- */
@@ -268,7 +268,7 @@ static const char *take_spring(void *into, int i, const double *value)
 }
 
 Status start_springs_read(const Options *options, int run, int runs,
-                          System *system, Refusal told)
+                          System *system, Message message)
 {
     static const char *const names[] = {"step",  "spring",  "i",      "j",
                                         "whole", "plastic", "flowed", NULL};
@@ -280,7 +280,7 @@ Status start_springs_read(const Options *options, int run, int runs,
                        run,
                        runs};
     Springs springs = {system, options->stiffness};
-    Status status = read_part(&part, names, take_spring, &springs, told);
+    Status status = read_part(&part, names, take_spring, &springs, message);
     system_mark_changed(system, false);
     return status;
 }

@@ -41,12 +41,12 @@ static uint32_t pixel(int frame, int x, int y)
     return inside ? 0xff0020c0u + 0x060000u * (uint32_t)i : 0xffffffffu;
 }
 
-static char told[OUTPUT_TOLD];
+static char message[OUTPUT_MESSAGE];
 
 static Film open_film(const char *name)
 {
     Film film;
-    CHECK_OK(film_open(name, told, &film));
+    CHECK_OK(film_open(name, message, &film));
     return film;
 }
 
@@ -183,7 +183,7 @@ TEST(ffmpeg_dies_by_its_own)
     for (int i = 0; i < 1000 && !status; i++)
         status = film_add(&film, &canvas, 1);
     CHECK_STATUS(status, STATUS_FILE_FAILED);
-    CHECK(strstr(told, "dead.mp4: ffmpeg ended"));
+    CHECK(strstr(message, "dead.mp4: ffmpeg ended"));
     CHECK_STATUS(film_close(&film, KEEP_WHOLE), STATUS_FILE_FAILED);
     CHECK(access("dead.mp4", F_OK) != 0);
     rmdir("dead.mp4.part");
