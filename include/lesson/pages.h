@@ -7,6 +7,7 @@
 #ifndef ELASTO_PAGES_H
 #define ELASTO_PAGES_H
 
+#include "run/message.h"
 #include "run/options.h"
 
 /* Lines of Algorithm 3 that a page can show; line 1 is the first. */
@@ -75,9 +76,9 @@ bool page_wants_click(const LecturePage *page);
 void lecture_enter(const LecturePage *page, Options *options);
 
 /* Returns the options of a page: the defaults changed by its command line.
- * Returns OK, or INVALID_INPUT with a message [size] out, which a test rules
+ * Returns OK, or INVALID_INPUT with a message, which a test rules
  * out. */
-Status lecture_options(const LecturePage *page, Options *options, char *message,
-                       size_t size);
+Status lecture_options(const LecturePage *page, Options *options,
+                       Message message);
 
 #endif

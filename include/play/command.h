@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "base/status.h"
+#include "run/message.h"
 
 enum { COMMAND_TEXT_SIZE = 64 };
 
@@ -81,10 +81,9 @@ void commands_help(FILE *file);
 
 /* Reads a line like "goto 12".
  *   line     in, without the step
- *   message  [size] out, the reason of INVALID_INPUT
+ *   message  out, the reason of INVALID_INPUT
  * Returns OK or INVALID_INPUT. */
-Status command_parse(const char *line, Command *command, char *message,
-                     size_t size);
+Status command_parse(const char *line, Command *command, Message message);
 
 /* Writes the line that command_parse reads, numbers with 17 digits.
  *   line  [size] out */
@@ -119,10 +118,9 @@ Status script_add(Script *script, long step, const Command *command,
 /* Reads a script.
  *   name     in, NULL: the script is empty
  *   script   out; free it in any case
- *   message  [size] out, the reason of INVALID_INPUT
+ *   message  out, the reason of INVALID_INPUT
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
-Status script_read(const char *name, Script *script, char *message,
-                   size_t size);
+Status script_read(const char *name, Script *script, Message message);
 
 /* Writes a script after a comment with the command line that plays it.  Returns
  * OK, OUT_OF_MEMORY, FILE_FAILED. */

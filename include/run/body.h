@@ -5,7 +5,6 @@
 #define ELASTO_BODY_H
 
 #include "model/contact.h"
-#include "run/one_line.h"
 #include "run/simulation.h"
 
 /* The mesh of the options; in scenes with a beam it has fewer rows. */

@@ -8,6 +8,7 @@
 #define ELASTO_SIMULATION_H
 
 #include "run/exhibit.h"
+#include "run/message.h"
 #include "run/options.h"
 #include "run/scene.h"
 #include "solve/newton.h"
@@ -145,10 +146,10 @@ NewtonCounters simulation_counters(const Simulation *simulation);
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
 
 /* Checks that obstacles of changed options overlap no body where it is now.
- *   message  [size] out, why not
+ *   message  out, why not
  * Returns OK or INVALID_INPUT. */
 Status simulation_has_room(const Simulation *simulation, const Options *options,
-                           char *message, size_t size);
+                           Message message);
 
 /* The part of the way that an obstacle of these options can move straight
  * towards `to` [2] m: 1 if there is room at the end, else the part before the

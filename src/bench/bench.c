@@ -36,7 +36,7 @@ static Options slides_options(int segments)
 {
     char message[128];
     Options options;
-    options_of_line("square", &options, message, sizeof message);
+    options_of_line("square", &options, MESSAGE(message));
     options.segments = segments;
     return options;
 }

@@ -11,7 +11,6 @@
 #include <strings.h>
 
 #include "run/body.h"
-#include "run/one_line.h"
 #include "lesson/pages.h"
 #include "scenes/scenes.h"
 
@@ -507,9 +506,9 @@ static Status check_change(const Line *line, const OptionRow *row)
 }
 
 Status options_set(Options *options, const char *name, const char *value,
-                   char *message, size_t size)
+                   Message message)
 {
-    const Line line = {.options = options, .message = {message, size}};
+    const Line line = {.options = options, .message = message};
     const OptionRow *row = option_find(name);
     if (!row || row->kind == OPTION_SWITCH)
         return refuse(line.message,
@@ -520,9 +519,9 @@ Status options_set(Options *options, const char *name, const char *value,
 }
 
 Status options_put(Options *options, const OptionRow *row, double value,
-                   char *message, size_t size)
+                   Message message)
 {
-    const Line line = {.options = options, .message = {message, size}};
+    const Line line = {.options = options, .message = message};
     char text[32] = "";
     if (row->kind == OPTION_NAME) /* -1, the scene's own choice: the first */
         value = fmax(value, 0);
@@ -699,8 +698,7 @@ static Status begin_options(Line *line)
     char copy[512];
     Line own = {options, line->message, 0, {{0}}};
     if (options->page)
-        return lecture_options(options->page, options, line->message.text,
-                               line->message.size);
+        return lecture_options(options->page, options, line->message);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->standard != 0)
             options->number[row->slot] = row->standard;
@@ -843,18 +841,17 @@ static Status apply_words(Line *line, int pane)
 }
 
 Status options_parse(int argc, char **argv, int pane, Options *options,
-                     char *message, size_t size)
+                     Message message)
 {
-    Line line = {options, {message, size}, 0, {{0}}};
+    Line line = {options, message, 0, {{0}}};
     Status status = read_words(argc, argv, &line);
     return status ? status : apply_words(&line, pane);
 }
 
-Status options_of_line(const char *text, Options *options, char *message,
-                       size_t size)
+Status options_of_line(const char *text, Options *options, Message message)
 {
     char copy[512];
-    Line line = {options, {message, size}, 0, {{0}}};
+    Line line = {options, message, 0, {{0}}};
     Status status = split_words(text, copy, sizeof copy, &line);
     return status ? status : apply_words(&line, 0);
 }
@@ -887,10 +884,10 @@ void lecture_enter(const LecturePage *page, Options *options)
     options->star = page->star;
 }
 
-Status lecture_options(const LecturePage *page, Options *options, char *message,
-                       size_t size)
+Status lecture_options(const LecturePage *page, Options *options,
+                       Message message)
 {
-    Status status = options_of_line(page->line, options, message, size);
+    Status status = options_of_line(page->line, options, message);
     const char *pin = strstr(page->line, "--pin ");
     if (pin) /* the line's last option: its text stays */
         options->pin = pin + strlen("--pin ");

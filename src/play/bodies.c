@@ -83,9 +83,8 @@ Status obey_obstacle(Player *player, const Command *command)
     at[1] = command->y;
     Status status = STATUS_OK;
     for (int p = 0; p < past_panes(&player->past) && !status; p++)
-        status =
-            simulation_has_room(&player->past.machine[p].simulation, &moved,
-                                player->message, sizeof player->message);
+        status = simulation_has_room(&player->past.machine[p].simulation,
+                                     &moved, MESSAGE(player->message));
     return status ? status : edit_all_panes(player, command);
 }
 

@@ -12,7 +12,6 @@
 #include <string.h>
 
 #include "play/output.h"
-#include "run/one_line.h"
 #include "lesson/command_line.h"
 
 const CommandRow command_rows[COMMAND_KINDS] = {
@@ -147,8 +146,7 @@ static bool read_word(const char *word, const char *taken, Command *command)
     return true;
 }
 
-Status command_parse(const char *line, Command *command, char *message,
-                     size_t size)
+Status command_parse(const char *line, Command *command, Message message)
 {
     char word[COMMAND_TEXT_SIZE], next[COMMAND_TEXT_SIZE];
     int kind = 1;
@@ -160,10 +158,9 @@ Status command_parse(const char *line, Command *command, char *message,
                                     strcmp(command_rows[kind].word, word) != 0))
         kind++;
     if (strcmp(word, "box") == 0)
-        return refuse((Message){message, size},
-                      "'box' is gone: place puts one node somewhere");
+        return refuse(message, "'box' is gone: place puts one node somewhere");
     if (kind == COMMAND_KINDS)
-        return refuse((Message){message, size},
+        return refuse(message,
                       "there is no command '%.20s': elasto --help commands",
                       word);
     command->kind = (CommandKind)kind;
@@ -173,8 +170,8 @@ Status command_parse(const char *line, Command *command, char *message,
         good = good && take_word(&line, next) && read_word(next, at, command);
     if (good && line[strspn(line, blanks)] == '\0')
         return STATUS_OK;
-    return refuse((Message){message, size}, "write it as '%s%s%s'", word,
-                  takes ? " " : "", takes ? takes : "");
+    return refuse(message, "write it as '%s%s%s'", word, takes ? " " : "",
+                  takes ? takes : "");
 }
 
 void command_format(const Command *command, char *line, size_t size)
@@ -218,11 +215,10 @@ Status script_add(Script *script, long step, const Command *command,
     return STATUS_OK;
 }
 
-Status script_read(const char *name, Script *script, char *message, size_t size)
+Status script_read(const char *name, Script *script, Message message)
 {
     char *text = NULL, why[600] = "", shown[80];
     size_t room = 0;
-    const Message problem = {message, size};
     *script = (Script){0};
     if (!name)
         return STATUS_OK;
@@ -240,17 +236,17 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
         long step = strtol(line, &end, 10);
         if (!isdigit((unsigned char)*line) || errno ||
             !isspace((unsigned char)*end))
-            status = refuse((Message){why, sizeof why},
-                            "write STEP COMMAND, such as 40 grab 12");
+            status =
+                refuse(MESSAGE(why), "write STEP COMMAND, such as 40 grab 12");
         else
-            status = command_parse(end, &command, why, sizeof why);
+            status = command_parse(end, &command, MESSAGE(why));
         if (!status)
             status = script_add(script, step, &command, 0);
     }
     if (!file || (!status && !feof(file)))
-        status = refuse(problem, "--script: %s: %s", shown, strerror(errno));
+        status = refuse(message, "--script: %s: %s", shown, strerror(errno));
     else if (status == STATUS_INVALID_INPUT)
-        refuse(problem, "--script: %s, line %ld: %s", shown, number, why);
+        refuse(message, "--script: %s, line %ld: %s", shown, number, why);
     free(text);
     if (file)
         fclose(file);

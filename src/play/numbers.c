@@ -124,11 +124,11 @@ static Status put_value(Player *player, int pane, const Command *command,
                         Options *options)
 {
     const OptionRow *row = &option_rows[command->number];
-    Status status = command->text[0]
-                        ? options_set(options, row->name, command->text,
-                                      player->message, sizeof player->message)
-                        : options_put(options, row, command->x, player->message,
-                                      sizeof player->message);
+    Status status =
+        command->text[0]
+            ? options_set(options, row->name, command->text,
+                          MESSAGE(player->message))
+            : options_put(options, row, command->x, MESSAGE(player->message));
     if (!status && row->slot == OPTION_SLOT(integrator) &&
         integrator_method_refuses(options_method(options),
                                   &player_simulation(player)->system))
@@ -136,8 +136,7 @@ static Status put_value(Player *player, int pane, const Command *command,
     return status || !row->times
                ? status
                : simulation_has_room(&player->past.machine[pane].simulation,
-                                     options, player->message,
-                                     sizeof player->message);
+                                     options, MESSAGE(player->message));
 }
 
 /* Sets an option, or begins again with it where the run fixes it: in the active

@@ -814,7 +814,7 @@ static const Control *edited_control(const Control *from, const Command *edit,
         return NULL;
     if (edit->kind == COMMAND_SET && edit->text[0])
         options_set(&control->options, option_rows[edit->number].name,
-                    edit->text, message, sizeof message);
+                    edit->text, MESSAGE(message));
     else if (edit->kind == COMMAND_SET)
         control->options.number[option_rows[edit->number].slot] = edit->x;
     if (edit->kind == COMMAND_OBSTACLE) {

@@ -217,7 +217,7 @@ Status player_create(const Options *options, int count, char *const *words,
     memcpy(player->given.options, options, (size_t)count * sizeof *options);
     player->given.started = clock_now();
     Status status = script_read(options->script, &player->given.script,
-                                player->message, sizeof player->message);
+                                MESSAGE(player->message));
     if (status)
         return status;
     open_view(player);

@@ -6,7 +6,7 @@
 
 #include "play/player.h"
 #include "lesson/command_line.h"
-#include "run/one_line.h"
+#include "run/message.h"
 
 /* Functions of commands have the same arguments, used or not. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"

@@ -16,7 +16,7 @@
 #include "model/contact.h"
 #include "picture/show.h"
 #include "lesson/command_line.h"
-#include "run/one_line.h"
+#include "run/message.h"
 #include "lesson/pages.h"
 #include "scenes/scenes.h"
 
@@ -324,7 +324,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     }
     for (int i = 0; i < options->panes; i++) {
         Status status =
-            options_parse(argc, argv, i, &options[i], message, sizeof message);
+            options_parse(argc, argv, i, &options[i], MESSAGE(message));
         if (status == STATUS_INVALID_INPUT)
             return print_error(EXIT_MISUSED, "%s", message);
         if (status)
@@ -334,7 +334,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
-    if (check_files(options, (Message){message, sizeof message}))
+    if (check_files(options, MESSAGE(message)))
         return print_error(EXIT_MISUSED, "%s", message);
     print_forgotten(options);
     Status status = player_create(options, options->panes, argv, stop, player);

@@ -56,10 +56,9 @@ Status player_default_options(Player *player, const char *scene,
 {
     const Options *given = &player->given.options[0];
     *count = 1;
-    Status status = page ? lecture_options(page, options, player->message,
-                                           sizeof player->message)
-                         : options_of_line(scene, options, player->message,
-                                           sizeof player->message);
+    Status status =
+        page ? lecture_options(page, options, MESSAGE(player->message))
+             : options_of_line(scene, options, MESSAGE(player->message));
     if (status)
         return status;
     options->big = given->big;
@@ -257,8 +256,7 @@ Status player_enqueue_lines(Player *player, const char *lines)
         size_t length = strcspn(lines, ";");
         snprintf(line, sizeof line, "& %.*s", (int)length, lines);
         lines += length + (lines[length] == ';');
-        status = command_parse(line, &command, player->message,
-                               sizeof player->message);
+        status = command_parse(line, &command, MESSAGE(player->message));
         if (!status && player->orders.queue.count == QUEUE_MOST)
             status = player_refuse(player, "too many commands at once");
         if (!status)

@@ -43,8 +43,7 @@ static bool opens_again(Player *player, const Options *now)
     Options own;
     const LecturePage *page = now->page;
     return page && page->open &&
-           !lecture_options(page, &own, player->message,
-                            sizeof player->message) &&
+           !lecture_options(page, &own, MESSAGE(player->message)) &&
            own.segments == now->segments;
 }
 

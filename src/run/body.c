@@ -524,9 +524,9 @@ static Status check_room(const Simulation *simulation, const Options *options,
 }
 
 Status simulation_has_room(const Simulation *simulation, const Options *options,
-                           char *message, size_t size)
+                           Message message)
 {
-    return check_room(simulation, options, 0, -1, (Message){message, size});
+    return check_room(simulation, options, 0, -1, message);
 }
 
 double simulation_free_way(const Simulation *simulation, const Options *options,

@@ -187,7 +187,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
     session->player.screen.changed = true;
     if (page < 0)
         return;
-    Status status = lecture_options(row, &options, message, sizeof message);
+    Status status = lecture_options(row, &options, MESSAGE(message));
     options.headless = options.quiet = true;
     options.steps = row->picture;
     if (!status)

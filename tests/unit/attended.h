@@ -37,8 +37,7 @@ static inline void begin_script(const char *script, const char *line)
     for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
         argv[argc++] = word;
     for (int i = 0; i < count; i++) {
-        CHECK_OK(
-            options_parse(argc, argv, i, &options[i], message, sizeof message));
+        CHECK_OK(options_parse(argc, argv, i, &options[i], MESSAGE(message)));
         count = options[0].panes;
     }
     CHECK_OK(player_create(options, count, NULL, &stop, &player));
@@ -60,7 +59,7 @@ static inline Status obey(const char *line)
 {
     Command command;
     char message[128];
-    CHECK_OK(command_parse(line, &command, message, sizeof message));
+    CHECK_OK(command_parse(line, &command, MESSAGE(message)));
     return player_obey(&player, &command);
 }
 

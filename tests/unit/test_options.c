@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "run/one_line.h"
+#include "run/message.h"
 #include "lesson/pages.h"
 
 static Options parse_good(const char *line)
@@ -24,7 +24,7 @@ static Status set_option(Options *options, const char *name, const char *value,
                          char *message)
 {
     *options = parse_good("square");
-    return options_set(options, name, value, message, 512);
+    return options_set(options, name, value, (Message){message, 512});
 }
 
 static void check_refused(const char *option, const char *value,
@@ -75,7 +75,7 @@ TEST(numbers_have_ranges)
     CHECK(numbers > 15);
     char message[512];
     Options solid = parse_good("return"); /* a start that makes no sense */
-    CHECK_STATUS(options_set(&solid, "stretch", "0", message, sizeof message),
+    CHECK_STATUS(options_set(&solid, "stretch", "0", MESSAGE(message)),
                  STATUS_INVALID_INPUT);
     CHECK(strstr(message, "would be turned over") != NULL);
 }
@@ -234,8 +234,8 @@ TEST(random_lines_end_well)
             if (random_below(&random, 8) == 0)
                 add_piece(&random, strcat(argv[i], "="));
         }
-        Status status = options_parse(argc, argv, line % 5, &options, message,
-                                      sizeof message);
+        Status status =
+            options_parse(argc, argv, line % 5, &options, MESSAGE(message));
         understood += status == STATUS_OK;
         refused += status == STATUS_INVALID_INPUT;
         if (status == STATUS_OK) {

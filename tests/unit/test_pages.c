@@ -950,7 +950,7 @@ TEST(claim_bodies)
     Simulation *through = open_page("bodies", "");
     Options options;
     char message[80];
-    CHECK_STATUS(lecture_options(page, &options, message, sizeof message), 0);
+    CHECK_STATUS(lecture_options(page, &options, MESSAGE(message)), 0);
     assert_string_equal(options.pin, "all:2,all:3");
     CHECK(options.pin == strstr(page->line, "all:2")); /* it stays */
     double most[2] = {0, 0};

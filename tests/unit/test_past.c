@@ -79,7 +79,7 @@ static void set_option(const char *text, bool again)
     char line[96], message[128];
     Command command;
     snprintf(line, sizeof line, "set %s", text);
-    CHECK_OK(command_parse(line, &command, message, sizeof message));
+    CHECK_OK(command_parse(line, &command, MESSAGE(message)));
     CHECK_OK(try_edit(&command, again, 0));
 }
 
@@ -322,7 +322,7 @@ static Command random_edit(Random *random, int kind)
     bool mesh = simulation->scene->needs & NEEDS_MESH;
     int all = contact_of(&simulation->system) ? 7 : mesh ? 9 : 2;
     snprintf(line, sizeof line, "set %s", settings[random_below(random, all)]);
-    CHECK_OK(command_parse(line, &edit, message, sizeof message));
+    CHECK_OK(command_parse(line, &edit, MESSAGE(message)));
     if (kind < 2)
         return edit;
     edit = (Command){.number = node};
@@ -447,7 +447,7 @@ TEST(commands_are_written_as_they_are_read)
         if (!command_rows[kind].word)
             continue;
         command_format(&command, line, sizeof line);
-        CHECK_OK(command_parse(line, &read, message, sizeof message));
+        CHECK_OK(command_parse(line, &read, MESSAGE(message)));
         command_format(&read, again, sizeof again);
         CHECK(read.kind == command.kind && strcmp(line, again) == 0);
     }
@@ -455,7 +455,7 @@ TEST(commands_are_written_as_they_are_read)
         "", "jump", "goto -1", "goto 1 2", "drag 1", "drag 1 nan", "set a b c"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         Command command;
-        CHECK_STATUS(command_parse(bad[i], &command, message, sizeof message),
+        CHECK_STATUS(command_parse(bad[i], &command, MESSAGE(message)),
                      STATUS_INVALID_INPUT);
         CHECK(message[0] != '\0');
     }

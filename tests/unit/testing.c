@@ -169,7 +169,7 @@ Status parse_line(const char *line, int pane, Options *options, char *message)
         argv[argc++] = word;
     }
     message[0] = '\0';
-    return options_parse(argc, argv, pane, options, message, 512);
+    return options_parse(argc, argv, pane, options, (Message){message, 512});
 }
 
 Options line_options(const char *line)

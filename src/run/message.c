@@ -1,6 +1,6 @@
-/* one_line.c - makes texts from outside safe to print in a line of a message.
+/* message.c - makes texts from outside safe to print in a line of a message.
  */
-#include "run/one_line.h"
+#include "run/message.h"
 
 #include <stdarg.h>
 #include <stdbool.h>

@@ -1,7 +1,8 @@
-/* one_line.h - makes texts from outside safe to print in a line of a message.
+/* message.h - buffers for messages, and texts from outside made safe to print
+ * in one line.
  */
-#ifndef ELASTO_ONE_LINE_H
-#define ELASTO_ONE_LINE_H
+#ifndef ELASTO_MESSAGE_H
+#define ELASTO_MESSAGE_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -29,6 +30,9 @@ typedef struct Message {
     char *text;
     size_t size; /* bytes of text */
 } Message;
+
+/* A char array as such a buffer. */
+#define MESSAGE(array) ((Message){(array), sizeof(array)})
 
 /* Writes a message as one line.  Returns INVALID_INPUT. */
 Status refuse(Message message, const char *format, ...)
