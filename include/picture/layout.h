@@ -1,8 +1,8 @@
 /* layout.h - where everything in the window is.
  *
  * The layout is a function of the window's size and of what is open, never of
- * the numbers that are shown, so that the zones do not move.  show_layout
- * (show.h) fills it.
+ * the numbers that are shown, so that the zones do not move.  layout_create
+ * (frame_content.h) fills it.
  *
  *     +------------------------------------------------------+
  *     | strip: topic, sentence                  method, state |

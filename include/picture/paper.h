@@ -1,8 +1,8 @@
 /* paper.h - the surface of a frame: a canvas, and texts in a size that fits the
  * window.
  *
- * Sizes are in ems.  One em is the size of plain text; show_layout chooses how
- * many pixels it has.  Widths of lines are in units; one unit is 1/14 em.
+ * Sizes are in ems.  One em is the size of plain text; layout_create chooses
+ * how many pixels it has.  Widths of lines are in units; one unit is 1/14 em.
  */
 #ifndef ELASTO_PAPER_H
 #define ELASTO_PAPER_H

@@ -8,7 +8,7 @@
 #define ELASTO_PICTURE_H
 
 #include "picture/paper.h"
-#include "picture/show.h"
+#include "picture/frame_content.h"
 
 typedef struct Plot Plot; /* drawing area with its coordinates (plot.h) */
 
@@ -20,7 +20,8 @@ typedef struct Card {
     double min_height; /* ems */
     /* Minimum height in ems of a card whose content is `wide` ems wide; an em
      * has `em` pixels.  NULL: min_height. */
-    double (*needed_height)(const Show *show, double wide, double em);
+    double (*needed_height)(const FrameContent *content, double wide,
+                            double em);
     double weight;           /* share of the height that is left over */
     bool half_width;         /* fits into half of a wide column */
     bool half_width_on_page; /* fits into half of it on a page of the lecture,
@@ -68,11 +69,11 @@ const Picture *picture_of(const struct Scene *scene);
 int picture_card(const Picture *picture, const char *name);
 
 /* Draws a whole frame: stage, cards, strip, settings, time line, chips. */
-void show_draw(Paper *paper, const Show *show);
+void frame_draw(Paper *paper, const FrameContent *content);
 
 /* Draws the inside of one card, without frame and title, over all of a paper of
  * its own.
  *   card  its index in the picture of the active pane's scene */
-void show_draw_card(Paper *paper, const Show *show, int card);
+void frame_draw_card(Paper *paper, const FrameContent *content, int card);
 
 #endif

@@ -40,7 +40,7 @@
  * nothing of it. */
 #define PAST_EXPLODED 10
 
-/* A state, and the samples of it that plots show (show_sample). */
+/* A state, and the samples of it that plots show (picture_sample). */
 typedef struct State {
     size_t size; /* bytes, with this struct */
     double time; /* s */

@@ -93,10 +93,10 @@ enum { QUEUE_MOST = 16 };
 typedef struct Queue {
     Command command[QUEUE_MOST];
     int count;
-    bool of_page;         /* the commands are those of a page that opens */
-    const Control *pins;  /* pins to be set again after them, or NULL */
-    bool plays;           /* the run goes on after them */
-    char note[SHOW_TEXT]; /* message after them, or "" */
+    bool of_page;             /* the commands are those of a page that opens */
+    const Control *pins;      /* pins to be set again after them, or NULL */
+    bool plays;               /* the run goes on after them */
+    char note[SENTENCE_SIZE]; /* message after them, or "" */
 } Queue;
 
 /* The order in which commands are obeyed and undone. */
@@ -116,7 +116,7 @@ typedef struct Orders {
 typedef struct Tour {
     const LecturePage *left;     /* page that was last open, or NULL */
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
-    char verdict[SHOW_VALUE];    /* on the guess at this page, or "" */
+    char verdict[VALUE_SIZE];    /* on the guess at this page, or "" */
     int guesses, right;          /* numbers of guesses on all pages */
     bool opens;                  /* the commands of a page are obeyed */
 } Tour;
@@ -125,15 +125,15 @@ typedef struct Tour {
 
 enum { LABEL_SIZE = 64 }; /* bytes */
 
-/* Contents of the last frame.  Pictures read the Show, which points to the
+/* Data of the last frame.  Pictures read the contents, which point to the
  * other fields; the mouse finds in it what was drawn. */
 typedef struct Frame {
-    Show show;
+    FrameContent content;
     History history[LAYOUT_PANES];
     Trace trace[LAYOUT_PANES];
     char label[LAYOUT_PANES][LABEL_SIZE]; /* difference between the panes */
-    char chip_key[LAYOUT_CHIPS][SHOW_VALUE];
-    char chip_label[LAYOUT_CHIPS][SHOW_VALUE];
+    char chip_key[LAYOUT_CHIPS][VALUE_SIZE];
+    char chip_label[LAYOUT_CHIPS][VALUE_SIZE];
     CommandKind chip[LAYOUT_CHIPS]; /* command of each chip */
     int numbers;                    /* count of numbers in the row */
     const OptionRow *number[OPTIONS_MOST];
@@ -199,10 +199,10 @@ typedef struct Player {
     Tour tour;
     Screen screen;
     Hands hands;
-    bool quit;            /* the program is asked to end */
-    char message[768];    /* why a command was refused, or "" */
-    char note[SHOW_TEXT]; /* message below the picture, or "" */
-    bool warning;         /* the note is a warning */
+    bool quit;                /* the program is asked to end */
+    char message[768];        /* why a command was refused, or "" */
+    char note[SENTENCE_SIZE]; /* message below the picture, or "" */
+    bool warning;             /* the note is a warning */
     bool explains; /* the mouse has moved since the note: a sentence about what
                       is under it may replace the note */
 } Player;

@@ -6,7 +6,7 @@
 #ifndef ELASTO_STEP_TRACE_H
 #define ELASTO_STEP_TRACE_H
 
-#include "picture/show.h"
+#include "picture/frame_content.h"
 
 /* Memory for iterates and directions of one step, bytes.  Rounds beyond it keep
  * their records alone. */

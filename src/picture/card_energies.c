@@ -58,20 +58,23 @@ static bool series_are_runs(const Simulation *simulation)
 /* Curves of the card.  With several panes: their totals.  Else the runs of the
  * active pane, or its first three energies and those that were ever visible
  * beside the largest one. */
-static Curves find_curves(const Show *show)
+static Curves find_curves(const FrameContent *content)
 {
-    Curves all = {.now = simulation_time(show_pane(show)->simulation)};
+    Curves all = {.now = simulation_time(active_pane(content)->simulation)};
     Curve *curve = all.curve;
-    const Pane *active = show_pane(show);
+    const Pane *active = active_pane(content);
     const History *history = active->history;
     bool runs = series_are_runs(active->simulation);
     bool is_visible[HISTORY_SERIES] = {true, true, true};
     double most = 0;
-    for (int p = 0; show->panes > 1 && p < show->panes; p++)
-        if (show->pane[p].history)
-            curve[all.count++] = (Curve){
-                show->pane[p].simulation, show->pane[p].history, 0, true,
-                colour_of_run(p),         show->pane[p].label};
+    for (int p = 0; content->panes > 1 && p < content->panes; p++)
+        if (content->pane[p].history)
+            curve[all.count++] = (Curve){content->pane[p].simulation,
+                                         content->pane[p].history,
+                                         0,
+                                         true,
+                                         colour_of_run(p),
+                                         content->pane[p].label};
     int series = !history || !history->series ? 0
                  : runs                       ? active->simulation->runs
                                               : history->series;
@@ -81,7 +84,7 @@ static Curves find_curves(const Show *show)
         for (int s = 3; s < series; s++)
             is_visible[s] |= fabs(history->value[s][i]) > MIN_VISIBLE * most;
     }
-    for (int s = 0; show->panes <= 1 && s < series; s++)
+    for (int s = 0; content->panes <= 1 && s < series; s++)
         if (runs || is_visible[s])
             curve[all.count++] = (Curve){
                 active->simulation,
@@ -125,14 +128,14 @@ double energies_value_at(const Simulation *simulation, const History *history,
     return fabs(value) < 1e-15 * fmin(size, first) ? 0 : value;
 }
 
-double energies_needs(const Show *show, double wide, double em)
+double energies_needs(const FrameContent *content, double wide, double em)
 {
     (void)wide;
     (void)em;
-    int count = find_curves(show).count;
-    return MIN_HEIGHT + (count <= 4        ? 0
-                         : show->panes > 1 ? 2 * ROW_HEIGHT
-                                           : ROW_HEIGHT);
+    int count = find_curves(content).count;
+    return MIN_HEIGHT + (count <= 4           ? 0
+                         : content->panes > 1 ? 2 * ROW_HEIGHT
+                                              : ROW_HEIGHT);
 }
 
 /* Energies below this are rounding, J. */
@@ -145,10 +148,10 @@ static double energy_rounding(const Simulation *simulation)
 
 /* An axis that does not change is easier to read, so it covers the whole run as
  * long as the part shown so far is visible on it. */
-Axis energies_axis(const Show *show, double *last)
+Axis energies_axis(const FrameContent *content, double *last)
 {
-    const Simulation *simulation = show_pane(show)->simulation;
-    const Curves all = find_curves(show);
+    const Simulation *simulation = active_pane(content)->simulation;
+    const Curves all = find_curves(content);
     double first = 0, least = INFINITY, low = 0, high = 0;
     double lowest = 0, highest = 0; /* of the whole run, not only up to now */
     *last = 100 * simulation->options.timestep;
@@ -177,7 +180,7 @@ Axis energies_axis(const Show *show, double *last)
     low = fmax(low, -1e300);
     if (!(first > rounding)) /* at rest in a field of gravity */
         first = -low;
-    bool modes = show_pane(show)->simulation->options.layers & LAYER_MODES;
+    bool modes = active_pane(content)->simulation->options.layers & LAYER_MODES;
     if (first > 0 && (modes || high > LOG_GROWTH * first))
         return (Axis){pow(10, floor(log10(fmax(least, LOG_LOW * first))) - 1),
                       pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))), true,
@@ -200,8 +203,8 @@ static void draw_curves(const Plot *plot, const Curves *all)
  * the time of its pane. */
 void energies_draw(const Plot *card)
 {
-    const Show *show = card->show;
-    const Curves all = find_curves(show);
+    const FrameContent *content = card->content;
+    const Curves all = find_curves(content);
     Plot rest = *card;
     int at[2] = {0, 0}, used = 0;
     double size = fmax(all.count > 4 ? CROWDED_SIZE : LEGEND_SIZE,
@@ -212,7 +215,7 @@ void energies_draw(const Plot *card)
         double value =
             energies_value_at(one->simulation, one->history, one->series,
                               simulation_time(one->simulation));
-        char name[SHOW_TEXT], sum[60];
+        char name[SENTENCE_SIZE], sum[60];
         snprintf(name, sizeof name, "%s", one->name ? one->name : "");
         snprintf(sum, sizeof sum, " %s J", format_number(value).text);
         paper_shorten(card->paper, FACE_REGULAR, size,
@@ -223,7 +226,7 @@ void energies_draw(const Plot *card)
         used = card_flow_words(card, at, size, 1.05 * size, &line);
     }
     box_cut_off(&rest.box, EDGE_TOP, used);
-    Axis energy = energies_axis(show, &last);
+    Axis energy = energies_axis(content, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
     if (all.now < plot.x.high)
@@ -279,8 +282,8 @@ void budget_draw(const Plot *card)
 void radius_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
-    const Show *show = card->show;
-    const Curves all = find_curves(show);
+    const FrameContent *content = card->content;
+    const Curves all = find_curves(content);
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
     double most = 0.4; /* powers of ten */
@@ -291,15 +294,17 @@ void radius_draw(const Plot *card)
     Plot plot = plot_create(
         card, (Axis){0, plot_round_up(last), false, false, "t in s"},
         (Axis){pow(10, -most), pow(10, most), true, false, NULL});
-    double steps = values_find_number(&show_pane(show)->values, "doubling");
+    double steps =
+        values_find_number(&active_pane(content)->values, "doubling");
     const double twice[2] = {steps * simulation->options.timestep, 2};
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,
                 COLOUR_GREY);
     draw_curves(&plot, &all);
-    const History *history = show_pane(show)->history;
+    const History *history = active_pane(content)->history;
     double end = history ? history->time[history->count - 1] : 0;
-    double even = show->bars * simulation->options.timestep;
+    double even = content->time_line.steps * simulation->options.timestep;
     bool changed = fabs(end - even) > 1e-9 * even;
-    if (!show->veiled && !changed && plot_disc(&plot, twice, 4, COLOUR_TEXT))
+    if (!content->lecture.hides_answer && !changed &&
+        plot_disc(&plot, twice, 4, COLOUR_TEXT))
         plot_label(&plot, 1, twice, COLOUR_TEXT, "2 m: step %g", steps);
 }

@@ -60,13 +60,13 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
-    const Pick *hover = &card->show->view->hover;
+    const Pick *hover = &card->content->view->hover;
     unsigned char *block = make_pattern(system, natural, springs);
     Canvas *canvas = &paper->canvas;
     int n = system->nodes;
-    int lit = hover->kind == PICK_SPRING ? hover->index
-              : card->show->lecture      ? springs - 1
-                                         : -1;
+    int lit = hover->kind == PICK_SPRING    ? hover->index
+              : card->content->lecture.page ? springs - 1
+                                            : -1;
     for (int j = 0; block && j < n; j++)
         for (int i = j; i < n; i++) {
             int what = i == j ? ENTRY : block[(size_t)j * (size_t)n + i];
@@ -117,5 +117,6 @@ void hessian_pattern_draw(const Plot *card)
     Plot rest = *card; /* room below, for the newest spring's block of H */
     box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
     if (rest.box.height > 7 * paper->em)
-        card_write_text(&rest, &show_pane(card->show)->values, text_newest);
+        card_write_text(&rest, &active_pane(card->content)->values,
+                        text_newest);
 }

@@ -91,7 +91,7 @@ static void draw_trial(const Plot *plot, double alpha, double value,
  * until a step is made. */
 void line_draw(const Plot *card)
 {
-    const Pane *pane = show_pane(card->show);
+    const Pane *pane = active_pane(card->content);
     const Trace *trace = pane->update;
     LineCurves curves;
     DescentTrace other = pane->descent;

@@ -30,7 +30,7 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
                      int number)
 {
     Paper *paper = card->paper;
-    const ShownRow now = listing_show_row(show_pane(card->show), row);
+    const ShownRow now = listing_show_row(active_pane(card->content), row);
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indented);
@@ -63,12 +63,12 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
 }
 
 /* Draws the known rows in lines of this height; draw NULL: only counts them. */
-static int put_rows(const Show *show, const ListingRow *row, const Plot *draw,
-                    Box line)
+static int put_rows(const FrameContent *content, const ListingRow *row,
+                    const Plot *draw, Box line)
 {
     int count = 0;
     for (; row->shown_if; row++)
-        if (text_has_line(&show_pane(show)->values, row->shown_if)) {
+        if (text_has_line(&active_pane(content)->values, row->shown_if)) {
             if (draw)
                 draw_row(draw, line, row, count + 1);
             line.y += line.height;
@@ -78,19 +78,19 @@ static int put_rows(const Show *show, const ListingRow *row, const Plot *draw,
 }
 
 /* Height in ems, with title and margin. */
-double listing_needs(const Show *show, double wide, double em)
+double listing_needs(const FrameContent *content, double wide, double em)
 {
     (void)wide, (void)em;
-    return 1.75 * put_rows(show, rows_listing, NULL, (Box){0}) + 2.6;
+    return 1.75 * put_rows(content, rows_listing, NULL, (Box){0}) + 2.6;
 }
 
 void card_write_rows(const Plot *card, const ListingRow *row)
 {
-    double pitch = card->em * (card->show->lecture ? PAGE_PITCH : 1.75);
-    int count = put_rows(card->show, row, NULL, (Box){0});
+    double pitch = card->em * (card->content->lecture.page ? PAGE_PITCH : 1.75);
+    int count = put_rows(card->content, row, NULL, (Box){0});
     Box line = card->box;
     line.height = (int)fmin(lround(pitch), line.height / (double)count);
-    put_rows(card->show, row, card, line);
+    put_rows(card->content, row, card, line);
 }
 
 /* Prints residual and step size of the newest updates that fit.  As the star of
@@ -100,7 +100,7 @@ void prints_draw(const Plot *card)
     Paper *paper = card->paper;
     Plot below = *card;
     Box inside = card->box;
-    const Trace *trace = show_pane(card->show)->update;
+    const Trace *trace = active_pane(card->content)->update;
     bool star = inside.height > 14 * paper->em;
     double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);
     size = size < 1 ? 0.95 : size; /* then with shorter words */

@@ -23,11 +23,11 @@ static const double SMALLEST = 0.9;  /* ems, where the window is too small */
 /* One text with its head in bold, drawn or only measured.  Returns where the
  * next one begins. */
 static int put_words(Paper *paper, Box inside, int y, double size, double head,
-                     const Words *words, const Show *show, bool draw)
+                     const Words *words, const FrameContent *content, bool draw)
 {
     double letters = size * words->size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
-    TextLine line = text_begin(&show_pane(show)->values, words->text);
+    TextLine line = text_begin(&active_pane(content)->values, words->text);
     if (words->head) {
         int width = paper_pixels(paper, head * size);
         if (draw)
@@ -46,35 +46,37 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
 }
 
 /* Returns how high it is, in pixels. */
-static int put_page(Paper *paper, Box inside, double size, const Show *show,
-                    bool draw)
+static int put_page(Paper *paper, Box inside, double size,
+                    const FrameContent *content, bool draw)
 {
-    const LecturePage *page = show->lecture;
+    const LecturePage *page = content->lecture.page;
     const char *how = page_wants_click(page)
                           ? "Click on the picture. N shows it."
                       : page->answer ? "Type a number, then Enter. N shows it."
                                      : "Say it, then press N or Space.";
-    bool asks = show->veiled; /* before a guess nothing that would tell */
-    bool judged = show->verdict && !asks;
+    bool asks = content->lecture
+                    .hides_answer; /* before a guess nothing that would tell */
+    bool judged = content->lecture.verdict && !asks;
     const Words words[] = {
         {NULL, page->text, COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA},
         {judged ? "Ask" : NULL, judged ? page->ask : NULL, COLOUR_X, 1},
-        {judged ? "You" : NULL, judged ? show->verdict : NULL, COLOUR_HAND,
-         VERDICT},
+        {judged ? "You" : NULL, judged ? content->lecture.verdict : NULL,
+         COLOUR_HAND, VERDICT},
         {asks ? "Ask" : "Look", asks ? page->ask : page->look, COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], show, draw);
+        y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], content,
+                      draw);
     return y - (int)(GAP * text_line(size * paper->em)) - inside.y;
 }
 
-double page_letters(Paper *paper, Box inside, const Show *show)
+double page_letters(Paper *paper, Box inside, const FrameContent *content)
 {
     double size = LETTERS;
     while (size > SMALLEST &&
-           put_page(paper, inside, size, show, false) > inside.height)
+           put_page(paper, inside, size, content, false) > inside.height)
         size -= 0.05;
     return size;
 }
@@ -83,26 +85,28 @@ double page_letters(Paper *paper, Box inside, const Show *show)
 void page_draw(const Plot *card)
 {
     put_page(card->paper, card->box,
-             page_letters(card->paper, card->box, card->show), card->show,
+             page_letters(card->paper, card->box, card->content), card->content,
              true);
 }
 
-Box page_draw_claim(Paper *paper, Box inside, const Show *show)
+Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
 {
-    const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT, 1};
-    int high = put_words(paper, inside, 0, 1, TEST_ROOM, &words, show, false);
+    const Words words = {"Tested", content->lecture.page->claim, COLOUR_FAINT,
+                         1};
+    int high =
+        put_words(paper, inside, 0, 1, TEST_ROOM, &words, content, false);
     inside.height -= high + paper_pixels(paper, 0.5);
     put_words(paper, (Box){inside.x, 0, inside.width, INT_MAX / 2},
               inside.y + inside.height + paper_pixels(paper, 0.5), 1, TEST_ROOM,
-              &words, show, true);
+              &words, content, true);
     return inside;
 }
 
 /* Returns the height, ems, that a page's words need at this width. */
-double page_needs(const Show *show, double wide, double em)
+double page_needs(const FrameContent *content, double wide, double em)
 {
-    Paper paper = {.text = show->text, .em = em, .min_letter = 1};
+    Paper paper = {.text = content->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* title and margin */
-    return put_page(&paper, box, LETTERS, show, false) / em + around;
+    return put_page(&paper, box, LETTERS, content, false) / em + around;
 }

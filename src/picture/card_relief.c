@@ -197,7 +197,7 @@ static void draw_newton_path(const Relief *relief)
         draw_surface_line(relief, record->from, record->to, 3, colour);
         draw_surface_point(relief, record->from, 4.5, COLOUR_X, NULL);
     }
-    if (!relief->plot.show->veiled)
+    if (!relief->plot.content->lecture.hides_answer)
         draw_surface_line(relief, x, point_along(x, 1, descent->direction).at,
                           1.4, descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
     draw_surface_point(relief, x, 6, COLOUR_TEXT, NULL);
@@ -207,7 +207,7 @@ static void draw_newton_path(const Relief *relief)
 static void draw_dial_curve(const Relief *relief)
 {
     const DialCurve *dial = &relief->simulation->exhibit.dial;
-    int points = relief->plot.show->veiled ? 0 : DIAL_POINTS;
+    int points = relief->plot.content->lecture.hides_answer ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
         draw_surface_line(relief, dial->point[i - 1], dial->point[i], 3,
                           COLOUR_X);

@@ -8,7 +8,7 @@
  * is already known, its residual is one more point. */
 void residual_draw(const Plot *card)
 {
-    const Trace *trace = show_pane(card->show)->update;
+    const Trace *trace = active_pane(card->content)->update;
     if (!trace || (trace->updates == 0 && !(trace->residual > 0))) {
         card_write_hint(card, text_undrawn);
         return;

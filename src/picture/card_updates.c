@@ -102,7 +102,7 @@ static void draw_values(const Plot *card, const Trace *trace, double now)
 /* Draws both graphs; in a narrow card only the first one. */
 void values_draw(const Plot *card)
 {
-    const Pane *pane = show_pane(card->show);
+    const Pane *pane = active_pane(card->content);
     const Trace *trace = pane->trace;
     bool wide = card->box.width > 36 * card->em;
     Plot left = *card, right = *card;
@@ -129,7 +129,7 @@ static void draw_update(const Plot *card, double y, int row,
                                         "{alpha}", "change of E, J s\u00b2"};
     static const double right[] = {0.05, 0.25, 0.52, 0.63, 1};
     enum { COLUMNS = sizeof right / sizeof *right };
-    const Trace *trace = show_pane(card->show)->trace;
+    const Trace *trace = active_pane(card->content)->trace;
     char cell[COLUMNS][96] = {""};
     if (row > 0)
         snprintf(cell[0], sizeof *cell, "%d", row);
@@ -154,7 +154,7 @@ static void draw_update(const Plot *card, double y, int row,
 /* Draws the table of the updates so far; of the current one what is known. */
 void updates_draw(const Plot *card)
 {
-    const Trace *trace = show_pane(card->show)->trace;
+    const Trace *trace = active_pane(card->content)->trace;
     double pitch = 1.45 * card->em, y = card->box.y + 0.2 * card->em;
     if (!trace) {
         card_write_hint(card, text_undrawn);

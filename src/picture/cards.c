@@ -25,7 +25,7 @@ Box card_inner_box(Box card, double em)
 
 void card_write_hint(const Plot *card, const char *text)
 {
-    TextLine line = text_first_line(&show_pane(card->show)->values, text);
+    TextLine line = text_first_line(&active_pane(card->content)->values, text);
     paper_fit(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
               ALIGN_CENTRE, line.words);
 }
@@ -51,47 +51,50 @@ typedef struct HelpGrid {
     double line;       /* pixels, height of a row */
 } HelpGrid;
 
-static HelpGrid help_grid(const Show *show, Box inside, double em)
+static HelpGrid help_grid(const FrameContent *content, Box inside, double em)
 {
     const double line = 1.5, least = 1.3, wide = 24; /* ems */
-    HelpGrid grid = {show->help_rows > 0 ? show->help_rows : 1, 1, line * em};
+    HelpGrid grid = {content->list.rows > 0 ? content->list.rows : 1, 1,
+                     line * em};
     int most = (int)fmax(inside.width / (wide * em), 1);
     while (grid.rows * least * em > inside.height && grid.columns < most) {
         grid.columns++;
-        grid.rows = (show->help_rows + grid.columns - 1) / grid.columns;
+        grid.rows = (content->list.rows + grid.columns - 1) / grid.columns;
     }
     grid.line = fmin(grid.line, inside.height / (double)grid.rows);
     return grid;
 }
 
-int show_help_row(const Show *show, const Layout *layout, double x, double y)
+int frame_find_row(const FrameContent *content, const Layout *layout, double x,
+                   double y)
 {
     int margin = (int)lround(0.9 * layout->em);
     Box inside = card_inner_box(box_inset(layout->column, margin), layout->em);
-    HelpGrid grid = help_grid(show, inside, layout->em);
-    if (show->column < COLUMN_PAGES || !box_contains(inside, x, y))
+    HelpGrid grid = help_grid(content, inside, layout->em);
+    if (content->column < COLUMN_PAGES || !box_contains(inside, x, y))
         return -1;
     int column = (int)((x - inside.x) * grid.columns / inside.width);
     int row = (int)((y - inside.y) / grid.line);
     int at = column * grid.rows + row;
-    return row < grid.rows && at < show->help_rows ? at : -1;
+    return row < grid.rows && at < content->list.rows ? at : -1;
 }
 
 /* Draws a list, key and meaning in each row.  A text that is still too wide in
  * the smallest legible letters loses its last words. */
-static void draw_help(Paper *paper, Box inside, const Show *show)
+static void draw_help(Paper *paper, Box inside, const FrameContent *content)
 {
     const double SMALLEST =
         0.85; /* the smallest letters, as a part of the usual ones */
-    HelpGrid grid = help_grid(show, inside, paper->em);
+    HelpGrid grid = help_grid(content, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.line / (1.3 * em));
     double key = 0, wide = inside.width / (double)grid.columns;
-    for (int i = 0; i < show->help_rows; i++)
-        key = fmax(key, paper_width(paper, FACE_BOLD, size, show->help[i].key));
+    for (int i = 0; i < content->list.rows; i++)
+        key = fmax(
+            key, paper_width(paper, FACE_BOLD, size, content->list.row[i].key));
     key += 0.6 * size * em;
-    for (int i = 0; i < show->help_rows; i++) {
-        const HelpRow *row = &show->help[i];
-        char text[SHOW_TEXT];
+    for (int i = 0; i < content->list.rows; i++) {
+        const ListRow *row = &content->list.row[i];
+        char text[SENTENCE_SIZE];
         snprintf(text, sizeof text, "%s", row->text);
         paper_shorten(paper, FACE_REGULAR, SMALLEST * size,
                       (int)(wide - key - 0.6 * em), text, sizeof text);
@@ -136,9 +139,9 @@ double code_needed_width(const LecturePage *page)
 /* Draws code in letters as large as fit, and lights the lines at work.  If not
  * all lines fit, lines between the first one and the last lit one are left out.
  */
-static void draw_code(Paper *paper, Box inside, const Show *show)
+static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
-    const LecturePage *page = show->lecture;
+    const LecturePage *page = content->lecture.page;
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     size_t indent;
     int lines;
@@ -154,7 +157,7 @@ static void draw_code(Paper *paper, Box inside, const Show *show)
     int fit = inside.height / line, lit = 0, gone;
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
     for (int i = 0; i < lines; i++)
-        lit = strstr(page->code[i], lecture_lit_code(show)) ? i : lit;
+        lit = strstr(page->code[i], lecture_lit_code(content)) ? i : lit;
     gone = fit >= lines ? 0 : (int)fmax(fmin(lit + 2, lines) - fit, 0);
     fit = fit < lines ? fit : lines;
     for (int k = 0; k < 2 * fit;
@@ -162,7 +165,7 @@ static void draw_code(Paper *paper, Box inside, const Show *show)
         int row = k % fit, y = inside.y + row * line;
         bool more = gone > 0 && row == 1;
         const char *words = more ? "..." : page->code[row + (row ? gone : 0)];
-        if (k < fit && strstr(words, lecture_lit_code(show)))
+        if (k < fit && strstr(words, lecture_lit_code(content)))
             canvas_fill(&paper->canvas, (Box){inside.x, y, inside.width, line},
                         COLOUR_LIT);
         if (k >= fit && words[0])
@@ -171,18 +174,18 @@ static void draw_code(Paper *paper, Box inside, const Show *show)
     }
 }
 
-void card_draw(Paper *paper, Box inside, const Show *show, int card)
+void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
 {
-    const Pane *pane = show_pane(show);
+    const Pane *pane = active_pane(content);
     const Card *row = picture_of(pane->simulation->scene)->cards[card];
     const Plot plot = {.paper = paper,
-                       .show = show,
+                       .content = content,
                        .simulation = pane->simulation,
                        .box = inside,
-                       .pane = show->active,
+                       .pane = content->active,
                        .has_text = true,
                        .em = paper->em};
-    if (show->veils >> card & 1)
+    if (content->cards.covered >> card & 1)
         card_write_hint(&plot, "after your guess");
     else if (row->words)
         card_write_text(&plot, &pane->values, row->words);
@@ -192,29 +195,32 @@ void card_draw(Paper *paper, Box inside, const Show *show, int card)
         row->draw(&plot);
 }
 
-void cards_draw(Paper *paper, const Layout *layout, const Show *show)
+void cards_draw(Paper *paper, const Layout *layout, const FrameContent *content)
 {
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    const Picture *picture =
+        picture_of(active_pane(content)->simulation->scene);
     static const char *const titles[] = {
         [COLUMN_PAGES] = "The pages of the lecture",
         [COLUMN_LETTERS] = "What the letters mean",
         [COLUMN_KEYS] = "Keys and mouse",
         [COLUMN_OPTIONS] = "Numbers of this scene"};
-    bool code = show->column == COLUMN_CODE;
+    bool code = content->column == COLUMN_CODE;
     if (layout->page) { /* help or code takes the place of the cards */
         Box inside = draw_frame(
             paper, box_inset(layout->column, paper_pixels(paper, 0.9)),
-            code ? show->lecture->file : titles[show->column], false);
+            code ? content->lecture.page->file : titles[content->column],
+            false);
         Box before = canvas_set_clip(&paper->canvas, inside);
         if (code)
-            draw_code(paper, page_draw_claim(paper, inside, show), show);
+            draw_code(paper, page_draw_claim(paper, inside, content), content);
         else
-            draw_help(paper, inside, show);
+            draw_help(paper, inside, content);
         canvas_set_clip(&paper->canvas, before);
     }
     for (int i = 0; i < layout->cards; i++) {
         const Card *card = picture->cards[i];
-        TextLine title = text_first_line(&show_pane(show)->values, card->title);
+        TextLine title =
+            text_first_line(&active_pane(content)->values, card->title);
         Box box = layout->card[i];
         if (box.width < 1)
             continue; /* the card is hidden */
@@ -223,7 +229,7 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         if (closed || inside.width < 1 || inside.height < 1)
             continue;
         Box before = canvas_set_clip(&paper->canvas, box_inset(box, 1));
-        card_draw(paper, inside, show, i);
+        card_draw(paper, inside, content, i);
         canvas_set_clip(&paper->canvas, before);
     }
 }

@@ -47,7 +47,7 @@ typedef void StageAddValues(const Simulation *simulation, LiveValues *values);
 typedef void StagePick(const Plot *stage, double x, double y, Pick *pick);
 typedef int StageSample(const Simulation *simulation, Energy *row);
 typedef void CardDraw(const Plot *card);
-typedef double CardNeeds(const Show *show, double wide, double em);
+typedef double CardNeeds(const FrameContent *content, double wide, double em);
 extern StageBounds square_bounds, circle_bounds, mass_bounds, tangent_bounds,
     spring_bounds, race_bounds;
 extern StageDraw square_draw, circle_draw, curve_draw, landscape_draw,
@@ -65,11 +65,11 @@ extern CardDraw page_draw, prints_draw, line_draw, residual_draw, values_draw,
 extern CardNeeds page_needs, listing_needs, energies_needs;
 
 /* Size of the page text's letters, ems: the same on all pages that fit. */
-double page_letters(Paper *paper, Box inside, const Show *show);
+double page_letters(Paper *paper, Box inside, const FrameContent *content);
 
 /* Writes what a test checks of the page below its code.  Returns the box above
  * that text. */
-Box page_draw_claim(Paper *paper, Box inside, const Show *show);
+Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content);
 
 /* Whether the Hessian before projection is positive definite. */
 bool landscape_is_convex(const Local *E);
@@ -102,14 +102,14 @@ double energies_value_at(const Simulation *simulation, const History *history,
  * would be invisible on it, and is logarithmic if the energy has grown a
  * millionfold.
  *   last  out, s, upper limit of the times of the curves */
-Axis energies_axis(const Show *show, double *last);
+Axis energies_axis(const FrameContent *content, double *last);
 
 /* Whether the picture has a card of this name, and the page shows it. */
-bool show_has_card(const Show *show, const char *name);
+bool frame_has_card(const FrameContent *content, const char *name);
 
 /* Text that marks the lit lines of the page's code: while the run walks through
  * Algorithm 3 that of its line, else the page's own. */
-const char *lecture_lit_code(const Show *show);
+const char *lecture_lit_code(const FrameContent *content);
 
 /* Index of the newest spring, on a page where each step adds one spring to the
  * Hessian. */
@@ -132,23 +132,25 @@ void card_write_rows(const Plot *card, const ListingRow *row);
 double code_needed_width(const LecturePage *page);
 
 /* Draws the content of the picture's card with this index into a box. */
-void card_draw(Paper *paper, Box inside, const Show *show, int card);
+void card_draw(Paper *paper, Box inside, const FrameContent *content, int card);
 
 /* Draws all cards of the layout; or the page that is in the column, and the
  * card on the stage. */
-void cards_draw(Paper *paper, const Layout *layout, const Show *show);
+void cards_draw(Paper *paper, const Layout *layout,
+                const FrameContent *content);
 
 /* On a page of the lecture: highlights everything that has the colour of the
  * term under the mouse, or else of the line of Algorithm 3 that the run is at.
  */
-void highlight_draw(Paper *paper, const Show *show);
+void highlight_draw(Paper *paper, const FrameContent *content);
 
 /* Draws strip, settings, time line and chips. */
-void frame_draw(Paper *paper, const Layout *layout, const Show *show);
+void window_rows_draw(Paper *paper, const Layout *layout,
+                      const FrameContent *content);
 
 /* Number of steps that the time line has room for: the steps so far, but at
  * least 60. */
-long time_line_steps(const Show *show);
+long time_line_steps(const FrameContent *content);
 
 /* Step length alpha of trial 1, 2, ... of the line search. */
 double trace_step_length(const Trace *trace, int trial);

@@ -95,24 +95,24 @@ static Colour term_near(const Canvas *canvas, const double at[2], int reach)
     return best;
 }
 
-void highlight_draw(Paper *paper, const Show *show)
+void highlight_draw(Paper *paper, const FrameContent *content)
 {
     static const Colour of_line[LINE_COUNT] = {[LINE_PROJECT] = COLOUR_PROJECT,
                                                [LINE_SOLVE] = COLOUR_P,
                                                [LINE_SEARCH] = COLOUR_ALPHA};
-    const Trace *trace = show_pane(show)->trace;
+    const Trace *trace = active_pane(content)->trace;
     Colour colour = 0;
-    if (!show->lecture)
+    if (!content->lecture.page)
         return;
-    if (show->view->over.zone == ZONE_CARD ||
-        show->view->over.zone == ZONE_STAGE)
-        colour = term_near(&paper->canvas, show->view->over.at,
+    if (content->view->over.zone == ZONE_CARD ||
+        content->view->over.zone == ZONE_STAGE)
+        colour = term_near(&paper->canvas, content->view->over.at,
                            (int)(MOUSE_REACH * paper->em));
-    bool plain = show->view->hover.kind == PICK_SWITCH &&
-                 !exhibit_has_kinds(show_pane(show)->simulation);
-    if (plain || (colour == COLOUR_X && show->view->over.zone == ZONE_STAGE))
+    bool plain = content->view->hover.kind == PICK_SWITCH &&
+                 !exhibit_has_kinds(active_pane(content)->simulation);
+    if (plain || (colour == COLOUR_X && content->view->over.zone == ZONE_STAGE))
         colour = 0; /* all of the square; a switch without a term */
-    if (!colour && trace && show_has_card(show, "listing"))
+    if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->line];
     if (colour)
         highlight_colour(&paper->canvas, colour,

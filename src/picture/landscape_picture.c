@@ -128,7 +128,7 @@ static Plot draw_map(const Plot *stage)
     Plot plot = plot_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
     bool elastic = exhibit->parts != PART_INERTIA;
     draw_contour_map(&plot);
-    if (plot.has_text && stage->show->lecture)
+    if (plot.has_text && stage->content->lecture.page)
         name_levels(&plot);
     if (elastic)
         plot_springs(&plot, system, x, 3.5, COLOUR_REST);
@@ -388,7 +388,7 @@ static void draw_downhill(const Plot *plot)
 void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const Show *show = stage->show;
+    const FrameContent *content = stage->content;
     bool revealed = stage->revealed;
     const Descent *descent = &simulation->descent;
     Plot plot = draw_map(stage);
@@ -406,14 +406,14 @@ void landscape_draw(Plot *stage)
         plot_disc(&plot, from, 5, COLOUR_X);
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
-    bool both = !show->lecture || (raw && halves);
+    bool both = !content->lecture.page || (raw && halves);
     if (revealed && raw && !simulation->done)
         draw_model_ellipses(&plot);
     if (has_layer(&plot, LAYER_CURVES) && !simulation->done)
         draw_linearised_zeros(&plot);
     if (has_layer(stage, LAYER_FORCES))
         draw_forces(&plot);
-    else if (!show->veiled)
+    else if (!content->lecture.hides_answer)
         draw_directions(&plot, plot.has_text && both);
     if (halves)
         draw_steepest(&plot);
@@ -431,7 +431,7 @@ void dial_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const DialCurve *dial = &simulation->exhibit.dial;
     Plot plot = draw_map(stage);
-    int points = stage->show->veiled ? 0 : DIAL_POINTS;
+    int points = stage->content->lecture.hides_answer ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
         plot_line(&plot, dial->point[i - 1], dial->point[i], 3, COLOUR_X);
     for (int i = 10; i < points; i += 10)

@@ -85,12 +85,12 @@ static int count_letters(const char *text)
 
 /* Places the settings in one to three lines, which are cut off the rest; in a
  * low window as many as fit at the right of the time line. */
-static void place_settings(const Show *show, Layout *layout, bool low,
-                           Box *rest)
+static void place_settings(const FrameContent *content, Layout *layout,
+                           bool low, Box *rest)
 {
     int width[LAYOUT_SETTINGS] = {0}, left = em_pixels(layout, GAP + 0.5);
-    for (int i = 0; i < show->settings; i++) {
-        const Setting *one = &show->setting[i];
+    for (int i = 0; i < content->settings.count; i++) {
+        const Setting *one = &content->settings.item[i];
         int value = count_letters(one->value);
         value = value > one->letters ? value : one->letters;
         value += count_letters(one->name) + 1;
@@ -107,11 +107,11 @@ static void place_settings(const Show *show, Layout *layout, bool low,
                      layout->settings_row.width - 2 * left,
                      layout->settings_row.height};
         layout->settings = place_row(room, 1, em_pixels(layout, SETTING_GAP),
-                                     show->settings, width, box);
+                                     content->settings.count, width, box);
         return;
     }
     layout->settings = place_row(room, 3, em_pixels(layout, SETTING_GAP),
-                                 show->settings, width, box);
+                                 content->settings.count, width, box);
     int more = (box[layout->settings - 1].y - room.y) / room.height;
     layout->settings_row = box_cut_off(
         rest, EDGE_BOTTOM, em_pixels(layout, ROW + more * (ROW - 0.4)));
@@ -121,15 +121,15 @@ static void place_settings(const Show *show, Layout *layout, bool low,
 
 /* Places as many of the first chips as fit, and the last one, which lists all
  * keys. */
-static void place_chips(const Show *show, Layout *layout)
+static void place_chips(const FrameContent *content, Layout *layout)
 {
-    int gap = em_pixels(layout, 0.6), last = show->chips - 1;
+    int gap = em_pixels(layout, 0.6), last = content->chips.count - 1;
     int width[LAYOUT_CHIPS];
     Box room = box_inset(layout->chip_row, em_pixels(layout, 0.35)), *box;
     for (int i = 0; i <= last; i++) {
-        double letters = BOLD * count_letters(show->chip[i].key) +
-                         count_letters(show->chip[i].label) +
-                         (show->lecture ? 2 : 1);
+        double letters = BOLD * count_letters(content->chips.item[i].key) +
+                         count_letters(content->chips.item[i].label) +
+                         (content->lecture.page ? 2 : 1);
         width[i] = em_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
     }
     room.x = em_pixels(layout, GAP);
@@ -139,17 +139,17 @@ static void place_chips(const Show *show, Layout *layout)
     *box = (Box){room.x, room.y, width[last], room.height};
     if (fit > 0)
         box->x = box[fit - 1 - last].x + width[fit - 1] + gap;
-    layout->chips = show->chips;
+    layout->chips = content->chips.count;
     layout->chips_left_out = last - fit;
 }
 
 /* Cuts strip, settings, time line and chips off the window.  Returns the rest.
  */
-static Box place_zones(const Show *show, Layout *layout)
+static Box place_zones(const FrameContent *content, Layout *layout)
 {
     Box rest = {0, 0, layout->width, layout->height};
     double high = layout->height / layout->em;
-    if (show->bare || high < 16)
+    if (content->bare || high < 16)
         return rest;
     bool roomy = high >= 40;
     layout->strip =
@@ -157,14 +157,14 @@ static Box place_zones(const Show *show, Layout *layout)
     if (high >= 20)
         layout->chip_row = box_cut_off(&rest, EDGE_BOTTOM,
                                        em_pixels(layout, roomy ? LAST : 2.5));
-    if (layout->chip_row.width > 0 && show->chips > 0)
-        place_chips(show, layout);
-    if (show->cells > 0)
+    if (layout->chip_row.width > 0 && content->chips.count > 0)
+        place_chips(content, layout);
+    if (content->sheet.cells > 0)
         return rest;
     layout->time_line =
         box_cut_off(&rest, EDGE_BOTTOM, em_pixels(layout, roomy ? TIME : 2));
-    if (show->settings > 0 && (roomy || show->lecture))
-        place_settings(show, layout, !roomy, &rest);
+    if (content->settings.count > 0 && (roomy || content->lecture.page))
+        place_settings(content, layout, !roomy, &rest);
     layout->bars = layout->time_line;
     layout->bars.x += em_pixels(layout, GAP);
     layout->bars.width -= 2 * em_pixels(layout, GAP);
@@ -189,30 +189,33 @@ typedef struct CardRow {
 
 /* Whether a card stands below the picture, on a page that has a star.  Beside
  * code there is room for the star only. */
-static bool is_below(const Show *show, int card)
+static bool is_below(const FrameContent *content, int card)
 {
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    const char *star = show_pane(show)->simulation->options.star;
+    const Picture *picture =
+        picture_of(active_pane(content)->simulation->scene);
+    const char *star = active_pane(content)->simulation->options.star;
     return star && picture->cards[card]->below_picture &&
-           !((show->hidden | show->closed) >> card & 1) &&
+           !((content->cards.hidden | content->cards.closed) >> card & 1) &&
            (card == picture_card(picture, star) ||
-            show->column == COLUMN_CARDS);
+            content->column == COLUMN_CARDS);
 }
 
 /* Finds the rows [LAYOUT_CARDS] of all visible cards; two cards of half width
  * share a row.  Returns the number of rows. */
-static int find_rows(const Show *show, double wide, double em, bool pairs,
-                     CardRow *rows)
+static int find_rows(const FrameContent *content, double wide, double em,
+                     bool pairs, CardRow *rows)
 {
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    const Picture *picture =
+        picture_of(active_pane(content)->simulation->scene);
     int count = 0, cards = picture->count, before = -2;
-    bool large = show->large >= 0 && show->large < cards;
+    bool large = content->cards.large >= 0 && content->cards.large < cards;
     for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
-        bool bar = (show->closed >> i & 1) || (large && i != show->large);
-        bool half =
-            card->half_width || (card->half_width_on_page && show->lecture);
-        if (show->hidden >> i & 1 || is_below(show, i))
+        bool bar = (content->cards.closed >> i & 1) ||
+                   (large && i != content->cards.large);
+        bool half = card->half_width ||
+                    (card->half_width_on_page && content->lecture.page);
+        if (content->cards.hidden >> i & 1 || is_below(content, i))
             continue;
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].cards = 2;
@@ -222,7 +225,7 @@ static int find_rows(const Show *show, double wide, double em, bool pairs,
         rows[count++] = (CardRow){i, 1, bar,
                                   bar ? TITLE_BAR
                                   : card->needed_height
-                                      ? card->needed_height(show, wide, em)
+                                      ? card->needed_height(content, wide, em)
                                       : card->min_height,
                                   bar ? 0 : card->weight};
     }
@@ -232,14 +235,14 @@ static int find_rows(const Show *show, double wide, double em, bool pairs,
 /* Gives each row its minimum height and shares what is left by weight.  If the
  * column is too low, the last rows are closed (only if no row has two cards),
  * but never the first open one; then all heights shrink alike. */
-static void place_cards(const Show *show, Layout *layout)
+static void place_cards(const FrameContent *content, Layout *layout)
 {
     CardRow rows[LAYOUT_CARDS];
     int gap = em_pixels(layout, GAP * 0.75), bar = em_pixels(layout, TITLE_BAR);
     Box rest = box_inset(layout->column, em_pixels(layout, GAP));
     bool pairs = layout->column.width >= PAIR_MIN * layout->em;
     double wide = card_inner_box(rest, layout->em).width / layout->em;
-    int count = find_rows(show, wide, layout->em, pairs, rows), open = 0;
+    int count = find_rows(content, wide, layout->em, pairs, rows), open = 0;
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
     double weights = 1e-9, ems = gap / layout->em;
     for (int i = 0; i < count; i++) {
@@ -298,13 +301,14 @@ static void place_panes(int count, Layout *layout)
 
 /* Places the squares of the sheet, `columns` in a row.  Returns their total
  * height in pixels. */
-static int place_cells(const Show *show, Layout *layout, int columns, int side)
+static int place_cells(const FrameContent *content, Layout *layout, int columns,
+                       int side)
 {
     int gap = em_pixels(layout, GAP), name = em_pixels(layout, NAME),
         column = 0;
     int left = (layout->stage.width - columns * (side + gap) + gap) / 2, y = 0;
-    for (int i = 0; i < show->cells; i++) {
-        bool heads = show->cell[i].group;
+    for (int i = 0; i < content->sheet.cells; i++) {
+        bool heads = content->sheet.cell[i].group;
         if (i > 0 && (heads || column == columns)) {
             y += side + name;
             column = 0;
@@ -319,12 +323,12 @@ static int place_cells(const Show *show, Layout *layout, int columns, int side)
 
 /* Places the sheet with the number of columns that gives the largest squares.
  */
-static void place_sheet(const Show *show, Layout *layout)
+static void place_sheet(const FrameContent *content, Layout *layout)
 {
     int gap = em_pixels(layout, GAP), best = 0, wide = 1;
-    for (int columns = 1; columns <= show->cells; columns++) {
-        int least = place_cells(show, layout, columns, 0);
-        int rows = place_cells(show, layout, columns, 1) - least;
+    for (int columns = 1; columns <= content->sheet.cells; columns++) {
+        int least = place_cells(content, layout, columns, 0);
+        int rows = place_cells(content, layout, columns, 1) - least;
         int side = (layout->stage.width - gap) / columns - gap;
         int high = (layout->stage.height - gap - least) / rows;
         side = side < high ? side : high;
@@ -333,8 +337,8 @@ static void place_sheet(const Show *show, Layout *layout)
             wide = columns;
         }
     }
-    place_cells(show, layout, wide, best);
-    layout->cells = show->cells;
+    place_cells(content, layout, wide, best);
+    layout->cells = content->sheet.cells;
 }
 
 /* Places a card below the pictures, in this many pixels of the stage. */
@@ -349,23 +353,24 @@ static void put_below(Layout *layout, int card, double high)
  * the star's place in the column.  If the column has no room for the picture,
  * or shows code, the picture is below the star.  Some stars are always below
  * the picture. */
-static void place_star(const Show *show, Layout *layout)
+static void place_star(const FrameContent *content, Layout *layout)
 {
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    const char *name = show_pane(show)->simulation->options.star;
+    const Picture *picture =
+        picture_of(active_pane(content)->simulation->scene);
+    const char *name = active_pane(content)->simulation->options.star;
     int star = name ? picture_card(picture, name) : -1;
     double bar = 3 * layout->em; /* more than a card that is closed has */
     if (star < 0 || star >= layout->cards || layout->panes != 1 ||
-        layout->stage.height < 2 * bar || show->closed >> star & 1 ||
-        (show->large >= 0 && show->large != star))
+        layout->stage.height < 2 * bar || content->cards.closed >> star & 1 ||
+        (content->cards.large >= 0 && content->cards.large != star))
         return;
     Box *stage = &layout->pane[0], place = layout->card[star];
     for (int i = 0; i < layout->cards; i++) {
         double needs = BELOW_FACTOR * picture->cards[i]->min_height + 2 * GAP;
-        if (is_below(show, i))
+        if (is_below(content, i))
             put_below(layout, i, fmin(needs * layout->em, 0.6 * stage->height));
     }
-    if (is_below(show, star) || (place.width < 1 && !layout->page))
+    if (is_below(content, star) || (place.width < 1 && !layout->page))
         return;
     if (place.height < bar)
         place =
@@ -379,18 +384,18 @@ static void place_star(const Show *show, Layout *layout)
  * Exceptions: pages with a star; in normal letters also pages with switches or
  * several panes, and scenes of a law (without code), whose bodies need the
  * whole stage. */
-static void place_folded(const Show *show, Layout *layout)
+static void place_folded(const FrameContent *content, Layout *layout)
 {
-    const Simulation *simulation = show_pane(show)->simulation;
+    const Simulation *simulation = active_pane(content)->simulation;
     const Options *options = &simulation->options;
     int bar = em_pixels(layout, TITLE_BAR), folded = 1;
-    unsigned shut = show->closed | show->hidden;
+    unsigned shut = content->cards.closed | content->cards.hidden;
     while (folded < layout->cards &&
            (shut >> folded & 1 ||
             (layout->card[folded].height != bar && !layout->page)))
         folded++;
     bool big = options->big;
-    if (!show->lecture || options->star || show->large >= 0 ||
+    if (!content->lecture.page || options->star || content->cards.large >= 0 ||
         folded >= layout->cards ||
         (!big && ((options->law && !layout->page) || layout->panes != 1 ||
                   simulation->scene->parts[layout->page])))
@@ -399,7 +404,7 @@ static void place_folded(const Show *show, Layout *layout)
     const Box *stage = &layout->stage;
     double em = layout->em;
     double needs = card->needed_height
-                       ? card->needed_height(show, stage->width / em, em)
+                       ? card->needed_height(content, stage->width / em, em)
                        : card->min_height;
     double room = layout->page ? stage->height - 0.8 * stage->width : 0;
     put_below(layout, folded,
@@ -408,39 +413,40 @@ static void place_folded(const Show *show, Layout *layout)
 
 /* An em has at least a 55th of the height on a page, and a 35th in large type
  * if that leaves room for words beside the stage. */
-Layout show_layout(const Show *show, int width, int height)
+Layout layout_create(const FrameContent *content, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
-    const Simulation *simulation = show_pane(show)->simulation;
+    const Simulation *simulation = active_pane(content)->simulation;
     const Picture *picture = picture_of(simulation->scene);
     double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
-    double least = show->letter > 0 ? show->letter : EM_LEAST;
-    bool page = show->column != COLUMN_CARDS, big = simulation->options.big;
-    if (show->lecture || big)
-        least = fmax(show->letter, big ? fmin(height / 35.0, width / 54.0)
-                                       : fmin(height / 55.0, width / 64.0));
+    double least = content->min_em > 0 ? content->min_em : EM_LEAST;
+    bool page = content->column != COLUMN_CARDS, big = simulation->options.big;
+    if (content->lecture.page || big)
+        least = fmax(content->min_em, big ? fmin(height / 35.0, width / 54.0)
+                                          : fmin(height / 55.0, width / 64.0));
     layout.em = fmax(size, least);
-    layout.stage = show->document ? (Box){0, 0, width, height}
-                                  : place_zones(show, &layout);
-    if (show->cells > 0) {
-        place_sheet(show, &layout);
+    layout.stage = content->document ? (Box){0, 0, width, height}
+                                     : place_zones(content, &layout);
+    if (content->sheet.cells > 0) {
+        place_sheet(content, &layout);
         return layout;
     }
-    if (show->document) {
-        place_panes(show->panes, &layout);
+    if (content->document) {
+        place_panes(content->panes, &layout);
         return layout;
     }
     double wide = width / layout.em, high = height / layout.em;
     bool low =
         page &&
         high < 50; /* in a low window a list or code needs the full width */
-    if (!show->bare && wide >= 53 && high >= 34 && !low &&
-        (page || show->hidden != (1u << picture->count) - 1)) {
+    if (!content->bare && wide >= 53 && high >= 34 && !low &&
+        (page || content->cards.hidden != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
         double ems = fmax(COLUMN_PART * wide, COLUMN_LEAST);
-        if (show->column == COLUMN_CODE)
-            ems = fmin(fmax(code_needed_width(show->lecture), ems), most);
-        else if (page && show->help_rows > MOST_ROWS)
+        if (content->column == COLUMN_CODE)
+            ems =
+                fmin(fmax(code_needed_width(content->lecture.page), ems), most);
+        else if (page && content->list.rows > MOST_ROWS)
             ems = most;
         int column = em_pixels(&layout, ems);
         layout.column = layout.stage;
@@ -448,16 +454,16 @@ Layout show_layout(const Show *show, int width, int height)
         layout.column.x += layout.stage.width - column;
         layout.stage.width -= column;
         if (!page)
-            place_cards(show, &layout);
-        if (!page || show->column == COLUMN_CODE)
+            place_cards(content, &layout);
+        if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
-    } else if (!show->bare && page) { /* over the stage */
+    } else if (!content->bare && page) { /* over the stage */
         layout.column = layout.stage;
     }
     layout.page = page && layout.column.width > 0;
-    place_panes(show->panes, &layout);
-    place_star(show, &layout);
-    place_folded(show, &layout);
+    place_panes(content->panes, &layout);
+    place_star(content, &layout);
+    place_folded(content, &layout);
     return layout;
 }
 

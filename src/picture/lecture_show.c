@@ -1,4 +1,5 @@
-/* lecture_show.c - the code and the columns that pages of the lecture show. */
+/* lecture_show.c - the code and the columns that pages of the lecture show.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,11 +8,11 @@
 
 _Static_assert((int)LINE_COUNT == LINES_WALKED, "a page has all lines");
 
-const char *lecture_lit_code(const Show *show)
+const char *lecture_lit_code(const FrameContent *content)
 {
-    const LecturePage *page = show->lecture;
-    const Trace *trace = show_pane(show)->trace;
-    const Options *options = &show_pane(show)->simulation->options;
+    const LecturePage *page = content->lecture.page;
+    const Trace *trace = active_pane(content)->trace;
+    const Options *options = &active_pane(content)->simulation->options;
     bool whole = options->line_search == LINE_SEARCH_NONE;
     bool walks = page->walk && trace && trace->line != LINE_NONE && !whole;
     return walks ? page->walk[trace->line] : page->lit;
@@ -19,59 +20,62 @@ const char *lecture_lit_code(const Show *show)
 
 /* Lists all pages of the lecture, each section below its heading.
  *   marked  page that gets a mark: the open one, or the one last open */
-static void list_pages(const LecturePage *marked, Show *show)
+static void list_pages(const LecturePage *marked, FrameContent *content)
 {
-    HelpRow *row = show->help;
+    ListRow *row = content->list.row;
     for (const LecturePage *page = lecture_pages;
-         page->name && row < show->help + LAYOUT_ROWS - 1; page++) {
+         page->name && row < content->list.row + LAYOUT_ROWS - 1; page++) {
         if (page->section) {
-            *row = (HelpRow){.head = true};
-            snprintf((row++)->text, SHOW_TEXT, "%s", page->section);
+            *row = (ListRow){.head = true};
+            snprintf((row++)->text, SENTENCE_SIZE, "%s", page->section);
         }
-        *row = (HelpRow){.grey = page->extra};
-        snprintf(row->key, SHOW_VALUE, "%s%d", page == marked ? ">" : "",
+        *row = (ListRow){.grey = page->extra};
+        snprintf(row->key, VALUE_SIZE, "%s%d", page == marked ? ">" : "",
                  (int)(page - lecture_pages) + 1);
-        snprintf((row++)->text, SHOW_TEXT, "%s%s", page->topic,
+        snprintf((row++)->text, SENTENCE_SIZE, "%s%s", page->topic,
                  page->extra ? " (extra)" : "");
     }
-    show->help_rows = (int)(row - show->help);
+    content->list.rows = (int)(row - content->list.row);
 }
 
-static void list_letters(Show *show)
+static void list_letters(FrameContent *content)
 {
-    HelpRow *row = show->help;
+    ListRow *row = content->list.row;
     for (const Letter *letter = lecture_letters;
-         letter->letter && row < show->help + LAYOUT_ROWS; letter++, row++) {
-        *row = (HelpRow){.grey = false};
-        snprintf(row->key, SHOW_VALUE, "%s", letter->letter);
-        snprintf(row->text, SHOW_TEXT, "%s", letter->meaning);
+         letter->letter && row < content->list.row + LAYOUT_ROWS;
+         letter++, row++) {
+        *row = (ListRow){.grey = false};
+        snprintf(row->key, VALUE_SIZE, "%s", letter->letter);
+        snprintf(row->text, SENTENCE_SIZE, "%s", letter->meaning);
     }
-    show->help_rows = (int)(row - show->help);
+    content->list.rows = (int)(row - content->list.row);
 }
 
-void show_lecture(Column column, const LecturePage *left, Show *show)
+void frame_add_lecture(Column column, const LecturePage *left,
+                       FrameContent *content)
 {
-    const Simulation *simulation = show_pane(show)->simulation;
+    const Simulation *simulation = active_pane(content)->simulation;
     const LecturePage *page = simulation->options.page;
     const Picture *picture = picture_of(simulation->scene);
     if (column == COLUMN_PAGES)
-        list_pages(page ? page : left, show);
+        list_pages(page ? page : left, content);
     if (column == COLUMN_LETTERS)
-        list_letters(show);
-    show->column = page || column != COLUMN_CODE ? column : COLUMN_CARDS;
+        list_letters(content);
+    content->column = page || column != COLUMN_CODE ? column : COLUMN_CARDS;
     if (!page)
         return;
-    show->lecture = page;
-    show->topic = page->topic;
-    show->hidden = show->veils = 0;
+    content->lecture.page = page;
+    content->strip.topic = page->topic;
+    content->cards.hidden = content->cards.covered = 0;
     for (int c = 0; c < picture->count; c++) {
         /* strstr is safe: no card's name is part of another's. */
         const char *name = picture->cards[c]->name;
         bool open = strstr(page->cards, name);
-        if (show->veiled && page->veils && strstr(page->veils, name))
-            show->veils |= 1u << c;
-        show->hidden |= open ? 0 : 1u << c;
+        if (content->lecture.hides_answer && page->veils &&
+            strstr(page->veils, name))
+            content->cards.covered |= 1u << c;
+        content->cards.hidden |= open ? 0 : 1u << c;
         if (open && picture->cards[c]->starts_closed)
-            show->closed &= ~(1u << c);
+            content->cards.closed &= ~(1u << c);
     }
 }

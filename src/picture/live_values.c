@@ -53,8 +53,8 @@ void values_add_matrix(LiveValues *values, const char *const names[3],
 }
 
 /* Adds scene, methods and settings. */
-static void add_settings(const Show *show, const Simulation *simulation,
-                         LiveValues *values)
+static void add_settings(const FrameContent *content,
+                         const Simulation *simulation, LiveValues *values)
 {
     const Scene *scene = simulation->scene;
     const Options *options = &simulation->options;
@@ -65,15 +65,17 @@ static void add_settings(const Show *show, const Simulation *simulation,
     bool explicit = time && method && !method->implicit;
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
-    values_add_words(values, "scene", show->lecture ? NULL : scene->sentence);
+    values_add_words(values, "scene",
+                     content->lecture.page ? NULL : scene->sentence);
     values_add(values, "page",
-               show->lecture ? (double)(show->lecture - lecture_pages + 1)
-                             : NAN);
+               content->lecture.page
+                   ? (double)(content->lecture.page - lecture_pages + 1)
+                   : NAN);
     values_add(values, "pages", lecture_count());
-    bool settles = scene->settles && !show->lecture;
+    bool settles = scene->settles && !content->lecture.page;
     values_add_flag(values, "grows", settles && forward);
     values_add_flag(values, "keeps", settles && method && !method->damps);
-    values_add(values, "panes", show->panes > 1 ? show->panes : NAN);
+    values_add(values, "panes", content->panes > 1 ? content->panes : NAN);
     values_add_flag(values, "searches", scene->step == step_descent);
     values_add(values, "runs", simulation->runs);
     values_add_flag(values, "mixed",
@@ -99,12 +101,13 @@ static void add_settings(const Show *show, const Simulation *simulation,
     values_add(values, "springs", simulation->system.springs);
     values_add_flag(values, "of a solid", neo_hookean_of(&simulation->system));
     values_add_flag(values, "done", simulation->done);
-    values_add_flag(values, "paused", show->paused);
-    values_add_flag(values, show->veiled ? "asked" : "told", true);
-    values_add_flag(values, "guessed", show->guesses > 0);
-    values_add(values, "guesses", show->guesses);
-    values_add(values, "right", show->right);
-    values_add_flag(values, show->view->held.on ? "held" : "free", true);
+    values_add_flag(values, "paused", content->time_line.paused);
+    values_add_flag(values, content->lecture.hides_answer ? "asked" : "told",
+                    true);
+    values_add_flag(values, "guessed", content->lecture.guesses > 0);
+    values_add(values, "guesses", content->lecture.guesses);
+    values_add(values, "right", content->lecture.right);
+    values_add_flag(values, content->view->held.on ? "held" : "free", true);
     if (simulation->done && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* the gradient is 0 */
         const double *x = descent->point;
@@ -230,15 +233,15 @@ static const Trace *descent_trace(const Simulation *simulation,
     return &space->trace;
 }
 
-void show_fill_values(Show *show)
+void frame_fill_values(FrameContent *content)
 {
     static const char *const lines[LINE_COUNT] = {"",       "line 1", "line 2",
                                                   "line 3", "line 4", "line 5",
                                                   "line 6", "line 7", "line 8"};
-    bool walks = !show->lecture || show_has_card(show, "listing") ||
-                 show_has_card(show, "line");
-    for (int i = 0; i < show->panes; i++) {
-        Pane *now = &show->pane[i];
+    bool walks = !content->lecture.page || frame_has_card(content, "listing") ||
+                 frame_has_card(content, "line");
+    for (int i = 0; i < content->panes; i++) {
+        Pane *now = &content->pane[i];
         LiveValues *values = &now->values;
         const Simulation *simulation = now->simulation;
         const Picture *picture = picture_of(simulation->scene);
@@ -249,7 +252,7 @@ void show_fill_values(Show *show)
         values->count = values->run = 0;
         for (int run = 0; run <= VALUES_RUNS; run++)
             values->colour[run] = COLOUR_TEXT;
-        add_settings(show, simulation, values);
+        add_settings(content, simulation, values);
         if ((!line || now->trace->given_up) && now->trouble &&
             now->trouble != STATUS_INTERRUPTED) {
             values_add_words(values, status_name(now->trouble), "");
@@ -259,7 +262,7 @@ void show_fill_values(Show *show)
         values_add_flag(values, "no step", !now->update);
         if (now->update)
             add_trace(simulation, now->update, values);
-        if (picture->add_values && (i == show->active || picture->legend))
+        if (picture->add_values && (i == content->active || picture->legend))
             picture->add_values(
                 simulation,
                 values); /* other panes need them for their legends */
@@ -289,10 +292,10 @@ double values_find_number(const LiveValues *values, const char *name)
     return one && !one->words ? one->value[0] : NAN;
 }
 
-double show_number(Show *show, const char *name)
+double frame_find_number(FrameContent *content, const char *name)
 {
-    show_fill_values(show);
-    return values_find_number(&show_pane(show)->values, name);
+    frame_fill_values(content);
+    return values_find_number(&active_pane(content)->values, name);
 }
 
 /* Writes a value in the format that stands behind its colon. */
@@ -415,7 +418,8 @@ void card_write_text(const Plot *card, const LiveValues *values,
     Paper *paper = card->paper;
     Box box = card->box;
     double height = 0, size = 1;
-    if (card->show->lecture) /* an audience reads the page from far away */
+    if (card->content->lecture
+            .page) /* an audience reads the page from far away */
         size = box.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {
@@ -448,21 +452,24 @@ int card_flow_words(const Plot *card, int at[2], double size, double gap,
  */
 
 /* Fills an empty text with the first known line; out [size]. */
-static void fill_text(const Show *show, const char *text, char *out,
+static void fill_text(const FrameContent *content, const char *text, char *out,
                       size_t size)
 {
     if (!out[0])
         snprintf(out, size, "%.*s", (int)size - 1,
-                 text_first_line(&show_pane(show)->values, text).words);
+                 text_first_line(&active_pane(content)->values, text).words);
 }
 
-void show_describe(Show *show)
+void frame_describe(FrameContent *content)
 {
-    const Scene *scene = show_pane(show)->simulation->scene;
-    show_fill_values(show);
-    if (!show->topic)
-        show->topic = scene->title ? scene->title : scene->name;
-    fill_text(show, text_sentences, show->sentence, sizeof show->sentence);
-    fill_text(show, text_methods, show->method, sizeof show->method);
-    fill_text(show, text_states, show->state, sizeof show->state);
+    const Scene *scene = active_pane(content)->simulation->scene;
+    frame_fill_values(content);
+    if (!content->strip.topic)
+        content->strip.topic = scene->title ? scene->title : scene->name;
+    fill_text(content, text_sentences, content->strip.sentence,
+              sizeof content->strip.sentence);
+    fill_text(content, text_methods, content->strip.method,
+              sizeof content->strip.method);
+    fill_text(content, text_states, content->strip.state,
+              sizeof content->strip.state);
 }

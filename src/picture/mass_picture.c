@@ -33,7 +33,7 @@ static Colour run_colour(const Simulation *simulation, int run)
  * for each step. */
 static void draw_trails(const Plot *stage, bool steps)
 {
-    const History *history = stage->show->pane[stage->pane].history;
+    const History *history = stage->content->pane[stage->pane].history;
     int runs = stage->simulation->runs;
     for (int r = 0; history && history->series && r < runs; r++) {
         const double *x = history->value[runs + 2 * r];
@@ -221,7 +221,7 @@ void matrix_draw(const Plot *card)
     else
         plane.box = box_cut_off(&numbers.box, EDGE_RIGHT,
                                 rest < box->height ? rest : box->height);
-    card_write_text(&numbers, &show_pane(card->show)->values,
+    card_write_text(&numbers, &active_pane(card->content)->values,
                     box->height < high ? text_eigenvalues : text_matrix);
     Box before = canvas_set_clip(&card->paper->canvas, plane.box);
     draw_complex_plane(&plane);
@@ -384,7 +384,7 @@ static void draw_mass_step(Plot *stage)
                    arrow[i].colour);
     plot_ring(stage, step.new_x, 9, 2.4, COLOUR_X);
     plot_disc(stage, step.x, 8, COLOUR_X);
-    if (stage->show->lecture)
+    if (stage->content->lecture.page)
         draw_mass_lesson(stage);
     plot_label(stage, 1, step.new_x, COLOUR_X, "x^{n+1}");
     for (int i = 0; i < 4 + backward; i++) {
@@ -401,7 +401,7 @@ static void draw_mass_step(Plot *stage)
  * of the step would give the answer and are left out. */
 void mass_draw(Plot *stage)
 {
-    const Show *show = stage->show;
+    const FrameContent *content = stage->content;
     const Simulation *simulation = stage->simulation;
     const TimeIntegrator *run = simulation->run;
     double start[2], across[2]; /* semi-axes of the exact path */
@@ -419,7 +419,7 @@ void mass_draw(Plot *stage)
                    run_colour(simulation, r));
         plot_ring(stage, step.new_x, 8, 2.2, run_colour(simulation, r));
     }
-    if (simulation->runs == 1 && show->veiled)
+    if (simulation->runs == 1 && content->lecture.hides_answer)
         plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
     else if (simulation->runs == 1)
         draw_mass_step(stage);

@@ -16,7 +16,7 @@
 
 #include "base/mathematics.h"
 #include "picture/paper.h"
-#include "picture/show.h"
+#include "picture/frame_content.h"
 
 typedef struct Axis {
     double low, high;  /* high > low; both > 0 on a logarithmic axis */
@@ -28,7 +28,7 @@ typedef struct Axis {
 
 typedef struct Plot {
     Paper *paper; /* NULL: the plot only computes positions */
-    const Show *show;
+    const FrameContent *content;
     const Simulation
         *simulation;  /* of the pane; in a card, of the active pane */
     bool revealed;    /* is on a page whose answer is shown */
@@ -169,7 +169,8 @@ Number format_number(double value);
 /* ---- stages (show.c) ---------------------------------------------------- */
 
 /* The stage of a pane; paper NULL: the stage only computes positions. */
-Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane);
+Plot stage_create(Paper *paper, const FrameContent *content,
+                  const Layout *layout, int pane);
 
 /* Draws a ring at each of the scene's handles, which the mouse can drag. */
 void stage_handles(const Plot *stage);

@@ -143,7 +143,7 @@ void curve_draw(Plot *stage)
         ScalarUpdate earlier = update_at(simulation, i);
         draw_scalar_model(&plot, &earlier, 1.4, 4, pale);
     }
-    draw_search(&plot, &update, !stage->show->veiled);
+    draw_search(&plot, &update, !stage->content->lecture.hides_answer);
 }
 
 /* The step length that backtracking finds from the present iterate. */
@@ -220,7 +220,7 @@ void tangent_draw(Plot *stage)
     const double target[2] = {simulation->exhibit.target[0], 0};
     ScalarUpdate update = update_at(simulation, simulation->descent.count - 1);
     const Plot plot[2] = {tangent_plot(stage, 0), tangent_plot(stage, 1)};
-    bool asked = stage->show->veiled;
+    bool asked = stage->content->lecture.hides_answer;
     for (int half = 0; half < 2; half++) {
         update.slopes = half == 0;
         draw_search(&plot[half], &update, update.is_made || !asked);
@@ -297,7 +297,7 @@ void update_draw(const Plot *card)
     Plot left = *card, right = *card;
     right.box = box_cut_off(&left.box, EDGE_RIGHT,
                             paper_pixels(card->paper, ITERATES_WIDE));
-    card_write_text(&left, &show_pane(card->show)->values, text_update);
+    card_write_text(&left, &active_pane(card->content)->values, text_update);
     draw_iterates(&right);
 }
 

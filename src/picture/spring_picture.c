@@ -70,19 +70,21 @@ static void draw_coil(Plot *stage, const double *x, Colour colour)
 void spring_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const Show *show = stage->show;
+    const FrameContent *content = stage->content;
     const double *x = simulation->run[0].x;
     double l = sqrt(simulation->system.l2[0]);
     SpringFacts spring = spring_at(x, &simulation->system);
-    bool projects = spring.across < 0 && !show->veiled;
+    bool projects = spring.across < 0 && !content->lecture.hides_answer;
     bool modes = simulation->options.layers & LAYER_MODES;
     draw_length_circle(stage, l, COLOUR_FAINT, "l");
-    if (!show->lecture || modes)
+    if (!content->lecture.page || modes)
         draw_length_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     draw_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
     const double value[2] = {spring.along, spring.across};
-    for (int i = 0; i < 4 && modes && !show->veiled && spring.length > 0; i++) {
+    for (int i = 0;
+         i < 4 && modes && !content->lecture.hides_answer && spring.length > 0;
+         i++) {
         double n[2] = {x[i / 2] / spring.length, x[1 - i / 2] / spring.length};
         double size = fabs(value[i / 2]) / (4 * simulation->system.k[0]);
         n[0] = i / 2 ? -n[0] : n[0];

@@ -24,7 +24,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(system);
-    const double *at = pane_x(&stage->show->pane[stage->pane]);
+    const double *at = pane_x(&stage->content->pane[stage->pane]);
     double spacing = stage->camera.scale[0] * mesh->spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
     int springs = neo_hookean_of(system) ? 0 : system->springs;
@@ -54,7 +54,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
         const int *e = system->e + 2 * (size_t)pick->index;
         int sides = square_mesh_get_sides(mesh, e[0]) &
                     square_mesh_get_sides(mesh, e[1]);
-        if (stage->show->paused && simulation->steps == 0 &&
+        if (stage->content->time_line.paused && simulation->steps == 0 &&
             options->bodies == 0 && sides & (MESH_LEFT | MESH_RIGHT)) {
             pick->kind = PICK_EDGE;
             pick->index = sides & MESH_LEFT ? 0 : 1;
@@ -90,7 +90,7 @@ static void draw_note(const Plot *stage, const LiveValues *values,
                                 line.words) +
                 paper_pixels(paper, 0.2 * size);
     }
-    plot_pixel(stage, stage->show->view->hover.point, mouse);
+    plot_pixel(stage, stage->content->view->hover.point, mouse);
     box->width = (int)wide + 2 * margin;
     box->height = (int)high + 2 * margin;
     box->x += mouse[0] > middle ? 0 : stage->box.width - box->width;
@@ -174,8 +174,8 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
 
 void square_hover(Plot *stage)
 {
-    const Pane *pane = &stage->show->pane[stage->pane];
-    const Pick *hover = &stage->show->view->hover;
+    const Pane *pane = &stage->content->pane[stage->pane];
+    const Pick *hover = &stage->content->view->hover;
     const System *system = &pane->simulation->system;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
         note_node(stage, pane, hover->index);

@@ -44,8 +44,8 @@ static bool is_fixed(const SquarePen *pen, int node)
 
 SquarePen square_pen_create(Plot *stage, int run)
 {
-    const Show *show = stage->show;
-    const Pane *pane = &show->pane[stage->pane];
+    const FrameContent *content = stage->content;
+    const Pane *pane = &content->pane[stage->pane];
     const Simulation *simulation = stage->simulation;
     const Trace *trace = pane->trace;
     const System *system = simulation->run[run].system;
@@ -65,7 +65,7 @@ SquarePen square_pen_create(Plot *stage, int run)
                          mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
     double unit = stage->paper->unit;
     double seen =
-        show->view->lens.zoom * stage->box.width / stage->camera.scale[0];
+        content->view->lens.zoom * stage->box.width / stage->camera.scale[0];
     if (seen > FLOWN * mesh->side) /* the rest shape would be a dot */
         pen.spacing *= seen / mesh->side;
     for (int i = 0; pen.fixed_bodies && i < mesh->nodes; i++) {
@@ -78,18 +78,18 @@ SquarePen square_pen_create(Plot *stage, int run)
     pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
     pen.width = fmax(1 / unit, pen.width);
     pen.radius = NODE * pen.spacing / unit;
-    if (!show->bare)
+    if (!content->bare)
         pen.radius = fmin(pen.radius, 6.5);
-    pen.shows_plastic = !show->strain && !show->bare && pen.ep;
+    pen.shows_plastic = !content->strain && !content->bare && pen.ep;
     pen.below = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_COMPRESS;
     pen.above = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_STRETCH;
-    if (pen.shows_plastic || show->strain)
+    if (pen.shows_plastic || content->strain)
         pen.colour_range = pen.shows_plastic ? strain_range(simulation, pen.ep)
                                              : pen.shade_strain;
     if (pen.colour_range > 0)
         pen.width *= 1.4;
     pen.shows_projected = trace && trace->line >= LINE_PROJECT &&
-                          trace->line <= LINE_SEARCH && !show->strain &&
+                          trace->line <= LINE_SEARCH && !content->strain &&
                           simulation->options.projection != PROJECTION_NONE &&
                           trace->projected != 0 && !neo_hookean_of(system);
     return pen;

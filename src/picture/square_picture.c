@@ -53,16 +53,18 @@ static bool moves_freely(const Simulation *simulation)
 
 /* The view of the scene; else the square at its start, with the room that a
  * compressed one needs to spring out and bulge. */
-static Extent first_view(const Show *show, const Simulation *simulation)
+static Extent first_view(const FrameContent *content,
+                         const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     const double *frame = simulation->scene->frame;
     Extent view = {{0, 0}, {0, 0}};
     double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
-    double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
+    double half =
+        0.5 * simulation->mesh.side * (content->bare ? BARE_ROOM : ROOM);
     view.size[0] = half * extent;
-    view.size[1] = half * (show->bare ? extent : fmin(extent, 1.25));
+    view.size[1] = half * (content->bare ? extent : fmin(extent, 1.25));
     for (int k = 0; k < 2 && scene_sets_view(simulation); k++) {
         view.middle[k] = 0.5 * (frame[2 + k] + frame[k]);
         view.size[k] = 0.5 * (frame[2 + k] - frame[k]);
@@ -193,10 +195,10 @@ static double needed_growth(const double box[4], const Extent *view,
 void square_bounds(const Plot *stage, double bounds[4])
 {
     static const double GROWTH = 1.5;
-    const Show *show = stage->show;
-    const Pane *pane = &show->pane[stage->pane];
+    const FrameContent *content = stage->content;
+    const Pane *pane = &content->pane[stage->pane];
     const Simulation *simulation = stage->simulation;
-    Extent view = first_view(show, simulation);
+    Extent view = first_view(content, simulation);
     double box[4], tall, grown = 1;
     pane_node_bounds(pane, simulation->runs, box);
     if (moves_freely(simulation))
@@ -211,7 +213,7 @@ void square_bounds(const Plot *stage, double bounds[4])
         memcpy(view.middle, larger.middle, sizeof view.middle);
     }
     /* A wide bare window has less room above the square. */
-    double low = show->bare && !scene_sets_view(simulation)
+    double low = content->bare && !scene_sets_view(simulation)
                      ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown)
                      : 1;
     view.size[0] *= grown;
@@ -272,10 +274,10 @@ static void draw_push(const SquarePen *pen, const Control *hand)
 static void draw_mouse(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
-    const Show *show = stage->show;
+    const FrameContent *content = stage->content;
     const System *system = pen->system;
-    const Control *hand = stage->pane == show->active ? show->hand : NULL;
-    const Pick *hover = &show->view->hover;
+    const Control *hand = stage->pane == content->active ? content->hand : NULL;
+    const Pick *hover = &content->view->hover;
     bool over = hover->pane == stage->pane;
     bool writes = pen->simulation->options.next == NEXT_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
@@ -331,7 +333,7 @@ static void draw_warnings(const SquarePen *pen, int folded)
 {
     Plot *stage = pen->stage;
     int nodes = pen->system->nodes, lost = 0;
-    bool seen = !stage->show->lecture || pen->simulation->runs > 1;
+    bool seen = !stage->content->lecture.page || pen->simulation->runs > 1;
     double at[2];
     for (int i = 0; i < nodes; i++) {
         const double *x = pen->x + 2 * (size_t)i;
@@ -549,7 +551,7 @@ static void draw_slide(const Plot *stage)
 void square_draw(Plot *stage)
 {
     SquarePen pen[SIMULATION_MAX_RUNS];
-    const Show *show = stage->show;
+    const FrameContent *content = stage->content;
     const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     int runs = simulation->runs, folded = 0;
@@ -562,14 +564,15 @@ void square_draw(Plot *stage)
         if (pen[r].contact)
             square_contact_slope(&pen[r]);
     for (int r = 1; r < runs; r++) {
-        if (!show->bare)
+        if (!content->bare)
             square_cells(&pen[r], true);
         square_springs(&pen[r]);
         square_nodes(&pen[r]);
     }
-    if (!show->bare)
+    if (!content->bare)
         folded = draw_below_springs(pen);
-    bool cuts = layers & LAYER_CUTS, solid = cuts && show->veiled;
+    bool cuts = layers & LAYER_CUTS,
+         solid = cuts && content->lecture.hides_answer;
     if (cuts)
         square_cells(pen, true);
     if (solid)
@@ -582,7 +585,7 @@ void square_draw(Plot *stage)
         square_faces(pen);
     if (!solid)
         square_nodes(pen);
-    if (show->bare)
+    if (content->bare)
         return;
     square_contact_forces(pen, runs);
     if (simulation->mesh.side * stage->camera.scale[0] < 4 &&

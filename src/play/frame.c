@@ -15,7 +15,7 @@ static const double SMALL_LETTER = 9; /* pixels, without a window */
 /* ---- the list of keys ---------------------------------------------------- */
 
 /* Replaces the name of a key by its sign, "Right" by an arrow. */
-static void pretty_key(char key[SHOW_VALUE])
+static void pretty_key(char key[VALUE_SIZE])
 {
     static const char *const names[][2] = {
         {"Right", "\u2192"},         {"Left", "\u2190"},   {"Up", "\u2191"},
@@ -24,12 +24,12 @@ static void pretty_key(char key[SHOW_VALUE])
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(key, names[i][0]) == 0)
-            snprintf(key, SHOW_VALUE, "%s", names[i][1]);
+            snprintf(key, VALUE_SIZE, "%s", names[i][1]);
 }
 
-static void fill_help(Show *show)
+static void fill_help(FrameContent *content)
 {
-    static const HelpRow mouse[] = {
+    static const ListRow mouse[] = {
         {"drag", "pulls a node; paused: places it", false, false},
         {"", "a ground, a ball: pushes; a pin: moves", false, false},
         {"", "where nothing is: moves the picture", false, false},
@@ -41,24 +41,24 @@ static void fill_help(Show *show)
         {"letters", "go into a lit number; Enter, Esc", false, false},
         {"1 \u2026 9", "a scene; G shows more", false, false},
     };
-    HelpRow *row = show->help + sizeof mouse / sizeof *mouse;
-    memcpy(show->help, mouse, sizeof mouse);
+    ListRow *row = content->list.row + sizeof mouse / sizeof *mouse;
+    memcpy(content->list.row, mouse, sizeof mouse);
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
         const CommandRow *command = &command_rows[kind];
         if (!command->label)
             continue;
         if (command->label[0]) /* "": the key stands in the row above */
-            snprintf((row++)->text, SHOW_TEXT, "%s", command->label);
+            snprintf((row++)->text, SENTENCE_SIZE, "%s", command->label);
         for (const char *at = command->keys; *at; at += *at == '|') {
-            char key[SHOW_VALUE], *keys = row[-1].key;
+            char key[VALUE_SIZE], *keys = row[-1].key;
             int length = (int)strcspn(at, "|");
             snprintf(key, sizeof key, "%.*s", length, at);
             pretty_key(key);
-            append(keys, SHOW_VALUE, "%s%s", keys[0] ? ", " : "", key);
+            append(keys, VALUE_SIZE, "%s%s", keys[0] ? ", " : "", key);
             at += length;
         }
     }
-    show->help_rows = (int)(row - show->help);
+    content->list.rows = (int)(row - content->list.row);
 }
 
 /* ---- the row of numbers -------------------------------------------------- */
@@ -67,21 +67,21 @@ static void fill_help(Show *show)
  * or the one that is lit. */
 static void fill_settings(const Player *player, Frame *frame)
 {
-    Show *show = &frame->show;
+    FrameContent *content = &frame->content;
     const Hit *mouse = &player->screen.view.over;
     const Options shown = player_numbers(player), *options = &shown;
     const OptionRow *all[OPTIONS_MOST];
-    show->selected = -1;
+    content->settings.selected = -1;
     frame->numbers = player_visible_options(player, false, frame->number);
     bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->numbers;
     for (int i = 0; i < frame->numbers; i++) {
         const OptionRow *row = frame->number[i];
-        Setting *setting = &show->setting[show->settings++];
+        Setting *setting = &content->settings.item[content->settings.count++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = option_label(row);
         setting->letters = row->field.letters;
         player_format_value(row, options, player_simulation(player),
-                            setting->value, SHOW_VALUE);
+                            setting->value, VALUE_SIZE);
         option_value(row, options, now, sizeof now);
         option_value(row, &past_start(&player->past, player->active)->options,
                      start, sizeof start);
@@ -90,32 +90,32 @@ static void fill_settings(const Player *player, Frame *frame)
         setting->off = strcmp(setting->value, "none") == 0 || idle;
         bool is_explained = over ? i == mouse->index : row == player->hands.lit;
         if (is_explained && (idle || row->help[0]))
-            snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
-                     idle ? idle : row->help);
+            snprintf(content->strip.sentence, SENTENCE_SIZE, "%s: %s",
+                     row->name, idle ? idle : row->help);
         if (row == player->hands.lit)
-            show->selected = i;
+            content->settings.selected = i;
         if (row == player->hands.lit && player->hands.typing)
-            snprintf(setting->value, SHOW_VALUE, "%s_", player->hands.typed);
+            snprintf(setting->value, VALUE_SIZE, "%s_", player->hands.typed);
     }
     if (player_visible_options(player, true, all) > frame->numbers)
-        show->setting[show->settings++] =
+        content->settings.item[content->settings.count++] =
             (Setting){"", "+ more", 0, false, false};
 }
 
 /* Lists all numbers of the scene, and why some have no meaning now. */
-static void fill_options(const Player *player, Show *show)
+static void fill_options(const Player *player, FrameContent *content)
 {
     const OptionRow *all[OPTIONS_MOST];
     const Options options = player_numbers(player);
-    show->help_rows = player_visible_options(player, true, all);
-    for (int i = 0; i < show->help_rows; i++) {
-        HelpRow *row = &show->help[i];
-        char value[SHOW_VALUE];
+    content->list.rows = player_visible_options(player, true, all);
+    for (int i = 0; i < content->list.rows; i++) {
+        ListRow *row = &content->list.row[i];
+        char value[VALUE_SIZE];
         const char *idle = player_idle_reason(player, all[i]);
         player_format_value(all[i], &options, player_simulation(player), value,
                             sizeof value);
-        snprintf(row->key, SHOW_VALUE, "%d", i + 1);
-        snprintf(row->text, SHOW_TEXT, "%s %s%s%s", all[i]->name, value,
+        snprintf(row->key, VALUE_SIZE, "%d", i + 1);
+        snprintf(row->text, SENTENCE_SIZE, "%s %s%s%s", all[i]->name, value,
                  idle || all[i]->help[0] ? ": " : "",
                  idle ? idle : all[i]->help);
         row->grey = idle != NULL;
@@ -128,7 +128,7 @@ static void fill_options(const Player *player, Show *show)
  * for what the key does now. */
 static void add_chip(Frame *frame, CommandKind kind, int word, bool lit)
 {
-    int i = frame->show.chips;
+    int i = frame->content.chips.count;
     const CommandRow *row = &command_rows[kind];
     const char *label = row->chip;
     if (i >= LAYOUT_CHIPS)
@@ -136,11 +136,12 @@ static void add_chip(Frame *frame, CommandKind kind, int word, bool lit)
     char *key = frame->chip_key[i], *text = frame->chip_label[i];
     for (; word > 0; word--)
         label = strchr(label, '|') + 1;
-    snprintf(text, SHOW_VALUE, "%.*s", (int)strcspn(label, "|"), label);
-    snprintf(key, SHOW_VALUE, "%.*s", (int)strcspn(row->keys, "|"), row->keys);
+    snprintf(text, VALUE_SIZE, "%.*s", (int)strcspn(label, "|"), label);
+    snprintf(key, VALUE_SIZE, "%.*s", (int)strcspn(row->keys, "|"), row->keys);
     pretty_key(key);
     frame->chip[i] = kind;
-    frame->show.chip[frame->show.chips++] = (Chip){key, text, lit};
+    frame->content.chips.item[frame->content.chips.count++] =
+        (Chip){key, text, lit};
 }
 
 /* Adds chips of the keys that matter now. */
@@ -197,7 +198,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
     const Past *past = &player->past;
     long last = past_end_step(past, pane, past->step);
     const Entry *entry = past_entry(past, pane, last < 0 ? past->step : last);
-    char value[SHOW_VALUE];
+    char value[VALUE_SIZE];
     label[0] = '\0';
     for (const OptionRow *row = option_rows; row->name; row++) {
         if (!player_panes_differ(player, row))
@@ -225,7 +226,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
     const Machine *machine = &player->past.machine[p];
     const Simulation *simulation = &machine->simulation;
     const Side *side = &player->side[p];
-    Pane *pane = &frame->show.pane[p];
+    Pane *pane = &frame->content.pane[p];
     past_history(&player->past, p, &frame->history[p]);
     player_label(player, p, frame->label[p]);
     *pane = (Pane){.simulation = simulation,
@@ -252,11 +253,11 @@ static StepBar bar_of(const void *shown, long step)
 
 /* Writes "step 12 of 40   t = 0.24 s   2 steps a frame", the state of the run,
  * and how to stop a long step. */
-static void fill_time(const Player *player, Show *show)
+static void fill_time(const Player *player, FrameContent *content)
 {
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
-    char *text = show->time_text;
+    char *text = content->time_line.text;
     double time = 0, longest = -1; /* s; the longest h says the time */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->machine[p].simulation;
@@ -265,31 +266,31 @@ static void fill_time(const Player *player, Show *show)
         time = h > longest ? simulation_time(now) : time;
         longest = fmax(longest, h);
     }
-    show->paused = player_is_stopped(player);
+    content->time_line.paused = player_is_stopped(player);
     if (player_settings(player)->next ==
             NEXT_SPRING && /* each step writes a spring */
         past->step < player_simulation(player)->system.springs) {
-        snprintf(text, SHOW_TEXT, "spring %ld", past->step);
+        snprintf(text, SENTENCE_SIZE, "spring %ld", past->step);
         return;
     }
-    snprintf(text, SHOW_TEXT, "%s %ld", turn ? turn : "step", past->step);
+    snprintf(text, SENTENCE_SIZE, "%s %ld", turn ? turn : "step", past->step);
     if (past_newest(past) > past->step)
-        append(text, SHOW_TEXT, " of %ld", past_newest(past));
+        append(text, SENTENCE_SIZE, " of %ld", past_newest(past));
     if (!turn)
-        append(text, SHOW_TEXT, "   t = %.4g s", time);
+        append(text, SENTENCE_SIZE, "   t = %.4g s", time);
     if (!turn && player->time.speed != 0)
-        append(text, SHOW_TEXT,
+        append(text, SENTENCE_SIZE,
                player->time.speed < 0 ? "   slowed %.4g times"
                                       : "   %.4g steps a frame",
                ldexp(1, abs(player->time.speed)));
-    snprintf(show->state, SHOW_VALUE, "%s",
+    snprintf(content->strip.state, VALUE_SIZE, "%s",
              player->time.mode == MODE_REST ? "at rest" : "");
     if (!past_makes(past) || (clock_now() - player->time.began <= LONG_WORK &&
                               !player_is_slow(player)))
         return;
-    snprintf(show->sentence, SHOW_TEXT,
+    snprintf(content->strip.sentence, SENTENCE_SIZE,
              "a long step: Esc stops it, at the last whole one");
-    snprintf(show->state, SHOW_VALUE, "computing, update %d",
+    snprintf(content->strip.state, VALUE_SIZE, "computing, update %d",
              player_machine(player)->outcome.updates);
 }
 
@@ -297,60 +298,62 @@ static void fill_time(const Player *player, Show *show)
 static void fill_frame(const Player *player, Frame *frame)
 {
     const Past *past = &player->past;
-    Show *show = &frame->show;
+    FrameContent *content = &frame->content;
     const int active = player->active;
-    show_create(player_simulation(player), show);
-    show->view = &player->screen.view;
-    show->text = player->screen.paper.text;
-    show->letter = player->screen.window  ? window_letter()
-                   : player->screen.draws ? SMALL_LETTER
-                                          : 0;
-    show->document = player->screen.window && window_has_document();
-    show->panes = past_panes(past);
-    if (show->panes > LAYOUT_PANES) /* a script may draw more */
-        show->panes = LAYOUT_PANES;
-    show->active = active < show->panes ? active : 0;
-    for (int i = 0; i < show->panes; i++)
+    frame_create(player_simulation(player), content);
+    content->view = &player->screen.view;
+    content->text = player->screen.paper.text;
+    content->min_em = player->screen.window  ? window_letter()
+                      : player->screen.draws ? SMALL_LETTER
+                                             : 0;
+    content->document = player->screen.window && window_has_document();
+    content->panes = past_panes(past);
+    if (content->panes > LAYOUT_PANES) /* a script may draw more */
+        content->panes = LAYOUT_PANES;
+    content->active = active < content->panes ? active : 0;
+    for (int i = 0; i < content->panes; i++)
         fill_pane(player, i, frame);
-    fill_time(player, show);
+    fill_time(player, content);
     fill_settings(player, frame);
     fill_chips(player, frame);
     const Control *control = past_control(past, active);
     if (control_holds(control) && player->side[active].place < 0)
-        show->hand = control;
-    show->bars = past->keeps ? past_newest(past) : 0;
-    show->bar = bar_of;
-    show->past = player;
-    show->step = past->step;
-    show->warning = player->warning;
-    show->large = player->screen.large;
-    show->strain = player->screen.strain !=
-                   (show->pane[0].simulation->scene->strain_colour_max > 0);
-    show->bare = player->screen.bare;
+        content->hand = control;
+    content->time_line.steps = past->keeps ? past_newest(past) : 0;
+    content->time_line.bar = bar_of;
+    content->time_line.past = player;
+    content->time_line.step = past->step;
+    content->strip.is_warning = player->warning;
+    content->cards.large = player->screen.large;
+    content->strain =
+        player->screen.strain !=
+        (content->pane[0].simulation->scene->strain_colour_max > 0);
+    content->bare = player->screen.bare;
     if (player->screen.column == COLUMN_KEYS)
-        fill_help(show);
+        fill_help(content);
     if (player->screen.column == COLUMN_OPTIONS)
-        fill_options(player, show);
-    if (!(player->explains && show->sentence[0] && !player->hands.typing))
-        snprintf(show->message, SHOW_TEXT, "%s", player->note);
-    show->veiled = player_hides_answer(player);
+        fill_options(player, content);
+    if (!(player->explains && content->strip.sentence[0] &&
+          !player->hands.typing))
+        snprintf(content->strip.message, SENTENCE_SIZE, "%s", player->note);
+    content->lecture.hides_answer = player_hides_answer(player);
     bool judged =
-        show->pane[0].simulation->options.page == player->tour.revealed &&
+        content->pane[0].simulation->options.page == player->tour.revealed &&
         player->tour.verdict[0];
-    show->verdict = judged ? player->tour.verdict : NULL;
-    show->guesses = player->tour.guesses;
-    show->right = player->tour.right;
-    show_lecture(player->screen.column, player->tour.left, show);
-    show->closed ^= player->screen.closed;
+    content->lecture.verdict = judged ? player->tour.verdict : NULL;
+    content->lecture.guesses = player->tour.guesses;
+    content->lecture.right = player->tour.right;
+    frame_add_lecture(player->screen.column, player->tour.left, content);
+    content->cards.closed ^= player->screen.closed;
     if (player->screen.sheet)
-        sheet_fill(player, show);
-    show_describe(show);
+        sheet_fill(player, content);
+    frame_describe(content);
 }
 
 /* Finds what lies now under a mouse that rests on a body. */
 static void look_again(Player *player)
 {
-    const Show *show = &player->screen.frame.show;
+    const FrameContent *content = &player->screen.frame.content;
     const Mouse *mouse = &player->hands.mouse;
     const Canvas *canvas = &player->screen.paper.canvas;
     View *view = &player->screen.view;
@@ -360,8 +363,8 @@ static void look_again(Player *player)
     if (!body || !canvas->pixels || !mouse->placed || mouse->drag ||
         view->over.zone != ZONE_STAGE)
         return;
-    Layout layout = show_layout(show, canvas->width, canvas->height);
-    view->hover = show_pick(show, &layout, mouse->x, mouse->y);
+    Layout layout = layout_create(content, canvas->width, canvas->height);
+    view->hover = frame_pick(content, &layout, mouse->x, mouse->y);
 }
 
 void player_fill(Player *player)
@@ -392,7 +395,7 @@ Paper *player_paper(Player *player)
         paper_free(paper);
         return NULL;
     }
-    player->screen.frame.show.text = paper->text;
+    player->screen.frame.content.text = paper->text;
     if (!paper->text && !is_warned && (!font || font[0])) {
         fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
                         "no words (ELASTO_FONT=FILE.ttf names another font)\n");
@@ -407,5 +410,5 @@ void player_paint(Player *player, Paper *paper)
     if (player->screen.blank)
         canvas_clear(&paper->canvas, 0xff000000u);
     else
-        show_draw(paper, &player->screen.frame.show);
+        frame_draw(paper, &player->screen.frame.content);
 }

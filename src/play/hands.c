@@ -31,10 +31,11 @@ static Under find_under_mouse(Player *player)
 {
     const Mouse *mouse = &player->hands.mouse;
     const Paper *paper = player_paper(player);
-    const Show *show = &player->screen.frame.show;
+    const FrameContent *content = &player->screen.frame.content;
     Held *held = &player->screen.view.held;
-    Under under = {.layout = show_layout(show, paper ? paper->canvas.width : 1,
-                                         paper ? paper->canvas.height : 1),
+    Under under = {.layout =
+                       layout_create(content, paper ? paper->canvas.width : 1,
+                                     paper ? paper->canvas.height : 1),
                    .pane = player->active};
     under.hit = layout_hit(&under.layout, mouse->x, mouse->y);
     int pane = held->on                       ? held->pane
@@ -43,9 +44,9 @@ static Under find_under_mouse(Player *player)
     if (pane < past_panes(&player->past)) /* the pane may be closed */
         under.pane = pane;
     held->away = false;
-    Camera camera = show_camera(show, &under.layout, under.pane);
+    Camera camera = camera_of_pane(content, &under.layout, under.pane);
     camera_world(&camera, mouse->x, mouse->y, under.at);
-    under.pick = show_pick(show, &under.layout, mouse->x, mouse->y);
+    under.pick = frame_pick(content, &under.layout, mouse->x, mouse->y);
     held->away = under.hit.zone != ZONE_STAGE;
     return under;
 }
@@ -199,8 +200,8 @@ static Status take_under_mouse(Player *player, const Under *under)
     double point[2];
     bool paused = is_paused(player);
     mouse->index = under->pick.index;
-    player->screen.view.held =
-        show_hold(&player->screen.frame.show, &under->layout, under->pane);
+    player->screen.view.held = frame_hold_bounds(&player->screen.frame.content,
+                                                 &under->layout, under->pane);
     switch (under->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
@@ -314,8 +315,8 @@ static Status drag_held(Player *player)
         return drag_number(player, &under);
     case COMMAND_GOTO:
         return ask(player, COMMAND_GOTO,
-                   show_find_step(&player->screen.frame.show, &under.layout,
-                                  mouse->x));
+                   frame_find_step(&player->screen.frame.content, &under.layout,
+                                   mouse->x));
     case COMMAND_PAN:
         lens_move(&player->screen.view.lens, under.layout.pane[under.pane], dx,
                   dy);
@@ -340,7 +341,8 @@ static Status hover(Player *player)
         under.hit.zone == view->over.zone &&
         under.hit.index == view->over.index && pick.kind == view->hover.kind &&
         pick.index == view->hover.index && pick.pane == view->hover.pane;
-    bool idle = pick.kind == PICK_NONE && !player->screen.frame.show.lecture;
+    bool idle =
+        pick.kind == PICK_NONE && !player->screen.frame.content.lecture.page;
     if (under.hit.zone == ZONE_CELL)
         view->chosen = under.hit.index;
     view->over = under.hit;
@@ -394,11 +396,11 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     case ZONE_PAGE_CLOSE:
         return ask(player, COMMAND_ESCAPE, 0);
     case ZONE_PAGE: /* a line of a list */
-        index = show_help_row(&player->screen.frame.show, &under->layout,
-                              player->hands.mouse.x, player->hands.mouse.y);
+        index = frame_find_row(&player->screen.frame.content, &under->layout,
+                               player->hands.mouse.x, player->hands.mouse.y);
         if (keyboard_now(player) != AT_LIST || index < 0)
             return STATUS_OK;
-        key = player->screen.frame.show.help[index].key;
+        key = player->screen.frame.content.list.row[index].key;
         snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
         return key[0] ? open_line(player, line) : STATUS_OK;
     case ZONE_CELL:

@@ -392,7 +392,7 @@ static Status machine_set_step(Past *past, int pane, long step, State *state)
     machine->has_state = !status;
     if (!status && state) {
         state->time = simulation_time(&machine->simulation);
-        state->rows = show_sample(&machine->simulation, state->row);
+        state->rows = picture_sample(&machine->simulation, state->row);
     }
     return status;
 }

@@ -162,7 +162,7 @@ Status player_paced(Player *player, const OptionRow *row, int paces,
 void sheet_advance(Player *player);
 
 /* Fill the contents of the open sheet; close it. */
-void sheet_fill(const Player *player, Show *show);
+void sheet_fill(const Player *player, FrameContent *content);
 void sheet_close(Player *player);
 
 /* ---- frame.c ------------------------------------------------------------- */

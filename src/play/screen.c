@@ -116,7 +116,7 @@ Status obey_escape(Player *player, const Command *command)
 Status obey_camera(Player *player, const Command *command)
 {
     const Paper *paper = player_paper(player);
-    const Show *show = &player->screen.frame.show;
+    const FrameContent *content = &player->screen.frame.content;
     Lens *lens = &player->screen.view.lens;
     if (command->kind == COMMAND_FIT)
         *lens = LENS_FITS;
@@ -124,8 +124,8 @@ Status obey_camera(Player *player, const Command *command)
         return STATUS_OK;
     player_fill(player);
     Layout layout =
-        show_layout(show, paper->canvas.width, paper->canvas.height);
-    Camera camera = show_camera(show, &layout, player->active);
+        layout_create(content, paper->canvas.width, paper->canvas.height);
+    Camera camera = camera_of_pane(content, &layout, player->active);
     Box pane = layout.pane[player->active];
     double at[2] = {command->x, command->y}, pixel[2];
     camera_pixel(&camera, at, pixel);
@@ -143,7 +143,7 @@ Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
     player_fill(player);
-    bool closed = player->screen.frame.show.closed >> card & 1;
+    bool closed = player->screen.frame.content.cards.closed >> card & 1;
     if (command->kind == COMMAND_CARD || closed)
         player->screen.closed ^= 1u << card;
     else
@@ -156,7 +156,7 @@ Status obey_card(Player *player, const Command *command)
  * first cell of a row below that starts at the same x or further right. */
 Status obey_choose(Player *player, const Command *command)
 {
-    const Show *show = &player->screen.frame.show;
+    const FrameContent *content = &player->screen.frame.content;
     int *chosen = &player->screen.view.chosen;
     const Paper *paper = player_paper(player);
     const char *key = command->text;
@@ -166,7 +166,7 @@ Status obey_choose(Player *player, const Command *command)
         return STATUS_OK;
     player_fill(player);
     Layout layout =
-        show_layout(show, paper->canvas.width, paper->canvas.height);
+        layout_create(content, paper->canvas.width, paper->canvas.height);
     const Box *cell = layout.cell, *now = &cell[*chosen];
     while (upright && 0 <= i && i < layout.cells &&
            !((cell[i].y - now->y) * way > 0 && (cell[i].x - now->x) * way >= 0))

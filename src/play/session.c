@@ -105,8 +105,8 @@ bool player_is_slow(const Player *player)
 int player_line_pane(const Player *player)
 {
     return player->screen.draws && !player->screen.bare &&
-                   show_needs_line(player_simulation(player),
-                                   player->screen.closed)
+                   cards_need_line_energy(player_simulation(player),
+                                          player->screen.closed)
                ? player->active
                : -1;
 }

@@ -94,24 +94,25 @@ void sheet_advance(Player *player)
     player->screen.changed = true;
 }
 
-void sheet_fill(const Player *player, Show *show)
+void sheet_fill(const Player *player, FrameContent *content)
 {
     const Sheet *sheet = player->screen.sheet;
-    show->cells = sheet->cells;
+    content->sheet.cells = sheet->cells;
     for (int i = 0; i < sheet->cells; i++) {
         const Scene *scene = &scenes[i > 0 ? i - 1 : 0];
         const Simulation *simulation = &sheet->simulation[i];
-        show->cell[i] =
+        content->sheet.cell[i] =
             (SheetCell){.name = i > 0 ? scene->name : "the guided tour",
                         .group = i == 1 ? NULL : scene->group,
                         .simulation = simulation->scene ? simulation : NULL};
         if (i == player->screen.view.chosen)
-            snprintf(show->sentence, SHOW_TEXT, "%s: %s", show->cell[i].name,
+            snprintf(content->strip.sentence, SENTENCE_SIZE, "%s: %s",
+                     content->sheet.cell[i].name,
                      i > 0 ? scene->sentence : "the lecture, page by page");
     }
-    show->topic = "Scenes";
-    snprintf(show->method, SHOW_TEXT, "arrows, Enter");
-    snprintf(show->state, SHOW_VALUE, "digits: a page of the tour");
+    content->strip.topic = "Scenes";
+    snprintf(content->strip.method, SENTENCE_SIZE, "arrows, Enter");
+    snprintf(content->strip.state, VALUE_SIZE, "digits: a page of the tour");
 }
 
 /* Opens the chosen cell by a command line, so that scripts can repeat it.  If

@@ -175,9 +175,10 @@ Status player_reveal(Player *player, const char *typed)
     const LecturePage *page = player_settings(player)->page;
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
-    double truth = page->answer
-                       ? show_number(&player->screen.frame.show, page->answer)
-                       : 0;
+    double truth =
+        page->answer
+            ? frame_find_number(&player->screen.frame.content, page->answer)
+            : 0;
     double guess = truth;
     if (typed && (!option_read(&any, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
@@ -192,7 +193,7 @@ Status player_reveal(Player *player, const char *typed)
         judge_guess(player, right, right ? "%s is right." : "%s? It is %s.",
                     typed, number.text);
     if (page->answer && !isnan(truth))
-        snprintf(player->orders.queue.note, SHOW_TEXT, "%s%sit is %s",
+        snprintf(player->orders.queue.note, SENTENCE_SIZE, "%s%sit is %s",
                  typed ? typed : "",
                  !typed  ? ""
                  : right ? ": right, "

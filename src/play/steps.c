@@ -330,7 +330,7 @@ static void describe_outcome(const Player *player, const OptionRow *row,
     const Outcome *outcome = &player_machine(player)->outcome;
     bool curve =
         player->screen.scene->picture == PICTURE_CURVE; /* f, of a number */
-    char value[SHOW_VALUE], change[64] = "stays";
+    char value[VALUE_SIZE], change[64] = "stays";
     player_format_value(row, player_settings(player), player_simulation(player),
                         value, sizeof value);
     if (outcome->change != 0)

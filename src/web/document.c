@@ -91,20 +91,20 @@ static void put_text(Writer *to, const LiveValues *values, const char *words,
  */
 
 /* Before a guess nothing that would tell the answer. */
-static void write_page(Writer *to, const Show *show)
+static void write_page(Writer *to, const FrameContent *content)
 {
-    const LecturePage *page = show->lecture;
-    const LiveValues *values = &show_pane(show)->values;
+    const LecturePage *page = content->lecture.page;
+    const LiveValues *values = &active_pane(content)->values;
     put_text(to, values, "text", page->text);
     put_text(to, values, "formula", page->formula);
     put_text(to, values, "ask", page->ask);
-    if (show->veiled) {
+    if (content->lecture.hides_answer) {
         double at[2];
         put(to, "asks\t%s\t%d\n",
             page_wants_click(page) ? "place"
             : page->answer         ? "number"
                                    : "words",
-            simulation_point(show_pane(show)->simulation, at));
+            simulation_point(active_pane(content)->simulation, at));
     } else {
         put_text(to, values, "look", page->look);
         put_text(to, values, "try", page->touch);
@@ -113,7 +113,7 @@ static void write_page(Writer *to, const Show *show)
     put_text(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         put(to, "code\t%d\t%s\n",
-            strstr(page->code[i], lecture_lit_code(show)) != NULL,
+            strstr(page->code[i], lecture_lit_code(content)) != NULL,
             page->code[i]);
 }
 
@@ -121,10 +121,10 @@ static void write_page(Writer *to, const Show *show)
  */
 
 /* The lines of an algorithm as card_listing.c draws them. */
-static void write_rows(Writer *to, const Show *show, int card,
+static void write_rows(Writer *to, const FrameContent *content, int card,
                        const ListingRow *row)
 {
-    const Pane *pane = show_pane(show);
+    const Pane *pane = active_pane(content);
     for (; row->shown_if; row++) {
         const ShownRow now = listing_show_row(pane, row);
         if (text_has_line(&pane->values, row->shown_if))
@@ -143,9 +143,9 @@ static void put_energies(Writer *to, const Simulation *simulation)
 }
 
 /* What a graph of energies, or of the updates of a step, shows. */
-static void put_graph(Writer *to, const Show *show, const char *name)
+static void put_graph(Writer *to, const FrameContent *content, const char *name)
 {
-    const Pane *pane = show_pane(show);
+    const Pane *pane = active_pane(content);
     const Trace *trace = pane->update;
     if (strcmp(name, "energies") == 0 || strcmp(name, "budget") == 0) {
         put_energies(to, pane->simulation);
@@ -161,32 +161,34 @@ static void put_graph(Writer *to, const Show *show, const char *name)
     }
 }
 
-static void put_cards(Writer *to, const Show *show)
+static void put_cards(Writer *to, const FrameContent *content)
 {
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
-    const LiveValues *values = &show_pane(show)->values;
-    const LecturePage *page = show->lecture;
-    for (int i = 0; i < picture->count && show->cells == 0; i++) {
+    const Picture *picture =
+        picture_of(active_pane(content)->simulation->scene);
+    const LiveValues *values = &active_pane(content)->values;
+    const LecturePage *page = content->lecture.page;
+    for (int i = 0; i < picture->count && content->sheet.cells == 0; i++) {
         const Card *card = picture->cards[i];
-        bool veiled = show->veils >> i & 1;
+        bool veiled = content->cards.covered >> i & 1;
         bool star = page && page->star && strcmp(page->star, card->name) == 0;
         bool text = veiled || card->words || card->rows;
         char words[24];
-        if (show->hidden >> i & 1 || strcmp(card->name, "page") == 0)
+        if (content->cards.hidden >> i & 1 || strcmp(card->name, "page") == 0)
             continue;
         put(to, "card\t%d\t%s\t%s\t%d\t%s\t", i, card->name,
             text   ? "text"
             : star ? "star"
                    : "graph",
-            show->closed >> i & 1, text_first_line(values, card->title).words);
+            content->cards.closed >> i & 1,
+            text_first_line(values, card->title).words);
         if (!text)
-            put_graph(to, show, card->name);
+            put_graph(to, content, card->name);
         put(to, "\n");
         snprintf(words, sizeof words, "words\t%d", i);
         if (veiled)
             put_text(to, values, words, "after your guess");
         else if (card->rows)
-            write_rows(to, show, i, card->rows);
+            write_rows(to, content, i, card->rows);
         else
             put_text(to, values, words, card->words);
     }
@@ -210,9 +212,9 @@ static bool is_tried(const char *text, const OptionRow *row)
 
 static void put_numbers(Writer *to, const Player *player)
 {
-    const LecturePage *page = player->screen.frame.show.veiled
+    const LecturePage *page = player->screen.frame.content.lecture.hides_answer
                                   ? NULL
-                                  : player->screen.frame.show.lecture;
+                                  : player->screen.frame.content.lecture.page;
     const OptionRow *row[OPTIONS_MOST];
     const Options now = player_numbers(player);
     int count = player_visible_options(player, true, row);
@@ -272,19 +274,19 @@ static void put_shape(Writer *to, const Pane *pane)
  * active one. */
 static void put_picture(Writer *to, const Player *player)
 {
-    const Show *show = &player->screen.frame.show;
+    const FrameContent *content = &player->screen.frame.content;
     const Simulation *simulation = player_simulation(player);
     put(to, "picture\t");
-    for (int p = 0; p < show->panes; p++) {
-        const Pane *pane = &show->pane[p];
+    for (int p = 0; p < content->panes; p++) {
+        const Pane *pane = &content->pane[p];
         const IntegratorMethod *method = pane->simulation->run[0].method;
-        if (show->panes > 1)
-            put(to, " Picture %d of %d:", p + 1, show->panes);
+        if (content->panes > 1)
+            put(to, " Picture %d of %d:", p + 1, content->panes);
         if (method && pane->simulation->scene->needs & NEEDS_TIME)
             put(to, " %s.", method->label);
         put_shape(to, pane);
     }
-    put(to, " %s, %s.", show->time_text, show->state);
+    put(to, " %s, %s.", content->time_line.text, content->strip.state);
     if (simulation->scene->needs & NEEDS_BODY) {
         put(to, " Energies: ");
         put_energies(to, simulation);
@@ -296,18 +298,19 @@ static void put_picture(Writer *to, const Player *player)
 /* The last step in a few words: "step 12: 3 updates, E fell by 13.8 J s²". */
 static void put_event(Writer *to, const Player *player)
 {
-    const Show *show = &player->screen.frame.show;
-    const Trace *trace = show_pane(show)->update;
+    const FrameContent *content = &player->screen.frame.content;
+    const Trace *trace = active_pane(content)->update;
     const char *turn = player_simulation(player)->scene->turn;
     double change = 0;
-    put(to, "event\t%s %ld", turn ? turn : "step", show->step);
+    put(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
     if (trace && trace->line != LINE_NONE) {
-        put(to, ": %s", show->sentence);
+        put(to, ": %s", content->strip.sentence);
     } else if (trace && trace->updates > 0) {
         for (int i = 0; i < trace->updates; i++)
             change += trace->record[i].change;
         put(to, ": %d update%s, %s %s by %s", trace->updates,
-            trace->updates > 1 ? "s" : "", show_pane(show)->trace ? "E" : "f",
+            trace->updates > 1 ? "s" : "",
+            active_pane(content)->trace ? "E" : "f",
             change > 0 ? "rose" : "fell", format_number(fabs(change)).text);
     }
     put(to, "\n");
@@ -315,26 +318,30 @@ static void put_event(Writer *to, const Player *player)
 
 void document_write(const Player *player, char *text)
 {
-    const Show *show = &player->screen.frame.show;
-    const LecturePage *page = show->lecture;
+    const FrameContent *content = &player->screen.frame.content;
+    const LecturePage *page = content->lecture.page;
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
     put(to, "page\t%d\t%d\t%s\n", page ? (int)(page - lecture_pages) + 1 : 0,
         lecture_count(),
         page ? page->name : player_simulation(player)->scene->name);
-    put(to, "topic\t%s\nsentence\t%s\n", show->topic ? show->topic : "",
-        show->sentence);
-    put(to, "time\t%s · %s · %s\n", show->time_text, show->method, show->state);
-    put(to, "told\t%d\t%s\n", show->warning, show->message);
-    put(to, "step\t%ld\t%ld\t%d\n", show->step, show->bars, show->paused);
+    put(to, "topic\t%s\nsentence\t%s\n",
+        content->strip.topic ? content->strip.topic : "",
+        content->strip.sentence);
+    put(to, "time\t%s · %s · %s\n", content->time_line.text,
+        content->strip.method, content->strip.state);
+    put(to, "told\t%d\t%s\n", content->strip.is_warning,
+        content->strip.message);
+    put(to, "step\t%ld\t%ld\t%d\n", content->time_line.step,
+        content->time_line.steps, content->time_line.paused);
     if (page)
-        write_page(to, show);
-    if (show->verdict && !show->veiled)
-        put(to, "verdict\t%s\t%d\t%d\n", show->verdict, show->right,
-            show->guesses);
-    put_cards(to, show);
+        write_page(to, content);
+    if (content->lecture.verdict && !content->lecture.hides_answer)
+        put(to, "verdict\t%s\t%d\t%d\n", content->lecture.verdict,
+            content->lecture.right, content->lecture.guesses);
+    put_cards(to, content);
     put_numbers(to, player);
-    put_exhibit(to, show_pane(show)->simulation);
+    put_exhibit(to, active_pane(content)->simulation);
     put_picture(to, player);
     put_event(to, player);
 }

@@ -134,7 +134,7 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
     canvas_free(&paper.canvas);
     paper.text = player->screen.paper.text;
     if (plays && !canvas_create(width, height, &paper.canvas)) {
-        show_draw_card(&paper, &player->screen.frame.show, card);
+        frame_draw_card(&paper, &player->screen.frame.content, card);
         window_show_card(&paper.canvas, card);
     }
 }
@@ -216,7 +216,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
     if (paper && card < 0)
         player_paint(player, paper);
     else if (paper)
-        show_draw_card(paper, &player->screen.frame.show, card);
+        frame_draw_card(paper, &player->screen.frame.content, card);
     if (paper)
         window_show_card(&paper->canvas, card);
 }

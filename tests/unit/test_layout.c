@@ -14,19 +14,19 @@ enum { SIZES = sizeof sizes / sizeof *sizes };
 enum { LISTING = 1, LINE, RESIDUAL, ENERGIES, ASSEMBLY, SEEN = 5 }; /* cards */
 
 static Simulation simulation;
-static Show show;
+static FrameContent content;
 
 /* The square with five cards, the last one closed, settings and chips. */
 static void show_all(void)
 {
     static const char label[] = "............";
-    show_create(&simulation, &show);
-    show_fill_values(&show);
+    frame_create(&simulation, &content);
+    frame_fill_values(&content);
     for (int i = 0; i < 9; i++) {
-        show.setting[i].letters = 4 + 2 * i;
-        show.chip[i] = (Chip){"Tab", label + 8 - i, false};
+        content.settings.item[i].letters = 4 + 2 * i;
+        content.chips.item[i] = (Chip){"Tab", label + 8 - i, false};
     }
-    show.settings = show.chips = 9;
+    content.settings.count = content.chips.count = 9;
 }
 
 static bool boxes_overlap(Box a, Box b)
@@ -80,8 +80,9 @@ TEST(zones_tile_every_size)
 {
     show_all();
     for (int s = 0; s < SIZES; s++)
-        for (show.panes = 1; show.panes <= LAYOUT_PANES; show.panes++) {
-            Layout l = show_layout(&show, sizes[s][0], sizes[s][1]);
+        for (content.panes = 1; content.panes <= LAYOUT_PANES;
+             content.panes++) {
+            Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
             const Box zones[] = {l.strip,        l.stage,     l.column,
                                  l.settings_row, l.time_line, l.chip_row};
             const Box window = {0, 0, l.width, l.height};
@@ -90,14 +91,14 @@ TEST(zones_tile_every_size)
                 area += (long)zones[i].width * zones[i].height;
             check_boxes(zones, 6, window);
             CHECK(area == (long)l.width * l.height);
-            CHECK(l.panes == show.panes);
+            CHECK(l.panes == content.panes);
             if (l.width >= 200)
                 CHECK(check_boxes(l.pane, l.panes, l.stage) == l.panes);
             CHECK(check_boxes(l.card, l.cards, l.column) ==
                   (l.cards ? SEEN : 0));
             CHECK(check_boxes(l.setting, l.settings, l.settings_row) ==
                   l.settings);
-            check_chips(&l, show.chips);
+            check_chips(&l, content.chips.count);
             CHECK(box_inside(l.bars, window));
         }
 }
@@ -107,24 +108,26 @@ TEST(small_windows_leave_parts_out)
 {
     show_all();
     for (int s = 0; s < 4; s++) {
-        Layout l = show_layout(&show, sizes[s][0], sizes[s][1]);
+        Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
         CHECK(l.cards > SEEN && l.settings == 9);
         CHECK(l.chips - l.chips_left_out >= 7);
         CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
     }
-    for (int i = 0; i < show.chips; i++)
-        show.chip[i].label++; /* shorter labels move the chips together */
-    CHECK(show_layout(&show, 900, 900).chips_left_out == 0);
-    Layout small = show_layout(&show, 400, 300);
+    for (int i = 0; i < content.chips.count; i++)
+        content.chips.item[i]
+            .label++; /* shorter labels move the chips together */
+    CHECK(layout_create(&content, 900, 900).chips_left_out == 0);
+    Layout small = layout_create(&content, 400, 300);
     CHECK(small.cards == 0 && small.settings == 0);
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
     CHECK(small.stage.width == 400 && small.stage.height > 200);
-    show.setting[0].letters = 400; /* wider than the window: the first line */
-    Layout wide = show_layout(&show, 900, 900);
+    content.settings.item[0].letters =
+        400; /* wider than the window: the first line */
+    Layout wide = layout_create(&content, 900, 900);
     CHECK(wide.settings > 1 && wide.setting[1].y > wide.setting[0].y);
     CHECK(wide.setting[0].y < wide.settings_row.y + wide.em);
-    show.bare = true;
-    Layout bare = show_layout(&show, 900, 900);
+    content.bare = true;
+    Layout bare = layout_create(&content, 900, 900);
     CHECK(bare.stage.width == 900 && bare.stage.height == 900);
     CHECK(layout_hit(&bare, 450, 899).zone == ZONE_STAGE);
 }
@@ -140,9 +143,9 @@ static bool hits(const Layout *layout, double x, double y, Zone zone, int index)
 TEST(a_click_hits_the_part_that_is_drawn_there)
 {
     show_all();
-    show.panes = 5;
-    show.closed |= 1 << LISTING;
-    Layout l = show_layout(&show, 1280, 800);
+    content.panes = 5;
+    content.cards.closed |= 1 << LISTING;
+    Layout l = layout_create(&content, 1280, 800);
     const Box *const lists[] = {l.pane, l.card, l.setting, l.chip};
     const int counts[] = {l.panes, l.cards, l.settings, l.chips};
     const Zone zones[] = {ZONE_STAGE, ZONE_CARD, ZONE_SETTING, ZONE_CHIP};
@@ -178,21 +181,21 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
 TEST(cards_share_the_column)
 {
     show_all();
-    Layout pair = show_layout(&show, 1280, 800);
+    Layout pair = layout_create(&content, 1280, 800);
     CHECK(pair.card[LINE].height > pair.card[RESIDUAL].height);
     CHECK(pair.card[RESIDUAL].y == pair.card[ENERGIES].y);
     CHECK(pair.card[RESIDUAL].width < 0.5 * pair.card[LINE].width);
-    Layout narrow = show_layout(&show, 900, 900);
+    Layout narrow = layout_create(&content, 900, 900);
     CHECK(narrow.card[RESIDUAL].y < narrow.card[ENERGIES].y);
-    show.closed |= 1 << ENERGIES;
-    Layout apart = show_layout(&show, 1280, 800);
+    content.cards.closed |= 1 << ENERGIES;
+    Layout apart = layout_create(&content, 1280, 800);
     CHECK(apart.card[RESIDUAL].y < apart.card[ENERGIES].y);
-    show.large = LISTING;
-    Layout large = show_layout(&show, 1280, 800);
+    content.cards.large = LISTING;
+    Layout large = layout_create(&content, 1280, 800);
     for (int i = LINE; i <= ASSEMBLY; i++)
         CHECK(large.card[LISTING].height > 5 * large.card[i].height);
-    show.column = COLUMN_KEYS;
-    Layout page = show_layout(&show, 1280, 800);
+    content.column = COLUMN_KEYS;
+    Layout page = layout_create(&content, 1280, 800);
     CHECK(page.cards == 0 && page.column.width == pair.column.width);
     CHECK(layout_hit(&page, page.column.x + 9, page.column.y + 9).zone ==
           ZONE_PAGE);

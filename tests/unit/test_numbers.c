@@ -61,7 +61,7 @@ static void check_frame(const char *line)
     if (simulation->scene->picture != PICTURE_SQUARE || isinf(ledger.kinetic))
         return;
     player_fill(&player);
-    const Pane *pane = show_pane(&player.screen.frame.show);
+    const Pane *pane = active_pane(&player.screen.frame.content);
     const History *history = pane->history;
     if (pane->trace)
         check_trace(line, pane);

@@ -65,19 +65,19 @@ static double total_mass(const System *system)
 /* What a page's texts know by this name now, and when it opens. */
 static double known_now(Simulation *simulation, const char *fact)
 {
-    Show show;
-    show_create(simulation, &show);
-    show_lecture(COLUMN_CARDS, NULL, &show);
-    return show_number(&show, fact);
+    FrameContent content;
+    frame_create(simulation, &content);
+    frame_add_lecture(COLUMN_CARDS, NULL, &content);
+    return frame_find_number(&content, fact);
 }
 
 /* Whether a page says what begins with these facts. */
 static bool speaks_of(Simulation *simulation, const char *text)
 {
-    Show show;
-    show_create(simulation, &show);
-    show_fill_values(&show);
-    return text_has_line(&show_pane(&show)->values, text);
+    FrameContent content;
+    frame_create(simulation, &content);
+    frame_fill_values(&content);
+    return text_has_line(&active_pane(&content)->values, text);
 }
 
 /* Whether it speaks of results of which there are none yet. */
@@ -887,11 +887,11 @@ TEST(claim_inelastic)
     CHECK_NEAR(start, 8225, 1e-9);
     for (int step = 0; step < 300; step++) {
         if (step % 60 == 0 && step <= 60) { /* rounding is no flow */
-            Show show;
-            show_create(simulation, &show);
-            show_fill_values(&show);
+            FrameContent content;
+            frame_create(simulation, &content);
+            frame_fill_values(&content);
             TextLine title =
-                text_first_line(&show_pane(&show)->values, card_law.title);
+                text_first_line(&active_pane(&content)->values, card_law.title);
             CHECK((strcmp(title.words, "no spring has flowed") == 0) ==
                   (step == 0));
             double up = 0, gap = 1;
@@ -1229,25 +1229,26 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
 enum { CARDS, LARGE, LARGE_ASKED, CODE, LIST, KINDS };
 
 /* The first line of a page's text that is not all there; NULL: all are. */
-static const char *missing_line(const Show *show, const char *text)
+static const char *missing_line(const FrameContent *content, const char *text)
 {
     static TextLine line;
-    line = text_begin(&show_pane(show)->values, text);
+    line = text_begin(&active_pane(content)->values, text);
     while (text_next_line(&line))
         if (!strstr(seen.texts, line.words))
             return line.words;
     return NULL;
 }
 
-static const char *missing_words(const Show *show)
+static const char *missing_words(const FrameContent *content)
 {
-    const LecturePage *page = show->lecture;
+    const LecturePage *page = content->lecture.page;
     const char *texts[] = {page->text, page->formula,
-                           show->veiled ? page->ask : page->look,
-                           show->veiled ? NULL : page->touch};
+                           content->lecture.hides_answer ? page->ask
+                                                         : page->look,
+                           content->lecture.hides_answer ? NULL : page->touch};
     const char *missing = NULL;
     for (int i = 0; i < 4 && !missing; i++)
-        missing = missing_line(show, texts[i]);
+        missing = missing_line(content, texts[i]);
     return missing;
 }
 
@@ -1261,18 +1262,18 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     /* E along p rises far above what is accepted: the axis has that */
     bool cuts = strstr("descent algorithm2 closing", page->name);
     const char *missing = NULL;
-    Show show;
+    FrameContent content;
     simulation->options.big = large;
-    show_create(simulation, &show);
-    show.veiled = kind == LARGE_ASKED && page->ask;
-    show_lecture(column[kind], NULL, &show);
-    show_describe(&show);
+    frame_create(simulation, &content);
+    content.lecture.hides_answer = kind == LARGE_ASKED && page->ask;
+    frame_add_lecture(column[kind], NULL, &content);
+    frame_describe(&content);
     memset(&seen, 0, sizeof seen);
     seen.smallest = seen.smallest_code = INT_MAX;
-    show_draw(paper, &show);
+    frame_draw(paper, &content);
     bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
     if (kind == CODE) { /* the picture and a star stay */
-        Layout beside = show_layout(&show, width, height);
+        Layout beside = layout_create(&content, width, height);
         int star = page->star
                        ? picture_card(picture_of(simulation->scene), page->star)
                        : -1;
@@ -1283,7 +1284,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
                         50 * (seen.smallest_code + 0.5) > height);
     }
     if (kind < CODE)
-        missing = missing_words(&show);
+        missing = missing_words(&content);
     if (!good || missing || (large && seen.ellipses > 0) ||
         (kind != LIST && seen.cut > 0) || (!cuts && seen.outside > 0))
         fail_msg("page %s, step %ld, at %d x %d, %d: letters of %d, of code "
@@ -1315,9 +1316,9 @@ TEST(pages_are_read_from_the_back_row)
         }
         paper_free(&paper);
     }
-    Show show; /* large letters outside of the lecture */
-    show_create(simulate("square --big"), &show);
-    CHECK(show_layout(&show, 1280, 800).em > 800 / 40);
+    FrameContent content; /* large letters outside of the lecture */
+    frame_create(simulate("square --big"), &content);
+    CHECK(layout_create(&content, 1280, 800).em > 800 / 40);
 }
 
 /* Nor is a word outside its place in any scene, in windows of several sizes. */
@@ -1328,12 +1329,12 @@ TEST(scenes_keep_their_words_in_place)
         Simulation *simulation = simulate("%s", scenes[i].name);
         for (int s = 0; s < 3; s++) {
             Paper paper;
-            Show show;
+            FrameContent content;
             CHECK_OK(paper_create(sizes[s][0], sizes[s][1], &paper));
-            show_create(simulation, &show);
-            show_describe(&show);
+            frame_create(simulation, &content);
+            frame_describe(&content);
             memset(&seen, 0, sizeof seen);
-            show_draw(&paper, &show);
+            frame_draw(&paper, &content);
             paper_free(&paper);
             if (seen.cut > 0)
                 fail_msg("%s at %d x %d: %d words cut", scenes[i].name,

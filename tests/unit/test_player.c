@@ -64,7 +64,7 @@ TEST(rest_is_reported_where_nothing_moves)
         CHECK(player.time.mode == MODE_REST);
         CHECK(strncmp(player.note, "at rest", 7) == 0);
         player_fill(&player);
-        CHECK(strcmp(player.screen.frame.show.state, "at rest") == 0);
+        CHECK(strcmp(player.screen.frame.content.strip.state, "at rest") == 0);
         compare_with_plain_run(lines[i]);
         CHECK_AT_MOST(way_that_is_left(), 0.002);
         end();

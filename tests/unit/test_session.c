@@ -19,8 +19,8 @@ static char folder[] = "/tmp/elasto-session-XXXXXX";
 static Layout layout_now(void)
 {
     const Canvas *canvas = &player_paper(&player)->canvas;
-    return show_layout(&player.screen.frame.show, canvas->width,
-                       canvas->height);
+    return layout_create(&player.screen.frame.content, canvas->width,
+                         canvas->height);
 }
 
 static uint64_t hash_box(const Canvas *canvas, Box box)
@@ -38,7 +38,7 @@ static uint64_t shape_shown(void)
 {
     player_fill(&player);
     const Pane *pane =
-        &player.screen.frame.show.pane[player.screen.frame.show.active];
+        &player.screen.frame.content.pane[player.screen.frame.content.active];
     const unsigned char *byte = (const unsigned char *)pane_x(pane);
     size_t size = 2 * sizeof(double) * (size_t)pane->simulation->system.nodes;
     uint64_t hash = STATE_HASH_SEED;
@@ -153,11 +153,12 @@ static void press_letter(char letter)
 static const Setting *number_shown(const char *name, int *place)
 {
     player_fill(&player);
-    for (int i = 0; i < player.screen.frame.show.settings; i++)
-        if (strcmp(player.screen.frame.show.setting[i].name, name) == 0 ||
+    for (int i = 0; i < player.screen.frame.content.settings.count; i++)
+        if (strcmp(player.screen.frame.content.settings.item[i].name, name) ==
+                0 ||
             strcmp(name, "first") == 0) {
             *place = i;
-            return &player.screen.frame.show.setting[i];
+            return &player.screen.frame.content.settings.item[i];
         }
     fail_msg("the row has no %s", name);
     return NULL;
@@ -174,7 +175,7 @@ static void point_into(Box box, bool corner)
 static bool is_grip(const Layout *layout, int grip)
 {
     Pick pick =
-        show_pick(&player.screen.frame.show, layout, mouse[0], mouse[1]);
+        frame_pick(&player.screen.frame.content, layout, mouse[0], mouse[1]);
     return pick.kind == PICK_HANDLE && pick.index == grip;
 }
 
@@ -183,7 +184,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
 {
     const char *of = strstr(place, " of ");
     int i = 0, p = of ? atoi(of + 4) : 0;
-    const Pane *pane = &player.screen.frame.show.pane[p];
+    const Pane *pane = &player.screen.frame.content.pane[p];
     double at[2], grip[SCENE_MAX_HANDLES][2];
     if (sscanf(place, "grip %d", &i) == 1) {
         assert_true(i < exhibit_handles(pane->simulation, grip));
@@ -192,7 +193,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
         memcpy(at, pane_x(pane) + 2 * i, sizeof at);
     else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) != 2)
         return false;
-    Camera camera = show_camera(&player.screen.frame.show, layout, p);
+    Camera camera = camera_of_pane(&player.screen.frame.content, layout, p);
     camera_pixel(&camera, at, mouse);
     if (place[0] == 'g' &&
         !is_grip(layout, i)) /* the grip lies on a curve above the axis */
@@ -204,16 +205,18 @@ static bool point_in_pane(const char *place, const Layout *layout)
 /* The chip with this key, or the cell of the sheet with this scene; -1: none */
 static int find_chip(const char *key)
 {
-    int i = player.screen.frame.show.chips - 1;
-    while (i >= 0 && strcmp(player.screen.frame.show.chip[i].key, key) != 0)
+    int i = player.screen.frame.content.chips.count - 1;
+    while (i >= 0 &&
+           strcmp(player.screen.frame.content.chips.item[i].key, key) != 0)
         i--;
     return i;
 }
 
 static int find_cell(const char *scene)
 {
-    int i = player.screen.frame.show.cells - 1;
-    while (i >= 0 && strcmp(player.screen.frame.show.cell[i].name, scene) != 0)
+    int i = player.screen.frame.content.sheet.cells - 1;
+    while (i >= 0 &&
+           strcmp(player.screen.frame.content.sheet.cell[i].name, scene) != 0)
         i--;
     return i;
 }
@@ -231,8 +234,8 @@ static void point_at(const char *place)
         long step = atol(place + 5);
         mouse[0] = layout.bars.x;
         mouse[1] = layout.time_line.y + layout.time_line.height / 2;
-        while (show_find_step(&player.screen.frame.show, &layout, mouse[0]) <
-                   step &&
+        while (frame_find_step(&player.screen.frame.content, &layout,
+                               mouse[0]) < step &&
                mouse[0] < layout.width)
             mouse[0]++;
     } else if (strcmp(place, "strip") == 0) {
@@ -261,7 +264,7 @@ static double scale_now(void)
 {
     player_fill(&player);
     Layout layout = layout_now();
-    return show_camera(&player.screen.frame.show, &layout, 0).scale[0];
+    return camera_of_pane(&player.screen.frame.content, &layout, 0).scale[0];
 }
 
 /* Returns false if this is nothing that a mouse does. */
@@ -401,11 +404,12 @@ static const char *text_or(const char *text)
 
 /* Whether all nodes of a pane are in its part of the window, and more than a
  * dot. */
-static bool pane_has_all(const Show *show, const Layout *layout, int p)
+static bool pane_has_all(const FrameContent *content, const Layout *layout,
+                         int p)
 {
-    const Pane *pane = &show->pane[p];
+    const Pane *pane = &content->pane[p];
     const Box *box = &layout->pane[p];
-    Camera camera = show_camera(show, layout, p);
+    Camera camera = camera_of_pane(content, layout, p);
     double at[2], first[2], far = 0;
     camera_pixel(&camera, pane_x(pane), first);
     for (int i = 0; i < pane->simulation->system.nodes; i++) {
@@ -418,26 +422,29 @@ static bool pane_has_all(const Show *show, const Layout *layout, int p)
 }
 
 /* Adds the facts of panes, numbers, chips and cards. */
-static void collect_parts(const Show *show)
+static void collect_parts(const FrameContent *content)
 {
     Layout layout = layout_now();
-    for (int p = 0; p < show->panes; p++) {
-        const Trace *trace = show->pane[p].trace;
-        fact("inside %d %d", p, pane_has_all(show, &layout, p));
-        fact("label %d\t%s", p, text_or(show->pane[p].label));
+    for (int p = 0; p < content->panes; p++) {
+        const Trace *trace = content->pane[p].trace;
+        fact("inside %d %d", p, pane_has_all(content, &layout, p));
+        fact("label %d\t%s", p, text_or(content->pane[p].label));
         fact("line %d %d", p, trace ? (int)trace->line : 0);
     }
-    for (int i = 0; i < show->settings; i++)
-        fact("number %s %s", show->setting[i].name, show->setting[i].value);
-    for (int i = 0; i < show->chips; i++) {
-        fact("chip %s %s", show->chip[i].key, show->chip[i].label);
-        fact("lit %s %d", show->chip[i].key, show->chip[i].lit);
+    for (int i = 0; i < content->settings.count; i++)
+        fact("number %s %s", content->settings.item[i].name,
+             content->settings.item[i].value);
+    for (int i = 0; i < content->chips.count; i++) {
+        fact("chip %s %s", content->chips.item[i].key,
+             content->chips.item[i].label);
+        fact("lit %s %d", content->chips.item[i].key,
+             content->chips.item[i].lit);
     }
     for (int c = 0; c < 8; c++)
         fact("card %d %s", c,
-             show->closed >> c & 1 ? "closed"
-             : show->large == c    ? "large"
-                                   : "open");
+             content->cards.closed >> c & 1 ? "closed"
+             : content->cards.large == c    ? "large"
+                                            : "open");
 }
 
 /* Collects what the window shows, as lines of text. */
@@ -446,34 +453,35 @@ static void collect_facts(void)
     static const char *const kinds[] = {"none",     "node",  "spring",
                                         "obstacle", "other", "other",
                                         "other",    "other", "other"};
-    const Show *show = &player.screen.frame.show;
-    const LecturePage *page = show->lecture;
-    const Trace *trace = show->pane[show->active].trace;
+    const FrameContent *content = &player.screen.frame.content;
+    const LecturePage *page = content->lecture.page;
+    const Trace *trace = content->pane[content->active].trace;
     facts[0] = '\0';
-    fact("at %ld", show->step);
+    fact("at %ld", content->time_line.step);
     fact("newest %ld", past_newest(&player.past));
     fact("ended %d", player.quit);
     fact("files %d", count_files(false));
     fact("page %d", page ? (int)(page - lecture_pages) + 1 : 0);
     fact("page %s", page ? page->name : "none");
-    fact("stands %d", show->paused);
-    fact("panes %d", show->panes);
-    fact("ghost %d", show->pane[show->active].ghost != NULL);
+    fact("stands %d", content->time_line.paused);
+    fact("panes %d", content->panes);
+    fact("ghost %d", content->pane[content->active].ghost != NULL);
     fact("speed %d", player.time.speed);
     fact("scene %s", player_simulation(&player)->scene->name);
-    fact("over %s %d", kinds[show->view->hover.kind], show->view->hover.index);
+    fact("over %s %d", kinds[content->view->hover.kind],
+         content->view->hover.index);
     double scale = scale_now();
     fact("scale %s", scale < scale_before   ? "smaller"
                      : scale > scale_before ? "larger"
                                             : "same");
     fact("residual %.5g", trace ? trace->residual : -1);
     fact("says\t%s", text_or(player.note));
-    fact("topic\t%s", text_or(show->topic));
-    fact("state\t%s", text_or(show->state));
-    fact("time\t%s", text_or(show->time_text));
-    fact("sentence\t%s", text_or(show->sentence));
-    fact("method\t%s", text_or(show->method));
-    collect_parts(show);
+    fact("topic\t%s", text_or(content->strip.topic));
+    fact("state\t%s", text_or(content->strip.state));
+    fact("time\t%s", text_or(content->time_line.text));
+    fact("sentence\t%s", text_or(content->strip.sentence));
+    fact("method\t%s", text_or(content->strip.method));
+    collect_parts(content);
 }
 
 /* Whether this line is one of the facts, or some words of a text. */
@@ -699,8 +707,8 @@ static uint64_t all_but(int place)
 {
     uint64_t hash = seen("state") + (uint64_t)player.past.step;
     player_fill(&player);
-    for (int i = 0; i < player.screen.frame.show.settings; i++)
-        for (const char *c = player.screen.frame.show.setting[i].value;
+    for (int i = 0; i < player.screen.frame.content.settings.count; i++)
+        for (const char *c = player.screen.frame.content.settings.item[i].value;
              i != place && *c; c++)
             hash = (hash ^ (unsigned char)*c) * 1099511628211u;
     return hash;
@@ -738,8 +746,9 @@ static void random_keys_stay_in_their_field(void **unused)
                 press_letter((char)(' ' + random_below(&random, 95)));
             else
                 press_letter("0123456789.,e-/ms"[random_below(&random, 17)]);
-        bool mesh = strcmp(player.screen.frame.show.setting[place].name,
-                           "segments") == 0;
+        bool mesh =
+            strcmp(player.screen.frame.content.settings.item[place].name,
+                   "segments") == 0;
         bool enter = !mesh && random_below(&random, 2) == 0;
         if (enter)
             press_key("Return");

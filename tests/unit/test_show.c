@@ -1,4 +1,5 @@
-/* Frames: what is drawn of a Show, where, and what the mouse finds there. */
+/* Frames: what is drawn of given contents, where, and what the mouse finds
+ * there. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 
 static Simulation simulation;
 static History history;
-static Show show;
+static FrameContent content;
 static View view;
 static Paper paper;
 static Layout layout;
@@ -22,13 +23,13 @@ static void set_size(int width, int height)
 {
     paper_free(&paper);
     assert_int_equal(paper_create(width, height, &paper), 0);
-    layout = show_layout(&show, width, height);
+    layout = layout_create(&content, width, height);
 }
 
 static void sample(void)
 {
     Energy row[HISTORY_SERIES];
-    int rows = show_sample(&simulation, row);
+    int rows = picture_sample(&simulation, row);
     history_add(&history, simulation_time(&simulation), rows, row);
 }
 
@@ -45,11 +46,11 @@ static void stand_up(const char *line, int steps)
                     simulation.done);
         sample();
     }
-    show_create(&simulation, &show);
-    view = *show.view;
-    show.view = &view;
-    show.pane[0].history = &history;
-    show_fill_values(&show);
+    frame_create(&simulation, &content);
+    view = *content.view;
+    content.view = &view;
+    content.pane[0].history = &history;
+    frame_fill_values(&content);
     set_size(1280, 800);
 }
 
@@ -64,9 +65,9 @@ static int take_down(void **unused)
 static void draw(void)
 {
     int width = paper.canvas.width, height = paper.canvas.height;
-    show_fill_values(&show);
-    show_draw(&paper, &show);
-    layout = show_layout(&show, width, height);
+    frame_fill_values(&content);
+    frame_draw(&paper, &content);
+    layout = layout_create(&content, width, height);
 }
 
 /* Letters have colours, too. */
@@ -82,7 +83,7 @@ static Plot blank_card(int width, int height)
 {
     canvas_clear(&paper.canvas, COLOUR_WHITE);
     return (Plot){.paper = &paper,
-                  .show = &show,
+                  .content = &content,
                   .simulation = &simulation,
                   .box = {0, 0, width, height},
                   .has_text = true,
@@ -113,10 +114,10 @@ static int on_stage(Colour colour)
 static Pick pick_at(double x, double y, double right, double down)
 {
     const double world[2] = {x, y};
-    Camera camera = show_camera(&show, &layout, 0);
+    Camera camera = camera_of_pane(&content, &layout, 0);
     double at[2];
     camera_pixel(&camera, world, at);
-    return show_pick(&show, &layout, at[0] + right, at[1] + down);
+    return frame_pick(&content, &layout, at[0] + right, at[1] + down);
 }
 
 static bool picks(Pick pick, PickKind kind, int index)
@@ -139,18 +140,18 @@ TEST(every_size_is_drawn)
                 if (!tests_are_long() && (scene - scenes + i + mode) % 2)
                     continue;
                 stand_up(scene->name, mode);
-                show.strain = mode & 1;
-                show.bare = mode == 3;
-                show.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
-                show.closed = 0;
-                show.pane[0].trouble = STATUS_NOT_FINITE;
+                content.strain = mode & 1;
+                content.bare = mode == 3;
+                content.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
+                content.cards.closed = 0;
+                content.pane[0].trouble = STATUS_NOT_FINITE;
                 view.hover = (Pick){.kind = PICK_SPRING, .index = 0};
                 if (simulation.runs > 0 && mode > 0) {
                     simulation.run[0].x[0] = NAN;
                     simulation.run[0].x[1] = mode == 1 ? 1e300 : -INFINITY;
                 }
                 set_size(sizes[i][0], sizes[i][1]);
-                show_describe(&show);
+                frame_describe(&content);
                 draw();
             }
 }
@@ -160,7 +161,7 @@ TEST(a_bare_square_is_the_slide)
 {
     stand_up("square", 3);
     set_size(300, 300);
-    show.bare = true;
+    content.bare = true;
     draw();
     for (int i = 0; i < 300 * 300; i++) {
         Colour at = paper.canvas.pixels[i];
@@ -234,7 +235,7 @@ TEST(states_show_what_they_are)
                              .record = records,
                              .updates = 3,
                              .difference = falling};
-        show.pane[0].trace = trace.line ? &trace : NULL;
+        content.pane[0].trace = trace.line ? &trace : NULL;
         view.hover = (Pick){.kind = states[i].hover, .index = 12};
         draw_without_words();
         int card = states[i].card;
@@ -251,7 +252,7 @@ TEST(fine_squares_are_faces)
 {
     stand_up("square --segments 90 --turn 17 --stretch 1.3", 0);
     set_size(400, 400);
-    show.bare = true;
+    content.bare = true;
     draw();
     int white = 0, covered = 0;
     for (int j = 0; j < 400; j++) {
@@ -278,7 +279,7 @@ TEST(fine_squares_are_faces)
     draw();
     int dark = on_stage(COLOUR_FOLDED);
     CHECK(dark > 10 && dark < 400);
-    show.strain = true;
+    content.strain = true;
     draw();
     CHECK(on_stage(COLOUR_FOLDED) == dark);
     Colour stretched = pixel(200, 150);
@@ -295,16 +296,16 @@ TEST(bars_are_steps)
 {
     const long unconverged = 251;
     stand_up("square", 0);
-    show.bar = bar_of;
-    show.past = &unconverged;
+    content.time_line.bar = bar_of;
+    content.time_line.past = &unconverged;
     for (long count = 1; count <= 500; count += 61) {
-        show.bars = count;
+        content.time_line.steps = count;
         draw();
-        CHECK(show_find_step(&show, &layout, 0) == 0);
-        CHECK(show_find_step(&show, &layout, 1280) == count);
+        CHECK(frame_find_step(&content, &layout, 0) == 0);
+        CHECK(frame_find_step(&content, &layout, 1280) == count);
         long before = 0;
         for (int x = 0; x < 1280; x++) {
-            long step = show_find_step(&show, &layout, x);
+            long step = frame_find_step(&content, &layout, x);
             CHECK(step >= before && step <= count);
             before = step;
         }
@@ -349,11 +350,11 @@ TEST(the_view_follows_what_drifts)
         "square --stretch 1 --velocity 3,1 --timestep 0.02",
         "square --stretch 1 --velocity 3,1 --timestep 0.02 --ball 0,-5,1"};
     stand_up("square --stretch 1", 0);
-    Camera was = show_camera(&show, &layout, 0);
+    Camera was = camera_of_pane(&content, &layout, 0);
     for (int i = 0; i < 2; i++) {
         stand_up(lines[i], 100);
-        Camera is = show_camera(&show, &layout, 0);
-        CHECK(pane_x(&show.pane[0])[0] > 5);
+        Camera is = camera_of_pane(&content, &layout, 0);
+        CHECK(pane_x(&content.pane[0])[0] > 5);
         CHECK_NEAR(1.5 * is.scale[0], was.scale[0], 1e-12 * was.scale[0]);
     }
 }
@@ -382,7 +383,7 @@ TEST(the_camera_does_not_jump)
         "drop --velocity 3,3 --timestep 0.02"};
     for (int i = 0; i < 3; i++) {
         stand_up(lines[i], 0);
-        Camera was = show_camera(&show, &layout, 0);
+        Camera was = camera_of_pane(&content, &layout, 0);
         int jumps = 0;
         for (int step = 0; step < 150; step++) {
             const Box *box = &layout.pane[0];
@@ -390,7 +391,7 @@ TEST(the_camera_does_not_jump)
             camera_world(&was, box->x + 0.5 * box->width,
                          box->y + 0.5 * box->height, middle);
             CHECK(!simulation_step(&simulation));
-            Camera is = show_camera(&show, &layout, 0);
+            Camera is = camera_of_pane(&content, &layout, 0);
             camera_pixel(&is, middle, pixel);
             double change = fabs(log(is.scale[0] / was.scale[0]));
             double moved = hypot(pixel[0] - box->x - 0.5 * box->width,
@@ -422,7 +423,7 @@ TEST(the_picture_loses_nothing)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         stand_up(cases[i].line, cases[i].steps);
-        Camera camera = show_camera(&show, &layout, 0);
+        Camera camera = camera_of_pane(&content, &layout, 0);
         const Options *options = &simulation.options;
         double side = camera.scale[0] * simulation.mesh.side;
         for (int r = 0; r < simulation.runs; r++)
@@ -448,13 +449,13 @@ TEST(the_picture_loses_nothing)
 TEST(the_mouse_finds_nodes_and_springs)
 {
     stand_up("square", 2);
-    show.paused = true;
+    content.time_line.paused = true;
     System *system = &simulation.system;
     const double *x = simulation.run[0].x;
     const double *a = x + 2 * system->e[0], *b = x + 2 * system->e[1];
     const double middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
     for (int zoomed = 0; zoomed < 2; zoomed++) {
-        Camera camera = show_camera(&show, &layout, 0);
+        Camera camera = camera_of_pane(&content, &layout, 0);
         double at[2];
         for (int i = 0; i < system->nodes; i++) {
             Pick pick = pick_at(x[2 * i], x[2 * i + 1], -2, 3);
@@ -476,8 +477,8 @@ TEST(the_mouse_finds_nodes_and_springs)
             pick_at(0.54 * p[0] + 0.46 * q[0], 0.54 * p[1] + 0.46 * q[1], 0, 0),
             PICK_SPRING, s));
     }
-    CHECK(show_pick(&show, &layout, 5, 200).kind == PICK_NONE);
-    CHECK(show_pick(&show, &layout, 1100, 200).kind == PICK_NONE);
+    CHECK(frame_pick(&content, &layout, 5, 200).kind == PICK_NONE);
+    CHECK(frame_pick(&content, &layout, 1100, 200).kind == PICK_NONE);
     int left = 0; /* the spring of nodes 0 and 1, in the left column */
     while (system->e[2 * left] != 0 || system->e[2 * left + 1] != 1)
         left++;
@@ -487,7 +488,7 @@ TEST(the_mouse_finds_nodes_and_springs)
     system->k[left] = 0;
     CHECK(pick_at(column, height, -6, 0).kind == PICK_NONE);
     stand_up("square", 0); /* before the first step its sides are edges */
-    show.paused = true;
+    content.time_line.paused = true;
     for (int side = 0; side < 2; side++)
         CHECK(picks(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
 }
@@ -533,7 +534,7 @@ TEST(contacts_are_drawn_sliding_or_holding)
 {
     stand_up("slope", 60);
     draw(); /* the paper has the size of its letters */
-    Plot stage = show_stage(&paper, &show, &layout, 0);
+    Plot stage = stage_create(&paper, &content, &layout, 0);
     for (int r = 0; r < 3; r++) {
         const SquarePen pen = square_pen_create(&stage, r);
         double lowest = 0, at[2];
@@ -596,12 +597,12 @@ TEST(energies_before_an_explosion_are_seen)
     stand_up("square", 6);
     double now = simulation_time(&simulation);
     double total = history.value[0][history.count - 1];
-    double before = energies_axis(&show, &last).high;
+    double before = energies_axis(&content, &last).high;
     for (int s = 0; s < history.series; s++)
         later[s] = (Energy){history.name[s], 1e298};
     history_add(&history, now + 0.1, history.series, later);
     CHECK(energies_value_at(&simulation, &history, 0, now) == total);
-    Axis axis = energies_axis(&show, &last);
+    Axis axis = energies_axis(&content, &last);
     CHECK(!axis.log && axis.high <= before && axis.high >= total &&
           total > 1e3);
     CHECK(energies_value_at(&simulation, &history, 0, now + 0.1) == 1e298);
@@ -610,14 +611,14 @@ TEST(energies_before_an_explosion_are_seen)
         char line[40];
         snprintf(line, sizeof line, "square --stretch 1.%d", i);
         stand_up(line, 0);
-        CHECK_AT_MOST(history.value[0][0], energies_axis(&show, &last).high);
+        CHECK_AT_MOST(history.value[0][0], energies_axis(&content, &last).high);
     }
     stand_up("square --timestep 0.008 --integrator symplectic-euler", 11);
     now = simulation_time(&simulation); /* x is finite, E is not */
     CHECK(isinf(energies_value_at(&simulation, &history, 0, now)));
     CHECK(isfinite(energies_value_at(&simulation, &history, 0, 0.9 * now)));
     stand_up("arrows", 80);
-    axis = energies_axis(&show, &last);
+    axis = energies_axis(&content, &last);
     now = simulation_time(&simulation);
     CHECK(axis.log && axis.low > 0);
     for (int r = 0; r < 3; r++) {
@@ -635,11 +636,11 @@ TEST(maps_have_levels_and_pulls)
 {
     static const double levels[] = {0.2, 0.6, 1};
     stand_up("landscape --projection none --start 0.6,0.9 --timestep 0.1", 0);
-    show.lecture = lecture_find("parts");
-    lecture_enter(show.lecture, &simulation.options);
+    content.lecture.page = lecture_find("parts");
+    lecture_enter(content.lecture.page, &simulation.options);
     simulation.exhibit.parts = PART_INERTIA;
     CHECK(is_drawn("0.6"));
-    Plot stage = show_stage(&paper, &show, &layout, 0);
+    Plot stage = stage_create(&paper, &content, &layout, 0);
     const double *target = simulation.exhibit.target;
     for (int k = 0; k < 3; k++) {
         double far = sqrt(2 * levels[k]), at[2], near = INFINITY;
@@ -694,12 +695,12 @@ TEST(right_digits_are_marked)
     static const char *const roots[] = {"1.",   "1.",       "1.",
                                         "1.17", "1.177993", "1.17799325406"};
     stand_up("tangent", 0);
-    show.lecture = lecture_find("tangent");
-    lecture_enter(show.lecture, &simulation.options);
+    content.lecture.page = lecture_find("tangent");
+    lecture_enter(content.lecture.page, &simulation.options);
     for (int i = 0; i <= 6; i++) {
         if (i > 0)
             CHECK(!simulation_step(&simulation));
-        show_fill_values(&show);
+        frame_fill_values(&content);
         Plot card = blank_card(600, 400);
         update_draw(&card);
         int lit[7] = {0}, rows = 0, before = 0;
@@ -726,10 +727,10 @@ TEST(curves_are_where_the_gradient_is_0)
     static const Colour colours[2] = {0xff009e73u, 0xffb0559au};
     stand_up("landscape --projection none --line-search none --start 0.6,0.9",
              0);
-    show.lecture = lecture_find("newton");
-    lecture_enter(show.lecture, &simulation.options);
+    content.lecture.page = lecture_find("newton");
+    lecture_enter(content.lecture.page, &simulation.options);
     draw_without_words();
-    Plot stage = show_stage(&paper, &show, &layout, 0);
+    Plot stage = stage_create(&paper, &content, &layout, 0);
     const double *x = simulation.descent.point;
     for (int k = 0; k < 2; k++) {
         int count[2] = {0, 0};
@@ -765,7 +766,7 @@ TEST(the_downhill_side_has_a_colour)
     memcpy(with, paper.canvas.pixels, size);
     simulation.options.layers = 0;
     draw_without_words();
-    Plot stage = show_stage(&paper, &show, &layout, 0);
+    Plot stage = stage_create(&paper, &content, &layout, 0);
     const double *x = simulation.descent.point;
     const double g[2] = {slope_of(0, x), slope_of(1, x)};
     int falls = 0, coloured = 0;
@@ -822,8 +823,8 @@ TEST(the_relief_has_two_valleys)
             "landscape --start 0.1,-0.35 --projection none --timestep ";
         strcat(line, rows[i].h);
         stand_up(line, 0);
-        show.lecture = lecture_find("parts");
-        lecture_enter(show.lecture, &simulation.options);
+        content.lecture.page = lecture_find("parts");
+        lecture_enter(content.lecture.page, &simulation.options);
         draw_without_words();
         Plot card = blank_card(1000, 750);
         relief_draw(&card);
@@ -898,7 +899,7 @@ TEST(doubling_is_marked)
                                         "circle --integrator backward-euler"};
     for (int i = 0; i < 3; i++) {
         stand_up(lines[i], 3);
-        show.bars = i == 1 ? 2 : 3;
+        content.time_line.steps = i == 1 ? 2 : 3;
         draw_without_words();
         CHECK((count_colour(layout.card[1], COLOUR_TEXT) > 0) == (i == 0));
     }

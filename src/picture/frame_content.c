@@ -1,5 +1,5 @@
-/* show.c - a Show: what it is of, where its stages look, what the mouse finds
- * there, how all of it is drawn. */
+/* frame_content.c - cameras of the panes, what the mouse finds on the stage,
+ * and the drawing of a whole frame. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,11 +20,12 @@ const Picture *picture_of(const struct Scene *scene)
     return &pictures[scene->picture];
 }
 
-bool show_has_card(const Show *show, const char *name)
+bool frame_has_card(const FrameContent *content, const char *name)
 {
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    const Picture *picture =
+        picture_of(active_pane(content)->simulation->scene);
     int card = picture_card(picture, name);
-    return card >= 0 && !(show->hidden >> card & 1);
+    return card >= 0 && !(content->cards.hidden >> card & 1);
 }
 
 int picture_card(const Picture *picture, const char *name)
@@ -35,19 +36,22 @@ int picture_card(const Picture *picture, const char *name)
     return -1;
 }
 
-void show_create(const Simulation *simulation, Show *show)
+void frame_create(const Simulation *simulation, FrameContent *content)
 {
     const Picture *picture = picture_of(simulation->scene);
     static const View whole = {.lens = {1, {0, 0}}};
-    *show = (Show){.panes = 1, .selected = -1, .large = -1, .view = &whole};
-    show->pane[0].simulation = simulation;
+    *content = (FrameContent){
+        .panes = 1, .view = &whole, .settings.selected = -1, .cards.large = -1};
+    content->pane[0].simulation = simulation;
     for (int c = 0; c < picture->count; c++) {
-        show->closed |= (unsigned)picture->cards[c]->starts_closed << c;
-        show->hidden |= (unsigned)picture->cards[c]->only_in_lecture << c;
+        content->cards.closed |= (unsigned)picture->cards[c]->starts_closed
+                                 << c;
+        content->cards.hidden |= (unsigned)picture->cards[c]->only_in_lecture
+                                 << c;
     }
 }
 
-bool show_needs_line(const Simulation *simulation, unsigned toggled)
+bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
 {
     const Picture *picture = picture_of(simulation->scene);
     const LecturePage *page = simulation->options.page;
@@ -63,27 +67,29 @@ bool show_needs_line(const Simulation *simulation, unsigned toggled)
 }
 
 /* The box of a pane without what words need of it. */
-static Box pane_room(const Show *show, const Layout *layout, int pane)
+static Box pane_room(const FrameContent *content, const Layout *layout,
+                     int pane)
 {
-    const Simulation *simulation = show->pane[pane].simulation;
+    const Simulation *simulation = content->pane[pane].simulation;
     bool stretched = picture_of(simulation->scene)->stretched;
     Box room = layout->pane[pane];
     int words = (int)(WORDS_ROOM * layout->em); /* above, and some below */
-    if (show->lecture && (show->panes > 1 || room.height < LOW * layout->em)) {
+    if (content->lecture.page &&
+        (content->panes > 1 || room.height < LOW * layout->em)) {
         box_cut_off(&room, EDGE_TOP, stretched ? 2 * words : words);
         box_cut_off(&room, EDGE_BOTTOM,
-                    show->panes > 1 || stretched ? words : 0);
+                    content->panes > 1 || stretched ? words : 0);
     }
     return room;
 }
 
 /* The part of the world that a pane would show by itself. */
-static void own_bounds(const Show *show, const Layout *layout, int pane,
-                       double bounds[4])
+static void own_bounds(const FrameContent *content, const Layout *layout,
+                       int pane, double bounds[4])
 {
-    const Plot stage = {.show = show,
-                        .simulation = show->pane[pane].simulation,
-                        .box = pane_room(show, layout, pane),
+    const Plot stage = {.content = content,
+                        .simulation = content->pane[pane].simulation,
+                        .box = pane_room(content, layout, pane),
                         .pane = pane};
     const Picture *picture = picture_of(stage.simulation->scene);
     if (picture->bounds)
@@ -94,44 +100,46 @@ static void own_bounds(const Show *show, const Layout *layout, int pane,
 
 /* The part of the world that fits a pane; all panes of a page have that of the
  * last one, unless what is in them has left it. */
-static void find_bounds(const Show *show, const Layout *layout, int pane,
-                        double bounds[4])
+static void find_bounds(const FrameContent *content, const Layout *layout,
+                        int pane, double bounds[4])
 {
-    const Held *held = &show->view->held;
-    int last = show->lecture ? show->panes - 1 : pane;
+    const Held *held = &content->view->held;
+    int last = content->lecture.page ? content->panes - 1 : pane;
     double own[4];
     if (held->on && !held->away && (held->pane == pane || held->pane == last)) {
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
     }
-    own_bounds(show, layout, last, bounds);
+    own_bounds(content, layout, last, bounds);
     if (last == pane)
         return;
-    own_bounds(show, layout, pane, own);
+    own_bounds(content, layout, pane, own);
     if (own[0] < bounds[0] || own[1] < bounds[1] || own[2] > bounds[2] ||
         own[3] > bounds[3])
         memcpy(bounds, own, sizeof own);
 }
 
-Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
+Plot stage_create(Paper *paper, const FrameContent *content,
+                  const Layout *layout, int pane)
 {
     Plot stage = {.paper = paper,
-                  .show = show,
-                  .simulation = show->pane[pane].simulation,
+                  .content = content,
+                  .simulation = content->pane[pane].simulation,
                   .box = layout->pane[pane],
-                  .revealed = show->lecture && !show->veiled,
+                  .revealed =
+                      content->lecture.page && !content->lecture.hides_answer,
                   .pane = pane,
-                  .has_text = !show->bare,
+                  .has_text = !content->bare,
                   .em = layout->em};
     double bounds[4];
     bool stretched = picture_of(stage.simulation->scene)->stretched;
-    Box room = pane_room(show, layout, pane), beside;
-    find_bounds(show, layout, pane, bounds);
-    stage.camera = camera_create(room, bounds, stretched, &show->view->lens);
+    Box room = pane_room(content, layout, pane), beside;
+    find_bounds(content, layout, pane, bounds);
+    stage.camera = camera_create(room, bounds, stretched, &content->view->lens);
     beside = room; /* of the switches, where it is no smaller there */
     box_cut_off(&beside, EDGE_RIGHT, (int)(SWITCH_WIDE * layout->em));
     const Camera there =
-        camera_create(beside, bounds, stretched, &show->view->lens);
+        camera_create(beside, bounds, stretched, &content->view->lens);
     Switch out[SCENE_MAX_SWITCHES];
     if (stage.has_text && beside.width > 0 &&
         there.scale[0] >= stage.camera.scale[0] &&
@@ -140,15 +148,17 @@ Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane)
     return stage;
 }
 
-Camera show_camera(const Show *show, const Layout *layout, int pane)
+Camera camera_of_pane(const FrameContent *content, const Layout *layout,
+                      int pane)
 {
-    return show_stage(NULL, show, layout, pane).camera;
+    return stage_create(NULL, content, layout, pane).camera;
 }
 
-Held show_hold(const Show *show, const Layout *layout, int pane)
+Held frame_hold_bounds(const FrameContent *content, const Layout *layout,
+                       int pane)
 {
     Held held = {.on = true, .pane = pane};
-    find_bounds(show, layout, pane, held.bounds);
+    find_bounds(content, layout, pane, held.bounds);
     return held;
 }
 
@@ -158,8 +168,8 @@ void stage_handles(const Plot *stage)
 {
     double at[SCENE_MAX_HANDLES][2];
     int count = exhibit_handles(stage->simulation, at);
-    const Pick *hover = &stage->show->view->hover;
-    for (int i = 0; i < count && !stage->show->bare; i++) {
+    const Pick *hover = &stage->content->view->hover;
+    for (int i = 0; i < count && !stage->content->bare; i++) {
         bool over = hover->kind == PICK_HANDLE && hover->pane == stage->pane &&
                     hover->index == i;
         plot_ring(stage, at[i], (over ? 13 : 10), over ? 3 : 1.8, COLOUR_HAND);
@@ -204,7 +214,7 @@ static void stage_prediction(const Plot *stage)
     const Box *box = &stage->box;
     Canvas *canvas = &stage->paper->canvas;
     double unit = stage->paper->unit, arm = 7 * unit, at[2], came[2], point[2];
-    if (!guess->made || stage->show->bare)
+    if (!guess->made || stage->content->bare)
         return;
     plot_pixel(stage, guess->at, at);
     plot_pixel(stage, guess->came, came);
@@ -221,13 +231,14 @@ static void stage_prediction(const Plot *stage)
                format_number(guess->distance).text);
 }
 
-Pick show_pick(const Show *show, const Layout *layout, double x, double y)
+Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
+                double y)
 {
     Hit hit = layout_hit(layout, x, y);
     Pick pick = {.kind = PICK_NONE, .near = -1};
-    if (hit.zone != ZONE_STAGE || hit.index >= show->panes)
+    if (hit.zone != ZONE_STAGE || hit.index >= content->panes)
         return pick;
-    Plot stage = show_stage(NULL, show, layout, hit.index);
+    Plot stage = stage_create(NULL, content, layout, hit.index);
     const Picture *picture = picture_of(stage.simulation->scene);
     pick.pane = hit.index;
     camera_world(&stage.camera, x, y, pick.point);
@@ -252,11 +263,14 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
     return pick;
 }
 
-long show_find_step(const Show *show, const Layout *layout, double x)
+long frame_find_step(const FrameContent *content, const Layout *layout,
+                     double x)
 {
     const Box *bars = &layout->bars;
-    double step = (x - bars->x) / fmax(bars->width, 1) * time_line_steps(show);
-    return (long)fmin(fmax(step < 0.25 ? 0 : floor(step) + 1, 0), show->bars);
+    double step =
+        (x - bars->x) / fmax(bars->width, 1) * time_line_steps(content);
+    return (long)fmin(fmax(step < 0.25 ? 0 : floor(step) + 1, 0),
+                      content->time_line.steps);
 }
 
 const double *pane_x(const Pane *pane)
@@ -264,7 +278,7 @@ const double *pane_x(const Pane *pane)
     return pane->x ? pane->x : pane->simulation->run[0].x;
 }
 
-int show_sample(const Simulation *simulation, Energy row[HISTORY_SERIES])
+int picture_sample(const Simulation *simulation, Energy row[HISTORY_SERIES])
 {
     const Picture *picture = picture_of(simulation->scene);
     return picture->sample ? picture->sample(simulation, row) : 0;
@@ -300,7 +314,7 @@ void history_add(History *history, double time, int rows, const Energy *row)
 
 /* ---- all of it ----------------------------------------------------------- */
 
-enum { LABEL = 4 * SHOW_VALUE };
+enum { LABEL = 4 * VALUE_SIZE };
 
 /* The first parts of a label, with ", " between, that fit into a line.  Returns
  * what is left of it.
@@ -342,17 +356,17 @@ static void draw_label(const Plot *stage, const char *label)
 
 /* One pane, its words, where it is not alone its label in the colour of its
  * curve, and what the mouse is over in it. */
-static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
-                      int pane)
+static void draw_pane(Paper *paper, const Layout *layout,
+                      const FrameContent *content, int pane)
 {
-    Plot stage = show_stage(paper, show, layout, pane);
+    Plot stage = stage_create(paper, content, layout, pane);
     const Picture *picture = picture_of(stage.simulation->scene);
-    const Pick *hover = &show->view->hover;
+    const Pick *hover = &content->view->hover;
     Box before = canvas_set_clip(&paper->canvas, stage.box);
-    if (show->lecture && stage.box.height < LEAST_TEXT * paper->em)
+    if (content->lecture.page && stage.box.height < LEAST_TEXT * paper->em)
         stage.has_text = false; /* a star has taken its room */
     picture->draw(&stage);
-    TextLine line = text_begin(&show->pane[pane].values, picture->legend);
+    TextLine line = text_begin(&content->pane[pane].values, picture->legend);
     while (stage.has_text && text_next_line(&line))
         plot_legend(&stage, line.colour, "%s", line.words);
     if (stage.has_text && picture->shows_scale)
@@ -361,10 +375,10 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
         stage_handles(&stage);
     stage_switches(&stage);
     stage_prediction(&stage);
-    if (layout->panes > 1 && show->pane[pane].label)
-        draw_label(&stage, show->pane[pane].label);
+    if (layout->panes > 1 && content->pane[pane].label)
+        draw_label(&stage, content->pane[pane].label);
     if (picture->hover && stage.has_text && hover->pane == pane &&
-        hover->kind != PICK_NONE && !show->hand)
+        hover->kind != PICK_NONE && !content->hand)
         picture->hover(&stage);
     canvas_set_clip(&paper->canvas, before);
 }
@@ -387,11 +401,11 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
                           COLOUR_VALUE);
     *inside = box_inset(*inside, paper_pixels(paper, 0.3));
     if (cell->simulation) {
-        Show show;
-        show_create(cell->simulation, &show);
-        show.bare = true;
-        show.strain = cell->simulation->scene->strain_colour_max > 0;
-        draw_pane(paper, &layout, &show, 0);
+        FrameContent content;
+        frame_create(cell->simulation, &content);
+        content.bare = true;
+        content.strain = cell->simulation->scene->strain_colour_max > 0;
+        draw_pane(paper, &layout, &content, 0);
     }
     Box name = {box.x, box.y + box.width, box.width, box.height - box.width};
     paper_fit(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
@@ -400,36 +414,36 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
 }
 
 /* White paper with letters of this size, pixels. */
-static void begin_paper(Paper *paper, double em, const Show *show)
+static void begin_paper(Paper *paper, double em, const FrameContent *content)
 {
     paper->em = em;
     paper->unit = em / 14;
-    paper->min_letter = show->lecture ? 1 : 0;
+    paper->min_letter = content->lecture.page ? 1 : 0;
     canvas_clear(&paper->canvas, COLOUR_WHITE);
 }
 
-void show_draw_card(Paper *paper, const Show *show, int card)
+void frame_draw_card(Paper *paper, const FrameContent *content, int card)
 {
     const Canvas *canvas = &paper->canvas;
-    begin_paper(paper, show->letter, show);
+    begin_paper(paper, content->min_em, content);
     card_draw(paper,
               box_inset((Box){0, 0, canvas->width, canvas->height},
                         paper_pixels(paper, 0.4)),
-              show, card);
-    highlight_draw(paper, show);
+              content, card);
+    highlight_draw(paper, content);
 }
 
-void show_draw(Paper *paper, const Show *show)
+void frame_draw(Paper *paper, const FrameContent *content)
 {
     Layout layout =
-        show_layout(show, paper->canvas.width, paper->canvas.height);
-    begin_paper(paper, layout.em, show);
+        layout_create(content, paper->canvas.width, paper->canvas.height);
+    begin_paper(paper, layout.em, content);
     for (int i = 0; i < layout.cells; i++)
-        draw_sheet_cell(paper, layout.cell[i], &show->cell[i],
-                        i == show->view->chosen);
+        draw_sheet_cell(paper, layout.cell[i], &content->sheet.cell[i],
+                        i == content->view->chosen);
     if (layout.cells > 0) {
-        if (!show->document)
-            frame_draw(paper, &layout, show);
+        if (!content->document)
+            window_rows_draw(paper, &layout, content);
         return;
     }
     if (layout.panes > 1) /* lines between them */
@@ -437,17 +451,17 @@ void show_draw(Paper *paper, const Show *show)
     for (int pane = 0; pane < layout.panes; pane++) {
         if (layout.panes > 1)
             canvas_fill(&paper->canvas, layout.pane[pane], COLOUR_WHITE);
-        draw_pane(paper, &layout, show, pane);
+        draw_pane(paper, &layout, content, pane);
     }
-    if (show->bare)
+    if (content->bare)
         return;
-    if (show->document) {
-        highlight_draw(paper, show);
+    if (content->document) {
+        highlight_draw(paper, content);
         return;
     }
-    if (show->column != COLUMN_CARDS)
+    if (content->column != COLUMN_CARDS)
         canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
-    cards_draw(paper, &layout, show);
-    highlight_draw(paper, show);
-    frame_draw(paper, &layout, show);
+    cards_draw(paper, &layout, content);
+    highlight_draw(paper, content);
+    window_rows_draw(paper, &layout, content);
 }

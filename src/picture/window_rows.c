@@ -1,5 +1,5 @@
-/* frame.c - the strip, the settings, the time line and the chips around the
- * stage. */
+/* window_rows.c - the strip, the settings, the time line and the chips around
+ * the stage. */
 #include "picture/cards.h"
 
 #include <math.h>
@@ -32,35 +32,39 @@ static void draw_zone(Paper *paper, Box zone, bool rule_below)
 /* Draws topic and sentence from the left, method and state from the right.  A
  * message takes the place of the sentence, in a low strip also that of the
  * topic unless both fit. */
-static void draw_strip(Paper *paper, Box room, const Show *show)
+static void draw_strip(Paper *paper, Box room, const FrameContent *content)
 {
     double em = paper->em;
-    bool low = room.height <= 2.6 * em, message = show->message[0];
-    const char *said = message ? show->message : show->sentence;
-    Colour colour = !message        ? COLOUR_TEXT
-                    : show->warning ? COLOUR_WARNING
-                                    : COLOUR_VALUE;
-    char words[2 * SHOW_TEXT];
+    bool low = room.height <= 2.6 * em, message = content->strip.message[0];
+    const char *said =
+        message ? content->strip.message : content->strip.sentence;
+    Colour colour = !message                    ? COLOUR_TEXT
+                    : content->strip.is_warning ? COLOUR_WARNING
+                                                : COLOUR_VALUE;
+    char words[2 * SENTENCE_SIZE];
     draw_zone(paper, room, true);
     box_cut_off(&room, EDGE_LEFT, (int)(0.9 * em));
     room.width -= (int)(0.9 * em);
-    snprintf(words, sizeof words, "%s%s%s", show->method,
-             show->method[0] && show->state[0] ? " \u00b7 " : "", show->state);
+    snprintf(words, sizeof words, "%s%s%s", content->strip.method,
+             content->strip.method[0] && content->strip.state[0] ? " \u00b7 "
+                                                                 : "",
+             content->strip.state);
     if (paper_width(paper, FACE_REGULAR, 1, words) > 0.45 * room.width)
-        snprintf(words, sizeof words, "%s", show->state);
+        snprintf(words, sizeof words, "%s", content->strip.state);
     room.width -= paper_fit(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
                             ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
     bool beside =
         !low || !message ||
-        paper_width(paper, FACE_BOLD, TOPIC, show->topic ? show->topic : "") +
+        paper_width(paper, FACE_BOLD, TOPIC,
+                    content->strip.topic ? content->strip.topic : "") +
                 paper_width(paper, FACE_REGULAR, 1, said) + 1.1 * em <
             room.width;
-    if (show->topic && beside)
+    if (content->strip.topic && beside)
         box_cut_off(&room, EDGE_LEFT,
                     (int)(1.1 * em) + paper_fit(paper, FACE_BOLD, TOPIC,
                                                 COLOUR_TEXT, room, ALIGN_LEFT,
-                                                show->topic));
+                                                content->strip.topic));
     bool two = !low && paper_width(paper, FACE_REGULAR, 1, said) > room.width;
     room.y += (int)(0.5 * room.height - (two ? 1.27 : 0.65) * em);
     if (room.width > 6 * em)
@@ -77,7 +81,7 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
 {
     double em = paper->em, below = floor(box.y + 0.5 * box.height + 0.6 * em);
     Colour colour = setting->off ? COLOUR_GREY : COLOUR_VALUE;
-    char value[SHOW_VALUE + 64], *rest;
+    char value[VALUE_SIZE + 64], *rest;
     double number = strtod(setting->value, &rest);
     const char *power = strchr(setting->value, 'e');
     if (selected || over)
@@ -103,18 +107,21 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
 
 /* ---- the time line ------------------------------------------------------ */
 
-long time_line_steps(const Show *show)
+long time_line_steps(const FrameContent *content)
 {
-    return show->bars > MIN_STEPS ? show->bars : MIN_STEPS;
+    return content->time_line.steps > MIN_STEPS ? content->time_line.steps
+                                                : MIN_STEPS;
 }
 
 /* Draws a bar for each step, or for the largest step of a group if there is no
  * room for all; then the handle at the current step with its words. */
-static void draw_time(Paper *paper, const Layout *layout, const Show *show)
+static void draw_time(Paper *paper, const Layout *layout,
+                      const FrameContent *content)
 {
     Box zone = layout->time_line, bars = layout->bars;
-    double em = paper->em, part = (show->step - 0.5) / time_line_steps(show);
-    double pitch = (double)bars.width / time_line_steps(show);
+    double em = paper->em,
+           part = (content->time_line.step - 0.5) / time_line_steps(content);
+    double pitch = (double)bars.width / time_line_steps(content);
     long group = (long)ceil(MIN_BAR / pitch), most = FULL_BAR_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
     bool words = zone.height > 3.5 * em;
@@ -123,12 +130,16 @@ static void draw_time(Paper *paper, const Layout *layout, const Show *show)
     if (zone.width <= 0)
         return;
     draw_zone(paper, zone, false);
-    for (long s = 1; show->bar && s <= show->bars; s++)
-        most = (long)fmax(most, show->bar(show->past, s).updates);
-    for (long s = 0; show->bar && s < show->bars; s += group) {
+    for (long s = 1; content->time_line.bar && s <= content->time_line.steps;
+         s++)
+        most = (long)fmax(
+            most, content->time_line.bar(content->time_line.past, s).updates);
+    for (long s = 0; content->time_line.bar && s < content->time_line.steps;
+         s += group) {
         StepBar bar = {0, false};
-        for (long k = s; k < s + group && k < show->bars; k++) {
-            StepBar one = show->bar(show->past, k + 1);
+        for (long k = s; k < s + group && k < content->time_line.steps; k++) {
+            StepBar one =
+                content->time_line.bar(content->time_line.past, k + 1);
             bar.updates = (int)fmax(bar.updates, one.updates);
             bar.unconverged |= one.unconverged;
         }
@@ -138,34 +149,38 @@ static void draw_time(Paper *paper, const Layout *layout, const Show *show)
         canvas_fill(&paper->canvas,
                     (Box){bars.x + left, bars.y + bars.height - high,
                           right > left ? right - left : 1, high},
-                    bar.unconverged                             ? COLOUR_WARNING
-                    : show->step > s && show->step <= s + group ? COLOUR_VALUE
-                                                                : COLOUR_BAR);
+                    bar.unconverged ? COLOUR_WARNING
+                    : content->time_line.step > s &&
+                            content->time_line.step <= s + group
+                        ? COLOUR_VALUE
+                        : COLOUR_BAR);
     }
     canvas_line(&paper->canvas, x, top, x, bars.y + bars.height + 0.2 * em,
                 2 * paper->unit, COLOUR_TEXT);
     canvas_disc(&paper->canvas, x, top, (words ? 7 : 5) * paper->unit,
                 COLOUR_TEXT);
-    int width = paper_width(paper, FACE_REGULAR, VALUE, show->time_text);
+    int width =
+        paper_width(paper, FACE_REGULAR, VALUE, content->time_line.text);
     if (at + width > zone.x + zone.width - 0.9 * em)
         at = fmax(x - 1.1 * em - width, zone.x + 0.4 * em);
     if (words)
         paper_write(paper, FACE_REGULAR, VALUE, COLOUR_TEXT, at,
-                    top - 0.62 * em, ALIGN_LEFT, "%s", show->time_text);
+                    top - 0.62 * em, ALIGN_LEFT, "%s", content->time_line.text);
 }
 
 /* ---- the last line ------------------------------------------------------ */
 
-static void draw_chips(Paper *paper, const Layout *layout, const Show *show)
+static void draw_chips(Paper *paper, const Layout *layout,
+                       const FrameContent *content)
 {
     const double gap = 0.5 * paper->em, size = 0.92;
     draw_zone(paper, layout->chip_row, false);
     for (int i = 0; i < layout->chips; i++) {
-        const Chip *chip = &show->chip[i];
+        const Chip *chip = &content->chips.item[i];
         Box box = layout->chip[i];
         bool all = layout->chips_left_out > 0 && i == layout->chips - 1;
-        bool over =
-            show->view->over.zone == ZONE_CHIP && show->view->over.index == i;
+        bool over = content->view->over.zone == ZONE_CHIP &&
+                    content->view->over.index == i;
         const char *label = all ? "all \u2026" : chip->label;
         int key = paper_width(paper, FACE_BOLD, size, chip->key);
         int width = key + paper_width(paper, FACE_REGULAR, size, label);
@@ -184,15 +199,16 @@ static void draw_chips(Paper *paper, const Layout *layout, const Show *show)
     }
 }
 
-void frame_draw(Paper *paper, const Layout *layout, const Show *show)
+void window_rows_draw(Paper *paper, const Layout *layout,
+                      const FrameContent *content)
 {
-    draw_strip(paper, layout->strip, show);
+    draw_strip(paper, layout->strip, content);
     draw_zone(paper, layout->settings_row, false);
     for (int i = 0; i < layout->settings; i++)
-        draw_setting(paper, layout->setting[i], &show->setting[i],
-                     show->selected == i,
-                     show->view->over.zone == ZONE_SETTING &&
-                         show->view->over.index == i);
-    draw_time(paper, layout, show);
-    draw_chips(paper, layout, show);
+        draw_setting(paper, layout->setting[i], &content->settings.item[i],
+                     content->settings.selected == i,
+                     content->view->over.zone == ZONE_SETTING &&
+                         content->view->over.index == i);
+    draw_time(paper, layout, content);
+    draw_chips(paper, layout, content);
 }

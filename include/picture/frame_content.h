@@ -1,12 +1,12 @@
-/* show.h - all that a frame shows, in one struct: filled before a frame is
- * drawn, only read by pictures and cards.
+/* frame_content.h - the contents of a frame in one struct, which is filled
+ * before the frame is drawn; pictures and cards only read it.
  *
- * The same Show and size of the paper give the same pixels.  Pointers are not
- * owned; NULL means "there is none", and what would need it is left out.  A
- * zeroed Show with one pane is a valid one.  Texts are in the markup of text.h.
+ * The same contents and size of the paper give the same pixels.  Pointers are
+ * not owned; an element whose pointer is NULL is not drawn.  A zeroed struct
+ * with one pane is valid.  Texts are in the markup of text.h.
  */
-#ifndef ELASTO_SHOW_H
-#define ELASTO_SHOW_H
+#ifndef ELASTO_FRAME_CONTENT_H
+#define ELASTO_FRAME_CONTENT_H
 
 #include "picture/layout.h"
 #include "lesson/pages.h"
@@ -14,8 +14,8 @@
 #include "scenes/small_scenes.h"
 
 enum {
-    SHOW_TEXT = 224, /* bytes of a sentence */
-    SHOW_VALUE = 32  /* bytes of a setting's value */
+    SENTENCE_SIZE = 224, /* bytes of a sentence */
+    VALUE_SIZE = 32      /* bytes of a setting's value */
 };
 
 /* Where in Algorithm 3 the run stands.  Everything up to this line is done:
@@ -157,20 +157,30 @@ typedef struct View {
 
 /* ---- around the stage --------------------------------------------------- */
 
-/* A number or a choice in the row. */
+/* Words of the strip above the stage. */
+typedef struct Strip {
+    const char *topic;            /* "Algorithm 3: projected Newton" */
+    char sentence[SENTENCE_SIZE]; /* what happens in the present state */
+    char method[SENTENCE_SIZE];   /* "backward Euler" */
+    char state[VALUE_SIZE];       /* "paused", "at rest"; "": running */
+    char message[SENTENCE_SIZE];  /* shown instead of the sentence; or "" */
+    bool is_warning;              /* the message is a warning */
+} Strip;
+
+/* A number or a choice in the row of settings. */
 typedef struct Setting {
     const char *name;       /* "h", "stretch", "projection" */
-    char value[SHOW_VALUE]; /* "0.02 s", "backward Euler" */
-    int letters;            /* the longest value has; 0: as long as now */
+    char value[VALUE_SIZE]; /* "0.02 s", "backward Euler" */
+    int letters;            /* letters of the longest value; 0: of this value */
     bool changed;           /* differs from the scene's default */
     bool off;               /* a method that is switched off */
 } Setting;
 
-/* A key and what it does now. */
-typedef struct Chip {
-    const char *key, *label; /* "Space", "play" */
-    bool lit;                /* the one to press next */
-} Chip;
+typedef struct SettingsRow {
+    int count;
+    Setting item[LAYOUT_SETTINGS];
+    int selected; /* index of the setting selected by Tab; -1: none */
+} SettingsRow;
 
 /* A step in the time line. */
 typedef struct StepBar {
@@ -178,96 +188,111 @@ typedef struct StepBar {
     bool unconverged;
 } StepBar;
 
-/* What is in the column: the cards, in their place a page's code, or a list. */
+typedef struct TimeLine {
+    long steps;  /* number of known steps */
+    long step;   /* the step on the stage, 0 ... steps */
+    bool paused; /* time stands still */
+    /* Returns the bar of a step 1 ... steps.  NULL: no bars are drawn. */
+    StepBar (*bar)(const void *past, long step);
+    const void *past;         /* first argument of bar */
+    char text[SENTENCE_SIZE]; /* "step 12   t = 0.24 s   2 steps a frame" */
+} TimeLine;
+
+/* A key and what it does now. */
+typedef struct Chip {
+    const char *key, *label; /* "Space", "play" */
+    bool lit;                /* is the key to press next */
+} Chip;
+
+typedef struct ChipRow {
+    int count;
+    Chip item[LAYOUT_CHIPS];
+} ChipRow;
+
+/* Contents of the column: the cards, or instead of them a page's code or a
+ * list. */
 typedef enum Column {
     COLUMN_CARDS,
     COLUMN_CODE,
     COLUMN_PAGES,
     COLUMN_LETTERS,
-    COLUMN_KEYS, /* the rows of this list and the next one others fill */
-    COLUMN_OPTIONS
+    COLUMN_KEYS,   /* list of keys, whose rows the application fills */
+    COLUMN_OPTIONS /* list of options, whose rows the application fills */
 } Column;
 
-/* A line of a list: a key or a number, and what it does. */
-typedef struct HelpRow {
-    char key[SHOW_VALUE], text[SHOW_TEXT];
-    bool grey; /* without a meaning now; of a page: extra */
-    bool head; /* heading of the rows below it, without a key */
-} HelpRow;
+/* State of the cards.  Bit c of a set is the picture's card c. */
+typedef struct CardSets {
+    unsigned closed;  /* cards of which only the title is drawn */
+    unsigned hidden;  /* cards that the picture or the page leaves out */
+    unsigned covered; /* cards whose content is not drawn before a guess */
+    int large;        /* index of the enlarged card; -1: none */
+} CardSets;
 
-/* A scene on the sheet of all of them. */
+/* A row of a list: a key or a number, and what it does. */
+typedef struct ListRow {
+    char key[VALUE_SIZE], text[SENTENCE_SIZE];
+    bool grey; /* a key without a meaning now, or an extra page */
+    bool head; /* a heading, without a key */
+} ListRow;
+
+typedef struct List {
+    int rows;
+    ListRow row[LAYOUT_ROWS];
+} List;
+
+/* A scene in the overview of all scenes. */
 typedef struct SheetCell {
     const char *name;
-    const char *group;            /* the heading above it, or NULL */
+    const char *group;            /* heading above the cell, or NULL */
     const Simulation *simulation; /* NULL: not made yet */
 } SheetCell;
 
-typedef struct Show {
-    int panes, active; /* 1 ... LAYOUT_PANES; the one that the cards are of */
-    Pane pane[LAYOUT_PANES];
-
-    /* The strip. */
-    const char *topic;        /* "Algorithm 3: projected Newton" */
-    char sentence[SHOW_TEXT]; /* follows the state */
-    char method[SHOW_TEXT];   /* "backward Euler" */
-    char state[SHOW_VALUE];   /* "paused", "at rest"; "" means running */
-    bool paused;
-
-    /* The row. */
-    int settings;
-    Setting setting[LAYOUT_SETTINGS];
-    int selected; /* by Tab; -1: none */
-
-    /* The time line: steps 1 ... bars; `step` is the one shown. */
-    long bars, step;
-    StepBar (*bar)(const void *past, long step); /* NULL: no bars are drawn */
-    const void *past;
-    char time_text[SHOW_TEXT]; /* "step 12   t = 0.24 s   real time x 0.5" */
-
-    /* The last line. */
-    int chips;
-    Chip chip[LAYOUT_CHIPS];
-    char message[SHOW_TEXT]; /* in the place of the sentence; "": none */
-    bool warning;            /* the message is one */
-
-    /* The column.  Bit c of a set is the picture's card c. */
-    unsigned closed, hidden;
-    int large; /* the enlarged one; -1: none */
-    Column column;
-    int help_rows;
-    HelpRow help[LAYOUT_ROWS];
-
-    /* The sheet of all scenes, where it is open: cells > 0. */
+/* The overview of all scenes; no cells: it is closed. */
+typedef struct SheetContent {
     int cells;
     SheetCell cell[LAYOUT_CELLS];
+} SheetContent;
 
-    /* The stage. */
+/* The page of the lecture and the guesses at its question. */
+typedef struct LectureContent {
+    const LecturePage *page; /* NULL outside of the lecture */
+    bool hides_answer;       /* a guess is awaited before the answer is shown */
+    const char *verdict;     /* verdict on the guess at this page, or NULL */
+    int guesses, right;      /* guesses at all pages, and the right ones */
+} LectureContent;
+
+/* ---- all of it ----------------------------------------------------------- */
+
+typedef struct FrameContent {
+    int panes;  /* 1 ... LAYOUT_PANES */
+    int active; /* index of the pane whose numbers the cards show */
+    Pane pane[LAYOUT_PANES];
     const View *view;
-    const struct Control *hand; /* that pulls in the active pane; NULL: none */
-    bool strain;                /* springs coloured by strain */
+    const struct Control *hand; /* what pulls in the active pane, or NULL */
+    bool strain;                /* springs are coloured by strain */
     bool bare;                  /* the picture of the slide and nothing else */
-    struct Text
-        *text;     /* what a page's words are measured with; NULL: guessed */
-    double letter; /* pixels that an em has at least; 0: the usual ones */
-    bool document; /* the paper has the stage alone: texts, numbers, keys and
-                      cards are elements of a page beside it */
+    bool document;     /* the stage alone: a web page beside it has the rest */
+    struct Text *text; /* measures a page's words; NULL: widths are guessed */
+    double min_em;     /* pixels; 0: the usual minimum */
+    Strip strip;
+    SettingsRow settings;
+    TimeLine time_line;
+    ChipRow chips;
+    Column column;
+    CardSets cards;
+    List list; /* for COLUMN_PAGES and the kinds after it */
+    SheetContent sheet;
+    LectureContent lecture;
+} FrameContent;
 
-    /* The lecture: the page that is shown, or NULL outside of it. */
-    const LecturePage *lecture;
-    bool veiled;         /* its answer is not shown before a guess, */
-    unsigned veils;      /* nor is what is in these cards */
-    const char *verdict; /* on a guess at this page; NULL: none was made */
-    int guesses, right;  /* at all pages */
-} Show;
-
-/* Nothing selected, everything fits, one pane that shows the simulation; view
- * is a constant. */
-void show_create(const Simulation *simulation, Show *show);
+/* Fills the contents with one pane that shows the simulation; the view fits the
+ * scene. */
+void frame_create(const Simulation *simulation, FrameContent *content);
 
 /* The pane whose numbers the cards show. */
-static inline const Pane *show_pane(const Show *show)
+static inline const Pane *active_pane(const FrameContent *content)
 {
-    return &show->pane[show->active];
+    return &content->pane[content->active];
 }
 
 /* Positions that a pane shows, [2n] m. */
@@ -284,46 +309,52 @@ int pane_folded(const Pane *pane);
 
 /* On a paper of this size, 1 or more; chips beyond the room are left out, but
  * not the last one, which tells of all keys. */
-Layout show_layout(const Show *show, int width, int height);
+Layout layout_create(const FrameContent *content, int width, int height);
 
-Camera show_camera(const Show *show, const Layout *layout, int pane);
+Camera camera_of_pane(const FrameContent *content, const Layout *layout,
+                      int pane);
 
 /* The part of the world that a pane shows now, to be held still. */
-Held show_hold(const Show *show, const Layout *layout, int pane);
+Held frame_hold_bounds(const FrameContent *content, const Layout *layout,
+                       int pane);
 
 /* What is at this pixel of the stage; PICK_NONE elsewhere. */
-Pick show_pick(const Show *show, const Layout *layout, double x, double y);
+Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
+                double y);
 
 /* The row of help or of the list of pages at this pixel; -1: none. */
-int show_help_row(const Show *show, const Layout *layout, double x, double y);
+int frame_find_row(const FrameContent *content, const Layout *layout, double x,
+                   double y);
 
 /* The step whose bar is under x; 0 ... bars. */
-long show_find_step(const Show *show, const Layout *layout, double x);
+long frame_find_step(const FrameContent *content, const Layout *layout,
+                     double x);
 
 /* ---- what it knows ------------------------------------------------------ */
 
 /* What the lecture adds, where the simulation's options name a page: topic and
  * cards that are hidden; what is in the column, there is code of pages alone;
  * the list of pages, in which the page that was left is marked where none is
- * open.  Before show_describe. */
-void show_lecture(Column column, const struct LecturePage *left, Show *show);
+ * open.  Before frame_describe. */
+void frame_add_lecture(Column column, const struct LecturePage *left,
+                       FrameContent *content);
 
 /* Fills the values of all panes. */
-void show_fill_values(Show *show);
+void frame_fill_values(FrameContent *content);
 
 /* The last thing before a frame: fills the values, and from those of the active
  * pane topic, sentence, method and state, as far as they are empty. */
-void show_describe(Show *show);
+void frame_describe(FrameContent *content);
 
 /* The number that texts know by this name now; NaN: none. */
-double show_number(Show *show, const char *name);
+double frame_find_number(FrameContent *content, const char *name);
 
 /* Whether E along p is drawn in a card of this scene or its page: each card is
  * open as at the start, but for those in `toggled`, bit c for card c. */
-bool show_needs_line(const Simulation *simulation, unsigned toggled);
+bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);
 
 /* What the history of this scene's picture shows of the state now.  row out;
  * returns how many. */
-int show_sample(const Simulation *simulation, Energy row[HISTORY_SERIES]);
+int picture_sample(const Simulation *simulation, Energy row[HISTORY_SERIES]);
 
 #endif
