@@ -1,4 +1,4 @@
-/* command_line.h - reads command lines and single values into options, and
+/* command_line.h - reads command lines and single options, and
  * writes --help.
  */
 #ifndef ELASTO_COMMAND_LINE_H
@@ -8,11 +8,6 @@
 
 #include "run/message.h"
 #include "run/options.h"
-
-/* Reads a number as users type it: "1/60", "0,02", "4 ms", or a name: "clamp".
- *   value  out
- * Returns whether the text is a number in the row's range. */
-bool option_read(const OptionRow *row, const char *text, double *value);
 
 /* Reads a command line into options, whose texts point into argv.  Lists of
  * values make several panes: "--timestep 0.004,0.04 --projection clamp,none" is

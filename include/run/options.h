@@ -157,45 +157,49 @@ typedef enum Effect {
 } Effect;
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
-typedef struct OptionField {
-    int place;   /* position in the window's row of numbers, from 1; 0: it is
-                    in the row after the user has added it */
-    int letters; /* length of the longest value */
-    double pace; /* step of the wheel; 0: factors, or the next name */
-} OptionField;
+typedef struct OptionDisplay {
+    int place;        /* position in the window's row of numbers, from 1; 0: the
+                         row has the option after the user has added it */
+    int letters;      /* length of the longest value */
+    double increment; /* change by a notch of the wheel; 0: a notch multiplies
+                         the number, or chooses the next name */
+} OptionDisplay;
 
 /* One option.  The fields are many because each is one thing that may differ
  * between options; most rows leave most of them 0. */
 typedef struct OptionRow {
-    const char *name;  /* without dashes; "": help is the heading of a section
-                          of --help; NULL ends the table */
-    char letter;       /* short form, or 0 */
-    const char *value; /* placeholder of the value in --help */
-    const char *help;  /* description in --help */
+    const char *name; /* without dashes; "": help is the heading of a section
+                         of --help; NULL ends the table */
+    char letter;      /* short form, or 0 */
+    const char *placeholder; /* letters for the value in --help; NULL: the
+                                option is a switch */
+    const char *help;        /* description in --help */
     OptionKind kind;
-    int slot;           /* slot of the first number */
-    size_t offset;      /* OPTION_TEXT: offset of the field in Options */
-    bool table;         /* OPTION_TEXT: the file is a CSV table */
-    int count;          /* numbers in a value; 0: one */
-    unsigned fewer;     /* bit n: a value may stop after n numbers */
-    const double *rest; /* [count] numbers that a shorter value leaves out */
-    char between;       /* separator of the numbers; 0: a comma */
-    int times;          /* how often the option may be repeated; 0: once, the
-                           last value counts */
-    int counter;        /* times > 0: slot with the number of repetitions, whose
-                           values follow each other from `slot` on */
-    double standard;    /* default, as on the slides */
-    double low, high;   /* range, both ends included */
-    const char *unit;   /* unit of the numbers, or "" */
-    Names names;        /* OPTION_NAME: the values */
-    unsigned needs;     /* enum SceneNeeds: the scene must have one of these */
+    int slot;              /* slot of the first number */
+    size_t offset;         /* OPTION_TEXT: offset of the field in Options */
+    bool is_table;         /* OPTION_TEXT: the file is a CSV table */
+    int count;             /* numbers in a value; 0: one */
+    unsigned short_counts; /* bit n: a value may have only the first n numbers
+                            */
+    const double *omitted; /* [count] numbers that a shorter value leaves out */
+    char separator;        /* between the numbers; 0: a comma */
+    int max_times;         /* how often the option may be repeated; 0: the last
+                              value counts */
+    int counter;           /* max_times > 0: slot with the number of
+                              repetitions, whose values follow each other from
+                              `slot` on */
+    double default_value;  /* as on the slides */
+    double low, high;      /* range, both ends included */
+    const char *unit;      /* unit of the numbers, or "" */
+    Names names;           /* OPTION_NAME: the values */
+    unsigned needs; /* enum SceneNeeds: the scene must have one of these */
     /* Returns why the option has no effect beside the others; NULL: it has. */
-    const char *(*idle)(const Options *options);
+    const char *(*idle_reason)(const Options *options);
     Effect effect;
     const TermKind *term; /* energy term that the option adds, or NULL */
     const char *label;    /* name in the window, in the markup of text.h; NULL:
                              the option takes no list of values */
-    OptionField field;
+    OptionDisplay display;
 } OptionRow;
 
 extern const OptionRow option_rows[];
@@ -206,8 +210,22 @@ enum { OPTIONS_MOST = 64 };
 /* The row with this name, or NULL. */
 const OptionRow *option_find(const char *name);
 
+/* Whether a number is in the row's range; the number of a name is its index. */
+bool option_allows(const OptionRow *row, double number);
+
+/* Returns how many values a text with separators has. */
+int option_count_values(const char *text, char separator);
+
+/* Reads a value as users type it: numbers such as "1/60" and "4 ms", each in
+ * the row's range, or a name.  A single number may have a decimal comma,
+ * "0,02". count   expected numbers; a value may have fewer if the row says so
+ *   number  [count] out; of a name its index
+ * Returns whether the text is such a value. */
+bool option_read(const OptionRow *row, int count, const char *text,
+                 double *number);
+
 /* Writes a number so that option_read reads the same number.
- *   row   whose number it is: a name is written for a number; NULL: any
+ *   row   option with this number, which may stand for a name; NULL: none
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 
@@ -234,11 +252,13 @@ void option_unit(const OptionRow *row, char *text, size_t size);
 int options_list_fields(const Options *options,
                         const OptionRow *found[OPTIONS_MOST]);
 
-/* The value of an option after `paces` steps of the wheel up, or down if paces
- * is negative.  A step adds the row's pace; without one, six steps are a factor
- * of 10 and whole steps end on 1, 1.5, 2, 3, 5, 7; names follow each other in a
- * circle.  A drag gives fractions of a step, and a value of three digits. */
-double option_paced(const OptionRow *row, const Options *options, double paces);
+/* Returns the value of an option after notches of the wheel: up, or down if the
+ * number of notches is negative.  A notch adds the row's increment.  Without an
+ * increment six notches are a factor of 10, and whole notches end on 1, 1.5, 2,
+ * 3, 5, 7; names follow each other in a circle.  A drag gives fractions of a
+ * notch, and a value of three digits. */
+double option_paced(const OptionRow *row, const Options *options,
+                    double notches);
 
 /* Place of an obstacle in the options, [2] m.
  *   number  of the obstacle: grounds first, then balls */

@@ -134,9 +134,10 @@ static bool read_word(const char *word, const char *taken, Command *command)
         if (command->number < 0)
             return true;
         row = &option_rows[command->number];
-        one = row->count <= 1 && row->times == 0 && row->kind != OPTION_TEXT &&
-              row->kind != OPTION_SWITCH && row->kind != OPTION_PAGE;
-        if (one && option_read(row, word, &command->x))
+        one = row->count <= 1 && row->max_times == 0 &&
+              row->kind != OPTION_TEXT && row->kind != OPTION_SWITCH &&
+              row->kind != OPTION_PAGE;
+        if (one && option_read(row, 1, word, &command->x))
             return true;
         break;
     default:

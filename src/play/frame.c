@@ -79,7 +79,7 @@ static void fill_settings(const Player *player, Frame *frame)
         Setting *setting = &content->settings.item[content->settings.count++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = option_label(row);
-        setting->letters = row->field.letters;
+        setting->letters = row->display.letters;
         player_format_value(row, options, player_simulation(player),
                             setting->value, VALUE_SIZE);
         option_value(row, options, now, sizeof now);

@@ -126,7 +126,8 @@ static Status enter_typed(Player *player)
     }
     if (row) {
         made.number = row - option_rows;
-        if (row->count > 1 || !option_read(row, player->hands.typed, &made.x))
+        if (row->count > 1 ||
+            !option_read(row, 1, player->hands.typed, &made.x))
             memcpy(made.text, player->hands.typed, sizeof player->hands.typed);
         status = player_obey(player, &made);
     } else {
@@ -153,7 +154,7 @@ static Status drag_number(Player *player, const Under *under)
         return STATUS_OK;
     if (row->count > 1)
         return change_pace(player, row, 1); /* is refused */
-    if (row->field.pace > 0 || row->kind == OPTION_NAME)
+    if (row->display.increment > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
         paces += 1e-9; /* a value between the round ones */

@@ -56,7 +56,7 @@ const char *player_idle_reason(const Player *player, const OptionRow *row)
     if ((slot == OPTION_SLOT(tolerance) || slot == OPTION_SLOT(solver)) &&
         !minimises)
         return "explicit methods minimise nothing";
-    return row->idle ? row->idle(player_settings(player)) : NULL;
+    return row->idle_reason ? row->idle_reason(player_settings(player)) : NULL;
 }
 
 /* Adds a number to the row and selects it. */
@@ -133,7 +133,7 @@ static Status put_value(Player *player, int pane, const Command *command,
         integrator_method_refuses(options_method(options),
                                   &player_simulation(player)->system))
         return player_refuse(player, "a term of this scene refuses it");
-    return status || !row->times
+    return status || !row->max_times
                ? status
                : simulation_has_room(&player->past.machine[pane].simulation,
                                      options, MESSAGE(player->message));

@@ -180,7 +180,7 @@ Status player_reveal(Player *player, const char *typed)
             ? frame_find_number(&player->screen.frame.content, page->answer)
             : 0;
     double guess = truth;
-    if (typed && (!option_read(&any, typed, &guess) || !isfinite(guess)))
+    if (typed && (!option_read(&any, 1, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
     Number number = format_digits(truth, 5);

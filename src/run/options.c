@@ -36,10 +36,10 @@ const char *solver_name(int solver)
 
 /* Numbers of --body that a shorter value leaves out: no turn, velocity,
  * stretch. */
-static const double body_rest[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
+static const double body_omitted[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
-/* Functions for OptionRow.idle: each returns why an option has no effect, or
- * NULL if `found` says that it has one. */
+/* Functions for OptionRow.idle_reason: each returns why an option has no
+ * effect, or NULL if `found` says that it has one. */
 #define REASON(name, found, why)                                               \
     static const char *name(const Options *options)                            \
     {                                                                          \
@@ -66,6 +66,11 @@ REASON(no_state, options->state,
        "there is no table to start from; --state FILE names it")
 REASON(nothing_flows, options->yield > 0,
        "the springs do not yield; --yield lets them")
+REASON(nothing_minimised,
+       options_method(options)->implicit || !options->headless ||
+           options->script || options->panes > 1,
+       "an explicit integrator minimises nothing; choose an implicit one, such "
+       "as backward-euler")
 REASON(no_window, !options->headless,
        "with --headless there is no window; leave one of them out")
 REASON(no_key, !options->headless || options->script,
@@ -82,11 +87,11 @@ REASON(nothing_drawn,
  * for numbers the unit, default, and range. */
 #define SECTION(text) .name = "", .help = text
 #define VALUE(sort, word, letters, text, u)                                    \
-    .name = word, .value = letters, .help = text, .kind = OPTION_##sort,       \
+    .name = word, .placeholder = letters, .help = text, .kind = OPTION_##sort, \
     .unit = u
 #define RANGE(sort, word, field, letters, text, u, number, from, to)           \
     VALUE(sort, word, letters, text, u), .slot = OPTION_SLOT(field),           \
-                                         .standard = number, .low = from,      \
+                                         .default_value = number, .low = from, \
                                          .high = to
 #define NUMBER(field, ...) RANGE(NUMBER, #field, field, __VA_ARGS__)
 #define WHOLE(field, ...)  RANGE(WHOLE, #field, field, __VA_ARGS__)
@@ -94,26 +99,26 @@ REASON(nothing_drawn,
     NUMBER(field, letters, text, u, 0, from, to), .count = many
 #define NAME(word, field, letters, text, number, all)                          \
     VALUE(NAME, word, letters, text, ""), .slot = OPTION_SLOT(field),          \
-                                          .standard = number,                  \
+                                          .default_value = number,             \
                                           .names = {all, sizeof *all}
 #define TEXT(field, letters, text)                                             \
     VALUE(TEXT, #field, letters, text, ""), .offset = offsetof(Options, field)
-#define TABLE(field, text) TEXT(field, "FILE", text), .table = true
+#define TABLE(field, text) TEXT(field, "FILE", text), .is_table = true
 #define SWITCH(field, text)                                                    \
     VALUE(SWITCH, #field, NULL, text, ""), .slot = OPTION_SLOT(field)
 
 /* The rest of a row: needs of the scene, repetitions, the label of an
  * option with lists of values; ROW puts it into the row of numbers of the
  * window: its place, the length of its values, the step of the wheel. */
-#define NEEDS(what)           .needs = NEEDS_##what
-#define TIMES(n, field)       .times = n, .counter = OPTION_SLOT(field)
-#define FEWER(bits, others)   .fewer = bits, .rest = others
-#define LIST(text)            .label = text
-#define LIVE                  .effect = EFFECT_LIVE
-#define AGAIN                 .effect = EFFECT_AGAIN
-#define TERM(kind)            .term = &(kind)
-#define IDLE(why)             .idle = why
-#define ROW(n, longest, adds) .field = {n, longest, adds}
+#define NEEDS(what)             .needs = NEEDS_##what
+#define TIMES(n, field)         .max_times = n, .counter = OPTION_SLOT(field)
+#define FEWER(bits, others)     .short_counts = bits, .omitted = others
+#define LIST(text)              .label = text
+#define LIVE                    .effect = EFFECT_LIVE
+#define AGAIN                   .effect = EFFECT_AGAIN
+#define TERM(kind)              .term = &(kind)
+#define IDLE(why)               .idle_reason = why
+#define SHOWN(n, longest, adds) .display = {n, longest, adds}
 
 /* The ranges are so narrow that products of two numbers stay finite and keep
  * all digits. */
@@ -121,7 +126,7 @@ const OptionRow option_rows[] = {
     {SECTION("the body (flat: density in kg/m^2, stiffness in J/m^2):")},
     {WHOLE(segments, "N", "number of springs along a side", "", 4, 1,
            SQUARE_MESH_MAX_SEGMENTS),
-     NEEDS(MESH), LIST("segments"), ROW(4, 4, 1)},
+     NEEDS(MESH), LIST("segments"), SHOWN(4, 4, 1)},
     {NUMBER(side, "L", "length of a side", "m", 1, 1e-30, 1e30), NEEDS(MESH),
      LIST("side")},
     {NUMBER(density, "R", "mass of the body per area", "kg/m^2", 1000, 1e-30,
@@ -129,21 +134,21 @@ const OptionRow option_rows[] = {
      NEEDS(MESH), LIST("\u03c1")},
     {NUMBER(stiffness, "K", "stiffness k of each spring", "J/m^2", 1e5, 1e-30,
             1e30),
-     NEEDS(MESH), LIST("k"), LIVE, IDLE(no_springs), ROW(2, 11, 0)},
+     NEEDS(MESH), LIST("k"), LIVE, IDLE(no_springs), SHOWN(2, 11, 0)},
     {NAME("material", material, "M", "a net of springs, or elastic triangles",
           0, materials),
      NEEDS(BODY), LIST("material"), TERM(neo_hookean_energy)},
     {NUMBER(young, "E", "Young's modulus of the triangles", "J/m^2", 1e5, 1e-30,
             1e30),
-     NEEDS(BODY), IDLE(no_triangles), LIST("Young"), LIVE, ROW(12, 11, 0)},
+     NEEDS(BODY), IDLE(no_triangles), LIST("Young"), LIVE, SHOWN(12, 11, 0)},
     {NUMBER(poisson, "NU",
             "Poisson's ratio; near 0.5 triangles keep their area", "", 0.4, 0,
             0.499),
-     NEEDS(BODY), IDLE(no_triangles), LIST("\u03bd"), LIVE, ROW(13, 8, 0.02)},
+     NEEDS(BODY), IDLE(no_triangles), LIST("\u03bd"), LIVE, SHOWN(13, 8, 0.02)},
     {NUMBER(stretch, "S",
             "horizontal stretch at the start; 1 is the rest shape", "", 1.4,
             -1e200, 1e200),
-     NEEDS(MESH), LIST("stretch"), IDLE(start_is_said), ROW(3, 5, 0.05)},
+     NEEDS(MESH), LIST("stretch"), IDLE(start_is_said), SHOWN(3, 5, 0.05)},
     {NUMBER(turn, "DEG", "angle of the body at the start, anticlockwise",
             "degrees", 0, -1e6, 1e6),
      NEEDS(BODY), LIST("turned by"), IDLE(start_is_said)},
@@ -156,7 +161,7 @@ const OptionRow option_rows[] = {
              "a body with centre, angle, velocity, stretch; up to 16", "", -1e9,
              1e9),
      NEEDS(BODY), TIMES(SQUARE_MESH_MAX_BODIES, bodies),
-     FEWER(1 << 2 | 1 << 3 | 1 << 5, body_rest), IDLE(has_its_own)},
+     FEWER(1 << 2 | 1 << 3 | 1 << 5, body_omitted), IDLE(has_its_own)},
     {NUMBER(gravity, "G", "acceleration of gravity", "m/s^2 downwards", 0, 0,
             1e30),
      NEEDS(BODY), LIST("gravity"), LIVE},
@@ -171,7 +176,7 @@ const OptionRow option_rows[] = {
      NEEDS(BODY), IDLE(no_state)},
     {VALUE(TEXT, "state-springs", "FILE",
            "broken and yielded springs at the start, a table of --springs", ""),
-     .offset = offsetof(Options, state_springs), .table = true, NEEDS(BODY),
+     .offset = offsetof(Options, state_springs), .is_table = true, NEEDS(BODY),
      IDLE(no_state)},
     {NUMBERS(start, 2, "X,Y",
              "start point of overshoot and tangent (X alone), landscape, "
@@ -199,7 +204,7 @@ const OptionRow option_rows[] = {
     {NUMBER(friction, "MU", "coefficient of friction of all obstacles", "", 0,
             0, 1e3),
      NEEDS(BODY), IDLE(nothing_meets), LIST("\u03bc"), LIVE,
-     TERM(friction_energy), ROW(6, 7, 0.01)},
+     TERM(friction_energy), SHOWN(6, 7, 0.01)},
     {RANGE(NUMBER, "slip-speed", slip_speed, "EPSV",
            "slip velocity from which friction has its full force", "m/s", 1e-3,
            1e-12, 1e6),
@@ -227,28 +232,32 @@ const OptionRow option_rows[] = {
             "damping of the springs' strain rate (Kelvin-Voigt)", "s", 0, 0,
             1e6),
      NEEDS(BODY), IDLE(no_springs), LIST("\u03b7"), LIVE, TERM(damping),
-     ROW(7, 8, 0)},
+     SHOWN(7, 8, 0)},
 
     {SECTION("time step and solver:")},
     {NUMBER(timestep, "H", "time step h", "s", 0.004, 1e-30, 1e30),
-     .needs = NEEDS_TIME | NEEDS_STEP, LIST("h"), LIVE, ROW(1, 8, 0)},
+     .needs = NEEDS_TIME | NEEDS_STEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
     {NAME("integrator", integrator, "I", "time integrator", -1,
           integrator_methods),
-     NEEDS(TIME), LIST("method"), LIVE, ROW(8, 16, 0)},
+     NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},
     {NUMBER(tolerance, "T", "Newton's method stops at |p|/h <= T", "m/s", 1e-2,
             1e-300, 1e300),
-     NEEDS(MINIMUM), LIST("\u03b5"), LIVE, ROW(5, 9, 0)},
+     NEEDS(MINIMUM), LIST("\u03b5"), LIVE, IDLE(nothing_minimised),
+     SHOWN(5, 9, 0)},
     {NAME("solver", solver, "S",
           "how p is found; auto is newton up to 8 segments", SOLVER_AUTO,
           solvers),
-     NEEDS(MESH), LIST("solver"), LIVE, ROW(11, 15, 0)},
+     NEEDS(MESH), LIST("solver"), LIVE, IDLE(nothing_minimised),
+     SHOWN(11, 15, 0)},
     {NAME("projection", projection, "P",
           "what replaces negative eigenvalues of H", PROJECTION_CLAMP,
           projections),
-     NEEDS(SPRINGS), LIST("projection"), AGAIN, ROW(9, 9, 0)},
+     NEEDS(SPRINGS), LIST("projection"), AGAIN, IDLE(nothing_minimised),
+     SHOWN(9, 9, 0)},
     {NAME("line-search", line_search, "L", "line search along p",
           LINE_SEARCH_BACKTRACK, searches),
-     NEEDS(MINIMUM), LIST("line search"), AGAIN, ROW(10, 9, 0)},
+     NEEDS(MINIMUM), LIST("line search"), AGAIN, IDLE(nothing_minimised),
+     SHOWN(10, 9, 0)},
 
     {SECTION("the run, its window and its files:")},
     {RANGE(WHOLE, "steps", steps, "N",
@@ -259,7 +268,7 @@ const OptionRow option_rows[] = {
      IDLE(no_frames)},
     {WHOLE(size, "WxH", "size of the window or of the frames, pixels", "", 0,
            16, 8192),
-     .count = 2, .between = 'x', IDLE(nothing_drawn)},
+     .count = 2, .separator = 'x', IDLE(nothing_drawn)},
     {SWITCH(fullscreen, "fill the screen; F11 or Esc leaves it"),
      IDLE(no_window)},
     {SWITCH(headless, "open no window")},
@@ -340,48 +349,10 @@ double *obstacle_at(Options *options, int number)
     return ball < 0 ? options->ground[number] + 2 : options->ball[ball];
 }
 
-/* ---- numbers as text ---------------------------------------------------- */
-
-void option_write(const OptionRow *row, double value, char *text, size_t size)
-{
-    bool named = row && row->kind == OPTION_NAME;
-    if (named) /* -1, the choice of the scene: the first name */
-        snprintf(text, size, "%s", name_at(row->names, (int)fmax(value, 0)));
-    else
-        snprintf(text, size, "%.15g", value);
-    if (!named && strtod(text, NULL) != value)
-        snprintf(text, size, "%.17g", value);
-}
-
-void option_value(const OptionRow *row, const Options *options, char *text,
-                  size_t size)
-{
-    int count = row->count > 1 ? row->count : 1, times = 1;
-    if (row->times)
-        times = (int)options->number[row->counter];
-    const double *value = options->number + row->slot + (times - 1) * count;
-    enum { MOST_DIGITS = 6, ROOM = 20 }; /* longest list, in letters */
-    if (times < 1 || *value < row->low)  /* the option is not given */
-        snprintf(text, size, "none");
-    else if (row->kind == OPTION_NAME)
-        option_write(row, *value, text, size);
-    else
-        for (int digits = MOST_DIGITS; digits > 1; digits--) {
-            size_t used = 0;
-            for (int i = 0; i < count && used < size; i++)
-                used += (size_t)snprintf(text + used, size - used, "%s%.*g",
-                                         i ? "," : "", digits, value[i]);
-            if (count == 1 || used <= ROOM)
-                break;
-        }
-}
-
-/* ---- the row of numbers ------------------------------------------------- */
-
 bool option_is_on(const OptionRow *row, const Options *options)
 {
     bool on = false;
-    if (row->times > 0)
+    if (row->max_times > 0)
         return options->number[row->counter] > 0;
     for (int i = 0; i < row->count || i == 0; i++)
         on = on || options->number[row->slot + i] != 0;
@@ -393,14 +364,6 @@ const char *option_label(const OptionRow *row)
     return row->label ? row->label : row->name;
 }
 
-void option_unit(const OptionRow *row, char *text, size_t size)
-{
-    int length = (int)strcspn(row->unit, " ^");
-    bool angle = strcmp(row->unit, "degrees") == 0;
-    snprintf(text, size, "%.*s%s", length, angle ? "\u00b0" : row->unit,
-             row->unit[length] == '^' ? "\u00b2" : "");
-}
-
 /* Lists the options of the row of numbers by their place.  A number that
  * changes by factors is left out while it is 0, as no factor changes it. */
 int options_list_fields(const Options *options,
@@ -409,49 +372,11 @@ int options_list_fields(const Options *options,
     int count = 0;
     for (int place = 1; place < OPTIONS_MOST; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
-            if (row->field.place == place &&
+            if (row->display.place == place &&
                 (row->needs & options->scene->needs) &&
-                !(row->idle && row->idle(options)) &&
-                (row->kind == OPTION_NAME || row->field.pace > 0 ||
+                !(row->idle_reason && row->idle_reason(options)) &&
+                (row->kind == OPTION_NAME || row->display.increment > 0 ||
                  options->number[row->slot] > 0))
                 found[count++] = row;
     return count;
-}
-
-/* Round numbers by their index: 1, 1.5, 2, 3, 5, 7, 10, 15 ... */
-static double round_value(double pace)
-{
-    static const double mantissa[] = {1, 1.5, 2, 3, 5, 7};
-    double decade = floor(pace / 6);
-    return mantissa[(int)(pace - 6 * decade)] * pow(10, decade);
-}
-
-double option_paced(const OptionRow *row, const Options *options, double paces)
-{
-    static const double FIRST = 0.01; /* value after 0 */
-    double value = options->number[row->slot];
-    char text[32];
-    if (row->field.pace == 0 && !(value > 0) && row->kind != OPTION_NAME)
-        return paces > 0 ? fmax(row->low, FIRST) : value;
-    if (row->kind == OPTION_NAME) {
-        int count = names_count(row->names);
-        int on = (int)rint(paces), to = (int)fmax(value, 0) + on;
-        return on == 0 ? value : (to % count + count) % count;
-    }
-    if (row->field.pace > 0) {
-        value = (rint(value / row->field.pace) + rint(paces)) * row->field.pace;
-    } else if (paces != rint(paces)) {
-        value *= pow(10, paces / 6);
-    } else { /* to a round value */
-        double below = floor(6 * log10(value)) - 1;
-        while (round_value(below + 1) <= value * (1 + 1e-9))
-            below++;
-        bool round = fabs(round_value(below) - value) <= 1e-9 * value;
-        value =
-            round_value(round || paces > 0 ? below + paces : below + 1 + paces);
-    }
-    value = fmax(value, row->low);
-    snprintf(text, sizeof text, row->kind == OPTION_WHOLE ? "%.0f" : "%.3g",
-             value);
-    return strtod(text, NULL);
 }

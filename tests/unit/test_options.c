@@ -189,16 +189,16 @@ TEST(fractions_and_units_are_evaluated)
         const OptionRow *row = option_find(rows[i][0]);
         double number = NAN;
         Status status = set_option(&typed, row->name, rows[i][1], message);
-        CHECK(option_read(row, rows[i][1], &number) == (rows[i][2] != NULL));
+        CHECK(option_read(row, 1, rows[i][1], &number) == (rows[i][2] != NULL));
         CHECK_STATUS(status, rows[i][2] ? STATUS_OK : STATUS_INVALID_INPUT);
         option_write(row, number, value, sizeof value);
         CHECK(status || typed.number[row->slot] == number);
         CHECK(status || strcmp(value, rows[i][2]) == 0);
     }
     double value;
-    CHECK(option_read(option_find("gravity"), "9.81 m/s^2", &value));
+    CHECK(option_read(option_find("gravity"), 1, "9.81 m/s^2", &value));
     CHECK(value == 9.81);
-    CHECK(option_read(option_find("projection"), "abs", &value));
+    CHECK(option_read(option_find("projection"), 1, "abs", &value));
     CHECK(value == PROJECTION_ABS);
     CHECK(parse_good("--at 10cm,5mm").at[1] == 0.005);
 }
@@ -292,7 +292,7 @@ TEST(help_fits_a_terminal)
     CHECK(strncmp(help, "usage: ", 7) == 0);
     for (const OptionRow *row = option_rows; row->name; row++) {
         snprintf(line, sizeof line, "\n  --%s%s%s", row->name,
-                 row->value ? " " : "", row->value ? row->value : "");
+                 row->placeholder ? " " : "", row->placeholder ? row->placeholder : "");
         CHECK(strstr(help, row->name[0] ? line : row->help) != NULL);
     }
     for (const char *end; *help; help = end + 1) {

@@ -1,0 +1,152 @@
+/* hints.c - finds the name that a mistyped text was meant to be, and what
+ * replaces removed options.
+ */
+#include "lesson/hints.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+#include "run/message.h"
+
+Phrase list_names(Names names)
+{
+    Phrase list = {""};
+    const char *name;
+    for (int i = 0; (name = name_at(names, i)); i++)
+        append(list.text, sizeof list.text, "%s%s", i > 0 ? ", " : "", name);
+    return list;
+}
+
+/* ---- mistyped names ----------------------------------------------------- */
+
+/* Whether a typed letter stands for a letter of a name: case is ignored, and
+ * '_' stands for '-'. */
+static bool letters_match(char typed, char letter)
+{
+    return tolower((unsigned char)typed) == tolower((unsigned char)letter) ||
+           (typed == '_' && letter == '-');
+}
+
+/* Letters that are compared at most. */
+enum { NAME_LETTERS = 24 };
+
+/* Number of typing mistakes (Damerau 1964) between a text, of at most
+ * NAME_LETTERS, and a name or the beginning of a name, so that "seg" fits
+ * segments.  A mistake is a letter too many, too few, another letter, or two
+ * letters exchanged. */
+static int count_mistakes(const char *text, const char *name)
+{
+    /* [i][j]: mistakes between i letters of the text and j of the name */
+    int least[NAME_LETTERS + 1][NAME_LETTERS + 1];
+    int rows = (int)strlen(text), columns = (int)strnlen(name, NAME_LETTERS);
+    for (int i = 0; i <= rows; i++)
+        for (int j = 0; j <= columns; j++) {
+            least[i][j] = i + j;
+            if (i == 0 || j == 0)
+                continue;
+            bool same = letters_match(text[i - 1], name[j - 1]);
+            bool exchanged = i > 1 && j > 1 &&
+                             letters_match(text[i - 1], name[j - 2]) &&
+                             letters_match(text[i - 2], name[j - 1]);
+            double best = fmin(least[i - 1][j], least[i][j - 1]) + 1;
+            best = fmin(best, least[i - 1][j - 1] + !same);
+            best = exchanged ? fmin(best, least[i - 2][j - 2] + 1) : best;
+            least[i][j] = (int)best;
+        }
+    int best = rows;
+    for (int j = 0; j <= columns; j++)
+        best = least[rows][j] < best ? least[rows][j] : best;
+    return best;
+}
+
+/* A word of another program, of a book or of lecture.c, and the name of an
+ * option or of a value that has this meaning here. */
+static const struct Synonym {
+    const char *word, *name;
+} synonyms[] = {{"h", "timestep"},
+                {"dt", "timestep"},
+                {"k", "stiffness"},
+                {"rho", "density"},
+                {"e", "young"},
+                {"nu", "poisson"},
+                {"mu", "friction"},
+                {"eta", "damping"},
+                {"g", "gravity"},
+                {"method", "integrator"},
+                {"n_seg", "segments"},
+                {"side_len", "side"},
+                {"initial_stretch", "stretch"},
+                {"euler", "backward-euler"},
+                {"implicit-euler", "backward-euler"},
+                {"explicit-euler", "forward-euler"},
+                {"semi-implicit-euler", "symplectic-euler"},
+                {"leapfrog", "verlet"},
+                {"velocity-verlet", "verlet"},
+                {"cholesky", "newton"},
+                {"cholmod", "newton"},
+                {"armijo", "backtrack"},
+                {"on", "backtrack"},
+                {"off", "none"},
+                {"psd", "clamp"},
+                {"true", "on"},
+                {"yes", "on"},
+                {"false", "off"},
+                {"no", "off"},
+                {"triangles", "neo-hookean"},
+                {"solid", "neo-hookean"},
+                {"rubber", "neo-hookean"}};
+
+/* A text of 3 to 4 letters may have one mistake, of 5 to 7 letters two. */
+Phrase suggest_name(const char *text, const char *dashes, Names names)
+{
+    Phrase hint = {""};
+    const char *name, *meant = NULL;
+    int letters = (int)strlen(text);
+    int fewest = letters > 2 ? (letters + 1) / 3 + 1 : 1;
+    bool is_comparable = letters > 1 && letters <= NAME_LETTERS;
+    for (int i = 0; is_comparable && (name = name_at(names, i)); i++) {
+        int mistakes = count_mistakes(text, name);
+        if (name[0] && mistakes < fewest) {
+            fewest = mistakes;
+            meant = name;
+        }
+    }
+    for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
+        if (strcasecmp(text, synonyms[i].word) == 0 &&
+            name_place(names, synonyms[i].name) >= 0)
+            meant = synonyms[i].name;
+    if (meant)
+        append(hint.text, sizeof hint.text, "; did you mean %s%s?", dashes,
+               meant);
+    return hint;
+}
+
+/* ---- removed options ---------------------------------------------------- */
+
+#define KEEPS_ENERGY                                                           \
+    "verlet, or midpoint with a small --tolerance, keeps the energy in the "   \
+    "mean"
+
+/* Options, and values of options, that an earlier version had; "": the whole
+ * option.  A row stays for one release, so that users learn what to use; the
+ * last row takes the table with it. */
+static const struct Removed {
+    const char *option, *value;
+    const char *instead; /* end of a message: what to use now */
+} removed[] = {
+    {"vtk", "", "--states and --springs write each step as CSV"},
+    {"integrator", "avf", KEEPS_ENERGY},
+    {"integrator", "avf4", KEEPS_ENERGY},
+    {"minimum", "", "a step may end on a saddle of E; nothing replaces it"},
+};
+
+const char *find_replacement(const char *option, const char *value)
+{
+    for (size_t i = 0; i < sizeof removed / sizeof *removed; i++)
+        if (strcmp(removed[i].option, option) == 0 &&
+            strcmp(removed[i].value, value) == 0)
+            return removed[i].instead;
+    return NULL;
+}

@@ -1,0 +1,26 @@
+/* hints.h - names for users who mistyped one, or who used a removed option. */
+#ifndef ELASTO_HINTS_H
+#define ELASTO_HINTS_H
+
+#include "run/options.h"
+
+/* A part of a message, returned by value. */
+typedef struct Phrase {
+    char text[256];
+} Phrase;
+
+/* Returns the names of a list: "clamp, none". */
+Phrase list_names(Names names);
+
+/* Returns a hint such as "; did you mean --timestep?": the name that other
+ * programs or books have for the text, else the nearest name.  "": no name is
+ * near.
+ *   dashes  "--" or "", written before the name */
+Phrase suggest_name(const char *text, const char *dashes, Names names);
+
+/* Returns what to use instead of an option, or of one of its values, that an
+ * earlier version had; NULL: no version had it.
+ *   value  "": the option itself */
+const char *find_replacement(const char *option, const char *value);
+
+#endif

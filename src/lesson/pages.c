@@ -1,0 +1,45 @@
+/* pages.c - finds pages of the tour, and the options with which they open. */
+#include "lesson/pages.h"
+
+#include <string.h>
+
+#include "lesson/command_line.h"
+
+int lecture_count(void)
+{
+    return names_count(NAMES_OF(lecture_pages));
+}
+
+const LecturePage *lecture_find(const char *text)
+{
+    int place = name_or_number(NAMES_OF(lecture_pages), text);
+    return place < 0 ? NULL : &lecture_pages[place];
+}
+
+bool page_wants_click(const LecturePage *page)
+{
+    return page && page->answer && strcmp(page->answer, "click") == 0;
+}
+
+void lecture_enter(const LecturePage *page, Options *options)
+{
+    options->page = page;
+    options->layers = page->layers;
+    options->next = page->next;
+    options->pause = page->pause;
+    options->law = page->law;
+    options->star = page->star;
+}
+
+Status lecture_options(const LecturePage *page, Options *options,
+                       Message message)
+{
+    Status status = options_of_line(page->line, options, message);
+    const char *pin = strstr(page->line, "--pin ");
+    if (pin) /* the line's last option: its text stays */
+        options->pin = pin + strlen("--pin ");
+    lecture_enter(page, options);
+    options->flips = page->flips;
+    options->speed = page->speed;
+    return status;
+}
