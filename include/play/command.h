@@ -1,8 +1,8 @@
-/* command.h - everything that keys, mouse, wheel and scripts can ask for.
+/* command.h - the commands of keys, mouse, wheel and scripts.
  *
- * One table has a row for each command: its word and arguments in scripts, its
- * keys, and what it does.  The window obeys the same commands as a script, so a
- * session can be written down and played again.
+ * The table command_rows has a row for each command: its word and arguments in
+ * scripts, its keys, and what it does.  The window obeys the same commands as a
+ * script, so a session can be saved as a script and played again.
  */
 #ifndef ELASTO_COMMAND_H
 #define ELASTO_COMMAND_H
@@ -15,7 +15,7 @@
 
 enum { COMMAND_TEXT_SIZE = 64 };
 
-/* command_rows.def says what each command does, as does --help commands. */
+/* Each command is explained in command_rows.def and by --help commands. */
 typedef enum CommandKind {
     COMMAND_NONE,
 #define ROW(kind, ...) COMMAND_##kind,
@@ -26,17 +26,16 @@ typedef enum CommandKind {
 
 typedef struct Command {
     CommandKind kind;
-    long number; /* index of a node, a card, ...; the row of an option */
-    double x, y;
-    char text[COMMAND_TEXT_SIZE]; /* a name; the value of an option unless x has
-                                     it; else "" */
-    bool joins; /* the command joins the gesture before it: "& set ..." */
+    long number; /* index of a node, card, obstacle, row of options, ... */
+    double x, y; /* place, m; x also the numeric value of an option */
+    char text[COMMAND_TEXT_SIZE]; /* name, or value of an option that is not in
+                                     x; else "" */
+    bool joins; /* is undone together with the command before: "& set ..." */
 } Command;
 
-/* The parts of the window that keys can go to; a row says to which its keys
- * belong. */
+/* The part of the window that gets the keys; a row can name several. */
 typedef enum Keyboard {
-    AT_RUN = 1,
+    AT_RUN = 1,       /* no other part is open */
     AT_NUMBER = 2,    /* a number is selected */
     AT_LIST = 4,      /* the list of pages or of numbers is open */
     AT_FIELD = 8,     /* a text is typed: the field takes every key */
@@ -49,85 +48,88 @@ typedef enum Keyboard {
 enum {
     REPEATS = 1, /* is repeated while the key is held down */
     KEPT = 2,    /* is written into the script of a session */
-    SCREEN = 4,  /* changes only the screen: obeyed while a step is made; other
-                    commands abandon the step first */
+    SCREEN = 4,  /* does not abandon a step that is being made */
     LATEST = 8,  /* replaces the same command before it in a drag */
-    QUIET = 16   /* keeps the message below the picture */
+    QUIET = 16   /* leaves the message below the picture */
 };
 
 typedef struct CommandRow {
-    const char *word; /* in scripts, or NULL */
-    const char *does; /* for --help commands */
-    unsigned flags;
-    const char *keys;  /* "Space", "Ctrl+R"; several: "?|F1"; "*": any;
-                          "letters":  all that type text; or NULL */
-    const char *label; /* for the list of keys; "": the keys belong to the row
-                          before; NULL: not listed */
-    const char *takes; /* arguments: "N X Y", a whole number from 0 and two more
-                          numbers; "OPTION VALUE"; a name; or NULL */
-    Keyboard keyboard; /* 0: AT_PLAY */
-    const char *chip;  /* words for what it does now: "play|pause" */
+    const char *word;  /* name in scripts; NULL: none */
+    const char *does;  /* explanation for --help commands */
+    unsigned flags;    /* REPEATS, KEPT, ... */
+    const char *keys;  /* "Space", "Ctrl+R"; several: "?|F1"; "*": any key;
+                          "letters": keys that type text; NULL: none */
+    const char *label; /* text in the list of keys; "": the keys are listed with
+                          those of the row before; NULL: not listed */
+    const char *takes; /* arguments: "N X Y", a whole number from 0 and two
+                          numbers; "OPTION VALUE"; a name; NULL: none */
+    Keyboard keyboard; /* parts of the window with these keys; 0: AT_PLAY */
+    const char *chip;  /* labels of its chip, by state: "pause|play" */
 } CommandRow;
 
 extern const CommandRow command_rows[COMMAND_KINDS];
 
 /* Returns the command of a key, with the key as its text, or COMMAND_NONE.
- *   key      in, "N", "Shift+N", "Left", "+"
- *   repeats  in, the key is held down */
+ *   key       in, "N", "Shift+N", "Left", "+"
+ *   repeats   in, the key is held down
+ *   keyboard  in, part of the window that gets the key */
 Command command_from_key(const char *key, bool repeats, Keyboard keyboard);
 
 /* Prints the text of --help commands. */
 void commands_help(FILE *file);
 
-/* Reads a line like "goto 12".
- *   line     in, without the step
- *   message  out, the reason of INVALID_INPUT
+/* Reads the line of a command, such as "goto 12".
+ *   message  out, reason of INVALID_INPUT
  * Returns OK or INVALID_INPUT. */
 Status command_parse(const char *line, Command *command, Message message);
 
-/* Writes the line that command_parse reads, numbers with 17 digits.
+/* Writes the line that command_parse reads, its numbers with 17 digits.
  *   line  [size] out */
 void command_format(const Command *command, char *line, size_t size);
 
+/* Whether a command replaces the one before it: the next place of a drag. */
+bool command_replaces(const Command *command, const Command *before);
+
 /* ---- scripts ------------------------------------------------------------- */
 
-/* Commands from a file, a line each: the step at which the command is obeyed, a
- * space, the command.  Empty lines and comments after # are skipped.
+/* A line of a script: the step at which the command is obeyed, a space, the
+ * command.  Empty lines and comments after # are skipped.
  *     0 set timestep 0.01
  *     40 grab 12
  *     40 & drag 0.5 0.5
- * A command with & joins the gesture of the line before: both are undone as
- * one. Lines are obeyed in their order.  A line waits until the run has reached
- * its step, unless the run is paused or at its end. */
+ * A command with & and the one of the line before are undone as one.  A line
+ * waits until the run has reached its step, unless the run is paused or at its
+ * end. */
 typedef struct ScriptLine {
     long step;
     Command command;
-    int gesture; /* id; 0: not known */
+    int gesture; /* id of the command's gesture; 0: not known */
 } ScriptLine;
 
 typedef struct Script {
-    ScriptLine *line; /* [count] in their order */
-    size_t count, size;
-    size_t next; /* index of the next line */
+    ScriptLine *line;   /* [count] */
+    size_t count, size; /* number of lines; memory is reserved for size */
+    size_t next;        /* index of the next line to be obeyed */
 } Script;
 
-/* Appends a line.  Returns OK, OUT_OF_MEMORY. */
+/* Appends a line, or replaces the last one if the command does so in its
+ * gesture.  Returns OK, OUT_OF_MEMORY. */
 Status script_add(Script *script, long step, const Command *command,
                   int gesture);
 
 /* Reads a script.
- *   name     in, NULL: the script is empty
+ *   name     in, name of a file; NULL: the script is empty
  *   script   out; free it in any case
- *   message  out, the reason of INVALID_INPUT
+ *   message  out, reason of INVALID_INPUT
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status script_read(const char *name, Script *script, Message message);
 
-/* Writes a script after a comment with the command line that plays it.  Returns
- * OK, OUT_OF_MEMORY, FILE_FAILED. */
+/* Writes a script, below a comment with the command line that plays it.
+ * Returns OK, FILE_FAILED. */
 Status script_write(const char *name, const char *line, const Script *script);
 
-/* Returns the next command if it is due, or NULL.
- *   waits  the run goes on: commands of later steps are not due */
+/* Returns the command of the next line if it is due, or NULL.
+ *   waits  the run goes on: lines of later steps are not due */
 const Command *script_due(Script *script, long step, bool waits);
 
 /* Whether all lines were obeyed. */

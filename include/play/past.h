@@ -1,30 +1,29 @@
 /* past.h - the past: all steps and edits of up to six runs side by side.
  *
- * A step is a pure function: the state of entry k+1 is made of the state and
- * the control of entry k.  So states may be thrown away and made again with the
- * same bits, and all else is reading: back, forward, undo, panes, the walk
- * inside a step, tables.
+ * A step is a pure function: state and control of entry k give the state of
+ * entry k+1.  Therefore states can be dropped and made again with the same
+ * bits; going back and forward, undo, panes and tables only read the past.
  *
  *   branch 0   0--1--2--3--4--5--6     started from options (fresh)
  *   branch 1            3'-4'-5'       changed at 3: a pin; 4 ... 6 stay
  *   branch 2               4"-5"       P at 5': step 5 again, made from 4'
  *
- * Branches are a stack.  Undo goes one down, to where that one was left; redo
- * one up; an edit drops those above.
+ * Branches are a stack.  Undo returns to the branch below, at the step where
+ * the user left it; redo returns to the branch above; an edit drops the
+ * branches above the present one.
  *
- * An entry's state is what its step left behind; then comes its control, which
- * the next step is made with (control_apply).  A branch begins with another
- * control, and the state is that of the branch below: where several branches
- * begin at one step only the last one's control counts.  A dragged point makes
- * another state, which its branch keeps.
+ * An entry has the state after its step, and the control with which the next
+ * step is made (control_apply).  A branch begins with a new control at a state
+ * of the branch below.  Where several branches begin at one step, the control
+ * of the topmost one counts.  A drag of a point or node sets a new state, which
+ * its branch stores.
  *
- * To show a step, the machine of each pane takes the nearest state that is kept
- * of that step or one before, and makes the steps from there once more
- * (past_iterate).
+ * To show a step, the machine of each pane loads the nearest stored state up to
+ * that step, and makes the steps from there once more (past_iterate).
  *
- * All panes have one time and one count of steps: a step is one of the pane
- * with the longest timestep, and as many of the others as fit into it.  A pane
- * that cannot make its part ends, and the others go on.
+ * All panes have one time and one count of steps: a step is one time step of
+ * the pane with the longest one, and as many of the others as fit into it.  A
+ * pane that cannot make its part ends; the others go on.
  */
 #ifndef ELASTO_PAST_H
 #define ELASTO_PAST_H
@@ -33,109 +32,110 @@
 #include "play/step_trace.h"
 #include "run/control.h"
 
-/* Memory for states, bytes; beyond it states are dropped. */
+/* Memory for states, bytes; if more is needed every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)
 
-/* Size of a state, relative to that after step 1, beyond which a picture shows
- * nothing of it. */
+/* Largest extent of a state that a picture can show, relative to the extent
+ * after step 1. */
 #define PAST_EXPLODED 10
 
-/* A state, and the samples of it that plots show (picture_sample). */
+/* A stored state, and its samples for plots over time. */
 typedef struct State {
-    size_t size; /* bytes, with this struct */
+    size_t size; /* bytes of memory, with this struct */
     double time; /* s */
     int rows;
-    Energy row[HISTORY_SERIES];
-    unsigned char bytes[];
+    Energy row[HISTORY_SERIES]; /* [rows] samples (show_sample) */
+    unsigned char bytes[];      /* the state (state_save) */
 } State;
 
-/* The summary of a step, which is kept without its iterations. */
+/* The summary of a step, which outlives its iterations. */
 typedef struct Outcome {
     int updates;   /* number of Newton's updates in all substeps */
-    Status status; /* the worst of the substeps */
+    Status status; /* worst status of the substeps */
     double change; /* change of E, J s^2 */
     double extent; /* m, largest coordinate of run 0 */
 } Outcome;
 
-/* A step of a pane has the state after it and the control of the next step. */
+/* A step of a pane. */
 typedef struct Entry {
-    const Control *control; /* NULL: the step is not made yet */
-    State *state;           /* before that control; NULL: not kept */
-    int substeps;           /* steps of the pane in it.  0: the scene is over;
-                               or the outcome says why the pane has ended, and the
-                               state is the last one that can be seen */
+    const Control *control; /* control of the next step; NULL: this step is not
+                               made yet */
+    State *state; /* state after the step, under its old control; NULL: not
+                     stored */
+    int substeps; /* steps of the simulation in this step; 0: the scene is over,
+                     or the pane has ended with the status of the outcome */
     Outcome outcome;
 } Entry;
 
+/* Entries of all panes from one step on. */
 typedef struct Branch {
     bool fresh;  /* starts from options, not from the branch below */
-    long first;  /* step of its entry 0 */
-    long count;  /* entries, at least 1 */
-    long room;   /* entries that memory is reserved for; the one behind the last
-                    is being made */
-    int given;   /* entries whose controls came with the branch: 1, or 2 if it
-                    begins before the step that was edited */
-    long shown;  /* step that was shown when the branch was left */
-    long stride; /* each stride-th state is kept.  Entry 0 has a state of its
-                    own in a fresh branch and after a drag */
+    long first;  /* step of entry 0 */
+    long count;  /* number of entries, at least 1 */
+    long room;   /* entries that memory is reserved for */
+    int given;   /* entries that were copied from the branch below: 1, or 2 if
+                    the branch begins before the edited step */
+    long shown;  /* step that was shown when the user left the branch */
+    long stride; /* each stride-th state is stored; entry 0 has a state only in
+                    a fresh branch and after a drag */
     int panes;
-    int source[OPTIONS_MAX_PANES]; /* pane of the branch below it continues */
-    Entry *entry;                  /* [room][panes]; 0 behind the last */
+    int source[OPTIONS_MAX_PANES]; /* pane of the branch below that each pane
+                                      continues */
+    Entry *entry; /* [room][panes]; entry `count` is being made */
     int gesture;  /* id; edits of one gesture share a branch; 0: none */
     Command edit; /* edit that began the branch */
 } Branch;
 
-/* A simulation, which has the state of an entry of the present branch. */
+/* The simulation of a pane, and how far it is in the present branch. */
 typedef struct Machine {
     Simulation simulation;
-    const Control *start;   /* at step 0 of its run, or NULL */
-    const Control *control; /* in use */
+    const Control *start;   /* control at step 0 of the run, or NULL */
+    const Control *control; /* control of the simulation */
     bool has_state;         /* the simulation has the state of `step` */
     long step;
     bool iterating;  /* a step of the simulation has begun */
     int substeps;    /* steps of the simulation since `step` */
     long before;     /* steps of the simulation before the present substep */
-    Outcome outcome; /* outcome of the step in progress, else of the last step
-                      */
+    Outcome outcome; /* outcome of the step in progress, else of the last one */
     bool failed;     /* the step after `step` could not be made */
-    StepTrace trace;
-    bool known;      /* trace and records are those of `step`, or of the step
+    StepTrace trace; /* iterates of the last step that was made */
+    bool known;      /* trace and records belong to `step`, or to the step
                         that failed after it */
-    Records records; /* Newton's records of that step, for the log */
+    Records records; /* Newton's records of the last step, for the log */
 } Machine;
 
-/* How far the work has come that leads to another step. */
+/* Stages of the work that leads to the step that is to be shown. */
 typedef enum Work {
-    WORK_DONE,    /* the step that was aimed at is shown */
-    WORK_LOADS,   /* machines take states that were kept */
+    WORK_DONE,    /* the step is shown */
+    WORK_LOADS,   /* machines load stored states */
     WORK_REPEATS, /* known steps are made once more */
     WORK_MAKES,   /* a new step is made; no pane has finished its part */
-    WORK_MADE     /* a pane has finished its part of a new step */
+    WORK_MADE     /* a pane has finished its part of the new step */
 } Work;
 
 typedef struct Past {
-    Branch *branch;
+    Branch *branch;     /* [branches] */
     int branches, room; /* number of branches; memory is reserved for room */
-    int now;            /* index of the present branch; others above: undone */
-    long step;          /* shown, in all panes */
+    int now;            /* index of the present branch; higher ones: undone */
+    long step;          /* step that is shown in all panes */
     Machine machine[OPTIONS_MAX_PANES];
-    bool keeps;   /* states are kept: the user may go back */
-    bool goes_on; /* when one of several panes fails the others go on */
-    long same;    /* last step whose rows in tables are valid; the player writes
-                     later ones again and sets LONG_MAX */
-    long booked;  /* last step whose row of energies is valid; an edit after a
-                     step  changes its row, too */
-    size_t bytes, limit; /* memory of states; most of it */
-    int line; /* pane in which E along p is drawn and is kept; -1: none */
-    /* The work to show another step, a Newton iteration at a time. */
-    Work work;
-    long aim;      /* step that is to be shown */
-    long from;     /* step that machines are brought to by WORK_LOADS */
-    bool walks;    /* each round of the aim is sampled, for a walk through it */
-    double target; /* s, end of the new step */
-    Status worst;  /* worst outcome of the panes in the new step */
+    bool keeps;   /* states are stored: the user may go back */
+    bool goes_on; /* a pane that fails ends alone; the others go on */
+    long written; /* last step whose rows in the tables are valid; -1: none.
+                     Edits lower it, the player writes rows and raises it */
+    long booked;  /* last step whose energies in the tables are valid: an edit
+                     after a step changes them, too */
+    size_t bytes, limit; /* memory of states, and its limit */
+    int line;            /* pane in which E along p is drawn; -1: none */
+    Work work;           /* stage of the work that leads to `aim` */
+    long aim;            /* step that is to be shown */
+    long from;           /* step that machines are brought to by WORK_LOADS */
+    bool walks;          /* E along p is sampled in each iteration of the aim */
+    double target;       /* s, end of the new step */
+    Status worst;        /* worst status of the panes in the new step */
 } Past;
 
+/* Whether there is work left that leads to the aim. */
 static inline bool past_works(const Past *past)
 {
     return past->work != WORK_DONE;
@@ -150,74 +150,75 @@ static inline bool past_makes(const Past *past)
 void past_create(bool keeps, bool goes_on, Past *past);
 void past_free(Past *past);
 
-/* Starts new runs side by side at step 0.  Returns as simulation_create; after
+/* Begins new runs side by side at step 0.  Returns as simulation_create; after
  * a failure past_iterate leads back to the step that was shown. */
 Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit);
 
-/* Edits the shown step; the later steps so far stay in the branch below.
- *   edit     checked by the caller: COMMAND_SET with a row of the options and
- *            its number x or its text; COMMAND_PIN with a node, x = 1 to pin it
- *            and 0 to free it; COMMAND_GRAB with a node and the place of the
- *            hand, m, COMMAND_PUSH with an obstacle likewise; COMMAND_DRAG,
- *            COMMAND_RELEASE, COMMAND_PLACE, COMMAND_OBSTACLE, COMMAND_HANDLE,
- *            COMMAND_FLIP; COMMAND_ADD_PANE adds a pane with the past of the
- *            last one, COMMAND_END_PANE removes the last one
+/* Edits the shown step in a new branch; the branch below keeps the old steps.
+ *   edit     in, checked by the caller: COMMAND_SET with a row of the options
+ *            and its number x or its text; COMMAND_PIN with a node, x = 1 to
+ *            pin it and 0 to free it; COMMAND_GRAB with a node, COMMAND_PUSH
+ *            with an obstacle, each with the place of the hand, m;
+ *            COMMAND_DRAG, COMMAND_RELEASE, COMMAND_PLACE, COMMAND_OBSTACLE,
+ *            COMMAND_HANDLE, COMMAND_FLIP; COMMAND_ADD_PANE adds a pane with
+ *            the past of the last one, COMMAND_END_PANE removes the last one
  *   from,to  panes from ... to - 1 are edited
- *   again    the edit counts from the step before on: past_iterate makes the
- *            shown step, not step 0, once more with it
- *   gesture  id of the mouse gesture; edits of one gesture share a branch; or 0
+ *   again    past_iterate makes the shown step, which is not step 0, once more
+ *            with the edit
+ *   gesture  id; edits of one gesture share a branch; 0: none
  * Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture);
 
-/* Chooses the step to be shown, 0 ... newest + 1; abandons the present work.
- *   again  the step is made once more, however long that takes, and each of its
- *          rounds is sampled */
+/* Sets the step to be shown, 0 ... newest + 1, and abandons the present work.
+ *   again  the step is made once more, however long that takes, and E along p
+ *          is sampled in each of its iterations */
 void past_aim(Past *past, long step, bool again);
 
-/* Does a piece of the work: one Newton iteration, or the beginning of a step.
- * Returns RUNNING while there is more to do; OK, or an unconverged status, when
- * the aim is shown; else a failure: the last whole step is shown. */
+/* Does a part of the work: makes a Newton iteration, or begins a step.  Returns
+ * RUNNING while there is more work; OK or an unconverged status when the aim is
+ * shown; after a failure its status, and the last whole step is shown. */
 Status past_iterate(Past *past);
 
-/* Repeats past_iterate until it does not return RUNNING; returns its last
- * status. */
+/* Repeats past_iterate while it returns RUNNING; returns its last status. */
 Status past_finish(Past *past);
 
-/* Makes the shown step once more if E along p is drawn at this place of its
- * trace (-1: after it) but was not kept, unless a later step has failed.
- * past_iterate follows. */
+/* Prepares to make the shown step once more if E along p is to be drawn at this
+ * place of its trace (-1: the end) but was not sampled.  past_iterate follows.
+ */
 void past_complete(Past *past, int place);
 
 /* Undoes one gesture (-1) or redoes it (1); past_iterate follows.  Returns the
  * edit that was undone or redone, or NULL. */
 const Command *past_undo(Past *past, int way);
 
+/* Number of panes. */
 int past_panes(const Past *past);
 
 /* The newest step; the step that is being made does not count. */
 long past_newest(const Past *past);
 
-/* NULL: the step is not made yet. */
+/* The entry of a step; NULL: the step is not made yet. */
 const Entry *past_entry(const Past *past, int pane, long step);
 
-/* The control after the shown step; that at step 0 of the run. */
+/* The control that follows the shown step. */
 const Control *past_control(const Past *past, int pane);
+
+/* The control at step 0 of the run. */
 const Control *past_start(const Past *past, int pane);
 
-/* Whether the shown state is a start or was dragged, not made by a step. */
+/* Whether the shown state was set by a start or a drag, not made by a step. */
 bool past_is_state_set(const Past *past);
 
 /* The last step that a pane has made, if a failure has ended it before `step`;
  * else -1. */
 long past_end_step(const Past *past, int pane, long step);
 
-/* The last step up to this one whose state can be seen: at most PAST_EXPLODED
- * times as large as after step 1. */
+/* The last step up to this one whose extent is at most PAST_EXPLODED. */
 long past_last_seen(const Past *past, int pane, long step);
 
-/* Fills the energies over time that plots show of a pane. */
+/* Fills the energies over time that plots of a pane show. */
 void past_history(const Past *past, int pane, History *history);
 
 #endif

@@ -1,5 +1,4 @@
-/* commands.c - finds commands by key, reads and writes them as text; scripts.
- */
+/* commands.c - finds commands by key, reads and writes commands and scripts. */
 #define _POSIX_C_SOURCE 200809L /* getline */
 
 #include "play/command.h"
@@ -20,8 +19,8 @@ const CommandRow command_rows[COMMAND_KINDS] = {
 #undef ROW
 };
 
-/* Whether a key types text or takes a letter back. */
-static bool is_typed(const char *key)
+/* Whether a key types or deletes a letter. */
+static bool types_text(const char *key)
 {
     if (strncmp(key, "Shift+", 6) == 0)
         key += 6;
@@ -29,14 +28,14 @@ static bool is_typed(const char *key)
            strcmp(key, "Backspace") == 0;
 }
 
-/* Whether `key` is one of the keys in "A|B". */
-static bool is_one_of(const char *keys, const char *key)
+/* Whether keys like "A|B" have this one. */
+static bool has_key(const char *keys, const char *key)
 {
     size_t length = strlen(key);
     for (const char *at = keys; at && length > 0; at = strchr(at, '|')) {
         at += *at == '|';
         if (strcmp(at, "*") == 0 ||
-            (strcmp(at, "letters") == 0 && is_typed(key)) ||
+            (strcmp(at, "letters") == 0 && types_text(key)) ||
             (strncmp(at, key, length) == 0 &&
              (at[length] == '\0' || at[length] == '|')))
             return true;
@@ -50,7 +49,7 @@ Command command_from_key(const char *key, bool repeats, Keyboard keyboard)
     for (int i = COMMAND_KINDS - 1; i > 0 && !command.kind; i--) {
         const CommandRow *row = &command_rows[i];
         unsigned listens = row->keyboard ? row->keyboard : AT_PLAY;
-        if (!(listens & keyboard) || !is_one_of(row->keys, key))
+        if (!(listens & keyboard) || !has_key(row->keys, key))
             continue;
         if (repeats && !(row->flags & REPEATS))
             break;
@@ -62,7 +61,6 @@ Command command_from_key(const char *key, bool repeats, Keyboard keyboard)
 
 /* ---- lines of scripts ---------------------------------------------------- */
 
-/* Prints a line for each command: word, arguments, what it does, first key. */
 void commands_help(FILE *file)
 {
     fprintf(file,
@@ -88,8 +86,8 @@ void commands_help(FILE *file)
 
 static const char blanks[] = " \t\r\n";
 
-/* Takes the next word of a line.  Returns false if there is none, or if it is
- * too long.
+/* Takes the next word from a line.  Returns false if there is no word, or if it
+ * is too long.
  *   word  [COMMAND_TEXT_SIZE] out */
 static bool take_word(const char **line, char *word)
 {
@@ -101,30 +99,30 @@ static bool take_word(const char **line, char *word)
     return fits;
 }
 
-/* Returns the next argument of a command, or NULL. */
-static const char *next_taken(const char *at)
+/* Returns the argument behind this one in CommandRow.takes, or NULL. */
+static const char *next_argument(const char *at)
 {
     at = strchr(at, ' ');
     return at ? at + 1 : NULL;
 }
 
-/* Reads a word as an argument.  A wrong option or value is refused when the
- * command is obeyed, with its reason. */
-static bool read_word(const char *word, const char *taken, Command *command)
+/* Reads a word as the argument of this kind, 'N' for example.  A wrong option
+ * or value is refused when the command is obeyed, with its reason. */
+static bool read_argument(const char *word, char kind, Command *command)
 {
     const OptionRow *row;
-    double number = strtod(word, NULL);
+    double *number = kind == 'X' ? &command->x : &command->y;
     char *end = NULL;
     bool one;
     errno = 0;
-    switch (*taken) {
+    switch (kind) {
     case 'N':
         command->number = strtol(word, &end, 10);
         return isdigit((unsigned char)word[0]) && errno == 0 && *end == '\0';
     case 'X':
     case 'Y':
-        *(*taken == 'X' ? &command->x : &command->y) = strtod(word, &end);
-        return end != word && *end == '\0' && isfinite(number);
+        *number = strtod(word, &end);
+        return end != word && *end == '\0' && isfinite(*number);
     case 'O':
         row = option_find(word);
         command->number = row ? row - option_rows : -1;
@@ -158,8 +156,6 @@ Status command_parse(const char *line, Command *command, Message message)
     while (kind < COMMAND_KINDS && (!command_rows[kind].word ||
                                     strcmp(command_rows[kind].word, word) != 0))
         kind++;
-    if (strcmp(word, "box") == 0)
-        return refuse(message, "'box' is gone: place puts one node somewhere");
     if (kind == COMMAND_KINDS)
         return refuse(message,
                       "there is no command '%.20s': elasto --help commands",
@@ -167,8 +163,8 @@ Status command_parse(const char *line, Command *command, Message message)
     command->kind = (CommandKind)kind;
     const char *takes = command_rows[kind].takes;
     bool good = true;
-    for (const char *at = takes; at; at = next_taken(at))
-        good = good && take_word(&line, next) && read_word(next, at, command);
+    for (const char *at = takes; at && good; at = next_argument(at))
+        good = take_word(&line, next) && read_argument(next, *at, command);
     if (good && line[strspn(line, blanks)] == '\0')
         return STATUS_OK;
     return refuse(message, "write it as '%s%s%s'", word, takes ? " " : "",
@@ -182,7 +178,7 @@ void command_format(const Command *command, char *line, size_t size)
     if (row->takes && row->takes[0] == 'O' && command->number >= 0)
         option = &option_rows[command->number];
     snprintf(line, size, "%s%s", command->joins ? "& " : "", row->word);
-    for (const char *at = row->takes; at; at = next_taken(at)) {
+    for (const char *at = row->takes; at; at = next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'N')
             snprintf(word, sizeof word, "%ld", command->number);
@@ -199,20 +195,38 @@ void command_format(const Command *command, char *line, size_t size)
     }
 }
 
+bool command_replaces(const Command *command, const Command *before)
+{
+    return command_rows[command->kind].flags & LATEST &&
+           command->kind == before->kind && command->number == before->number;
+}
+
 /* ---- scripts ------------------------------------------------------------- */
 
 Status script_add(Script *script, long step, const Command *command,
                   int gesture)
 {
+    ScriptLine line = {step, *command, gesture};
+    ScriptLine *last = script->count ? script->line + script->count - 1 : NULL;
+    bool same = gesture && last && last->gesture == gesture;
+    if (gesture) /* drags belong to their grab without & */
+        line.command.joins = same && command->kind != COMMAND_DRAG &&
+                             command->kind != COMMAND_RELEASE;
+    if (same && last->step == step &&
+        command_replaces(command, &last->command)) {
+        line.command.joins = last->command.joins;
+        *last = line;
+        return STATUS_OK;
+    }
     if (script->count == script->size) {
         size_t size = script->size ? 2 * script->size : 64;
-        ScriptLine *line = realloc(script->line, size * sizeof *line);
-        if (!line)
+        ScriptLine *lines = realloc(script->line, size * sizeof *lines);
+        if (!lines)
             return STATUS_OUT_OF_MEMORY;
-        script->line = line;
+        script->line = lines;
         script->size = size;
     }
-    script->line[script->count++] = (ScriptLine){step, *command, gesture};
+    script->line[script->count++] = line;
     return STATUS_OK;
 }
 
@@ -254,15 +268,6 @@ Status script_read(const char *name, Script *script, Message message)
     return status;
 }
 
-/* Whether the next line is of the same drag and replaces this one. */
-static bool is_covered(const ScriptLine *line)
-{
-    return command_rows[line->command.kind].flags & LATEST &&
-           line->gesture == line[1].gesture && line->step == line[1].step &&
-           line->command.kind == line[1].command.kind &&
-           line->command.number == line[1].command.number;
-}
-
 Status script_write(const char *name, const char *line, const Script *script)
 {
     Output output;
@@ -271,20 +276,10 @@ Status script_write(const char *name, const char *line, const Script *script)
         return status;
     errno = 0;
     fprintf(output.file, "# %s\n", line);
-    int gesture = 0; /* gesture of the previous line */
     for (size_t i = 0; i < script->count; i++) {
-        char line[512];
-        const ScriptLine *at = &script->line[i];
-        Command command = at->command;
-        if (i + 1 < script->count && is_covered(at))
-            continue;
-        if (at->gesture) /* drags join their grab anyway */
-            command.joins = at->gesture == gesture &&
-                            command.kind != COMMAND_DRAG &&
-                            command.kind != COMMAND_RELEASE;
-        gesture = at->gesture;
-        command_format(&command, line, sizeof line);
-        fprintf(output.file, "%ld %s\n", at->step, line);
+        char text[512];
+        command_format(&script->line[i].command, text, sizeof text);
+        fprintf(output.file, "%ld %s\n", script->line[i].step, text);
     }
     return output_close(&output, KEEP_WHOLE);
 }

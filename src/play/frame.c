@@ -88,13 +88,14 @@ static void fill_settings(const Player *player, Frame *frame)
         setting->changed = strcmp(now, start) != 0;
         const char *idle = player_idle_reason(player, row);
         setting->off = strcmp(setting->value, "none") == 0 || idle;
-        bool is_explained = over ? i == mouse->index : row == player->hands.lit;
+        bool is_explained =
+            over ? i == mouse->index : row == player->hands.selected;
         if (is_explained && (idle || row->help[0]))
             snprintf(content->strip.sentence, SENTENCE_SIZE, "%s: %s",
                      row->name, idle ? idle : row->help);
-        if (row == player->hands.lit)
+        if (row == player->hands.selected)
             content->settings.selected = i;
-        if (row == player->hands.lit && player->hands.typing)
+        if (row == player->hands.selected && player->hands.typing)
             snprintf(setting->value, VALUE_SIZE, "%s_", player->hands.typed);
     }
     if (player_visible_options(player, true, all) > frame->numbers)

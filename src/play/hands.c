@@ -84,7 +84,7 @@ static Status change_pace(Player *player, const OptionRow *row, int paces)
 /* The part of the window that the keys go to. */
 static Keyboard keyboard_now(const Player *player)
 {
-    bool number = player->hands.lit;
+    bool number = player->hands.selected;
     bool list = player_has_list(player);
     bool asks = player_hides_answer(player);
     return player->hands.typing && (number || list || asks) ? AT_FIELD
@@ -116,7 +116,7 @@ static Status open_line(Player *player, const char *line)
  * open if its text cannot be read. */
 static Status enter_typed(Player *player)
 {
-    const OptionRow *row = player->hands.lit;
+    const OptionRow *row = player->hands.selected;
     Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
     if (!row && player_has_list(player)) {
@@ -147,7 +147,8 @@ static Status drag_number(Player *player, const Under *under)
     const Mouse *mouse = &player->hands.mouse;
     const Options now = player_numbers(player);
     bool edge = mouse->index < 0;
-    const OptionRow *row = edge ? option_find("stretch") : player->hands.lit;
+    const OptionRow *row =
+        edge ? option_find("stretch") : player->hands.selected;
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
     double wanted = fmax(rint(200 * fabs(under->at[0]) / now.side), 2) / 100;
     if (!row)
@@ -361,10 +362,11 @@ static Status number_pressed(Player *player, int index, int clicks)
     Mouse *mouse = &player->hands.mouse;
     if (index >= player->screen.frame.numbers) /* the plus behind them */
         return ask(player, COMMAND_OPTIONS, 0);
-    player->hands.lit = player->screen.frame.number[index];
+    player->hands.selected = player->screen.frame.number[index];
     player->screen.changed = true;
     if (clicks == 2)
-        return ask(player, COMMAND_DEFAULT, player->hands.lit - option_rows);
+        return ask(player, COMMAND_DEFAULT,
+                   player->hands.selected - option_rows);
     mouse->drag = COMMAND_SET;
     mouse->index = index;
     mouse->options = player_numbers(player);
@@ -474,8 +476,8 @@ static Status release(Player *player)
     if (drag == COMMAND_SET && mouse->moved)
         player_deselect(player); /* a drag sets it, a click waits for keys */
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
-        player->hands.lit && player->hands.lit->kind == OPTION_NAME)
-        return change_pace(player, player->hands.lit, 1);
+        player->hands.selected && player->hands.selected->kind == OPTION_NAME)
+        return change_pace(player, player->hands.selected, 1);
     return STATUS_OK;
 }
 

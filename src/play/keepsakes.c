@@ -60,7 +60,7 @@ Status obey_film(Player *player, const Command *command)
     Status status =
         ends ? film_close(film, KEEP_WHOLE) : film_open(name, message, film);
     film->output.message = player->recording.message;
-    player->screen.sampled =
+    player->screen.drawn =
         -1; /* the present frame is the first, or drawn again */
     if (status)
         player_note(player, "no film: %s", message);

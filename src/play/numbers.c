@@ -71,7 +71,7 @@ Status obey_add(Player *player, const Command *command)
     player->hands.added |= (uint64_t)1 << (row - option_rows);
     player->screen.column = COLUMN_CARDS;
     player_deselect(player);
-    player->hands.lit = row;
+    player->hands.selected = row;
     player_note(player, "%s: %s; type a value and Enter", row->name, row->help);
     return STATUS_OK;
 }
@@ -82,9 +82,9 @@ Status obey_select(Player *player, const Command *command)
     const OptionRow *number[OPTIONS_MOST];
     int next = 0, count = player_visible_options(player, false, number);
     for (int i = 0; i < count; i++)
-        next = number[i] == player->hands.lit ? i + 1 : next;
+        next = number[i] == player->hands.selected ? i + 1 : next;
     player_deselect(player);
-    player->hands.lit = next < count ? number[next] : NULL;
+    player->hands.selected = next < count ? number[next] : NULL;
     return STATUS_OK;
 }
 
@@ -106,7 +106,7 @@ Status obey_type(Player *player, const Command *command)
     else if (!key[1])
         append(typed, sizeof player->hands.typed, "%c",
                shift ? key[0] : tolower(key[0]));
-    if (player->hands.lit)
+    if (player->hands.selected)
         player_note(player, "type a value: Enter sets it, Esc leaves it");
     else
         player_note(player, "%s %s_: Enter %s it, Esc leaves it",
@@ -195,12 +195,13 @@ Status obey_raise(Player *player, const Command *command)
     const OptionRow *number[OPTIONS_MOST];
     if (player_visible_options(player, false, number) == 0)
         return player_refuse(player, "there is no number to change here");
-    player->hands.lit = player->hands.lit ? player->hands.lit : number[0];
+    player->hands.selected =
+        player->hands.selected ? player->hands.selected : number[0];
     double value;
     int paces = command->kind == COMMAND_RAISE ? 1 : -1;
-    Status status = player_paced(player, player->hands.lit, paces, &value);
+    Status status = player_paced(player, player->hands.selected, paces, &value);
     if (!status)
-        player_enqueue_set(player, player->hands.lit, value);
+        player_enqueue_set(player, player->hands.selected, value);
     return status;
 }
 

@@ -1,4 +1,4 @@
-/* obey.c - obeys a command and those in the queue; keeps the journal. */
+/* obey.c - obeys a command and those in the queue; writes the journal. */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,23 +16,10 @@ static Deed *const deeds[COMMAND_KINDS] = {
 #undef ROW
 };
 
-/* ---- the journal --------------------------------------------------------- */
+/* ---- commands ------------------------------------------------------------ */
 
-/* Begins a gesture, which is undone as a whole, unless the command joins the
- * present one; a drag belongs to the gesture of its grab. */
-static void begin_gesture(Player *player, const Command *command)
-{
-    if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
-        player->orders.gesture = player->orders.held;
-    else if (!command->joins)
-        player->orders.gesture = ++player->orders.gestures;
-    if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
-        player->orders.held = player->orders.gesture;
-}
-
-/* ---- obeying ------------------------------------------------------------- */
-
-/* Counts what the number of a command refers to: nodes, balls, cards. */
+/* Returns how many nodes, obstacles, cards, ... the number of a command can
+ * choose from. */
 static long count_targets(const Player *player, int pane, CommandKind kind)
 {
     const Simulation *simulation = &player->past.machine[pane].simulation;
@@ -64,8 +51,7 @@ static long count_targets(const Player *player, int pane, CommandKind kind)
     }
 }
 
-/* Refuses a command whose number, of an obstacle for example, does not exist in
- * every pane. */
+/* Refuses a command whose number names no node, obstacle, ... in some pane. */
 static Status check_number(Player *player, const Command *command)
 {
     long count = LONG_MAX;
@@ -83,8 +69,8 @@ static Status check_number(Player *player, const Command *command)
                          count - 1);
 }
 
-/* Returns the command that a key stands for now, so that a script with it leads
- * to the same place. */
+/* Returns the command that a key stands for now, with which a script leads to
+ * the same state. */
 static Command command_meant(const Player *player, const Command *asked)
 {
     const double *x = player_simulation(player)->run[0].x;
@@ -98,8 +84,8 @@ static Command command_meant(const Player *player, const Command *asked)
     return meant;
 }
 
-/* Where a page waits for a guess, N and Space show its answer and make no step.
- * Returns whether they did. */
+/* If a page waits for a guess, "next" and "play" show its answer and make no
+ * step.  Returns whether this was so. */
 static bool reveals_answer(Player *player, const Command *command,
                            Status *status)
 {
@@ -110,8 +96,8 @@ static bool reveals_answer(Player *player, const Command *command,
     return true;
 }
 
-/* Obeys the commands in the queue, up to one that has to wait: for the end of a
- * step; a release also for a step with the hand at its last place.
+/* Obeys the commands in the queue, up to one that must wait for the end of a
+ * step; a release also waits for a step with the hand at its last place.
  *   now  no command waits */
 static Status obey_queue(Player *player, bool now)
 {
@@ -184,21 +170,29 @@ static Status abandon_step(Player *player)
     return status;
 }
 
-/* Begins a gesture, and clears the messages of the last command. */
+/* Begins a gesture, which is undone as a whole, unless the command joins the
+ * present one; a drag belongs to the gesture of its grab.  Clears the messages
+ * of the last command. */
 static void begin_command(Player *player, const Command *command)
 {
     unsigned flags = command_rows[command->kind].flags;
-    begin_gesture(player, command);
+    Orders *orders = &player->orders;
+    if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
+        orders->gesture = orders->held;
+    else if (!command->joins)
+        orders->gesture = ++orders->gestures;
+    if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
+        orders->held = orders->gesture;
+    if (orders->leaving != command->kind)
+        orders->leaving = COMMAND_NONE;
     player->screen.changed = true;
     player->message[0] = '\0';
-    if (player->orders.leaving != command->kind)
-        player->orders.leaving = COMMAND_NONE;
     if (!(flags & QUIET || (flags & LATEST && player->hands.mouse.drag)))
         player->note[0] = '\0';
 }
 
-/* Whether a command waits for the step that is being made: "next" leads to this
- * step, and a drag goes into the queue. */
+/* Whether a command needs nothing now but the end of the step that is being
+ * made: "next" leads there anyway, and a drag goes into the queue. */
 static bool waits_for_step(Player *player, const Command *command)
 {
     bool drags = player->hands.mouse.drag || command->kind == COMMAND_DRAG;
@@ -214,7 +208,6 @@ static bool waits_for_step(Player *player, const Command *command)
 Status player_obey(Player *player, const Command *asked)
 {
     Past *past = &player->past;
-    Script *journal = &player->orders.journal;
     Command command = command_meant(player, asked);
     const unsigned flags = command_rows[command.kind].flags;
     long step = past->step, newest = past_newest(past);
@@ -231,27 +224,25 @@ Status player_obey(Player *player, const Command *asked)
         status = abandon_step(player);
     }
     status = status ? status : check_number(player, &command);
-    size_t at = journal->count;
-    bool noted = !status && flags & KEPT; /* before its own commands */
-    if (noted && script_add(journal, step, &command, player->orders.gesture))
-        return STATUS_OUT_OF_MEMORY;
     if (!status && stops)
         player_note(player, "step abandoned: the last whole one is shown");
     else if (!status)
         status = deeds[command.kind](player, &command);
+    if (flags & KEPT && status != STATUS_INVALID_INPUT &&
+        script_add(&player->orders.journal, step, &command,
+                   player->orders.gesture))
+        return STATUS_OUT_OF_MEMORY;
     bool worked = past_works(past);
     player_complete_line(player); /* a card or another pane may show it now */
     if (past_works(past) && (!worked || !(flags & SCREEN))) {
         Status shown = player_work(player);
         status = status ? status : shown;
     }
-    if (noted && past->now > now && command.kind != COMMAND_REDO &&
+    if (past->now > now && command.kind != COMMAND_REDO &&
         !past->branch[past->now].fresh && step < newest)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);
-    if (noted && journal->count == at + 1 && status == STATUS_INVALID_INPUT)
-        journal->count = at;
     status = player_tolerate_failure(player, status);
     return status ? status : obey_queue(player, false);
 }

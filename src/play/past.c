@@ -13,24 +13,24 @@
 
 /* ---- reading ------------------------------------------------------------- */
 
-static Branch *present(const Past *past)
+static Branch *present_branch(const Past *past)
 {
     return &past->branch[past->now];
 }
 
 int past_panes(const Past *past)
 {
-    return past->branches > 0 ? present(past)->panes : 0;
+    return past->branches > 0 ? present_branch(past)->panes : 0;
 }
 
 long past_newest(const Past *past)
 {
-    return present(past)->first + present(past)->count - 1;
+    return present_branch(past)->first + present_branch(past)->count - 1;
 }
 
-/* Returns the entry of a step in a branch; steps before the branch are looked
- * up in the branches it grew from.  For the step after the last one: the entry
- * that is being made.  NULL: there is none. */
+/* Returns the entry of a step as a branch has it: its own, or that of the
+ * branches below if the step is before it; behind the last step the entry that
+ * is being made.  NULL: no such step. */
 static Entry *branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first && !branch->fresh; branch--)
@@ -43,7 +43,7 @@ static Entry *branch_entry(const Branch *branch, int pane, long step)
 
 static Entry *find_entry(const Past *past, int pane, long step)
 {
-    return branch_entry(present(past), pane, step);
+    return branch_entry(present_branch(past), pane, step);
 }
 
 const Entry *past_entry(const Past *past, int pane, long step)
@@ -58,20 +58,21 @@ const Control *past_control(const Past *past, int pane)
 
 const Control *past_start(const Past *past, int pane)
 {
-    const Branch *branch = present(past);
+    const Branch *branch = present_branch(past);
     for (; !branch->fresh; branch--)
         pane = branch->source[pane];
     return branch->entry[pane].control;
 }
 
-/* Whether the step to this entry could not be made, so that the pane ends. */
+/* Whether a pane failed to make the step of this entry, and ended. */
 static bool is_failure(const Entry *entry)
 {
     Status status = entry->outcome.status;
     return status && !status_is_unconverged(status);
 }
 
-static bool has_failed(const Entry *entry)
+/* Whether a pane had ended before the step of this entry was over. */
+static bool has_ended(const Entry *entry)
 {
     return entry->substeps == 0 && is_failure(entry);
 }
@@ -79,7 +80,7 @@ static bool has_failed(const Entry *entry)
 long past_end_step(const Past *past, int pane, long step)
 {
     long last = step;
-    while (last > 0 && has_failed(past_entry(past, pane, last)))
+    while (last > 0 && has_ended(past_entry(past, pane, last)))
         last--;
     return last < step ? last : -1;
 }
@@ -112,8 +113,8 @@ static void drop_entry(Past *past, Entry *entry)
     *entry = (Entry){0};
 }
 
-/* Reserves memory for one more entry a pane.  If states are not kept the last
- * two entries are enough. */
+/* Reserves memory for one more entry of each pane.  If states are not stored,
+ * only the last two entries stay. */
 static Status reserve_entry(Past *past, Branch *branch)
 {
     size_t row = (size_t)branch->panes * sizeof(Entry);
@@ -138,7 +139,7 @@ static Status reserve_entry(Past *past, Branch *branch)
     return STATUS_OK;
 }
 
-/* Drops this branch and those above it. */
+/* Drops the branches from this index on. */
 static void drop_branches(Past *past, int from)
 {
     while (past->branches > from) {
@@ -151,8 +152,8 @@ static void drop_branches(Past *past, int from)
 
 /* ---- states -------------------------------------------------------------- */
 
-/* Drops every second state of the branch that keeps most of its states; among
- * equals the present branch comes last. */
+/* Drops every second state of the branch with the smallest stride; among equals
+ * the present branch comes last.  Returns false if no state is left to drop. */
 static bool thin_states(Past *past)
 {
     Branch *finest = NULL;
@@ -172,18 +173,18 @@ static bool thin_states(Past *past)
     return true;
 }
 
-/* Where the state of a step is kept. */
-typedef struct Kept {
+/* The place where the state of a step is stored, or may be. */
+typedef struct StoredState {
     Entry *entry;
     bool due;          /* the state stays when the machine leaves the step */
-    bool dragged;      /* the state was dragged, not made by a step */
+    bool dragged;      /* the state was set by a start or a drag */
     const Control *by; /* control of the step that made the state */
-} Kept;
+} StoredState;
 
-/* Finds the branch that has made the step, or in which it was dragged. */
-static Kept find_kept(const Past *past, int pane, long step)
+/* Finds the place of a state in the branch that has made or dragged it. */
+static StoredState find_stored(const Past *past, int pane, long step)
 {
-    const Branch *branch = present(past);
+    const Branch *branch = present_branch(past);
     while (!branch->fresh &&
            (step < branch->first ||
             (step == branch->first && !branch->entry[pane].state))) {
@@ -192,13 +193,14 @@ static Kept find_kept(const Past *past, int pane, long step)
     }
     long i = step - branch->first;
     Entry *entry = &branch->entry[i * branch->panes + pane];
-    return (Kept){entry, i % branch->stride == 0, i == 0,
-                  i > 0 ? entry[-branch->panes].control : entry->control};
+    return (StoredState){entry, i % branch->stride == 0, i == 0,
+                         i > 0 ? entry[-branch->panes].control
+                               : entry->control};
 }
 
 bool past_is_state_set(const Past *past)
 {
-    return find_kept(past, 0, past->step).dragged;
+    return find_stored(past, 0, past->step).dragged;
 }
 
 /* Samples at most HISTORY_POINTS steps of a long run, the newest one among
@@ -214,15 +216,15 @@ void past_history(const Past *past, int pane, History *history)
     history->series = history->count = 0;
     for (long step = 0; step < last + stride; step += stride) {
         const State *state =
-            find_kept(past, pane, step < last ? step : last).entry->state;
+            find_stored(past, pane, step < last ? step : last).entry->state;
         if (state)
             history_add(history, state->time, state->rows, state->row);
     }
 }
 
-/* Saves the machine's state in an entry; drops other states where memory ends.
+/* Stores the machine's state in an entry; drops other states beyond the limit.
  */
-static Status keep_state(Past *past, int pane, Entry *entry)
+static Status store_state(Past *past, int pane, Entry *entry)
 {
     const Simulation *simulation = &past->machine[pane].simulation;
     size_t size = sizeof *entry->state + state_save(simulation, NULL);
@@ -239,16 +241,16 @@ static Status keep_state(Past *past, int pane, Entry *entry)
     return STATUS_OK;
 }
 
-/* Leaves the step of which a machine has the state; the state that was kept for
- * edits of this step is dropped unless it is due. */
+/* Notes that the machine's simulation leaves its step, whose state was stored
+ * for edits; drops the state unless it is due. */
 static void machine_leave_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
     if (!machine->has_state)
         return;
-    Kept kept = find_kept(past, pane, machine->step);
-    if (!kept.due)
-        drop_state(past, kept.entry);
+    StoredState stored = find_stored(past, pane, machine->step);
+    if (!stored.due)
+        drop_state(past, stored.entry);
     machine->has_state = false;
 }
 
@@ -258,9 +260,9 @@ static void leave_all_steps(Past *past)
         machine_leave_step(past, p);
 }
 
-/* Puts a branch on top of the present one, in the place of those that were
- * undone.  Given entries are copied from the branch below without states.
- * Returns NULL if memory is missing. */
+/* Puts a branch on top of the present one, and drops undone ones.  The given
+ * entries are copied from the branch below, without states.  Returns NULL if
+ * memory is missing. */
 static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->now + 1);
@@ -279,7 +281,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     if (reserve_entry(past, branch))
         return NULL;
     branch->count = 1;
-    for (int p = 0; p < past_panes(past); p++) /* the others stay */
+    for (int p = 0; p < past_panes(past); p++)
         if (branch->fresh || p >= branch->panes ||
             past->machine[p].step > branch->first)
             machine_leave_step(past, p);
@@ -310,8 +312,8 @@ static double timestep_of(const Machine *machine)
                                                  : 1;
 }
 
-/* Returns the Newton object that is traced: the one of the first run that has
- * any, while this run is stepped; else NULL. */
+/* Returns the Newton object of the first run that has one, whose iterations are
+ * traced; NULL while another run makes its step. */
 static const Newton *traced_newton(const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
@@ -320,15 +322,15 @@ static const Newton *traced_newton(const Simulation *simulation)
     return NULL;
 }
 
-/* Observes Newton's iterations.  The loop pauses after each one, so that the
- * window can read the mouse and the program its signals. */
+/* Records a Newton iteration.  Returns false: Newton's loop pauses after each
+ * one, so that the window can read the mouse and the program its signals. */
 static bool observe_newton(void *user, const NewtonRecord *record)
 {
     Machine *machine = user;
     if (!machine->iterating)
         return false;
     machine->outcome.updates += record->alpha != 0;
-    if (machine->simulation.scene->step) /* an update is a step */
+    if (machine->simulation.scene->step) /* each step is one update */
         machine->outcome.change = record->change;
     const Newton *newton = traced_newton(&machine->simulation);
     if (newton && machine->trace.size > 0 && record->iteration >= 0)
@@ -381,8 +383,9 @@ static Status machine_use_control(Machine *machine, const Control *control)
     return status;
 }
 
-/* Marks that the machine has the state of a step, and gives it the control of
- * the next one. */
+/* Notes that the machine has the state of a step, gives it the control of the
+ * next step, and samples the state for plots.
+ *   state  out, or NULL */
 static Status machine_set_step(Past *past, int pane, long step, State *state)
 {
     Machine *machine = &past->machine[pane];
@@ -397,31 +400,31 @@ static Status machine_set_step(Past *past, int pane, long step, State *state)
     return status;
 }
 
-/* Restores a state that was kept. */
-static Status machine_take_state(Machine *machine, Kept kept)
+static Status machine_load_state(Machine *machine, StoredState stored)
 {
-    Status status = machine_use_control(machine, kept.by);
+    Status status = machine_use_control(machine, stored.by);
     if (!status)
-        state_restore(kept.entry->state->bytes, &machine->simulation);
+        state_restore(stored.entry->state->bytes, &machine->simulation);
     return status;
 }
 
-/* Brings the machine to the last step up to `goal` that it can load.  (If no
- * states are kept it is there already, or at step 0.) */
+/* Brings the machine to the last step up to `goal` whose state is stored; if
+ * states are not stored the machine is there already, or at step 0. */
 static Status machine_seek(Past *past, int pane, long goal)
 {
     Machine *machine = &past->machine[pane];
     const Control *start = past_start(past, pane);
     long from = goal;
-    while (past->keeps && from > 0 && !find_kept(past, pane, from).entry->state)
+    while (past->keeps && from > 0 &&
+           !find_stored(past, pane, from).entry->state)
         from--;
-    bool near = machine->has_state && machine->step <= goal &&
-                (machine->step >= from || machine->step >= goal - 1);
-    if (near &&
+    bool is_near = machine->has_state && machine->step <= goal &&
+                   (machine->step >= from || machine->step >= goal - 1);
+    if (is_near &&
         machine->control == find_entry(past, pane, machine->step)->control)
         return machine_set_step(past, pane, machine->step, NULL);
-    Kept kept = find_kept(past, pane, from);
-    if (!kept.entry->state)
+    StoredState stored = find_stored(past, pane, from);
+    if (!stored.entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
     if (!machine->has_state || machine->step != from) {
@@ -434,26 +437,26 @@ static Status machine_seek(Past *past, int pane, long goal)
         machine->start = status ? NULL : control_keep(start);
     }
     if (!status)
-        status = machine_take_state(machine, kept);
+        status = machine_load_state(machine, stored);
     return status ? status
-                  : machine_set_step(past, pane, from, kept.entry->state);
+                  : machine_set_step(past, pane, from, stored.entry->state);
 }
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* Drops the entry of the step that was being made, but not a control that was
- * given with the branch. */
+/* Drops the entry of the step that was being made; a control that was copied
+ * from the branch below stays. */
 static void drop_new_entry(Past *past, int pane)
 {
-    const Branch *branch = present(past);
+    const Branch *branch = present_branch(past);
     Entry *entry = find_entry(past, pane, past_newest(past) + 1);
     drop_state(past, entry);
     if (branch->count >= branch->given)
         drop_entry(past, entry);
 }
 
-/* Ends the present work.  The last whole step stays; machines that have left it
- * have to load it again. */
+/* Ends the present work at the last whole step; machines that have left this
+ * step must load it again. */
 static void abandon_work(Past *past)
 {
     if (past->work == WORK_DONE)
@@ -471,7 +474,6 @@ static void abandon_work(Past *past)
     past->work = WORK_DONE;
 }
 
-/* Whether memory has ended, not the mathematics. */
 static bool is_out_of_memory(Status status)
 {
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
@@ -480,8 +482,8 @@ static bool is_out_of_memory(Status status)
 static Status machine_finish_step(Past *past, int pane);
 static Status machine_work(Past *past, int pane);
 
-/* Ends a pane that has failed beside others: it shows its last state that can
- * be seen from here on. */
+/* Ends a pane that has failed beside others; from here on the pane shows its
+ * last state that can be seen. */
 static Status machine_end_pane(Past *past, int pane, Status why)
 {
     Machine *machine = &past->machine[pane];
@@ -501,8 +503,8 @@ static Status machine_end_pane(Past *past, int pane, Status why)
     return machine_finish_step(past, pane);
 }
 
-/* Ends the work after a step that could not be made; beside other panes only
- * this pane ends. */
+/* Ends the work after a failure; if other panes can go on only this pane ends.
+ */
 static Status machine_fail(Past *past, int pane, Status status)
 {
     Machine *machine = &past->machine[pane];
@@ -517,13 +519,13 @@ static Status machine_fail(Past *past, int pane, Status status)
         machine->failed = machine->known = true;
         machine->outcome.status = status;
     }
-    /* Some runs may already have made the step after machine->step. */
+    /* Other runs of the simulation may already have made their step. */
     machine->has_state = false;
     past->aim = past->step;
     return status;
 }
 
-/* Moves the machine on to the entry of the step that it has finished. */
+/* Moves the machine to the entry of the step that it has finished. */
 static Status machine_finish_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
@@ -541,18 +543,18 @@ static Status machine_finish_step(Past *past, int pane)
         past->work = WORK_MADE;
     machine->substeps = 0;
     machine_leave_step(past, pane);
-    Kept kept = find_kept(past, pane, step);
-    if (kept.dragged)
-        status = machine_take_state(machine, kept);
-    else if (past->keeps && !kept.entry->state)
-        keep_state(past, pane, kept.entry);
+    StoredState stored = find_stored(past, pane, step);
+    if (stored.dragged)
+        status = machine_load_state(machine, stored);
+    else if (past->keeps && !stored.entry->state)
+        store_state(past, pane, stored.entry);
     if (!status)
-        status = machine_set_step(past, pane, step, kept.entry->state);
+        status = machine_set_step(past, pane, step, stored.entry->state);
     return status ? machine_fail(past, pane, status) : STATUS_RUNNING;
 }
 
-/* Called after each iteration.  If a step of the simulation has ended, stores
- * its outcome, and begins the next part of the step or ends it. */
+/* Goes on after an iteration: if a step of the simulation has ended, books its
+ * outcome, and finishes the pane's step unless it has more substeps. */
 static Status machine_advance(Past *past, int pane, Status status)
 {
     Machine *machine = &past->machine[pane];
@@ -585,21 +587,20 @@ static Status machine_advance(Past *past, int pane, Status status)
     return more ? STATUS_RUNNING : machine_finish_step(past, pane);
 }
 
-/* Does the next iteration of a pane, or begins its next step. */
+/* Makes the next iteration of a pane, or begins its next step. */
 static Status machine_work(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
     const Entry *from = past_entry(past, pane, machine->step);
     const Entry *to = past_entry(past, pane, machine->step + 1);
-    if (machine->iterating) {
+    if (machine->iterating)
         return machine_advance(past, pane,
                                simulation_advance(&machine->simulation));
-    }
     if (machine->substeps == 0) {
         machine->outcome = (Outcome){0};
         machine_forget_step(machine);
     }
-    if (has_failed(from)) {
+    if (has_ended(from)) {
         machine->outcome = from->outcome;
         return machine_finish_step(past, pane);
     }
@@ -615,33 +616,32 @@ static Status machine_work(Past *past, int pane)
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* Begins a new step in all panes.  The pane with the longest time step says
- * where it ends. */
+/* Begins a new step in all panes; it ends with the longest time step. */
 static Status begin_new_step(Past *past)
 {
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
         double pace = timestep_of(machine);
-        if (pace <= longest || has_failed(past_entry(past, p, machine->step)))
+        if (pace <= longest || has_ended(past_entry(past, p, machine->step)))
             continue;
         longest = pace;
         past->target = simulation_time(&machine->simulation) + pace;
     }
     past->worst = STATUS_OK;
-    if (reserve_entry(past, present(past)))
+    if (reserve_entry(past, present_branch(past)))
         return machine_fail(past, 0, STATUS_OUT_OF_MEMORY);
     past->work = WORK_MAKES;
     return STATUS_RUNNING;
 }
 
-/* Ends the work when all panes have come to the aim; if no pane could make the
- * new step, every scene is over and the newest step is shown. */
+/* Ends the work when all panes are at the aim.  If no pane has made the new
+ * step all scenes are over, and the newest step is shown. */
 static Status end_work(Past *past)
 {
     Status worst = past_makes(past) ? past->worst : STATUS_OK;
     if (past->work == WORK_MADE) {
-        present(past)->count++;
+        present_branch(past)->count++;
     } else if (past->work == WORK_MAKES) {
         past->aim = past_newest(past);
         for (int p = 0; p < past_panes(past); p++)
@@ -665,8 +665,7 @@ Status past_iterate(Past *past)
     }
     if (past->work == WORK_LOADS)
         past->work = WORK_REPEATS;
-    /* Each pane in turn repeats known steps, then makes a part of the new one.
-     */
+    /* Panes in turn repeat known steps, then make their part of the new one. */
     long newest = past_newest(past);
     long goal = past_makes(past) || past->aim < newest ? past->aim : newest;
     for (pane = 0; pane < panes; pane++)
@@ -683,9 +682,8 @@ Status past_finish(Past *past)
     return status;
 }
 
-/* Whether the aim, whose state is kept but not its trace, can be made once more
- * in short time. */
-static bool is_short_work(const Past *past)
+/* Whether the trace of the aim is missing and can be made in a short time. */
+static bool can_trace_aim(const Past *past)
 {
     enum { SHORT = 400000 }; /* nodes times updates */
     long work = 0;
@@ -694,9 +692,9 @@ static bool is_short_work(const Past *past)
         const Simulation *simulation = &machine->simulation;
         const Entry *entry = past_entry(past, p, past->aim);
         long behind = past->aim - machine->step;
-        bool knows = machine->has_state &&
-                     (behind == 1 || (behind == 0 && machine->known));
-        if (!knows && simulation->run[0].newton && entry->substeps > 0 &&
+        bool is_known = machine->has_state &&
+                        (behind == 1 || (behind == 0 && machine->known));
+        if (!is_known && simulation->run[0].newton && entry->substeps > 0 &&
             simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
     }
@@ -712,7 +710,7 @@ void past_aim(Past *past, long step, bool again)
     past->work = WORK_LOADS;
     past->walks = again;
     if (past->aim == 0 || past->aim > newest || !past->keeps ||
-        !(again || is_short_work(past)))
+        !(again || can_trace_aim(past)))
         return;
     past->from = past->aim - 1;
     for (int p = 0; p < past_panes(past); p++)
@@ -732,13 +730,14 @@ void past_complete(Past *past, int place)
 
 /* ---- edits --------------------------------------------------------------- */
 
-/* Invalidates the tables' rows after a step, those of the step itself if its
- * state has changed, and its row of energies. */
+/* Invalidates the rows of tables after a step, the energies of this step, and
+ * all its rows if its state has changed. */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
-    long same = step - changed;
-    past->same = same < past->same ? same : past->same;
-    past->booked = step - 1 < past->booked ? step - 1 : past->booked;
+    if (past->written > step - changed)
+        past->written = step - changed;
+    if (past->booked > step - 1)
+        past->booked = step - 1;
 }
 
 /* Brings all machines to the step that is shown. */
@@ -782,21 +781,21 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
         entry->control = control_keep(past->machine[p].start);
         entry->substeps = 1;
         if (past->keeps)
-            status = keep_state(past, p, entry);
+            status = store_state(past, p, entry);
         if (!status)
             status = machine_set_step(past, p, 0, entry->state);
     }
     return status;
 }
 
-/* Whether an edit makes another state, which its branch keeps. */
+/* Whether an edit sets a new state, which its branch stores. */
 static bool is_state_edit(const Command *edit)
 {
     return edit->kind == COMMAND_HANDLE || edit->kind == COMMAND_FLIP ||
            edit->kind == COMMAND_PLACE;
 }
 
-/* Whether an edit changes the state of its step; a pin does, as it stops a
+/* Whether an edit changes the state of its step; a pin does, as it stops its
  * node. */
 static bool changes_state(const Command *edit)
 {
@@ -838,7 +837,7 @@ static const Control *edited_control(const Control *from, const Command *edit,
     return control;
 }
 
-/* Edits an entry of the topmost branch. */
+/* Edits an entry of the present branch. */
 static Status edit_entry(Past *past, int pane, const Command *edit,
                          Entry *entry)
 {
@@ -858,7 +857,7 @@ static Status edit_entry(Past *past, int pane, const Command *edit,
         simulation_place(simulation, (int)edit->number, edit->x, edit->y, true);
     else
         exhibit_flip(simulation, (int)edit->number);
-    Status status = keep_state(past, pane, entry);
+    Status status = store_state(past, pane, entry);
     return status ? status
                   : machine_set_step(past, pane, past->step, entry->state);
 }
@@ -869,7 +868,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     Status status = past_settle(past);
     if (status)
         return status;
-    Branch *branch = present(past);
+    Branch *branch = present_branch(past);
     const int panes = branch->panes + (edit->kind == COMMAND_ADD_PANE) -
                       (edit->kind == COMMAND_END_PANE);
     bool joins = gesture && branch->gesture == gesture && !branch->fresh &&
@@ -898,15 +897,15 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     return status || again ? status : past_settle(past);
 }
 
-/* Makes the samples for plots again at the first steps of branches low ...
- * high, with the control that now follows. */
+/* Samples the first states of branches low ... high again for plots, with the
+ * controls that follow them now. */
 static void resample_first_steps(Past *past, int low, int high)
 {
     for (int b = low; b <= high; b++) {
         const Branch *branch = &past->branch[b];
         if (!past->keeps || branch->fresh ||
             branch->first > past_newest(past) ||
-            !find_kept(past, 0, branch->first).entry->state)
+            !find_stored(past, 0, branch->first).entry->state)
             continue;
         past_aim(past, branch->first, false);
         past_finish(past);
@@ -923,23 +922,18 @@ const Command *past_undo(Past *past, int way)
            past->branch[to].gesture == past->branch[to + 1].gesture)
         to += way;
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
-    for (int b = low + 1; b <= high; b++) {
-        const Branch *branch = &past->branch[b];
-        if (branch->fresh)
-            invalidate_tables(past, 0, true);
-        else
-            invalidate_tables(past, branch->first,
-                              changes_state(&branch->edit));
-    }
+    for (int b = low + 1; b <= high; b++)
+        invalidate_tables(past, past->branch[b].first,
+                          past->branch[b].fresh ||
+                              changes_state(&past->branch[b].edit));
     abandon_work(past);
     leave_all_steps(past);
-    present(past)->shown = past->step;
+    present_branch(past)->shown = past->step;
     past->now = to;
-    past->step = present(past)->shown;
-    long shown = past->step;
+    past->step = past->branch[to].shown;
     resample_first_steps(past, low + 1, high);
-    past->step = shown;
-    past_aim(past, shown, false);
+    past->step = past->branch[to].shown;
+    past_aim(past, past->step, false);
     return &past->branch[high].edit;
 }
 
@@ -948,8 +942,8 @@ void past_create(bool keeps, bool goes_on, Past *past)
     *past = (Past){.now = -1,
                    .keeps = keeps,
                    .goes_on = goes_on,
-                   .same = LONG_MAX,
-                   .booked = LONG_MAX,
+                   .written = -1,
+                   .booked = -1,
                    .limit = PAST_BYTES,
                    .line = -1};
 }

@@ -1,4 +1,4 @@
-/* player.c - creates the application, draws it, runs its loop, ends it. */
+/* player.c - creates a player, draws its frames, runs its loop, ends it. */
 #include "play/player.h"
 
 #include <math.h>
@@ -32,9 +32,9 @@ Status player_draw(Player *player)
     Paper *paper = player_paper(player);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
-    bool fresh = player->screen.sampled != player->past.step;
+    bool fresh = player->screen.drawn != player->past.step;
     bool filmed = film_runs(&player->recording.film);
-    player->screen.sampled = player->past.step;
+    player->screen.drawn = player->past.step;
     player_paint(player, paper);
     Status status =
         player->screen.size[0] ? STATUS_OK : window_show(&paper->canvas);
@@ -128,10 +128,10 @@ Status player_frame(Player *player)
     if (!status && !past_works(&player->past))
         status = obey_script(player);
     double now = player->screen.window ? clock_now() : 0;
-    if (player->screen.sampled < 0) /* a new run: step 0 is a frame too */
+    if (player->screen.drawn < 0) /* a new run: step 0 is a frame too */
         player->time.due = now + period;
     bool due = !player->screen.window || now >= player->time.due - EARLY;
-    bool first = player->screen.sampled < 0 && player->screen.draws;
+    bool first = player->screen.drawn < 0 && player->screen.draws;
     bool works = past_works(&player->past);
     bool begins = works && player->time.began > start; /* draws it at once */
     bool lives = player->screen.sheet && player->screen.window;
@@ -211,9 +211,7 @@ Status player_create(const Options *options, int count, char *const *words,
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
     *player = (Player){.given = {.words = words, .stop = stop},
-                       .tour.left = options->page,
-                       .written = -1,
-                       .booked = -1};
+                       .tour.left = options->page};
     memcpy(player->given.options, options, (size_t)count * sizeof *options);
     player->given.started = clock_now();
     Status status = script_read(options->script, &player->given.script,
@@ -263,9 +261,9 @@ Status player_finish(Player *player, Status status)
         Status rest = player_write_remaining(player);
         status = status ? status : rest;
     }
-    Keep keep = player->written < 0 ? KEEP_NOTHING
-                : status            ? KEEP_PART
-                                    : KEEP_WHOLE;
+    Keep keep = player->past.written < 0 ? KEEP_NOTHING
+                : status                 ? KEEP_PART
+                                         : KEEP_WHOLE;
     close_view(player);
     Status closed = recording_close(&player->recording, keep);
     return status ? status : closed;

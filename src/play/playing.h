@@ -56,9 +56,6 @@ bool player_pull_is_due(const Player *player);
  * the scene if the run is attended, else a step a frame. */
 int player_initial_speed(const Player *player, const Options *options);
 
-/* Whether the page in the window waits for a guess. */
-bool player_hides_answer(const Player *player);
-
 /* Whether a list is open whose lines have numbers. */
 bool player_has_list(const Player *player);
 
@@ -137,6 +134,9 @@ Status player_restore_pins(Player *player, const Control *before);
 
 /* Puts the opening commands of the page into the queue. */
 Status player_enqueue_page(Player *player);
+
+/* Whether the page in the window waits for a guess. */
+bool player_hides_answer(const Player *player);
 
 /* Shows the answer of the page, judges the typed guess, or NULL, and puts the
  * page's commands for that into the queue. */

@@ -95,7 +95,7 @@ Status obey_escape(Player *player, const Command *command)
         sheet_close(player);
     else if (player->screen.column == COLUMN_KEYS)
         player->screen.column = COLUMN_CARDS;
-    else if (player->hands.lit)
+    else if (player->hands.selected)
         player_deselect(player);
     else if (player->screen.column)
         player->screen.column = COLUMN_CARDS;

@@ -1,5 +1,5 @@
-/* session.c - what all other files ask of a player and tell it: the active
- * pane, its numbers, messages, the queue.
+/* session.c - queries of a player that other files share, messages, and the
+ * queue of commands.
  */
 #include <math.h>
 #include <stdarg.h>
@@ -12,8 +12,8 @@
 #include "scenes/scenes.h"
 
 enum {
-    SLOW_NODES = 50000, /* a factor of so many takes longer than a SLICE */
-    WATCHED_SPEED = -5  /* scenes without time, whose steps are updates */
+    SLOW_NODES = 50000, /* above it a factorisation takes longer than a SLICE */
+    UPDATE_SPEED = -5 /* speed of scenes without time: each step is an update */
 };
 
 /* ---- the runs ------------------------------------------------------------ */
@@ -131,17 +131,10 @@ int player_initial_speed(const Player *player, const Options *options)
         speed = options->scene->speed;
     if (speed > 0)
         return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));
-    return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
+    return options->scene->needs & NEEDS_TIME ? 0 : UPDATE_SPEED;
 }
 
 /* ---- the window ---------------------------------------------------------- */
-
-bool player_hides_answer(const Player *player)
-{
-    const LecturePage *page = player_settings(player)->page;
-    return page && page->ask && player->tour.revealed != page &&
-           player->given.asks && !player->tour.opens;
-}
 
 bool player_has_list(const Player *player)
 {
@@ -151,7 +144,7 @@ bool player_has_list(const Player *player)
 
 void player_deselect(Player *player)
 {
-    player->hands.lit = NULL;
+    player->hands.selected = NULL;
     player->hands.typing = false;
     player->hands.typed[0] = '\0';
 }
@@ -224,10 +217,7 @@ void player_enqueue(Player *player, const Command *command)
 {
     Queue *queue = &player->orders.queue;
     Command *last = queue->command + (queue->count > 0 ? queue->count - 1 : 0);
-    bool covers = queue->count > 0 && last->kind == command->kind &&
-                  last->number == command->number &&
-                  command_rows[command->kind].flags & LATEST;
-    if (covers)
+    if (queue->count > 0 && command_replaces(command, last))
         *last = *command;
     else if (queue->count < QUEUE_MOST)
         queue->command[queue->count++] = *command;

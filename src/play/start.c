@@ -1,5 +1,5 @@
-/* start.c - begins new runs at step 0: the same run again, another start,
- * scene, page of the lecture or cell of the map; answers of pages.
+/* start.c - begins new runs at step 0: the same run again, another start point,
+ * scene or page of the lecture; answers of pages; cells of the envelope.
  */
 #include <math.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 #include "run/scene.h"
 #include "scenes/small_scenes.h"
 
-/* Begins another scene, paused if the last one was or if the scene explains
- * something. */
+/* Begins another scene; in a pause if the last one was paused or if the new one
+ * explains something. */
 Status obey_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -37,7 +37,7 @@ Status obey_scene(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Whether a page has opening commands, and the mesh still has their nodes. */
+/* Whether the page has opening commands, and the mesh still has their nodes. */
 static bool opens_again(Player *player, const Options *now)
 {
     Options own;
@@ -47,7 +47,7 @@ static bool opens_again(Player *player, const Options *now)
            own.segments == now->segments;
 }
 
-/* Whether the page plays, now that its answer is shown. */
+/* Whether the answer of the page is shown, and its commands play the run. */
 static bool plays_again(const Player *player, const LecturePage *page)
 {
     return page && page == player->tour.revealed && page->tell &&
@@ -55,8 +55,8 @@ static bool plays_again(const Player *player, const LecturePage *page)
 }
 
 /* Makes room for the body at its start: obstacles that overlap it go back to
- * where they were when the run began.
- * Returns INVALID_INPUT if the run began with another number of obstacles. */
+ * where they were when the run began.  Returns OK, or INVALID_INPUT if the run
+ * began with another number of obstacles. */
 static Status clear_start(Player *player, int pane, Options *options)
 {
     Options began = past_start(&player->past, pane)->options;
@@ -118,9 +118,9 @@ Status player_begin_again(Player *player, const Options *options, int panes,
     return status;
 }
 
-/* Begins the run again with the present numbers, pins, balls and grounds;
- * COMMAND_START begins it, in a pause, from the point of the command.  A run
- * that was at its end or at rest plays again, and so does a page. */
+/* Begins the run again with the present numbers, pins and obstacles.
+ * COMMAND_START begins it at another point, in a pause.  A run that had ended
+ * plays again, and so does a page that plays with its answer. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -157,7 +157,14 @@ Status player_enqueue_page(Player *player)
     return player_enqueue_lines(player, page ? page->open : NULL);
 }
 
-/* Keeps the verdict on a guess for the page's card, and counts it. */
+bool player_hides_answer(const Player *player)
+{
+    const LecturePage *page = player_settings(player)->page;
+    return page && page->ask && player->tour.revealed != page &&
+           player->given.asks && !player->tour.opens;
+}
+
+/* Writes the verdict on a guess for the page's card, and counts the guess. */
 static void judge_guess(Player *player, bool right, const char *format, ...)
 {
     va_list arguments;
@@ -169,7 +176,7 @@ static void judge_guess(Player *player, bool right, const char *format, ...)
     player->tour.right += right;
 }
 
-/* A guess may be off by two percent, since it is calculated on paper. */
+/* A guess may be wrong by two percent, since it is calculated on paper. */
 Status player_reveal(Player *player, const char *typed)
 {
     const LecturePage *page = player_settings(player)->page;
@@ -202,8 +209,8 @@ Status player_reveal(Player *player, const char *typed)
     return player_enqueue_lines(player, page->tell);
 }
 
-/* Opens a page with its settings: the one with this name; the next or the
- * previous one; outside of the lecture the one that was left, or the first. */
+/* Opens a page: by its name; the next or previous one; outside of the lecture
+ * the page that was open last, the one after it, or the first. */
 Status obey_page(Player *player, const Command *command)
 {
     Options options;
@@ -243,8 +250,8 @@ Status obey_page(Player *player, const Command *command)
     return player_enqueue_page(player);
 }
 
-/* Keeps a guess of where the next step leads; on a page that asks for a click,
- * judges it: it may be off by a tenth of the way. */
+/* Stores a guess of the point to which the next step leads.  On a page that
+ * asks for it, judges the guess, which may be wrong by a tenth of the way. */
 Status obey_predict(Player *player, const Command *command)
 {
     double at[2];
@@ -265,9 +272,8 @@ Status obey_predict(Player *player, const Command *command)
     return status;
 }
 
-/* ---- the map ------------------------------------------------------------- */
+/* ---- the envelope -------------------------------------------------------- */
 
-/* Shows a cell of the envelope. */
 Status obey_cell(Player *player, const Command *command)
 {
     int cell = (int)command->number;

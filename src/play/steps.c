@@ -1,6 +1,6 @@
-/* steps.c - time: works until a step is shown and records it; stops runs; goes
- * on and back by steps, by updates of Newton's method, or by lines of Algorithm
- * 3; makes the present step once more; undoes.
+/* steps.c - goes through time: works until a step is shown, and records it;
+ * stops runs that have ended; goes on and back by steps, Newton's updates or
+ * lines of Algorithm 3; makes the shown step once more; undoes edits.
  */
 #include <limits.h>
 #include <math.h>
@@ -15,9 +15,9 @@
 
 /* ---- tables -------------------------------------------------------------- */
 
-/* Writes the log of the step that the machines have just made, or failed to
- * make. */
-static Status record_updates(Player *player, long step)
+/* Writes Newton's iterations of a step, which the machines have just made or
+ * failed to make, to the log. */
+static Status record_iterations(Player *player, long step)
 {
     Recording *recording = &player->recording;
     Status status = STATUS_OK;
@@ -36,16 +36,16 @@ static Status record_updates(Player *player, long step)
     return status;
 }
 
-/* Writes the shown step to the tables if it is the next one and all panes have
- * made it, so that they have its records.  Writes its energies alone, if only
- * these are out of date. */
+/* Writes the shown step to the tables if it is the first one that they miss,
+ * and all panes have its records; only its energies if the rest is up to date.
+ */
 static Status record_step(Player *player)
 {
-    const Past *past = &player->past;
+    Past *past = &player->past;
     const Simulation *simulation[OPTIONS_MAX_PANES];
     int panes = past_panes(past);
     long step = past->step;
-    bool due = step == player->booked + 1, again = step <= player->written;
+    bool due = step == past->booked + 1, again = step <= past->written;
     for (int p = 0; p < panes; p++) {
         const Machine *machine = &past->machine[p];
         simulation[p] = &machine->simulation;
@@ -56,10 +56,10 @@ static Status record_step(Player *player)
         return STATUS_OK;
     Status status = STATUS_OK;
     if (step > 0 && !again)
-        status = record_updates(player, step);
-    player->booked = step;
+        status = record_iterations(player, step);
+    past->booked = step;
     if (!again)
-        player->written = step;
+        past->written = step;
     return status ? status
                   : recording_states(&player->recording, again, simulation,
                                      panes, step);
@@ -73,18 +73,18 @@ Status player_write_remaining(Player *player)
     bool failed = false, again = true;
     for (int p = 0; p < past_panes(past); p++)
         failed = failed || past->machine[p].failed;
-    if (failed && shown == player->written) /* iterations of the failure */
-        status = record_updates(player, shown + 1);
+    if (failed && shown == past->written)
+        status = record_iterations(player, shown + 1);
     if (!past->keeps || !player->recording.tables)
         return status;
-    while (player->booked < past_newest(past) && !status &&
+    while (past->booked < past_newest(past) && !status &&
            !*player->given.stop) {
-        long next = player->booked + 1;
+        long next = past->booked + 1;
         past_aim(past, next, again);
         status = past_finish(past);
         if (!status || status_is_unconverged(status))
             status = record_step(player);
-        again = player->booked < next;
+        again = past->booked < next;
     }
     past_aim(past, shown, false);
     past_finish(past);
@@ -93,7 +93,7 @@ Status player_write_remaining(Player *player)
 
 /* ---- beginning ----------------------------------------------------------- */
 
-/* Shows the whole step in all panes, not one line of Algorithm 3. */
+/* Shows the end of the step in all panes, no line of Algorithm 3. */
 static void end_line_walk(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
@@ -112,7 +112,7 @@ void player_forget_step(Player *player)
     }
 }
 
-/* Empties the hand, and the queue of its commands. */
+/* Forgets what the hand holds, and its commands in the queue. */
 static void forget_hand(Player *player)
 {
     player->hands.holds = false;
@@ -139,25 +139,18 @@ static void enter_scene(Player *player)
         window_set_title(title);
 }
 
-/* Follows an edit that replaced the steps after `past->same`; a paused window
- * is redrawn. */
+/* Adapts the player to a past that was edited: frame, active pane, scene. */
 static void follow_past(Player *player)
 {
-    Past *past = &player->past;
-    long same = past->same, booked = past->booked;
-    past->same = past->booked = LONG_MAX;
+    const Past *past = &player->past;
     player->screen.changed = true;
     if (player_is_stopped(player))
-        player->screen.sampled = -1;
+        player->screen.drawn = -1;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
     const Options *now = player_settings(player);
     if (now->scene != player->screen.scene || now->page != player->screen.page)
         enter_scene(player);
-    if (player->written > same)
-        player->written = same;
-    if (player->booked > booked)
-        player->booked = booked;
 }
 
 Status player_begin_runs(Player *player, const Options *options, int count,
@@ -172,7 +165,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
                      : status;
     player_forget_step(player);
     player->time.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
-    player->screen.sampled = -1;
+    player->screen.drawn = -1;
     player->time.warned = player->time.gained = false;
     forget_hand(player);
     follow_past(player);
@@ -194,7 +187,7 @@ Status player_edit(Player *player, const Command *change, int from, int to,
 
 /* ---- where a run stops by itself ----------------------------------------- */
 
-/* Reports rest, and why cells may stay folded. */
+/* Reports that the run is at rest, and why cells may stay folded. */
 static void report_rest(Player *player)
 {
     const Past *past = &player->past;
@@ -235,8 +228,8 @@ static void report_gain(Player *player)
     }
 }
 
-/* A run stops by itself where all panes have ended, a step did not converge, or
- * all bodies are at rest. */
+/* Stops the run if all panes have ended, a step did not converge for the first
+ * time, all bodies are at rest, or the page pauses at this step. */
 static void detect_rest(Player *player)
 {
     const Past *past = &player->past;
@@ -244,7 +237,7 @@ static void detect_rest(Player *player)
     int going = 0;
     const Options *options = player_settings(player);
     if (player->given.options[0].steps >= 0 || !player->given.attended ||
-        (options->next == NEXT_SPRING && /* springs write the Hessian */
+        (options->next == NEXT_SPRING && /* springs still fill the Hessian */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
@@ -264,27 +257,27 @@ static void detect_rest(Player *player)
         player->time.mode = MODE_REST;
     else if (ended || (bad && !player->time.warned))
         player->time.mode = MODE_END;
-    if (ended) /* the sentence says how */
+    if (ended) /* the sentence above the picture says how */
         player->note[0] = '\0';
     player->time.warned = player->time.warned || bad;
     if (player->time.mode == MODE_REST)
         report_rest(player);
     if (past->step == options->pause && options->pause > 0 &&
-        options->page == player->tour.revealed) /* the subject of the page */
+        options->page == player->tour.revealed)
         player->time.mode = MODE_PAUSE;
 }
 
 /* ---- inside a step ------------------------------------------------------- */
 
-/* Shows a line of the present step in each pane that has lines: the first one,
- * the last one, or the peak of an explosion. */
+/* Shows a line of Algorithm 3 in each pane whose step has some: the first line,
+ * the last one, or the update at which E was highest in an explosion. */
 static void enter_lines(Player *player, AfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         const StepTrace *kept = &player->past.machine[p].trace;
         Trace trace;
         double far = 0;
-        int place = kept->places <= 2      ? -1 /* the start and the end */
+        int place = kept->places <= 2      ? -1 /* only start and end */
                     : after == AFTER_ENTER ? 0
                     : after == AFTER_LEAVE ? kept->places - 1
                                            : step_trace_peak(kept);
@@ -303,8 +296,8 @@ static void enter_lines(Player *player, AfterWork after)
     }
 }
 
-/* Goes one line or update on (1) or back (-1) in all panes.  Returns false if
- * each was at its end. */
+/* Goes one line or update on (1) or back (-1) in all panes.  Returns whether
+ * any pane had one. */
 static bool walk_lines(Player *player, int way)
 {
     bool moved = false;
@@ -320,16 +313,15 @@ static bool walk_lines(Player *player, int way)
     return moved;
 }
 
-/* ---- the step once more, with an edit -------------------------------------
- */
+/* ---- the step once more, with an edit ------------------------------------ */
 
-/* Writes "projection none: E(x) rises by 206 J s² in 12 updates". */
+/* Describes the step under a setting: "projection none: E(x) rises by 206 J s²
+ * in 12 updates". */
 static void describe_outcome(const Player *player, const OptionRow *row,
                              char *text, size_t size)
 {
     const Outcome *outcome = &player_machine(player)->outcome;
-    bool curve =
-        player->screen.scene->picture == PICTURE_CURVE; /* f, of a number */
+    bool curve = player->screen.scene->picture == PICTURE_CURVE;
     char value[VALUE_SIZE], change[64] = "stays";
     player_format_value(row, player_settings(player), player_simulation(player),
                         value, sizeof value);
@@ -346,12 +338,13 @@ static void describe_outcome(const Player *player, const OptionRow *row,
         append(text, size, ", %s", status_text(outcome->status));
 }
 
-/* Reports the outcomes of the step before and after the edit. */
+/* Reports the outcome of the step before and after the edit, and returns to the
+ * line of Algorithm 3 that was shown. */
 static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
     const StepTrace *kept = &player_machine(player)->trace;
-    const TracePlace *at = &player->time.retaken;
+    const TracePlace *at = &player->time.place;
     char has[256];
     if (at->round >= 0 && kept->places > 2) {
         player->time.mode = MODE_PAUSE;
@@ -375,9 +368,9 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     bool failed = machine->failed;
     long step = past->step + failed;
-    player->time.retaken = (TracePlace){.round = -1};
+    player->time.place = (TracePlace){.round = -1};
     if (side->place >= 0 && player->time.fine > 0)
-        player->time.retaken = machine->trace.place[side->place];
+        player->time.place = machine->trace.place[side->place];
     player_forget_step(player);
     describe_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
@@ -387,16 +380,17 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     Status status = player_edit(player, change, from, to, !failed);
     if (status)
         return status;
-    player->screen.sampled = -1;
-    past_aim(past, step, player->time.retaken.round >= 0);
+    player->screen.drawn = -1;
+    past_aim(past, step, player->time.place.round >= 0);
     player->time.after = AFTER_COMPARE;
     return STATUS_OK;
 }
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* Records the step that the work has led to, and does what was to follow.
- *   made  the step is a new one */
+/* Records the step that the work has led to, and then acts by time.after.
+ *   before  in, step that was shown before
+ *   made    in, whether the step is a new one */
 static Status finish_work(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
@@ -405,10 +399,10 @@ static Status finish_work(Player *player, Status status, long before, bool made)
     bool failed = status && !status_is_unconverged(status);
     player->time.after = AFTER_NOTHING;
     player->screen.changed = true;
-    if (failed && past->step == before) { /* the sentence says why */
+    if (failed && past->step == before) {
         long seen = past_last_seen(past, 0, before);
         bool lost = runs && status == STATUS_NOT_FINITE;
-        player->screen.sampled = -1;
+        player->screen.drawn = -1;
         status = player_tolerate_failure(player, status);
         if (status || !lost || seen == before)
             return status;
@@ -459,7 +453,8 @@ Status player_work(Player *player)
     return STATUS_OK;
 }
 
-/* Releases what was held at this old step, as a gesture of its own. */
+/* Releases, as a gesture of its own, what the control of an old step still
+ * holds although the user's hand is empty. */
 static Status release_old_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
@@ -509,7 +504,7 @@ Status obey_next(Player *player, const Command *command)
     if (after == AFTER_ENTER && walk_lines(player, 1))
         return STATUS_OK;
     if (after == AFTER_PEAK && player->side[player->active].place >= 0) {
-        end_line_walk(player); /* from an explosion's height to its end */
+        end_line_walk(player); /* from the peak of E to the end */
         return STATUS_OK;
     }
     return player_seek(player, player->past.step + 1, after);
@@ -525,7 +520,8 @@ static bool has_updates(const Player *player)
     return any;
 }
 
-/* Goes back; from the first line of a step to the end of the step before. */
+/* Goes back by a step, an update or a line; from the first line of a step to
+ * the end of the step before. */
 Status obey_back(Player *player, const Command *command)
 {
     long step = player->past.step;
@@ -560,7 +556,6 @@ Status obey_finer(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Shows step 0, the newest step, or the step with this number. */
 Status obey_goto(Player *player, const Command *command)
 {
     long step = command->kind == COMMAND_HOME ? 0 : past_newest(&player->past);
@@ -570,18 +565,18 @@ Status obey_goto(Player *player, const Command *command)
     return player_seek(player, step, AFTER_NOTHING);
 }
 
-/* Writes what an edit has done to the scene: "ball moved", "stretch 1.2". */
+/* Describes what an edit has done to the scene: "ball moved", "stretch 1.2". */
 static void describe_edit(const Player *player, const Command *edit, char *line,
                           size_t size)
 {
-    const Options *options = player_settings(player);
+    Options edited = *player_settings(player);
     const OptionRow *row = &option_rows[edit->number];
-    bool ground = edit->number < options->grounds;
+    bool ground = edit->number < edited.grounds;
     char value[COMMAND_TEXT_SIZE];
     switch (edit->kind) {
     case COMMAND_SET:
-        snprintf(line, size, "%g", edit->x);
-        option_write(row, strtod(line, NULL), value, sizeof value);
+        edited.number[row->slot] = edit->x;
+        option_value(row, &edited, value, sizeof value);
         snprintf(line, size, "%s %s", row->name,
                  edit->text[0] ? edit->text : value);
         break;
@@ -606,7 +601,7 @@ static void describe_edit(const Player *player, const Command *edit, char *line,
     }
 }
 
-/* Undoes the last gesture or does it again, and reports it. */
+/* Undoes the last gesture or redoes it, and reports it. */
 Status obey_undo(Player *player, const Command *command)
 {
     Past *past = &player->past;

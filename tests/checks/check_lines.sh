@@ -5,7 +5,7 @@
 work_apart
 
 # ---- what is refused ---------------------------------------------------------
-# k.csv has a link; d is a folder; jump and box are scripts: nothing else is there,
+# k.csv has a link; d is a folder; jump is a script: nothing else is there,
 # and nothing is made or changed.  Code, words of the one line on standard error,
 # arguments.
 refusals() {
@@ -13,7 +13,6 @@ refusals() {
     ln -s k.csv link
     mkdir d
     echo '0 jump' >jump
-    echo '0 box 0,0,1,1' >box
     ls -A >../before.$$
     while IFS='|' read -r expected words arguments; do
         # shellcheck disable=SC2086
@@ -32,7 +31,6 @@ cd refused || exit 1
 verdict refused_lines_change_no_file "$(refusals <<END
 1|too large.*fewer --segments|--segments 3000 --body 0,0 --body 2,0
 2|line 1.*'jump'.*--help commands$|--headless --script jump
-2|line 1.*'box' is gone: place|--headless --script box
 2|nowhere: No such file|--headless --script nowhere
 2|--states and --log are one file, 'k.csv'|--states k.csv --log k.csv
 2|--states and --log are one file|--states link --log k.csv

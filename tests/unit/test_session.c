@@ -752,10 +752,10 @@ static void random_keys_stay_in_their_field(void **unused)
         bool enter = !mesh && random_below(&random, 2) == 0;
         if (enter)
             press_key("Return");
-        set = enter && !player.hands.lit;
+        set = enter && !player.hands.selected;
         refused += enter && !set;
         press_key("Escape");
-        CHECK(!player.hands.lit && past_panes(&player.past) == 1 &&
+        CHECK(!player.hands.selected && past_panes(&player.past) == 1 &&
               player_is_stopped(&player));
         if (set && player.past.step == 2) /* a mesh size begins a new run */
             CHECK(all_but(place) == rest);
