@@ -2,7 +2,7 @@
  *
  * The origin is the upper left corner, y points down, and pixel (i, j) covers
  * [i, i+1) x [j, j+1).  A shape adds its colour in proportion to the part of
- * the pixel that it covers.  All shapes are clipped; NaN and infinite
+ * the pixel that it covers.  Shapes are clipped; NaN and infinite
  * coordinates draw nothing.
  */
 #ifndef ELASTO_CANVAS_H
@@ -26,7 +26,7 @@ typedef struct Box {
  * for an int become the nearest number that an int can hold safely. */
 int pixel_from(double place);
 
-/* The box without a margin on each side; its size is never negative. */
+/* Returns the box without a margin on each side, at least 0 pixels large. */
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);
 
@@ -34,7 +34,7 @@ bool box_contains(Box box, double x, double y);
 typedef enum Edge { EDGE_TOP, EDGE_BOTTOM, EDGE_LEFT, EDGE_RIGHT } Edge;
 Box box_cut_off(Box *rest, Edge edge, int pixels);
 
-/* The part that two boxes share.  The corner of `a` must not be negative. */
+/* Returns the part that two boxes share.  The corner of `a` must be >= 0. */
 Box box_intersection(Box a, Box b);
 
 /* Clips the line {x0, y0, x1, y1} to the box and a margin around it (Liang and
@@ -47,8 +47,7 @@ typedef struct Canvas {
     uint32_t *pixels;  /* [width height] row by row, no gaps */
 } Canvas;
 
-/* Interpolates between two colours; part = 0 gives the first one, 1 the second
- * one.  The result is opaque. */
+/* Interpolates between two colours, part = 0 ... 1.  The result is opaque. */
 Colour colour_mix(Colour one, Colour other, double part);
 
 /* Creates a white canvas.  width, height 1 ... CANVAS_MAX_SIZE; canvas out.
@@ -56,8 +55,7 @@ Colour colour_mix(Colour one, Colour other, double part);
 Status canvas_create(int width, int height, Canvas *canvas);
 void canvas_free(Canvas *canvas);
 
-/* Limits drawing to this box.  Returns the previous clip, which the caller
- * restores at the end. */
+/* Limits drawing to this box.  Returns the previous clip, to be restored. */
 Box canvas_set_clip(Canvas *canvas, Box box);
 
 /* Sets every pixel, also outside of the clip. */
@@ -68,25 +66,27 @@ void canvas_fill(Canvas *canvas, Box box, Colour colour);
 /* A filled box with a border one pixel wide. */
 void canvas_framed_box(Canvas *canvas, Box box, Colour fill, Colour border);
 
-/* A line of this width in pixels; its ends are cut off straight. */
+/* A line of this width in pixels, with straight ends. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour);
 
 /* A line of dashes of 5 units with gaps of 4 units.
  *   unit   pixels
- *   phase  pixels of the dash pattern before the line, in/out: passed from
- *          segment to segment it keeps the dashes of a polyline even; NULL: the
- *          line begins with a dash */
+ *   phase  in/out, pixels of the dash pattern before the line, for the segments
+ *          of a polyline; NULL: the line begins with a dash */
 void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
                    double width, double unit, double *phase, Colour colour);
 
-/* A line with a filled head of this length at (x1, y1).  The head shrinks on a
- * line that is shorter than the head. */
+/* A line with a filled head of this length at (x1, y1), shorter on a short
+ * line.
+ */
 void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
                   double width, double head, Colour colour);
 
-/* A filled triangle; corners [6]: x, y, x, y, x, y.  If `smooth` is false, two
- * triangles with a common edge have no seam between them. */
+/* A filled triangle.
+ *   corners  x, y, x, y, x, y
+ *   smooth   anti-aliases the edges; else triangles with a common edge have no
+ *            seam between them */
 void canvas_triangle(Canvas *canvas, const double corners[6], bool smooth,
                      Colour colour);
 
@@ -96,8 +96,8 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
 void canvas_disc(Canvas *canvas, double x, double y, double radius,
                  Colour colour);
 
-/* Colours the pixels of a mask: mask [width height] holds coverages 0 ... 255.
- */
+/* Colours the pixels of a mask.
+ *   mask  [height width] in, coverages 0 ... 255 */
 void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
                     const uint8_t *mask, Colour colour);
 

@@ -18,8 +18,8 @@ enum {
     VALUE_SIZE = 32      /* bytes of a setting's value */
 };
 
-/* Where in Algorithm 3 the run stands.  Everything up to this line is done:
- * LINE_SOLVE: p is known and drawn; LINE_SEARCH: alpha is. */
+/* Line of Algorithm 3 that the run is at.  The work of this line and of all
+ * lines before it is done: at LINE_SOLVE p is known, at LINE_SEARCH alpha. */
 typedef enum Line {
     LINE_NONE,    /* between two steps; no line is lit */
     LINE_START,   /* 1  x^i <- x^n */
@@ -33,44 +33,44 @@ typedef enum Line {
     LINE_COUNT
 } Line;
 
-/* A minimisation as far as it has come: that of the step being made, or of the
- * last one. */
+/* A minimisation up to the line that the run is at: that of the present step or
+ * of a descent.  The present update is known from line 3 on. */
 typedef struct Trace {
     Line line;
-    double h, tolerance;        /* s, m/s, that the step was made with */
-    int updates;                /* records of this step; more than fit in */
-    const NewtonRecord *record; /* memory: the last of them */
-    /* The present update, from line 3 on. */
-    int iteration;         /* 0, 1, ... */
-    const double *x;       /* [2n] m, x^i, where p was made */
-    const double *p;       /* [2n] m, from line 4 on; NULL before */
-    double residual;       /* of p, m/s */
-    bool given_up;         /* no alpha was found, or no time was left */
-    double slope;          /* grad E . p, J s^2 */
-    int projected;         /* springs; < 0: not known */
-    const double *x_tilde; /* [2n] m, drawn as a ghost; or NULL */
-    /* E(x + alpha p) - E(x), J s^2, NaN or infinite where E is; or NULL. */
-    EnergyDifference difference;
-    const void *function; /* its first argument */
-    double first;         /* alpha that the search begins with; 0 means 1 */
-    int trials;    /* shown so far: first, first/2, ...; the last one is */
-    bool accepted; /* taken, else it was refused like those before */
+    double h, tolerance;         /* s, m/s, settings of the step */
+    int updates;                 /* number of records */
+    const NewtonRecord *record;  /* [updates] */
+    int iteration;               /* number of the present update, from 0 */
+    const double *x;             /* [2n] m, present iterate x^i */
+    const double *p;             /* [2n] m, NULL before line 4 */
+    double residual;             /* |p|/h, m/s */
+    bool given_up;               /* has ended without convergence */
+    double slope;                /* grad E . p, J s^2 */
+    int projected;               /* number of projected blocks; < 0: unknown */
+    const double *x_tilde;       /* [2n] m, drawn as a ghost; or NULL */
+    EnergyDifference difference; /* change of E along p, J s^2, or NULL */
+    const void *difference_data; /* first argument of `difference` */
+    double first_alpha;          /* first trial of the line search; 0: 1 */
+    int trials;                  /* number of trials alpha so far */
+    bool accepted;               /* the last trial was accepted */
 } Trace;
 
-/* What is known of a pane, by name: see live_values.h. */
 enum { VALUES_MOST = 160, VALUES_RUNS = 3 };
 
+/* A value that texts use by its name (live_values.h). */
 typedef struct LiveValue {
     const char *name;
-    int run;           /* 1, 2, 3: it is known of this one alone; 0: of all */
-    const char *words; /* NULL: numbers */
+    int run;           /* value of run 1, 2 or 3 alone; 0: of all runs */
+    const char *words; /* NULL: a number or a point */
     double value[2];
-    bool point; /* both: "(1, 0.5)" */
+    bool point; /* is a point, written as "(1, 0.5)" */
 } LiveValue;
 
+/* All values of a pane. */
 typedef struct LiveValues {
-    int count, run; /* those that are added now are of this one */
-    Colour colour[VALUES_RUNS + 1]; /* of a run; [0] of what is of all */
+    int count;
+    int run; /* run whose values are being added; 0: values of all runs */
+    Colour colour[VALUES_RUNS + 1]; /* colour of a run; [0]: of other lines */
     LiveValue entry[VALUES_MOST];
 } LiveValues;
 
@@ -78,81 +78,83 @@ typedef struct LiveValues {
 
 enum { HISTORY_SERIES = 16, HISTORY_POINTS = 1024 };
 
-/* A few quantities over time, for plots. */
+/* Quantities over time, for plots. */
 typedef struct History {
-    int series;                       /* rows in use, at most HISTORY_SERIES */
-    const char *name[HISTORY_SERIES]; /* of each, not owned; the first is the
-                                         total where there is one */
-    int count;                        /* points */
-    double time[HISTORY_POINTS];      /* s, ascending */
-    double value[HISTORY_SERIES][HISTORY_POINTS]; /* one row a quantity */
+    int series; /* number of quantities */
+    const char
+        *name[HISTORY_SERIES];   /* not owned; an energy's total is first */
+    int count;                   /* points in time */
+    double time[HISTORY_POINTS]; /* s, ascending */
+    double value[HISTORY_SERIES][HISTORY_POINTS];
 } History;
 
-/* Appends a point, unless a number is not finite or it is full.  A quantity
- * that is new was 0 before; the last ones are left out where there are too
- * many.
- *   time  s, in: above the one before
- *   row   [rows] in, by their names */
+/* Appends a point in time, unless the history is full or a number is not
+ * finite.  The values of a new quantity before this time are 0.  Quantities
+ * beyond HISTORY_SERIES are left out.
+ *   time  s, in: later than the last point
+ *   row   [rows] in, value of each quantity */
 void history_add(History *history, double time, int rows, const Energy *row);
 
-/* A descent's last update as a trace. */
+/* Trace of a descent's last update. */
 typedef struct DescentTrace {
     Trace trace;
     const Simulation *simulation;
-    double from[2], p[2], value;
+    double from[2], p[2]; /* m, start and direction of the update */
+    double value;         /* E at the start, J s^2 */
 } DescentTrace;
 
-/* One picture on the stage. */
+/* A simulation on the stage. */
 typedef struct Pane {
     const Simulation *simulation;
-    const double *x;         /* [2n] m, to be drawn; NULL: those of run 0 */
-    const double *ghost;     /* [2n] m, the outcome with other settings */
+    const double *x;         /* [2n] m, drawn positions; NULL: those of run 0 */
+    const double *ghost;     /* [2n] m, outcome with other settings, or NULL */
     const char *ghost_label; /* "projection none: ..." */
-    const History *history;  /* energies (or radii) over time */
-    const Trace *trace;
-    const char *label; /* over the pane where there are several */
-    Status trouble;    /* how the shown step ended */
-    /* What show_fill_values fills. */
+    const History *history;  /* energies or radii over time */
+    const Trace *trace;      /* trace of the step, or NULL */
+    const char *label;       /* written over the pane if there are several */
+    Status trouble;          /* failure of the shown step, or STATUS_OK */
+    /* The last three are filled by frame_fill_values. */
     LiveValues values;
     DescentTrace descent;
-    const Trace *update; /* the trace, or that of a descent; or NULL */
+    const Trace *update; /* trace of the step or of the descent, or NULL */
 } Pane;
 
-/* What the mouse is over, or holds. */
+/* Part of a picture that the mouse can find. */
 typedef enum PickKind {
     PICK_NONE,
-    PICK_NODE,     /* a node; Pick.index: its number */
-    PICK_SPRING,   /* a spring; Pick.index: its number */
-    PICK_OBSTACLE, /* index: a ground of the options or, behind those, a ball */
-    PICK_EDGE,     /* index: 0 left, 1 right edge: sets the stretch */
-    PICK_PLACE,    /* any other point of a map or curve: a click starts there */
-    PICK_HANDLE,   /* index: one of the scene's handles, which can be dragged */
-    PICK_SWITCH,   /* index: one of its switches */
-    PICK_CELL      /* index: row ENVELOPE_COLUMNS + column of the envelope */
+    PICK_NODE,     /* Pick.index: number of the node */
+    PICK_SPRING,   /* Pick.index: number of the spring */
+    PICK_OBSTACLE, /* Pick.index: number of a ground or, after those, a ball */
+    PICK_EDGE,     /* Pick.index: 0 left, 1 right edge, which set the stretch */
+    PICK_PLACE,    /* a place on a map or curve, where a click starts */
+    PICK_HANDLE,   /* Pick.index: number of a handle, which can be dragged */
+    PICK_SWITCH,   /* Pick.index: number of a switch of the scene */
+    PICK_CELL      /* Pick.index: row * ENVELOPE_COLUMNS + column of a cell */
 } PickKind;
 
 typedef struct Pick {
     PickKind kind;
     int pane, index;
-    int near;        /* the nearest node within 3/4 of a cell; -1: none */
-    double point[2]; /* m, where the mouse is in the world */
+    int near;        /* nearest node within 3/4 of a spring; -1: none */
+    double point[2]; /* m, position of the mouse in the world */
 } Pick;
 
-/* The part of a pane's world that stays on the stage while something in it is
- * dragged, so that it stays under the mouse. */
+/* Bounds of a pane while something in it is dragged: the view stands still, so
+ * that the dragged thing stays under the mouse. */
 typedef struct Held {
-    bool on, away; /* the mouse has left the stage: the view follows again */
+    bool on;
+    bool away; /* the mouse is outside of the stage, and the view moves again */
     int pane;
-    double bounds[4];
+    double bounds[4]; /* left, bottom, right, top, m */
 } Held;
 
 /* How the user looks at a frame. */
 typedef struct View {
     Lens lens;
-    Pick hover; /* what the mouse is over on the stage */
-    Hit over;   /* part of the window that the mouse is over */
+    Pick hover; /* part of the picture under the mouse */
+    Hit over;   /* part of the window under the mouse */
     Held held;
-    int chosen; /* cell of the sheet */
+    int chosen; /* selected cell of the overview */
 } View;
 
 /* ---- around the stage --------------------------------------------------- */
@@ -209,8 +211,7 @@ typedef struct ChipRow {
     Chip item[LAYOUT_CHIPS];
 } ChipRow;
 
-/* Contents of the column: the cards, or instead of them a page's code or a
- * list. */
+/* Contents of the column: the cards, or instead a page's code or a list. */
 typedef enum Column {
     COLUMN_CARDS,
     COLUMN_CODE,
@@ -289,72 +290,74 @@ typedef struct FrameContent {
  * scene. */
 void frame_create(const Simulation *simulation, FrameContent *content);
 
-/* The pane whose numbers the cards show. */
+/* Returns the pane whose numbers the cards show. */
 static inline const Pane *active_pane(const FrameContent *content)
 {
     return &content->pane[content->active];
 }
 
-/* Positions that a pane shows, [2n] m. */
+/* Returns the positions that a pane shows, [2n] m. */
 const double *pane_x(const Pane *pane);
 
-/* Bounding box of the nodes of the first runs: left, bottom, right, top, m.
- * Nodes that are not finite are left out. */
+/* Finds the bounding box of the nodes of the first runs: left, bottom, right,
+ * top, m.  Nodes that are not finite are left out. */
 void pane_node_bounds(const Pane *pane, int runs, double bounds[4]);
 
-/* Cells of which a triangle has turned over. */
-int pane_folded(const Pane *pane);
+/* Counts the cells with a triangle that has turned over. */
+int pane_count_folded(const Pane *pane);
 
 /* ---- where things are --------------------------------------------------- */
 
-/* On a paper of this size, 1 or more; chips beyond the room are left out, but
- * not the last one, which tells of all keys. */
+/* Places all parts of the window on a paper of this size in pixels, >= 1. */
 Layout layout_create(const FrameContent *content, int width, int height);
 
+/* Returns the camera of a pane. */
 Camera camera_of_pane(const FrameContent *content, const Layout *layout,
                       int pane);
 
-/* The part of the world that a pane shows now, to be held still. */
+/* Returns the present bounds of a pane, for View.held. */
 Held frame_hold_bounds(const FrameContent *content, const Layout *layout,
                        int pane);
 
-/* What is at this pixel of the stage; PICK_NONE elsewhere. */
+/* Finds the part of a picture at this pixel; PICK_NONE outside of the stage. */
 Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
                 double y);
 
-/* The row of help or of the list of pages at this pixel; -1: none. */
+/* Finds the row of the list at this pixel; -1: none. */
 int frame_find_row(const FrameContent *content, const Layout *layout, double x,
                    double y);
 
-/* The step whose bar is under x; 0 ... bars. */
+/* Finds the step 0 ... steps whose place in the time line is at x. */
 long frame_find_step(const FrameContent *content, const Layout *layout,
                      double x);
 
-/* ---- what it knows ------------------------------------------------------ */
+/* ---- live values --------------------------------------------------------- */
 
-/* What the lecture adds, where the simulation's options name a page: topic and
- * cards that are hidden; what is in the column, there is code of pages alone;
- * the list of pages, in which the page that was left is marked where none is
- * open.  Before frame_describe. */
+/* Adds what a page of the lecture sets, if the simulation's options name one:
+ * topic and cards.  Fills the list of pages or letters if it is open.  Must
+ * come before frame_describe.
+ *   column  in, contents that the user chose; code exists only on a page
+ *   left    in, page that was last open, which the list marks; or NULL */
 void frame_add_lecture(Column column, const struct LecturePage *left,
                        FrameContent *content);
 
 /* Fills the values of all panes. */
 void frame_fill_values(FrameContent *content);
 
-/* The last thing before a frame: fills the values, and from those of the active
- * pane topic, sentence, method and state, as far as they are empty. */
+/* Fills the values, and from those of the active pane topic, sentence, method
+ * and state, unless they are set.  Must come last before drawing. */
 void frame_describe(FrameContent *content);
 
-/* The number that texts know by this name now; NaN: none. */
+/* Returns the number with this name in the active pane; NaN: unknown. */
 double frame_find_number(FrameContent *content, const char *name);
 
-/* Whether E along p is drawn in a card of this scene or its page: each card is
- * open as at the start, but for those in `toggled`, bit c for card c. */
+/* Whether an open card of the scene or page needs E along p.
+ *   toggled  bit c: card c was opened or closed by hand */
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);
 
-/* What the history of this scene's picture shows of the state now.  row out;
- * returns how many. */
+/* Samples the state for the history of the scene's picture.  Returns the number
+ * of quantities.
+ *   row  [HISTORY_SERIES] out */
 int picture_sample(const Simulation *simulation, Energy row[HISTORY_SERIES]);
 
 #endif

@@ -1,15 +1,14 @@
-/* layout.h - where everything in the window is.
+/* layout.h - places of all parts of the window.
  *
- * The layout is a function of the window's size and of what is open, never of
- * the numbers that are shown, so that the zones do not move.  layout_create
- * (frame_content.h) fills it.
+ * The layout depends on the window's size and on the open parts.  The numbers
+ * in them do not change it, so that the zones stand still.  layout_create
+ * (frame_content.h) makes it.
  *
  *     +------------------------------------------------------+
  *     | strip: topic, sentence                  method, state |
  *     +----------------------------------+-------------------+
  *     | stage: one to six panes          | column: cards, or |
- *     |                                  | one page (help,   |
- *     |                                  | code)             |
+ *     |                                  | code, or a list   |
  *     +----------------------------------+-------------------+
  *     | settings                                             |
  *     | time line                                            |
@@ -40,30 +39,30 @@ typedef struct Layout {
     double em;         /* pixels, size of the texts */
     Box strip, stage, column, settings_row, time_line, chip_row;
     int panes, cards, settings, chips;
-    bool page;              /* help or code is in the column instead of cards */
+    bool page;              /* the column has code or a list, not cards */
     Box pane[LAYOUT_PANES]; /* inside the stage */
     Box card[LAYOUT_CARDS]; /* inside the column, or on the stage */
     Box setting[LAYOUT_SETTINGS];
     Box chip[LAYOUT_CHIPS]; /* a chip that does not fit has no width */
-    int chips_left_out;     /* chips that do not fit, all before the last one */
-    Box bars;               /* the bars of the steps, inside the time line */
+    int chips_left_out;     /* number of chips that do not fit */
+    Box bars;               /* bars of the steps, inside the time line */
     int cells;
-    Box cell[LAYOUT_CELLS]; /* a square with a line below it for its name; the
-                               group's heading is above its first cell */
+    Box cell[LAYOUT_CELLS]; /* a square, and below it the line of the name; a
+                               heading is above the cell */
 } Layout;
 
 typedef enum Zone {
     ZONE_NONE,
     ZONE_STRIP,
-    ZONE_STAGE,      /* a stage; Hit.index: its pane */
-    ZONE_CARD,       /* a card; Hit.index: its number */
-    ZONE_CARD_CLOSE, /* the cross of a card; Hit.index: the card's number */
-    ZONE_PAGE,       /* help or code */
-    ZONE_PAGE_CLOSE, /* the cross of that page */
-    ZONE_SETTING,    /* index: the setting */
+    ZONE_STAGE,      /* Hit.index: number of the pane */
+    ZONE_CARD,       /* Hit.index: number of the card */
+    ZONE_CARD_CLOSE, /* the cross of a card; Hit.index: number of the card */
+    ZONE_PAGE,       /* code or a list */
+    ZONE_PAGE_CLOSE, /* the cross of the code or list */
+    ZONE_SETTING,    /* Hit.index: number of the setting */
     ZONE_TIME,
-    ZONE_CHIP, /* index: the chip */
-    ZONE_CELL  /* index: the cell of the sheet */
+    ZONE_CHIP, /* Hit.index: number of the chip */
+    ZONE_CELL  /* Hit.index: number of the cell of the overview */
 } Zone;
 
 typedef struct Hit {
@@ -75,7 +74,7 @@ typedef struct Hit {
 /* Finds the topmost part of the window at this pixel. */
 Hit layout_hit(const Layout *layout, double x, double y);
 
-/* Box of the cross that closes a card; card -1: the page in the column. */
+/* Returns the box of the cross that closes a card; -1: the code or list. */
 Box layout_close_box(const Layout *layout, int card);
 
 /* ---- stage and world ---------------------------------------------------- */
@@ -88,15 +87,15 @@ typedef struct Camera {
 
 /* Zoom and pan by the user, relative to the view that fits the scene. */
 typedef struct Lens {
-    double zoom;   /* magnification; 1 fits the scene */
-    double pan[2]; /* shift of the middle, as a part of the width and height of
-                      the view that fits */
+    double zoom;   /* magnification; 0 means 1 */
+    double pan[2]; /* shift of the middle, times the size of the fitting view */
 } Lens;
 
 extern const Lens LENS_FITS;
 
-/* Makes the camera that shows bounds [4] (left, bottom, right, top; m) in the
- * middle of the box, with the user's zoom and pan.
+/* Makes the camera that shows the bounds in the middle of the box, with the
+ * user's zoom and pan.
+ *   bounds     [4] m: left, bottom, right, top
  *   stretched  x and y have different scales, so that the bounds fill the box
  */
 Camera camera_create(Box box, const double bounds[4], bool stretched,

@@ -1,8 +1,7 @@
-/* paper.h - the surface of a frame: a canvas, and texts in a size that fits the
- * window.
+/* paper.h - a canvas, and texts on it in a size that fits the window.
  *
- * Sizes are in ems.  One em is the size of plain text; layout_create chooses
- * how many pixels it has.  Widths of lines are in units; one unit is 1/14 em.
+ * Sizes are in ems.  An em is the size of plain text; layout_create chooses its
+ * pixels.  Widths of lines are in units; a unit is 1/14 em.
  */
 #ifndef ELASTO_PAPER_H
 #define ELASTO_PAPER_H
@@ -11,7 +10,7 @@
 
 typedef struct Paper {
     Canvas canvas;
-    Text *text;        /* NULL: no font was found, and texts are not drawn */
+    Text *text;        /* NULL: no font was found; texts are left out */
     double em;         /* pixels */
     double unit;       /* pixels */
     double min_letter; /* ems; only scripts may be smaller */

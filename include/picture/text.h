@@ -20,14 +20,14 @@
 
 typedef enum Face { FACE_REGULAR, FACE_BOLD, FACE_MONO, FACE_COUNT } Face;
 
-/* The point of the line that the given x refers to. */
+/* The point of a line of text that stands at the given x. */
 typedef enum Align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } Align;
 
 typedef struct TextStyle {
     Face face;
     double size; /* pixels an em, 5 ... 400; other sizes draw nothing */
     Colour colour;
-    bool plain;      /* is without markup: braces are ordinary characters */
+    bool plain;      /* has no markup: braces are ordinary characters */
     double min_size; /* pixels; scripts and fractions are not smaller */
 } TextStyle;
 
@@ -35,17 +35,17 @@ typedef struct Text Text;
 
 /* Opens the fonts: $ELASTO_FONT (a .ttf file; empty: no font at all), then
  * DejaVu Sans from the usual folders.
- *   text  out; NULL if no font was found.  All functions accept NULL: they draw
- *         nothing and measure letters 0.6 em wide.
+ *   text  out; NULL: no font was found.  With NULL the functions below draw
+ *         nothing and take letters to be 0.6 em wide.
  * Returns OK, OUT_OF_MEMORY. */
 Status text_create(Text **text);
 void text_free(Text *text);
 
-/* Distance between two lines of words, pixels. */
+/* Returns the distance between two lines of words, pixels. */
 double text_line(double size);
 
-/* Extent of a line in pixels.  The width is a whole number; above and below are
- * measured from the baseline and are at least those of a line of words. */
+/* Extent of a line in pixels, above and below the baseline at least that of a
+ * line of words.  The width is a whole number. */
 typedef struct TextExtent {
     double width, above, below;
 } TextExtent;

@@ -8,34 +8,26 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double MAX_AXIS_RATIO =
-    1000; /* the axis covers the whole run up to this many times the part shown
-             so far */
-static const double LOG_GROWTH =
-    1e6; /* growth of the energy at which the axis becomes logarithmic */
-static const double LOG_HIGH =
-    1e9; /* upper end of a logarithmic axis, times the energy at the start */
-static const double LOG_LOW =
-    1e-12; /* lower end of a logarithmic axis, times the energy at the start */
+/* The axis covers the whole run if the whole is less than this many times the
+ * part shown so far. */
+static const double MAX_AXIS_RATIO = 1000;
+/* The axis becomes logarithmic when the energy has grown by LOG_GROWTH; then
+ * the ends of the axis are at most these times the energy at the start. */
+static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
 static const double MIN_VISIBLE =
-    2e-3; /* smaller parts of the largest energy cannot be told from 0 */
-static const double
-    LEGEND_SIZE = 0.85,
-    CROWDED_SIZE =
-        0.75; /* ems, letters of the legend, of more than four curves */
-static const double ROUNDING =
-    1e-20; /* energies below this many k side^2 are rounding */
-static const double
-    MIN_HEIGHT = 8,
-    ROW_HEIGHT =
-        2.4; /* ems, height of the card, and more for each two rows of legend */
+    2e-3;                             /* times the largest energy: seen as 0 */
+static const double ROUNDING = 1e-20; /* times k side^2: is rounding */
+static const double LEGEND_SIZE = 0.85;  /* ems, letters of the legend */
+static const double CROWDED_SIZE = 0.75; /* ems, with more than four curves */
+static const double MIN_HEIGHT = 8;      /* ems, height of the card */
+static const double ROW_HEIGHT = 2.4;    /* ems more for two rows of legend */
 
-/* A series of a history over time. */
+/* A quantity of a history over time. */
 typedef struct Curve {
     const Simulation *simulation;
     const History *history;
     int series;
-    bool total;
+    bool total; /* is a total energy */
     Colour colour;
     const char *name;
 } Curve;
@@ -43,21 +35,20 @@ typedef struct Curve {
 typedef struct Curves {
     int count;
     Curve curve[HISTORY_SERIES];
-    double now; /* s, the latest time of all panes; a pane that ended stays
-                   behind */
+    double now; /* s, latest time of all panes; some may have ended before */
 } Curves;
 
-/* Whether each series of the history is a run with a total of its own (the
- * series after them are positions), not a part of one energy. */
+/* Whether the history has the total of each run, and then positions, instead of
+ * the energies of one run. */
 static bool series_are_runs(const Simulation *simulation)
 {
     PictureKind kind = simulation->scene->picture;
     return kind == PICTURE_CIRCLE || kind == PICTURE_MASS;
 }
 
-/* Curves of the card.  With several panes: their totals.  Else the runs of the
- * active pane, or its first three energies and those that were ever visible
- * beside the largest one. */
+/* Finds the curves of the card: with several panes their totals, else the runs
+ * of the active pane, or its first three energies and those that were ever
+ * visible beside the largest one. */
 static Curves find_curves(const FrameContent *content)
 {
     Curves all = {.now = simulation_time(active_pane(content)->simulation)};
@@ -99,7 +90,8 @@ static Curves find_curves(const FrameContent *content)
     return all;
 }
 
-/* Index of the last point of the history up to this time; -1: none. */
+/* Returns the index of the last point of the history up to this time; -1: none.
+ */
 static int point_at(const History *history, double time)
 {
     int at = -1;
@@ -138,7 +130,7 @@ double energies_needs(const FrameContent *content, double wide, double em)
                                               : ROW_HEIGHT);
 }
 
-/* Energies below this are rounding, J. */
+/* Returns the energy below which all is rounding, J. */
 static double energy_rounding(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
@@ -146,14 +138,13 @@ static double energy_rounding(const Simulation *simulation)
            options->side;
 }
 
-/* An axis that does not change is easier to read, so it covers the whole run as
- * long as the part shown so far is visible on it. */
+/* An axis that stands still is easier to read. */
 Axis energies_axis(const FrameContent *content, double *last)
 {
     const Simulation *simulation = active_pane(content)->simulation;
     const Curves all = find_curves(content);
     double first = 0, least = INFINITY, low = 0, high = 0;
-    double lowest = 0, highest = 0; /* of the whole run, not only up to now */
+    double lowest = 0, highest = 0; /* like low, high, in the whole run */
     *last = 100 * simulation->options.timestep;
     for (const Curve *curve = all.curve; curve < all.curve + all.count;
          curve++) {
@@ -178,9 +169,9 @@ Axis energies_axis(const FrameContent *content, double *last)
     double rounding = energy_rounding(simulation);
     high = high > rounding ? fmin(high, 1e300) : 1;
     low = fmax(low, -1e300);
-    if (!(first > rounding)) /* at rest in a field of gravity */
+    if (!(first > rounding)) /* the body is at rest under gravity */
         first = -low;
-    bool modes = active_pane(content)->simulation->options.layers & LAYER_MODES;
+    bool modes = simulation->options.layers & LAYER_MODES;
     if (first > 0 && (modes || high > LOG_GROWTH * first))
         return (Axis){pow(10, floor(log10(fmax(least, LOG_LOW * first))) - 1),
                       pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))), true,
@@ -199,8 +190,7 @@ static void draw_curves(const Plot *plot, const Curves *all)
     }
 }
 
-/* Draws the curves with their names and values above.  Each value is that at
- * the time of its pane. */
+/* Draws the curves with their names and present values above. */
 void energies_draw(const Plot *card)
 {
     const FrameContent *content = card->content;
@@ -235,9 +225,8 @@ void energies_draw(const Plot *card)
     draw_curves(&plot, &all);
 }
 
-/* Draws where the energy is.  The first bar is the energy at the start and the
- * work done since then.  The other bars are its parts; each begins where the
- * one before ends. */
+/* Draws a bar of the energy at the start with the work since then, and bars of
+ * its parts, each of which begins at the end of the last one. */
 void budget_draw(const Plot *card)
 {
     static const double NAME = 7, VALUE = 5.2; /* ems */
@@ -276,9 +265,8 @@ void budget_draw(const Plot *card)
     }
 }
 
-/* Draws the radius of each run on a logarithmic axis, where growth by a
- * constant factor is a straight line.  A mark shows the step at which the first
- * run's radius has doubled, if h never changed. */
+/* Draws the radius of each run on a logarithmic axis, and marks the step at
+ * which the first run's radius has doubled, if h never changed. */
 void radius_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;

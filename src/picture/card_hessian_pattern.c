@@ -1,33 +1,33 @@
-/* card_hessian_pattern.c - the card with the non-zero blocks of the Hessian and
- * of its factor.
+/* card_hessian_pattern.c - the non-zero blocks of the Hessian and its factor.
  */
 #include <stdlib.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* Content of a block. */
+/* A block is zero, becomes non-zero in the factor, or is non-zero. */
 enum { NOTHING, FILL, ENTRY };
 
-/* Row of a node: its place in the elimination order, or its number. */
-static int node_place(const System *system, int node, bool natural)
+/* Returns the row of a node: its number, or its place in the elimination order.
+ */
+static int row_of_node(const System *system, int node, bool natural)
 {
     return natural ? node : system->order[node];
 }
 
-/* Computes the pattern of the factor (George and Liu 1981) of the first
- * springs: block [j n + i] is row i of column j < i.  Column j adds its pattern
- * to that of its parent, the first row below the diagonal with an entry.  In
- * natural order the pattern is that of the matrix.  Returns NULL if memory runs
- * out. */
+/* Computes the pattern of the factor (George and Liu 1981), or in natural order
+ * the pattern of the matrix, from the first springs.  Block [j n + i] is row i
+ * of column j < i.  In the factor column j adds its pattern to that of its
+ * parent, the first row below the diagonal with an entry.  Returns NULL if
+ * memory runs out. */
 static unsigned char *make_pattern(const System *system, bool natural,
                                    int springs)
 {
     size_t n = (size_t)system->nodes;
     unsigned char *block = calloc(n, n);
     for (int s = 0; block && s < springs; s++) {
-        size_t i = (size_t)node_place(system, system->e[2 * s], natural);
-        size_t j = (size_t)node_place(system, system->e[2 * s + 1], natural);
+        size_t i = (size_t)row_of_node(system, system->e[2 * s], natural);
+        size_t j = (size_t)row_of_node(system, system->e[2 * s + 1], natural);
         block[i < j ? i * n + j : j * n + i] = ENTRY;
     }
     for (size_t j = 0; block && j < n && !natural; j++) {
@@ -41,8 +41,8 @@ static unsigned char *make_pattern(const System *system, bool natural,
     return block;
 }
 
-/* Box of the block in row i, column j of n, at least `least` pixels large.
- * Large blocks have gaps between them. */
+/* Returns the box of the block in row i, column j of n, at least `least` pixels
+ * large.  Large blocks have gaps between them. */
 static Box block_box(Box square, int n, int i, int j, int least)
 {
     int side = square.width, gap = n * 5 < side;
@@ -53,9 +53,9 @@ static Box block_box(Box square, int n, int i, int j, int least)
                  high > least ? high : least};
 }
 
-/* Draws the matrix above the diagonal and the factor with its fill below.  The
- * four blocks of the spring under the mouse, or on a page of the newest spring,
- * are lit. */
+/* Draws the matrix above the diagonal and the factor with its fill below, and
+ * marks the four blocks of the spring under the mouse, or on a page of the
+ * newest spring. */
 static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 {
     Paper *paper = card->paper;
@@ -79,8 +79,8 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
     free(block);
     for (int k = 0; k < 4 && lit >= 0 && lit < system->springs; k++) {
         const int *e = system->e + 2 * lit;
-        Box box = block_box(square, n, node_place(system, e[k / 2], natural),
-                            node_place(system, e[k % 2], natural),
+        Box box = block_box(square, n, row_of_node(system, e[k / 2], natural),
+                            row_of_node(system, e[k % 2], natural),
                             paper_pixels(paper, 0.35));
         canvas_framed_box(canvas, box_inset(box, -1), COLOUR_PROJECT,
                           COLOUR_WHITE);
@@ -88,7 +88,7 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 }
 
 /* Draws two patterns side by side: rows in the order of the nodes, and in the
- * order of elimination.  On a page each step adds one spring. */
+ * order of elimination. */
 void hessian_pattern_draw(const Plot *card)
 {
     Paper *paper = card->paper;
@@ -117,6 +117,5 @@ void hessian_pattern_draw(const Plot *card)
     Plot rest = *card; /* room below, for the newest spring's block of H */
     box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
     if (rest.box.height > 7 * paper->em)
-        card_write_text(&rest, &active_pane(card->content)->values,
-                        text_newest);
+        card_write_text(&rest, &card->pane->values, text_newest);
 }

@@ -1,8 +1,8 @@
-/* card_law.c - the law of a term as a curve, with a dot at the contact,
- * triangle or spring with the largest force.
+/* card_law.c - the law of a term as a curve, with a dot at the element
+ * (contact, triangle or spring) with the largest force.
  *
- * The curve calls the term's own function for this one element while one of its
- * numbers runs along the axis.  Therefore the dot lies on the curve. */
+ * The curve evaluates the term for this element while one of the element's
+ * numbers varies along the axis.  Therefore the dot lies on the curve. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,23 +17,22 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* One element, and the numbers that its law needs. */
+/* An element, and its place on the curve of the law. */
 typedef struct LawPoint {
     EvalPoint at;
-    Element element;
-    FlowLaw spring;
-    double reach;   /* unit of the axis */
-    double d_hat;   /* m, gap at which contact forces begin */
-    double x, load; /* x: position on the axis, NaN: none; felt: measure of the
-                       load */
-    double
-        pressed; /* N, sum of the normal forces of all contacts, for friction */
+    Element element; /* contact or triangle */
+    FlowLaw spring;  /* law of a spring */
+    double reach;    /* unit of the axis */
+    double d_hat;    /* m, distance at which contact forces begin */
+    double x;        /* position on the axis; NaN: there is no element */
+    double load;     /* the element with the largest load is shown */
+    double pressed;  /* N, sum of the normal forces of the contacts so far */
 } LawPoint;
 
 typedef struct Law {
-    const char *name, *across, *upwards;
-    const TermKind *kind, *source; /* the term, and the term whose elements are
-                                      shown; NULL: springs */
+    const char *name, *across, *upwards; /* labels of the axes */
+    const TermKind *kind;                /* term of the law */
+    const TermKind *source; /* term of the elements; NULL: springs */
     double (*value)(const void *now, double x);
     double axis_low, axis_high; /* ends of the axis, in units of `reach` */
 } Law;
@@ -45,8 +44,8 @@ static double gap_value(const void *data, double d)
     return there.at.term->kind->element->value(&there.at, &there.element);
 }
 
-/* Energy per area of the triangle, scaled along its shortest direction to area
- * ratio J. */
+/* Returns the energy per area of the triangle, after it is stretched along its
+ * shortest direction to the area ratio J. */
 static double triangle_value(const void *data, double J)
 {
     LawPoint there = *(const LawPoint *)data;
@@ -74,8 +73,8 @@ static double spring_value(const void *data, double s)
     return flow_law_slope(now->spring, s - now->spring.ep);
 }
 
-/* Force over load, both relative to the spring's strength; a broken spring has
- * none. */
+/* Returns force over strain, both relative to the spring's strength; the force
+ * of a broken spring is 0. */
 static double break_value(const void *now, double part)
 {
     (void)now;
@@ -112,17 +111,16 @@ static void find_spring(LawPoint *now, int s)
         now->reach = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
 }
 
-/* Value at the dot.  A spring beyond its strength still pulls if a spring at
- * one of its nodes broke before it. */
+/* Returns the value at the dot.  A spring beyond its strength is still whole if
+ * a spring at one of its nodes broke before. */
 static double law_value_at(const Law *law, const LawPoint *now)
 {
     return law->value == break_value ? now->x : law->value(now, now->x);
 }
 
-/* Finds the law that the scene draws, and the run's point on its curve, which
- * is the one of the most loaded element.  For friction it is at the mean speed
- * of all contacts, weighted by normal force.
- * Returns NULL if the scene has no law. */
+/* Finds the law that the scene draws, and the point of the run's most loaded
+ * element on its curve; for friction the point of the mean slip speed of all
+ * contacts, weighted by normal force.  Returns NULL if the scene has no law. */
 static const Law *find_law(const Simulation *simulation, int run,
                            LawPoint *most)
 {
@@ -191,7 +189,7 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap)
     return true;
 }
 
-/* -dW/dd of a gap, N. */
+/* Returns the contact force -dW/dd, N. */
 static double gap_force(const LawPoint *now)
 {
     const Element *element = &now->element;
@@ -200,7 +198,7 @@ static double gap_force(const LawPoint *now)
     return -(g[0] * element->n[0] + g[1] * element->n[1]);
 }
 
-/* Ends of the plastic flow of a spring on the axis.  Returns false if the
+/* Finds the ends of a spring's plastic flow on the curve.  Returns false if the
  * spring has not flowed, or has flowed in both directions. */
 static bool flowed_one_way(const LawPoint *now, double from[2], double to[2])
 {
@@ -266,8 +264,8 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "rigid", slides ? way[1] : NAN);
 }
 
-/* Draws the dots of all runs, at the end of the axis if they lie beyond it.
- * With several runs, dots close together share one label. */
+/* Draws the dots of all runs, dots beyond the axis at its end.  With several
+ * runs dots close together share one label. */
 static void draw_dots(const Plot *plot, const Law *law, int runs,
                       const LawPoint *now)
 {
@@ -299,9 +297,8 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
         plot_label(plot, 1, at[0], COLOUR_P, "\u2192");
 }
 
-/* Draws the curve for the element of the first run.  Of a gap the tangent is
- * drawn, whose slope is the force; of a spring the plastic strain at which it
- * is at rest. */
+/* Draws the curve of the first run's element; for a contact the tangent, whose
+ * slope is the force; for a spring its plastic flow and plastic strain. */
 void law_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
@@ -323,14 +320,14 @@ void law_draw(const Plot *card)
         (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
     const double rest[2] = {now->spring.ep, 0};
     plot_graph(&plot, law->value, now, 2.4, COLOUR_X);
-    LawPoint other = *now; /* small dots for all springs, each on its own law */
+    LawPoint other = *now; /* a small dot for each spring, on its own law */
     for (int s = 0; s < other.at.system->springs && !law->source; s++) {
         find_spring(&other, s);
         if (other.load > -INFINITY)
             plot_disc(&plot, (double[2]){other.x, law_value_at(law, &other)}, 2,
                       COLOUR_GHOST);
     }
-    if (law->value == gap_value && !isnan(x)) /* -W' */
+    if (law->value == gap_value && !isnan(x))
         plot_line(&plot, (double[2]){low, y + (x - low) * gap_force(now)},
                   (double[2]){high, y + (x - high) * gap_force(now)}, 1.4,
                   COLOUR_FORCE);

@@ -7,35 +7,30 @@
 
 enum { LINE_POINTS = 161 };
 
-static const double AXIS_END =
-    1.42; /* end of the axis, times the first trial */
-static const double MAX_ABOVE =
-    2.2; /* range above 0, times the range below 0, at most */
-static const double MAX_UPHILL =
-    10; /* like MAX_ABOVE, but where p points uphill */
-static const double WORD_SIZE = 0.88,
-                    WORDS_HEIGHT =
-                        1.25; /* ems, letters of the words, and their rows */
-static const double WORDS_WIDTH = 28; /* ems, width of all words in one row */
+static const double AXIS_END = 1.42;   /* end of the axis, times first trial */
+static const double MAX_ABOVE = 2.2;   /* axis above 0, times that below 0 */
+static const double MAX_UPHILL = 10;   /* MAX_ABOVE if p points uphill */
+static const double WORD_SIZE = 0.88;  /* ems, letters of the words */
+static const double ROW_HEIGHT = 1.25; /* ems, height of a row of words */
+static const double WORDS_WIDTH = 28;  /* ems, width of all words in one row */
 
-/* Change of E along p, exact and as the quadratic model has it, at the same
- * values of alpha. */
+/* Change of E along p, exact and by the quadratic model, over alpha. */
 typedef struct LineCurves {
     double alpha[LINE_POINTS], exact[LINE_POINTS], model[LINE_POINTS];
-    double other[LINE_POINTS]; /* exact along the projected p; NaN: not drawn */
+    double other[LINE_POINTS]; /* exact, along the projected p, or NaN */
     double low, high;          /* ends of the axis */
 } LineCurves;
 
 static double exact_value(const Trace *trace, double alpha)
 {
-    double value = trace->difference(trace->function, alpha);
+    double value = trace->difference(trace->difference_data, alpha);
     return isfinite(value) ? value : NAN;
 }
 
 /* Fills the curves and the axis.  The model is the quadratic function with its
- * minimum at alpha = 1: since p solves H^ p = -g, p H^ p = -g p is the slope.
- * The axis reaches from the minimum of both curves to slightly above 0; trials
- * far above are only named. */
+ * minimum at alpha = 1: since H^ p = -g, its curvature p H^ p is minus the
+ * slope. The axis reaches from the minimum of the curves to slightly above 0.
+ */
 static void fill_curves(const Trace *trace, const Trace *other,
                         LineCurves *curves)
 {
@@ -86,12 +81,11 @@ static void draw_trial(const Plot *plot, double alpha, double value,
                    format_number(value).text);
 }
 
-/* The words stand above the plot in a room of fixed height, so that they cover
- * no curve.  On a page about projection, E along the projected p is drawn, too,
- * until a step is made. */
+/* Writes the words above the plot, in a room of fixed height.  A page about
+ * projection also shows E along the projected p until a step is made. */
 void line_draw(const Plot *card)
 {
-    const Pane *pane = active_pane(card->content);
+    const Pane *pane = card->pane;
     const Trace *trace = pane->update;
     LineCurves curves;
     DescentTrace other = pane->descent;
@@ -104,14 +98,14 @@ void line_draw(const Plot *card)
     if (both)
         descent_direction(card->simulation, PROJECTION_CLAMP, other.from,
                           other.p);
-    other.trace.function = &other;
+    other.trace.difference_data = &other;
     fill_curves(trace, both ? &other.trace : NULL, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, "{alpha}"};
     Axis y = {curves.low, curves.high, false, false, NULL};
     Paper *paper = card->paper;
     Plot rest = *card;
     int rows = card->box.width / paper->em < WORDS_WIDTH ? 2 : 1;
-    int high = paper_pixels(paper, rows * WORDS_HEIGHT), at[2] = {0, 0};
+    int high = paper_pixels(paper, rows * ROW_HEIGHT), at[2] = {0, 0};
     TextLine line = text_begin(&pane->values, text_trials);
     int air = paper_pixels(paper, 0.4); /* room for superscripts */
     Box words = box_cut_off(&rest.box, EDGE_TOP, high);
@@ -128,8 +122,8 @@ void line_draw(const Plot *card)
                COLOUR_PROJECT);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
     plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
-    double first = trace_step_length(trace, 1),
-           full = exact_value(trace, first);
+    double first = trace_step_length(trace, 1);
+    double full = exact_value(trace, first);
     bool star = card->simulation->options.star;
     if (trace->trials == 0 && star && full > plot.y.high)
         draw_trial(&plot, first, full, false);

@@ -1,5 +1,5 @@
-/* card_listing.c - the cards with the lines of an algorithm, and with what the
- * slides' program prints. */
+/* card_listing.c - cards with the lines of an algorithm, and with the lines
+ * that the slides' program prints. */
 #include <math.h>
 #include <stdio.h>
 
@@ -7,6 +7,7 @@
 #include "picture/colour_map.h"
 
 static const double PAGE_PITCH = 2.1; /* ems, height of a line on a page */
+static const double PITCH = 1.75;     /* ems, height of a line elsewhere */
 static const double PRINT_WIDTH =
     36; /* ems, width of printed lines in size 1 */
 
@@ -30,7 +31,7 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
                      int number)
 {
     Paper *paper = card->paper;
-    const ShownRow now = listing_show_row(active_pane(card->content), row);
+    const ShownRow now = listing_show_row(card->pane, row);
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indented);
@@ -62,7 +63,7 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
                   now.value.words);
 }
 
-/* Draws the known rows in lines of this height; draw NULL: only counts them. */
+/* Draws the known rows from this line on; draw NULL: only counts the rows. */
 static int put_rows(const FrameContent *content, const ListingRow *row,
                     const Plot *draw, Box line)
 {
@@ -81,29 +82,31 @@ static int put_rows(const FrameContent *content, const ListingRow *row,
 double listing_needs(const FrameContent *content, double wide, double em)
 {
     (void)wide, (void)em;
-    return 1.75 * put_rows(content, rows_listing, NULL, (Box){0}) + 2.6;
+    return PITCH * put_rows(content, rows_listing, NULL, (Box){0}) + 2.6;
 }
 
 void card_write_rows(const Plot *card, const ListingRow *row)
 {
-    double pitch = card->em * (card->content->lecture.page ? PAGE_PITCH : 1.75);
+    double pitch =
+        card->em * (card->content->lecture.page ? PAGE_PITCH : PITCH);
     int count = put_rows(card->content, row, NULL, (Box){0});
     Box line = card->box;
     line.height = (int)fmin(lround(pitch), line.height / (double)count);
     put_rows(card->content, row, card, line);
 }
 
-/* Prints residual and step size of the newest updates that fit.  As the star of
- * a page the card also plots the residuals, in its lower half. */
+/* Prints residual and step size of the newest updates that fit.  A page's star
+ * also plots the residuals, in its lower half. */
 void prints_draw(const Plot *card)
 {
     Paper *paper = card->paper;
     Plot below = *card;
     Box inside = card->box;
-    const Trace *trace = active_pane(card->content)->update;
+    const Trace *trace = card->pane->update;
     bool star = inside.height > 14 * paper->em;
     double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);
-    size = size < 1 ? 0.95 : size; /* then with shorter words */
+    bool narrow = size < 1; /* has shorter words */
+    size = narrow ? 0.95 : size;
     if (star && trace) {
         inside = box_cut_off(&below.box, EDGE_TOP, inside.height / 2);
         residual_draw(&below);
@@ -120,8 +123,8 @@ void prints_draw(const Plot *card)
         double y = inside.y + (i - first) * pitch;
         int x = paper_write(
             paper, FACE_MONO, size, COLOUR_TEXT, inside.x, y, ALIGN_LEFT,
-            "%s%d: residual = %s  step%s = %s", size < 1 ? "" : "Iteration ", i,
-            format_digits(residual, 4).text, size < 1 ? "" : " size",
+            "%s%d: residual = %s  step%s = %s", narrow ? "" : "Iteration ", i,
+            format_digits(residual, 4).text, narrow ? "" : " size",
             format_number(trace->record[i].alpha).text);
         if (i > 0)
             paper_write(

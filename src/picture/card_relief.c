@@ -12,26 +12,26 @@ enum {
 };
 
 static const double REACH = 1.87; /* m, half a side of the ground */
-static const double HEIGHT =
-    1.5; /* m, height of the rim above E = 0 in the drawing */
-/* The rim, where the surface is cut off, is inertia at this distance from
- * x_tilde, m, plus elasticity at the pass between the two valleys times a
- * factor. */
+static const double HEIGHT = 1.5; /* m, drawn height of the rim above E = 0 */
+/* The surface is cut off at the rim.  The height of the rim is the inertia at
+ * RIM_INERTIA from x_tilde, m, and RIM_PASS times the elasticity at the pass
+ * between the two valleys. */
 static const double RIM_INERTIA = 1.5, RIM_PASS = 1.7;
-/* Cosine and sine of the view's angles, around E and above the ground.  x
- * points towards the viewer and to the right, y away and to the right. */
+/* Cosine and sine of the view's angles, around the axis of E and above the
+ * ground.  x points to the viewer and the right, y away and to the right. */
 static const double TURN[2] = {0.85, 0.5268}, RISE[2] = {0.7, 0.7141};
 static const Colour LEVEL_COLOUR = 0x90606060u;
 static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* unit vector */
 
-/* The surface, cut off at its rim, and how it is drawn. */
+/* The surface and its projection. */
 typedef struct Relief {
     const Simulation *simulation;
-    Plot plot;         /* coordinates are those of the projected picture, m */
-    double rim, level; /* J s^2; distance between two contour lines */
+    Plot plot;    /* plane of the projection, m */
+    double rim;   /* J s^2, height of the rim */
+    double level; /* J s^2, distance between two contour lines */
 } Relief;
 
-/* A point of the surface. */
+/* Corner of a face of the surface. */
 typedef struct Corner {
     double x, y, E; /* m, m, J s^2 */
     bool convex;
@@ -66,7 +66,7 @@ static Point project_corner(const Relief *relief, const Corner *corner)
                     RISE[0] * height - RISE[1] * near}};
 }
 
-/* The point on an edge where E has this value, which lies between its ends. */
+/* Returns the point of an edge where E has this value. */
 static Corner edge_crossing(const Corner *a, const Corner *b, double E)
 {
     double t = (E - a->E) / (b->E - a->E);
@@ -140,7 +140,7 @@ static void draw_face(const Relief *relief, const Corner corner[3])
                   project_corner(relief, &end[1]).at, 1.6, COLOUR_FAINT);
 }
 
-/* Draws cell by cell from the far end to the near one (painter's algorithm). */
+/* Draws cell by cell from the far end to the near end (painter's algorithm). */
 static void draw_surface(const Relief *relief)
 {
     Corner column[2][CELLS + 1];
@@ -158,7 +158,8 @@ static void draw_surface(const Relief *relief)
     }
 }
 
-/* Draws a straight line of the ground on the surface, below the rim. */
+/* Draws a straight line of the ground on the surface, as far as below the rim.
+ */
 static void draw_surface_line(const Relief *relief, const double *a,
                               const double *b, double width, Colour colour)
 {
@@ -186,7 +187,7 @@ static void draw_surface_point(const Relief *relief, const double *x,
         plot_label(&relief->plot, 1, at.at, colour, "%s", word);
 }
 
-/* Draws the updates so far and, thinner, the next direction; uphill in red. */
+/* Draws the updates so far, and thinner the next direction; red if uphill. */
 static void draw_newton_path(const Relief *relief)
 {
     const Descent *descent = &relief->simulation->descent;

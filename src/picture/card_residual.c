@@ -1,14 +1,14 @@
-/* card_residual.c - the card of the residual of each update of a step. */
+/* card_residual.c - the card that plots the residual of each update of a step.
+ */
 #include <math.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* Draws the residuals of the updates, joined by lines.  If p of the next update
- * is already known, its residual is one more point. */
+/* Draws the residuals of the updates, and of the next update if p is known. */
 void residual_draw(const Plot *card)
 {
-    const Trace *trace = active_pane(card->content)->update;
+    const Trace *trace = card->pane->update;
     if (!trace || (trace->updates == 0 && !(trace->residual > 0))) {
         card_write_hint(card, text_undrawn);
         return;
@@ -27,8 +27,7 @@ void residual_draw(const Plot *card)
             high = fmax(high, residual);
         }
     }
-    bool star = card->simulation->options.star; /* from 0, as the slides'
-                                                   program prints */
+    bool star = card->simulation->options.star; /* counts from 0 */
     double most = fmax(updates + pending, 4);
     Axis x = {0.5 - star, most + 0.5 - 0.4 * star, false, true,
               star ? "iteration" : "update"};

@@ -1,5 +1,6 @@
-/* card_updates.c - two cards: E and its parts in this step, and a table of the
- * step's updates. */
+/* card_updates.c - cards of E and its parts in a step, and of the step's
+ * updates.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,23 +10,20 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* Number of updates whose alpha p is part of the positions shown. */
+/* Counts the updates whose alpha p is already part of the shown positions. */
 static int count_added_updates(const Trace *trace)
 {
     bool before = trace->line != LINE_NONE && trace->line < LINE_UPDATE;
     return before ? trace->iteration : trace->updates;
 }
 
-/* Draws E and its parts along the line from x_tilde to x: E is lowest where
- * neither part is.  Returns E at x, J s^2. */
+/* Draws E and its parts along the line from x_tilde to x.  Returns E at x, J
+ * s^2.
+ */
 static double draw_energy_parts(const Plot *card, const System *system,
                                 const Trace *trace, const double *x)
 {
-    enum {
-        POINTS = 39,
-        AIM = 6,
-        NOW = 26
-    }; /* AIM, NOW: the points at t = 0 and 1 */
+    enum { POINTS = 39, AIM = 6, NOW = 26 }; /* t is 0 at AIM, 1 at NOW */
     static const struct {
         const char *name;
         Colour colour;
@@ -81,8 +79,7 @@ static void draw_values(const Plot *card, const Trace *trace, double now)
     Plot plot = plot_create(
         card, (Axis){-0.4, fmax(made, 3) + 0.7, false, true, "update"},
         (Axis){0, 1.3 * start, false, false, "E, J s\u00b2"});
-    for (int words = 0; words < 2;
-         words++) { /* labels come last, so that they avoid all curves */
+    for (int words = 0; words < 2; words++) { /* labels avoid all curves */
         double at[2] = {0, start}, before[2];
         for (int i = 0; i <= made; i++) {
             memcpy(before, at, sizeof at);
@@ -99,10 +96,10 @@ static void draw_values(const Plot *card, const Trace *trace, double now)
     }
 }
 
-/* Draws both graphs; in a narrow card only the first one. */
+/* Draws E along the line and, in a wide card, E after each update. */
 void values_draw(const Plot *card)
 {
-    const Pane *pane = active_pane(card->content);
+    const Pane *pane = card->pane;
     const Trace *trace = pane->trace;
     bool wide = card->box.width > 36 * card->em;
     Plot left = *card, right = *card;
@@ -129,7 +126,7 @@ static void draw_update(const Plot *card, double y, int row,
                                         "{alpha}", "change of E, J s\u00b2"};
     static const double right[] = {0.05, 0.25, 0.52, 0.63, 1};
     enum { COLUMNS = sizeof right / sizeof *right };
-    const Trace *trace = active_pane(card->content)->trace;
+    const Trace *trace = card->pane->trace;
     char cell[COLUMNS][96] = {""};
     if (row > 0)
         snprintf(cell[0], sizeof *cell, "%d", row);
@@ -151,10 +148,10 @@ static void draw_update(const Plot *card, double y, int row,
                     "%s", row ? cell[c] : heads[c]);
 }
 
-/* Draws the table of the updates so far; of the current one what is known. */
+/* Draws the table of the updates so far, the present one as far as known. */
 void updates_draw(const Plot *card)
 {
-    const Trace *trace = active_pane(card->content)->trace;
+    const Trace *trace = card->pane->trace;
     double pitch = 1.45 * card->em, y = card->box.y + 0.2 * card->em;
     if (!trace) {
         card_write_hint(card, text_undrawn);

@@ -1,38 +1,34 @@
-/* cards.h - what the sources of pictures and cards share with cards.txt and
- * with each other.
- */
+/* cards.h - functions and tables that pictures, cards and cards.txt share. */
 #ifndef ELASTO_CARDS_H
 #define ELASTO_CARDS_H
 
 #include "picture/live_values.h"
 #include "picture/plot.h"
 
-/* ems; a wider card is the star of a page. */
-static const double STAR_WIDE = 40;
+static const double STAR_WIDE = 40;  /* ems, a wider card is a page's star */
+static const double TITLE_BAR = 2.0; /* ems, height of a card's title */
 
-/* A line of an algorithm; its texts have live values. */
+/* A line of an algorithm.  The strings are texts of live_values.h. */
 typedef struct ListingRow {
-    const char *shown_if; /* text: the row exists if it has a known line; NULL:
-                             the end of the listing */
-    Line line;            /* its place in the algorithm */
+    const char *shown_if; /* shows the row if a line is known; NULL: the end of
+                             the listing */
+    Line line;            /* place of the row in Algorithm 3 */
     bool indented;
-    const char *struck_if; /* text: the row is struck through if it has a known
-                              line; or NULL */
-    const char *lit_if; /* the same for the row that is lit; NULL: the row that
-                           the run is at */
+    const char *struck_if; /* strikes the row out if a line is known, or NULL */
+    const char *lit_if;    /* lights the row if a line is known; NULL: lights it
+                              if the run is at `line` */
     const char *text;
-    const char *value; /* right of the text, once the run has reached it */
+    const char *value; /* right of the text once the run has reached the row */
 } ListingRow;
 
-/* State of a row of a listing in the present frame. */
+/* A row of a listing as the present frame shows it. */
 typedef struct ShownRow {
     bool lit, struck;
     TextLine text;
-    TextLine value; /* no words before the run has reached the row */
+    TextLine value; /* empty before the run has reached the row */
 } ShownRow;
 
-/* Tables and texts that are generated from cards.txt; only those that sources
- * name are declared. */
+/* Tables and texts generated from cards.txt, as far as sources use them. */
 extern const Picture pictures[PICTURE_COUNT];
 extern const Card card_law, card_listing;
 extern const ListingRow rows_listing[], rows_search[];
@@ -64,62 +60,64 @@ extern CardDraw page_draw, prints_draw, line_draw, residual_draw, values_draw,
     table_draw;
 extern CardNeeds page_needs, listing_needs, energies_needs;
 
-/* Size of the page text's letters, ems: the same on all pages that fit. */
+/* Finds the size of the letters of a page's text, ems: a fixed size, or smaller
+ * if the text is too long for the box. */
 double page_letters(Paper *paper, Box inside, const FrameContent *content);
 
-/* Writes what a test checks of the page below its code.  Returns the box above
- * that text. */
+/* Writes the claim of a page that a test checks at the bottom of the box.
+ * Returns the box above the claim. */
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content);
 
 /* Whether the Hessian before projection is positive definite. */
 bool landscape_is_convex(const Local *E);
 
-/* Adds the values of the page's law, and the scene's point on its curve. */
+/* Adds the values of the page's law at the most loaded element. */
 void law_add_values(const Simulation *simulation, LiveValues *values);
 
-/* The contact with the largest force.  law_find_gap returns false if no gap is
- * smaller than d_hat. */
+/* A contact between a node and a wall or an edge. */
 typedef struct LawGap {
     double foot[2]; /* m, nearest point of the wall or edge */
     double node[2]; /* m */
-    double d;       /* m, the gap */
-    double d_hat;   /* m, gap at which the force begins */
+    double d;       /* m, distance */
+    double d_hat;   /* m, distance at which the force begins */
 } LawGap;
+
+/* Finds the contact with the largest force.  Returns false if no distance is
+ * below d_hat. */
 bool law_find_gap(const Simulation *simulation, LawGap *gap);
 
-/* Distance that the last body has slid, and distance that a rigid body would
- * slide.  Returns false if the page is not about sliding.
+/* Finds the distances that the last body has slid so far and that a rigid body
+ * would slide.  Returns false if the page is not about sliding.
  *   distance  [2] m, out */
 bool law_find_slide(const Simulation *simulation, double distance[2]);
 
-/* An energy of the history at this time, or at the last point before it, J.
- * Values that are only rounding beside the other energies become 0.  Returns
- * infinity if the present energies are not finite, NaN if no point exists. */
+/* Returns an energy at the last point of the history up to this time, J; 0 if
+ * the value is rounding beside the other energies; infinity if the present
+ * energies are not finite; NaN without a point. */
 double energies_value_at(const Simulation *simulation, const History *history,
                          int series, double time);
 
-/* Axis of the energies.  It covers the whole run unless the part shown so far
- * would be invisible on it, and is logarithmic if the energy has grown a
- * millionfold.
+/* Makes the axis of the energies.  The axis covers the whole run, unless the
+ * energies so far would then be too small to see, and is logarithmic if the
+ * energy has grown a millionfold.
  *   last  out, s, upper limit of the times of the curves */
 Axis energies_axis(const FrameContent *content, double *last);
 
-/* Whether the picture has a card of this name, and the page shows it. */
+/* Whether the picture has a card of this name that is not hidden. */
 bool frame_has_card(const FrameContent *content, const char *name);
 
-/* Text that marks the lit lines of the page's code: while the run walks through
- * Algorithm 3 that of its line, else the page's own. */
+/* Returns the text by which lit lines of the page's code are known: in a walk
+ * through Algorithm 3 that of the present line, else that of the page. */
 const char *lecture_lit_code(const FrameContent *content);
 
-/* Index of the newest spring, on a page where each step adds one spring to the
- * Hessian. */
+/* Returns the index of the spring that the present step adds to the Hessian, on
+ * a page where each step adds one. */
 int newest_spring(const Simulation *simulation);
 
-/* Box inside the frame of a card, below its title; em in pixels. */
+/* Returns the box inside a card, below the title; em in pixels. */
 Box card_inner_box(Box card, double em);
 
-/* Writes the first known line of a text into the middle of a card that has
- * nothing to show yet. */
+/* Writes the first known line of a text into the middle of an empty card. */
 void card_write_hint(const Plot *card, const char *text);
 
 /* Returns what a row of a listing shows. */
@@ -128,31 +126,28 @@ ShownRow listing_show_row(const Pane *pane, const ListingRow *row);
 /* Writes the known rows of a listing; the row of the current line is lit. */
 void card_write_rows(const Plot *card, const ListingRow *row);
 
-/* Width in ems that the code of a page needs. */
+/* Returns the width that the code of a page needs, ems. */
 double code_needed_width(const LecturePage *page);
 
 /* Draws the content of the picture's card with this index into a box. */
 void card_draw(Paper *paper, Box inside, const FrameContent *content, int card);
 
-/* Draws all cards of the layout; or the page that is in the column, and the
- * card on the stage. */
+/* Draws the cards of the layout, and the column's code or list. */
 void cards_draw(Paper *paper, const Layout *layout,
                 const FrameContent *content);
 
-/* On a page of the lecture: highlights everything that has the colour of the
- * term under the mouse, or else of the line of Algorithm 3 that the run is at.
- */
+/* On a page of the lecture, highlights all pixels in the colour of the term
+ * under the mouse, or else of the line of Algorithm 3 that the run is at. */
 void highlight_draw(Paper *paper, const FrameContent *content);
 
 /* Draws strip, settings, time line and chips. */
 void window_rows_draw(Paper *paper, const Layout *layout,
                       const FrameContent *content);
 
-/* Number of steps that the time line has room for: the steps so far, but at
- * least 60. */
+/* Returns the number of steps that the time line has room for, at least 60. */
 long time_line_steps(const FrameContent *content);
 
-/* Step length alpha of trial 1, 2, ... of the line search. */
+/* Returns the step length alpha of trial 1, 2, ... of the line search. */
 double trace_step_length(const Trace *trace, int trial);
 
 #endif

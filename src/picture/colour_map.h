@@ -14,8 +14,8 @@
 #define COLOUR_FAINT     0xff6a6a6au
 #define COLOUR_GREY      0xff9c9c9cu /* previous step, contours, ticks */
 #define COLOUR_GRID      0xffe4e4e4u
-#define COLOUR_RULE      0xffdcdcdcu /* between zones */
-#define COLOUR_BORDER    0xffcfcfcfu /* of cards and chips */
+#define COLOUR_RULE      0xffdcdcdcu /* lines between zones */
+#define COLOUR_BORDER    0xffcfcfcfu /* borders of cards and chips */
 #define COLOUR_CHIP      0xfff6f6f6u
 #define COLOUR_LIT       0xfffff1cdu /* current line, chip or setting */
 #define COLOUR_HIGHLIGHT 0xffffe14du /* around the term under the mouse */
@@ -39,33 +39,31 @@
 #define COLOUR_SOLID    0xffe9e6e0u /* walls, balls */
 #define COLOUR_EDGE     0xff8b8578u /* outline of walls and balls */
 
-/* Strain. */
+/* Colours of strain. */
 #define COLOUR_STRETCH  0xffd55e00u
 #define COLOUR_REST     0xffb8b8b8u
 #define COLOUR_COMPRESS 0xff0072b2u
 #define COLOUR_PLASTIC  0xff7b1fa2u /* plastic strain */
 
-/* Region where E is not convex, and words about it. */
+/* Region where E is not convex, and its words. */
 #define COLOUR_SHADE  0xfffdf0d5u
 #define COLOUR_SHADED 0xff8a6100u
 
-/* Half plane of directions that point downhill. */
+/* Half plane of the directions that point downhill. */
 #define COLOUR_DOWNHILL 0x2656b4e9u
 
-/* Colour of pane or run 0, 1, ... where several are side by side. */
+/* Returns the colour of pane or run 0, 1, ... of several. */
 Colour colour_of_run(int run);
 
-/* Colour of term 0, 1, ... of the formulas: a letter or an energy.  Returns 0
- * after the last term. */
+/* Returns the colour of term 0, 1, ... of the formulas, a letter or an energy;
+ * 0 after the last term. */
 Colour colour_of_term(int term);
 
-/* Colour of an energy by its name in the ledger, or of an integrator by its
- * name. */
+/* Returns the colour of an energy or an integrator by name. */
 Colour colour_of_name(const char *name);
 
 /* Interpolates from `below` at strain -range over COLOUR_REST at 0 to `above`
- * at strain range > 0.  Strains beyond the range get the colour of its end, NaN
- * gets COLOUR_REST. */
+ * at strain range > 0.  Strains beyond the range get the colour of its end. */
 Colour colour_of_strain(double strain, double range, Colour below,
                         Colour above);
 

@@ -6,10 +6,11 @@
 
 #define FONT_GUESSED 0.6 /* ems, width of a letter if there is no font */
 
-/* The picture of a letter in one face and size. */
+/* A letter in one face and size. */
 typedef struct Glyph {
-    uint64_t key;           /* face, size and letter; 0: the slot is free */
-    int left, top, advance; /* pixels, of the mask from pen and baseline */
+    uint64_t key;  /* face, size and letter; 0: the slot is free */
+    int left, top; /* pixels from pen and baseline to the mask */
+    int advance;   /* pixels to the next letter */
     int width, height;
     uint8_t *mask; /* [height width] coverage; NULL: no pixel is covered */
 } Glyph;

@@ -8,12 +8,12 @@
 #include "picture/colour_map.h"
 #include "base/mathematics.h"
 
-static const double WORDS_ROOM = 1.8;  /* ems, of a legend or a label */
-static const double LOW = 20;          /* ems, a pane has no room below words */
-static const double LEAST_TEXT = 11;   /* ems, a pane with words is high */
-static const double HANDLE_REACH = 14; /* pixels, a handle is hit within */
-static const double SWITCH_WIDE = 13;  /* ems */
-static const double SWITCH_HIGH = 1.8;
+static const double LEGEND_ROOM = 1.8;   /* ems, height of a line of words */
+static const double LOW_PANE = 20;       /* ems, lower panes cut off words */
+static const double LEAST_TEXT = 11;     /* ems, lower panes have no words */
+static const double HANDLE_REACH = 14;   /* pixels, a handle is hit within */
+static const double SWITCH_WIDTH = 13;   /* ems */
+static const double SWITCH_HEIGHT = 1.8; /* ems */
 
 const Picture *picture_of(const struct Scene *scene)
 {
@@ -22,8 +22,7 @@ const Picture *picture_of(const struct Scene *scene)
 
 bool frame_has_card(const FrameContent *content, const char *name)
 {
-    const Picture *picture =
-        picture_of(active_pane(content)->simulation->scene);
+    const Picture *picture = active_picture(content);
     int card = picture_card(picture, name);
     return card >= 0 && !(content->cards.hidden >> card & 1);
 }
@@ -40,14 +39,13 @@ void frame_create(const Simulation *simulation, FrameContent *content)
 {
     const Picture *picture = picture_of(simulation->scene);
     static const View whole = {.lens = {1, {0, 0}}};
+    CardSets *cards = &content->cards;
     *content = (FrameContent){
         .panes = 1, .view = &whole, .settings.selected = -1, .cards.large = -1};
     content->pane[0].simulation = simulation;
     for (int c = 0; c < picture->count; c++) {
-        content->cards.closed |= (unsigned)picture->cards[c]->starts_closed
-                                 << c;
-        content->cards.hidden |= (unsigned)picture->cards[c]->only_in_lecture
-                                 << c;
+        cards->closed |= (unsigned)picture->cards[c]->starts_closed << c;
+        cards->hidden |= (unsigned)picture->cards[c]->only_in_lecture << c;
     }
 }
 
@@ -66,31 +64,31 @@ bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
     return false;
 }
 
-/* The box of a pane without what words need of it. */
+/* Returns the box of a pane without the room that words need on a page. */
 static Box pane_room(const FrameContent *content, const Layout *layout,
                      int pane)
 {
     const Simulation *simulation = content->pane[pane].simulation;
     bool stretched = picture_of(simulation->scene)->stretched;
+    bool several = content->panes > 1;
     Box room = layout->pane[pane];
-    int words = (int)(WORDS_ROOM * layout->em); /* above, and some below */
+    int words = (int)(LEGEND_ROOM * layout->em);
     if (content->lecture.page &&
-        (content->panes > 1 || room.height < LOW * layout->em)) {
+        (several || room.height < LOW_PANE * layout->em)) {
         box_cut_off(&room, EDGE_TOP, stretched ? 2 * words : words);
-        box_cut_off(&room, EDGE_BOTTOM,
-                    content->panes > 1 || stretched ? words : 0);
+        box_cut_off(&room, EDGE_BOTTOM, several || stretched ? words : 0);
     }
     return room;
 }
 
-/* The part of the world that a pane would show by itself. */
-static void own_bounds(const FrameContent *content, const Layout *layout,
-                       int pane, double bounds[4])
+/* Finds the part of the world that a pane would show if it were alone. */
+static void find_own_bounds(const FrameContent *content, const Layout *layout,
+                            int pane, double bounds[4])
 {
     const Plot stage = {.content = content,
+                        .pane = &content->pane[pane],
                         .simulation = content->pane[pane].simulation,
-                        .box = pane_room(content, layout, pane),
-                        .pane = pane};
+                        .box = pane_room(content, layout, pane)};
     const Picture *picture = picture_of(stage.simulation->scene);
     if (picture->bounds)
         picture->bounds(&stage, bounds);
@@ -98,8 +96,8 @@ static void own_bounds(const FrameContent *content, const Layout *layout,
         memcpy(bounds, picture->default_bounds, sizeof picture->default_bounds);
 }
 
-/* The part of the world that fits a pane; all panes of a page have that of the
- * last one, unless what is in them has left it. */
+/* Finds the part of the world that a pane shows.  On a page all panes have the
+ * bounds of the last one, unless their own bodies have left those. */
 static void find_bounds(const FrameContent *content, const Layout *layout,
                         int pane, double bounds[4])
 {
@@ -110,10 +108,10 @@ static void find_bounds(const FrameContent *content, const Layout *layout,
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
     }
-    own_bounds(content, layout, last, bounds);
+    find_own_bounds(content, layout, last, bounds);
     if (last == pane)
         return;
-    own_bounds(content, layout, pane, own);
+    find_own_bounds(content, layout, pane, own);
     if (own[0] < bounds[0] || own[1] < bounds[1] || own[2] > bounds[2] ||
         own[3] > bounds[3])
         memcpy(bounds, own, sizeof own);
@@ -122,29 +120,30 @@ static void find_bounds(const FrameContent *content, const Layout *layout,
 Plot stage_create(Paper *paper, const FrameContent *content,
                   const Layout *layout, int pane)
 {
+    const Lens *lens = &content->view->lens;
     Plot stage = {.paper = paper,
                   .content = content,
                   .simulation = content->pane[pane].simulation,
                   .box = layout->pane[pane],
                   .revealed =
                       content->lecture.page && !content->lecture.hides_answer,
-                  .pane = pane,
+                  .pane = &content->pane[pane],
                   .has_text = !content->bare,
                   .em = layout->em};
     double bounds[4];
     bool stretched = picture_of(stage.simulation->scene)->stretched;
-    Box room = pane_room(content, layout, pane), beside;
+    Box room = pane_room(content, layout, pane);
+    Switch switches[SCENE_MAX_SWITCHES];
     find_bounds(content, layout, pane, bounds);
-    stage.camera = camera_create(room, bounds, stretched, &content->view->lens);
-    beside = room; /* of the switches, where it is no smaller there */
-    box_cut_off(&beside, EDGE_RIGHT, (int)(SWITCH_WIDE * layout->em));
-    const Camera there =
-        camera_create(beside, bounds, stretched, &content->view->lens);
-    Switch out[SCENE_MAX_SWITCHES];
-    if (stage.has_text && beside.width > 0 &&
-        there.scale[0] >= stage.camera.scale[0] &&
-        exhibit_switches(stage.simulation, out) > 0)
-        stage.camera = there;
+    stage.camera = camera_create(room, bounds, stretched, lens);
+    if (!stage.has_text || exhibit_switches(stage.simulation, switches) == 0)
+        return stage;
+    /* The view moves to the left of the switches unless that makes it smaller.
+     */
+    box_cut_off(&room, EDGE_RIGHT, (int)(SWITCH_WIDTH * layout->em));
+    const Camera left = camera_create(room, bounds, stretched, lens);
+    if (room.width > 0 && left.scale[0] >= stage.camera.scale[0])
+        stage.camera = left;
     return stage;
 }
 
@@ -162,53 +161,52 @@ Held frame_hold_bounds(const FrameContent *content, const Layout *layout,
     return held;
 }
 
-/* ---- what the mouse can drag and switch, and finds ----------------------- */
+/* ---- handles, switches, guesses ------------------------------------------ */
 
-void stage_handles(const Plot *stage)
+void stage_draw_handles(const Plot *stage)
 {
     double at[SCENE_MAX_HANDLES][2];
     int count = exhibit_handles(stage->simulation, at);
     const Pick *hover = &stage->content->view->hover;
     for (int i = 0; i < count && !stage->content->bare; i++) {
-        bool over = hover->kind == PICK_HANDLE && hover->pane == stage->pane &&
-                    hover->index == i;
-        plot_ring(stage, at[i], (over ? 13 : 10), over ? 3 : 1.8, COLOUR_HAND);
+        bool over = hover->kind == PICK_HANDLE && hover->index == i &&
+                    hover->pane == plot_pane_index(stage);
+        plot_ring(stage, at[i], over ? 13 : 10, over ? 3 : 1.8, COLOUR_HAND);
     }
 }
 
 static Box switch_box(const Plot *stage, int i)
 {
     const Box *box = &stage->box;
-    int wide = (int)(SWITCH_WIDE * stage->em);
-    int high = (int)(SWITCH_HIGH * stage->em), gap = (int)(0.4 * stage->em);
+    int wide = (int)(SWITCH_WIDTH * stage->em);
+    int high = (int)(SWITCH_HEIGHT * stage->em), gap = (int)(0.4 * stage->em);
     return (Box){box->x + box->width - wide - gap,
                  box->y + 3 * gap + i * (high + gap) + high, wide, high};
 }
 
-/* The scene's switches as chips in the upper right corner. */
-static void stage_switches(const Plot *stage)
+/* Draws the scene's switches as chips in the upper right corner. */
+static void draw_switches(const Plot *stage)
 {
     Paper *paper = stage->paper;
-    Switch out[SCENE_MAX_SWITCHES];
-    int count = exhibit_switches(stage->simulation, out);
+    Switch switches[SCENE_MAX_SWITCHES];
+    int count = exhibit_switches(stage->simulation, switches);
     for (int i = 0; i < count && stage->has_text; i++) {
         Box box = switch_box(stage, i), mark = box_inset(box, box.height / 4);
-        bool on = out[i].on;
+        bool on = switches[i].on;
         canvas_framed_box(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
                           COLOUR_BORDER);
         mark.width = mark.height;
         canvas_framed_box(&paper->canvas, mark,
                           on ? COLOUR_VALUE : COLOUR_WHITE, COLOUR_FAINT);
-        box.x += 2 * mark.width;
-        box.width -= 2 * mark.width;
+        box_cut_off(&box, EDGE_LEFT, 2 * mark.width);
         paper_fit(paper, FACE_REGULAR, 0.92, on ? COLOUR_TEXT : COLOUR_FAINT,
-                  box, ALIGN_LEFT, out[i].label);
+                  box, ALIGN_LEFT, switches[i].label);
     }
 }
 
-/* The guess is a cross; along x alone a line from top to bottom, too; and where
- * the step led: over any picture. */
-static void stage_prediction(const Plot *stage)
+/* Draws the user's guess as a cross, or along x alone as a vertical line, and
+ * dashes to the place where the step has led. */
+static void draw_guess(const Plot *stage)
 {
     const Prediction *guess = &stage->simulation->prediction;
     const Box *box = &stage->box;
@@ -235,33 +233,35 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
                 double y)
 {
     Hit hit = layout_hit(layout, x, y);
-    Pick pick = {.kind = PICK_NONE, .near = -1};
+    Pick pick = {.kind = PICK_NONE, .near = -1, .pane = hit.index};
     if (hit.zone != ZONE_STAGE || hit.index >= content->panes)
-        return pick;
+        return (Pick){.kind = PICK_NONE, .near = -1};
     Plot stage = stage_create(NULL, content, layout, hit.index);
     const Picture *picture = picture_of(stage.simulation->scene);
-    pick.pane = hit.index;
-    camera_world(&stage.camera, x, y, pick.point);
     double at[SCENE_MAX_HANDLES][2];
-    Switch out[SCENE_MAX_SWITCHES];
-    int handles = exhibit_handles(stage.simulation, at);
-    int switches = exhibit_switches(stage.simulation, out);
-    for (int i = 0; i < switches && stage.has_text && !picture->own_handles;
-         i++)
-        if (box_contains(switch_box(&stage, i), x, y)) {
-            pick.kind = PICK_SWITCH;
-            pick.index = i;
-            return pick;
-        }
-    if (!picture->own_handles &&
-        plot_pick_point(&stage, handles, *at, HANDLE_REACH, x, y, PICK_HANDLE,
-                        &pick))
-        return pick;
+    Switch switches[SCENE_MAX_SWITCHES];
+    camera_world(&stage.camera, x, y, pick.point);
     pick.kind = picture->takes_clicks ? PICK_PLACE : PICK_NONE;
+    if (!picture->own_handles) {
+        int count =
+            stage.has_text ? exhibit_switches(stage.simulation, switches) : 0;
+        for (pick.index = 0; pick.index < count; pick.index++)
+            if (box_contains(switch_box(&stage, pick.index), x, y)) {
+                pick.kind = PICK_SWITCH;
+                return pick;
+            }
+        pick.index = 0;
+        if (plot_pick_point(&stage, exhibit_handles(stage.simulation, at), *at,
+                            HANDLE_REACH, x, y, PICK_HANDLE, &pick))
+            return pick;
+    }
     if (picture->pick)
         picture->pick(&stage, x, y, &pick);
     return pick;
 }
+
+/* ---- small queries --------------------------------------------------------
+ */
 
 long frame_find_step(const FrameContent *content, const Layout *layout,
                      double x)
@@ -290,7 +290,7 @@ void history_add(History *history, double time, int rows, const Energy *row)
 {
     double sum = time;
     for (int i = 0; i < rows; i++)
-        sum += 0 * row[i].value; /* NaN where it is not finite */
+        sum += 0 * row[i].value; /* NaN unless the value is finite */
     if (!isfinite(sum) || history->count == HISTORY_POINTS)
         return;
     int last = history->count++;
@@ -298,12 +298,12 @@ void history_add(History *history, double time, int rows, const Energy *row)
     for (int s = 0; s < history->series; s++)
         history->value[s][last] = 0;
     for (int i = 0; i < rows; i++) {
-        const char *name = row[i].name; /* most often that of series i */
+        const char *name = row[i].name; /* usually the name of series i */
         int s = i < history->series && history->name[i] == name ? i : 0;
         while (s < history->series && strcmp(history->name[s], name) != 0)
             s++;
         if (s == HISTORY_SERIES)
-            continue; /* there is no room */
+            continue; /* too many quantities */
         if (s == history->series) {
             history->name[history->series++] = name;
             memset(history->value[s], 0, sizeof history->value[s]);
@@ -312,12 +312,13 @@ void history_add(History *history, double time, int rows, const Energy *row)
     }
 }
 
-/* ---- all of it ----------------------------------------------------------- */
+/* ---- drawing --------------------------------------------------------------
+ */
 
 enum { LABEL = 4 * VALUE_SIZE };
 
-/* The first parts of a label, with ", " between, that fit into a line.  Returns
- * what is left of it.
+/* Copies the first parts of a label, separated by ", ", that fit into a line.
+ * Returns the rest of the label.
  *   line  [LABEL] out */
 static const char *take_line(const Plot *stage, const char *label, char *line)
 {
@@ -331,8 +332,8 @@ static const char *take_line(const Plot *stage, const char *label, char *line)
     return label + strspn(label, ", ");
 }
 
-/* What is different in a pane, in as many lines as it takes, above the scale
- * where it is long. */
+/* Writes the label of a pane, which says how panes differ, in up to three lines
+ * below the picture; a wide label stands above the scale. */
 static void draw_label(const Plot *stage, const char *label)
 {
     enum { LINES = 3 };
@@ -348,14 +349,13 @@ static void draw_label(const Plot *stage, const char *label)
     bool high = wide > box->width - 10 * paper->em;
     double low = box->y + box->height - (high ? 4.2 : 1.7) * paper->em;
     for (int i = 0; i < lines; i++)
-        paper_panel(paper, FACE_BOLD, 1, colour_of_run(stage->pane),
+        paper_panel(paper, FACE_BOLD, 1, colour_of_run(plot_pane_index(stage)),
                     box->x + 0.5 * box->width,
                     low - 1.36 * (lines - 1 - i) * paper->em, ALIGN_CENTRE,
                     line[i]);
 }
 
-/* One pane, its words, where it is not alone its label in the colour of its
- * curve, and what the mouse is over in it. */
+/* Draws the picture of a pane with its words, and the note at the mouse. */
 static void draw_pane(Paper *paper, const Layout *layout,
                       const FrameContent *content, int pane)
 {
@@ -364,42 +364,42 @@ static void draw_pane(Paper *paper, const Layout *layout,
     const Pick *hover = &content->view->hover;
     Box before = canvas_set_clip(&paper->canvas, stage.box);
     if (content->lecture.page && stage.box.height < LEAST_TEXT * paper->em)
-        stage.has_text = false; /* a star has taken its room */
+        stage.has_text = false;
     picture->draw(&stage);
-    TextLine line = text_begin(&content->pane[pane].values, picture->legend);
+    TextLine line = text_begin(&stage.pane->values, picture->legend);
     while (stage.has_text && text_next_line(&line))
         plot_legend(&stage, line.colour, "%s", line.words);
     if (stage.has_text && picture->shows_scale)
         plot_scale(&stage);
     if (!picture->own_handles)
-        stage_handles(&stage);
-    stage_switches(&stage);
-    stage_prediction(&stage);
-    if (layout->panes > 1 && content->pane[pane].label)
-        draw_label(&stage, content->pane[pane].label);
+        stage_draw_handles(&stage);
+    draw_switches(&stage);
+    draw_guess(&stage);
+    if (layout->panes > 1 && stage.pane->label)
+        draw_label(&stage, stage.pane->label);
     if (picture->hover && stage.has_text && hover->pane == pane &&
         hover->kind != PICK_NONE && !content->hand)
         picture->hover(&stage);
     canvas_set_clip(&paper->canvas, before);
 }
 
-/* A scene on the sheet: its bare picture, its name, over it the heading of the
- * group that it begins. */
+/* Draws a cell of the overview: the bare picture of its scene, the scene's name
+ * below, and the heading of a group above. */
 static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
                             bool chosen)
 {
-    Layout layout = {.em = paper->em, .panes = 1, .pane = {box}};
-    Box *inside = &layout.pane[0];
-    inside->height = box.width;
+    Layout layout = {.em = paper->em, .panes = 1};
+    Box name = box;
+    Box inside = box_cut_off(&name, EDGE_TOP, box.width);
     if (cell->group)
         paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x,
                     box.y - 1.7 * paper->em, ALIGN_LEFT, "%s", cell->group);
-    canvas_framed_box(&paper->canvas, *inside, COLOUR_WHITE,
+    canvas_framed_box(&paper->canvas, inside, COLOUR_WHITE,
                       chosen ? COLOUR_VALUE : COLOUR_BORDER);
     if (chosen)
-        canvas_framed_box(&paper->canvas, box_inset(*inside, 1), COLOUR_WHITE,
+        canvas_framed_box(&paper->canvas, box_inset(inside, 1), COLOUR_WHITE,
                           COLOUR_VALUE);
-    *inside = box_inset(*inside, paper_pixels(paper, 0.3));
+    layout.pane[0] = box_inset(inside, paper_pixels(paper, 0.3));
     if (cell->simulation) {
         FrameContent content;
         frame_create(cell->simulation, &content);
@@ -407,13 +407,12 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
         content.strain = cell->simulation->scene->strain_colour_max > 0;
         draw_pane(paper, &layout, &content, 0);
     }
-    Box name = {box.x, box.y + box.width, box.width, box.height - box.width};
     paper_fit(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
               chosen ? COLOUR_VALUE : COLOUR_TEXT, name, ALIGN_CENTRE,
               cell->name);
 }
 
-/* White paper with letters of this size, pixels. */
+/* Clears the paper and sets the size of its letters, pixels. */
 static void begin_paper(Paper *paper, double em, const FrameContent *content)
 {
     paper->em = em;
@@ -437,31 +436,27 @@ void frame_draw(Paper *paper, const FrameContent *content)
 {
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
+    bool sheet = layout.cells > 0, several = layout.panes > 1;
     begin_paper(paper, layout.em, content);
     for (int i = 0; i < layout.cells; i++)
         draw_sheet_cell(paper, layout.cell[i], &content->sheet.cell[i],
                         i == content->view->chosen);
-    if (layout.cells > 0) {
-        if (!content->document)
-            window_rows_draw(paper, &layout, content);
-        return;
-    }
-    if (layout.panes > 1) /* lines between them */
+    if (several) /* lines between the panes */
         canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
     for (int pane = 0; pane < layout.panes; pane++) {
-        if (layout.panes > 1)
+        if (several)
             canvas_fill(&paper->canvas, layout.pane[pane], COLOUR_WHITE);
         draw_pane(paper, &layout, content, pane);
     }
-    if (content->bare)
+    if (content->bare && !sheet)
         return;
-    if (content->document) {
-        highlight_draw(paper, content);
-        return;
+    if (!sheet && !content->document) {
+        if (content->column != COLUMN_CARDS)
+            canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
+        cards_draw(paper, &layout, content);
     }
-    if (content->column != COLUMN_CARDS)
-        canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
-    cards_draw(paper, &layout, content);
-    highlight_draw(paper, content);
-    window_rows_draw(paper, &layout, content);
+    if (!sheet)
+        highlight_draw(paper, content);
+    if (!content->document)
+        window_rows_draw(paper, &layout, content);
 }

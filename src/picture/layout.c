@@ -7,46 +7,39 @@
 
 /* Sizes in ems, the size of the texts. */
 static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
-static const double GAP = 0.9; /* margin of the zones, and gap between them */
-static const double TITLE_BAR = 2.0;    /* height of a closed card */
-static const double LETTER = 0.56;      /* average width of a letter */
+static const double GAP = 0.9;     /* margin of the zones, and between them */
+static const double LETTER = 0.56; /* average width of a letter */
 static const double SETTING_GAP = 0.9;  /* gap between settings */
 static const double CHIP_PADDING = 1.2; /* width of a chip beyond its letters */
-static const double BOLD = 1.12;        /* width of a bold letter, in letters */
-static const double BARS = 2.4; /* height of the bars of the time line */
-static const double COLUMN_LEAST = 27;
-static const double
-    NAME = 1.8,
-    HEADING = 2.2; /* a cell's name and a group's heading on the sheet */
-static const double PAIR_MIN =
-    28; /* width of a column that has two cards side by side */
-static const double STAR_REST =
-    0.4; /* part of the stage that is left for the picture below a star */
-static const double BELOW_FACTOR =
-    1.3; /* height of a card below the picture, times its minimum */
+static const double BARS = 2.4;         /* height of the time line's bars */
+static const double NAME = 1.8;         /* height of a cell's name */
+static const double HEADING = 2.2;      /* height of a group's heading */
+static const double MIN_COLUMN = 27;    /* width of the column */
+static const double MIN_PAIR = 28; /* width of a column for cards in pairs */
 
-/* Cards fold if the column has less than this part of the room they need. */
-static const double FOLDS = 1.15;
+static const double BOLD = 1.12;     /* width of a bold letter, in letters */
+static const double STAR_REST = 0.4; /* part of the stage below a star */
+static const double BELOW_FACTOR =
+    1.3;                            /* height below a picture, times least */
+static const double FOLDS = 1.15;   /* cards fold in less of their height */
+static const double LOW_ROW = 0.75; /* settings' part of a low window */
 
 /* The column's part of the width; at most WIDE_PART for code, or for lists of
  * more than MOST_ROWS rows. */
 static const double COLUMN_PART = 0.38, WIDE_PART = 0.75;
 enum { MOST_ROWS = 30 };
 
-/* Part of the width that the settings have in a low window. */
-static const double LOW_ROW = 0.75;
-
 /* An em has 14 pixels in a window of 1000 x 800 and scales with the window,
  * but has at least 9. */
 static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
-                    EM_LEAST = 9;
+                    MIN_EM = 9;
 
 static int em_pixels(const Layout *layout, double ems)
 {
     return (int)floor(ems * layout->em + 0.5);
 }
 
-/* Column `index` of `count` equal columns of the box, `gap` apart. */
+/* Returns column `index` of `count` equal columns of the box, `gap` apart. */
 static Box box_column(Box box, int index, int count, int gap)
 {
     int room = box.width - (count - 1) * gap;
@@ -74,7 +67,7 @@ static int place_row(Box room, int lines, int gap, int count, const int *width,
     return count;
 }
 
-/* Counts characters of UTF-8, including markup. */
+/* Counts the characters of UTF-8, with markup; NULL: none. */
 static int count_letters(const char *text)
 {
     int letters = 0;
@@ -85,15 +78,15 @@ static int count_letters(const char *text)
 
 /* Places the settings in one to three lines, which are cut off the rest; in a
  * low window as many as fit at the right of the time line. */
-static void place_settings(const FrameContent *content, Layout *layout,
-                           bool low, Box *rest)
+static void place_settings(const SettingsRow *row, Layout *layout, bool low,
+                           Box *rest)
 {
     int width[LAYOUT_SETTINGS] = {0}, left = em_pixels(layout, GAP + 0.5);
-    for (int i = 0; i < content->settings.count; i++) {
-        const Setting *one = &content->settings.item[i];
-        int value = count_letters(one->value);
-        value = value > one->letters ? value : one->letters;
-        value += count_letters(one->name) + 1;
+    for (int i = 0; i < row->count; i++) {
+        const Setting *setting = &row->item[i];
+        int value = count_letters(setting->value);
+        value = value > setting->letters ? value : setting->letters;
+        value += count_letters(setting->name) + 1;
         width[i] = em_pixels(layout, value * LETTER + 0.6);
     }
     Box room = {left, em_pixels(layout, 0.2),
@@ -101,17 +94,17 @@ static void place_settings(const FrameContent *content, Layout *layout,
                 em_pixels(layout, ROW - 0.4)};
     Box *box = layout->setting;
     if (low) {
-        layout->settings_row = box_cut_off(&layout->time_line, EDGE_RIGHT,
-                                           (int)(LOW_ROW * layout->width));
-        room = (Box){layout->settings_row.x + left, layout->settings_row.y,
-                     layout->settings_row.width - 2 * left,
-                     layout->settings_row.height};
-        layout->settings = place_row(room, 1, em_pixels(layout, SETTING_GAP),
-                                     content->settings.count, width, box);
-        return;
+        room = box_cut_off(&layout->time_line, EDGE_RIGHT,
+                           (int)(LOW_ROW * layout->width));
+        layout->settings_row = room;
+        room.x += left;
+        room.width -= 2 * left;
     }
-    layout->settings = place_row(room, 3, em_pixels(layout, SETTING_GAP),
-                                 content->settings.count, width, box);
+    layout->settings =
+        place_row(room, low ? 1 : 3, em_pixels(layout, SETTING_GAP), row->count,
+                  width, box);
+    if (low)
+        return;
     int more = (box[layout->settings - 1].y - room.y) / room.height;
     layout->settings_row = box_cut_off(
         rest, EDGE_BOTTOM, em_pixels(layout, ROW + more * (ROW - 0.4)));
@@ -121,15 +114,15 @@ static void place_settings(const FrameContent *content, Layout *layout,
 
 /* Places as many of the first chips as fit, and the last one, which lists all
  * keys. */
-static void place_chips(const FrameContent *content, Layout *layout)
+static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
 {
-    int gap = em_pixels(layout, 0.6), last = content->chips.count - 1;
+    int gap = em_pixels(layout, 0.6), last = chips->count - 1;
     int width[LAYOUT_CHIPS];
     Box room = box_inset(layout->chip_row, em_pixels(layout, 0.35)), *box;
     for (int i = 0; i <= last; i++) {
-        double letters = BOLD * count_letters(content->chips.item[i].key) +
-                         count_letters(content->chips.item[i].label) +
-                         (content->lecture.page ? 2 : 1);
+        double letters = BOLD * count_letters(chips->item[i].key) +
+                         count_letters(chips->item[i].label) +
+                         (lecture ? 2 : 1);
         width[i] = em_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
     }
     room.x = em_pixels(layout, GAP);
@@ -139,7 +132,7 @@ static void place_chips(const FrameContent *content, Layout *layout)
     *box = (Box){room.x, room.y, width[last], room.height};
     if (fit > 0)
         box->x = box[fit - 1 - last].x + width[fit - 1] + gap;
-    layout->chips = content->chips.count;
+    layout->chips = chips->count;
     layout->chips_left_out = last - fit;
 }
 
@@ -147,39 +140,47 @@ static void place_chips(const FrameContent *content, Layout *layout)
  */
 static Box place_zones(const FrameContent *content, Layout *layout)
 {
-    Box rest = {0, 0, layout->width, layout->height};
+    Box rest = {0, 0, layout->width, layout->height}, *bars = &layout->bars;
     double high = layout->height / layout->em;
+    bool roomy = high >= 40, lecture = content->lecture.page;
     if (content->bare || high < 16)
         return rest;
-    bool roomy = high >= 40;
     layout->strip =
         box_cut_off(&rest, EDGE_TOP, em_pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
         layout->chip_row = box_cut_off(&rest, EDGE_BOTTOM,
                                        em_pixels(layout, roomy ? LAST : 2.5));
     if (layout->chip_row.width > 0 && content->chips.count > 0)
-        place_chips(content, layout);
+        place_chips(&content->chips, lecture, layout);
     if (content->sheet.cells > 0)
         return rest;
     layout->time_line =
         box_cut_off(&rest, EDGE_BOTTOM, em_pixels(layout, roomy ? TIME : 2));
-    if (content->settings.count > 0 && (roomy || content->lecture.page))
-        place_settings(content, layout, !roomy, &rest);
-    layout->bars = layout->time_line;
-    layout->bars.x += em_pixels(layout, GAP);
-    layout->bars.width -= 2 * em_pixels(layout, GAP);
+    if (content->settings.count > 0 && (roomy || lecture))
+        place_settings(&content->settings, layout, !roomy, &rest);
+    *bars = layout->time_line;
+    bars->x += em_pixels(layout, GAP);
+    bars->width -= 2 * em_pixels(layout, GAP);
     if (roomy) {
-        int height = em_pixels(layout, BARS);
-        layout->bars.y +=
-            layout->time_line.height - height - em_pixels(layout, 0.5);
-        layout->bars.height = height;
+        bars->height = em_pixels(layout, BARS);
+        bars->y +=
+            layout->time_line.height - bars->height - em_pixels(layout, 0.5);
     }
-    if (layout->bars.width < 1)
-        layout->bars.width = 1;
+    if (bars->width < 1)
+        bars->width = 1;
     return rest;
 }
 
-/* A row of the column: one card or two. */
+/* Minimum height of a card whose content has this width, ems. */
+static double needed_height(const FrameContent *content, int card, double wide,
+                            double em)
+{
+    const Card *row = active_picture(content)->cards[card];
+    return row->needed_height ? row->needed_height(content, wide, em)
+                              : row->min_height;
+}
+
+/* A row of the column, with one card or two. */
 typedef struct CardRow {
     int card, cards; /* index of the first card, number of cards */
     bool bar;        /* is closed: only the title is seen */
@@ -187,12 +188,11 @@ typedef struct CardRow {
     double weight;   /* share of the height left over */
 } CardRow;
 
-/* Whether a card stands below the picture, on a page that has a star.  Beside
- * code there is room for the star only. */
+/* Whether a card stands below the picture, on a page that has a star.  If code
+ * is open, only the star itself may be there. */
 static bool is_below(const FrameContent *content, int card)
 {
-    const Picture *picture =
-        picture_of(active_pane(content)->simulation->scene);
+    const Picture *picture = active_picture(content);
     const char *star = active_pane(content)->simulation->options.star;
     return star && picture->cards[card]->below_picture &&
            !((content->cards.hidden | content->cards.closed) >> card & 1) &&
@@ -200,47 +200,44 @@ static bool is_below(const FrameContent *content, int card)
             content->column == COLUMN_CARDS);
 }
 
-/* Finds the rows [LAYOUT_CARDS] of all visible cards; two cards of half width
- * share a row.  Returns the number of rows. */
+/* Finds the rows of all visible cards.  If `pairs`, two cards of half width
+ * share a row.  Returns the number of rows.
+ *   rows  [LAYOUT_CARDS] out */
 static int find_rows(const FrameContent *content, double wide, double em,
                      bool pairs, CardRow *rows)
 {
-    const Picture *picture =
-        picture_of(active_pane(content)->simulation->scene);
+    const Picture *picture = active_picture(content);
+    const CardSets *sets = &content->cards;
     int count = 0, cards = picture->count, before = -2;
-    bool large = content->cards.large >= 0 && content->cards.large < cards;
+    bool large = sets->large >= 0 && sets->large < cards;
     for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
-        bool bar = (content->cards.closed >> i & 1) ||
-                   (large && i != content->cards.large);
+        bool bar = sets->closed >> i & 1 || (large && i != sets->large);
         bool half = card->half_width ||
                     (card->half_width_on_page && content->lecture.page);
-        if (content->cards.hidden >> i & 1 || is_below(content, i))
+        if (sets->hidden >> i & 1 || is_below(content, i))
             continue;
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].cards = 2;
             continue;
         }
         before = half && !bar ? i : -2;
-        rows[count++] = (CardRow){i, 1, bar,
-                                  bar ? TITLE_BAR
-                                  : card->needed_height
-                                      ? card->needed_height(content, wide, em)
-                                      : card->min_height,
-                                  bar ? 0 : card->weight};
+        rows[count++] = (CardRow){
+            i, 1, bar, bar ? TITLE_BAR : needed_height(content, i, wide, em),
+            bar ? 0 : card->weight};
     }
     return count;
 }
 
-/* Gives each row its minimum height and shares what is left by weight.  If the
- * column is too low, the last rows are closed (only if no row has two cards),
- * but never the first open one; then all heights shrink alike. */
+/* Gives each row its minimum height, and a share of the height left over by its
+ * weight.  If the column is too low, closes the last rows but one, unless cards
+ * stand in pairs; then shrinks all heights alike. */
 static void place_cards(const FrameContent *content, Layout *layout)
 {
     CardRow rows[LAYOUT_CARDS];
     int gap = em_pixels(layout, GAP * 0.75), bar = em_pixels(layout, TITLE_BAR);
     Box rest = box_inset(layout->column, em_pixels(layout, GAP));
-    bool pairs = layout->column.width >= PAIR_MIN * layout->em;
+    bool pairs = layout->column.width >= MIN_PAIR * layout->em;
     double wide = card_inner_box(rest, layout->em).width / layout->em;
     int count = find_rows(content, wide, layout->em, pairs, rows), open = 0;
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
@@ -278,7 +275,7 @@ static void place_panes(int count, Layout *layout)
 {
     int columns = 1, gap = em_pixels(layout, 0.15);
     double best = 0;
-    for (int c = 1; c <= count; c++) { /* compares the squares that fit */
+    for (int c = 1; c <= count; c++) { /* compares the squares in a pane */
         int rows = (count + c - 1) / c;
         double side = fmin((double)layout->stage.width / c,
                            (double)layout->stage.height / rows);
@@ -299,8 +296,8 @@ static void place_panes(int count, Layout *layout)
     layout->panes = count;
 }
 
-/* Places the squares of the sheet, `columns` in a row.  Returns their total
- * height in pixels. */
+/* Places the cells of the overview in rows of `columns` squares.  Returns the
+ * height of all rows, pixels. */
 static int place_cells(const FrameContent *content, Layout *layout, int columns,
                        int side)
 {
@@ -321,7 +318,8 @@ static int place_cells(const FrameContent *content, Layout *layout, int columns,
     return y + side + name;
 }
 
-/* Places the sheet with the number of columns that gives the largest squares.
+/* Places the overview with the number of columns that gives the largest
+ * squares.
  */
 static void place_sheet(const FrameContent *content, Layout *layout)
 {
@@ -341,7 +339,7 @@ static void place_sheet(const FrameContent *content, Layout *layout)
     layout->cells = content->sheet.cells;
 }
 
-/* Places a card below the pictures, in this many pixels of the stage. */
+/* Places a card below the panes, in `high` pixels of the stage. */
 static void put_below(Layout *layout, int card, double high)
 {
     Box box = box_cut_off(&layout->stage, EDGE_BOTTOM, (int)high);
@@ -349,14 +347,12 @@ static void put_below(Layout *layout, int card, double high)
     place_panes(layout->panes, layout);
 }
 
-/* Places the star of a page: the star takes the stage, and the picture takes
- * the star's place in the column.  If the column has no room for the picture,
- * or shows code, the picture is below the star.  Some stars are always below
- * the picture. */
+/* Places the star of a page on the stage, and the picture in the star's place
+ * in the column, or below the star if the column is too low or shows code. Some
+ * stars are always below the picture. */
 static void place_star(const FrameContent *content, Layout *layout)
 {
-    const Picture *picture =
-        picture_of(active_pane(content)->simulation->scene);
+    const Picture *picture = active_picture(content);
     const char *name = active_pane(content)->simulation->options.star;
     int star = name ? picture_card(picture, name) : -1;
     double bar = 3 * layout->em; /* more than a card that is closed has */
@@ -379,11 +375,10 @@ static void place_star(const FrameContent *content, Layout *layout)
     *stage = place;
 }
 
-/* On a page, the first card that was closed for want of room, or whose place
- * code has taken, is placed below the picture, in at most half of the stage.
- * Exceptions: pages with a star; in normal letters also pages with switches or
- * several panes, and scenes of a law (without code), whose bodies need the
- * whole stage. */
+/* On a page, places the first card without room in the column below the
+ * picture, in at most half of the stage.  Exceptions: pages with a star; in
+ * normal letters also pages with switches or several panes, and scenes of a law
+ * (without code), whose bodies need the whole stage. */
 static void place_folded(const FrameContent *content, Layout *layout)
 {
     const Simulation *simulation = active_pane(content)->simulation;
@@ -400,26 +395,23 @@ static void place_folded(const FrameContent *content, Layout *layout)
         (!big && ((options->law && !layout->page) || layout->panes != 1 ||
                   simulation->scene->parts[layout->page])))
         return;
-    const Card *card = picture_of(simulation->scene)->cards[folded];
     const Box *stage = &layout->stage;
     double em = layout->em;
-    double needs = card->needed_height
-                       ? card->needed_height(content, stage->width / em, em)
-                       : card->min_height;
+    double needs = needed_height(content, folded, stage->width / em, em);
     double room = layout->page ? stage->height - 0.8 * stage->width : 0;
     put_below(layout, folded,
               fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height));
 }
 
-/* An em has at least a 55th of the height on a page, and a 35th in large type
- * if that leaves room for words beside the stage. */
+/* On a page an em has at least a 55th of the height, in large type a 35th, as
+ * long as words have room beside the stage. */
 Layout layout_create(const FrameContent *content, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
     const Simulation *simulation = active_pane(content)->simulation;
     const Picture *picture = picture_of(simulation->scene);
     double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
-    double least = content->min_em > 0 ? content->min_em : EM_LEAST;
+    double least = content->min_em > 0 ? content->min_em : MIN_EM;
     bool page = content->column != COLUMN_CARDS, big = simulation->options.big;
     if (content->lecture.page || big)
         least = fmax(content->min_em, big ? fmin(height / 35.0, width / 54.0)
@@ -436,13 +428,11 @@ Layout layout_create(const FrameContent *content, int width, int height)
         return layout;
     }
     double wide = width / layout.em, high = height / layout.em;
-    bool low =
-        page &&
-        high < 50; /* in a low window a list or code needs the full width */
+    bool low = page && high < 50; /* a list or code needs the full width */
     if (!content->bare && wide >= 53 && high >= 34 && !low &&
         (page || content->cards.hidden != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
-        double ems = fmax(COLUMN_PART * wide, COLUMN_LEAST);
+        double ems = fmax(COLUMN_PART * wide, MIN_COLUMN);
         if (content->column == COLUMN_CODE)
             ems =
                 fmin(fmax(code_needed_width(content->lecture.page), ems), most);
@@ -457,7 +447,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
             place_cards(content, &layout);
         if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
-    } else if (!content->bare && page) { /* over the stage */
+    } else if (!content->bare && page) { /* code or list cover the stage */
         layout.column = layout.stage;
     }
     layout.page = page && layout.column.width > 0;
@@ -535,16 +525,14 @@ void camera_world(const Camera *camera, double x, double y, double world[2])
     world[1] = (camera->origin[1] - y) / camera->scale[1];
 }
 
-/* `pan` is relative to zoom 1, so that the view that fits may change
- * independently. */
+/* The pan is kept relative to zoom 1, so that the fitting view may change. */
 void lens_zoom(Lens *lens, Box box, double x, double y, double factor)
 {
     double zoom = lens->zoom > 0 ? lens->zoom : 1;
     lens->zoom = fmin(fmax(zoom * factor, ZOOM_LEAST), ZOOM_MOST);
-    double away = lens->zoom / zoom -
-                  1; /* relative growth of the distance from the middle */
-    lens_move(lens, box, -away * (x - box.x - 0.5 * box.width),
-              -away * (y - box.y - 0.5 * box.height));
+    double growth = lens->zoom / zoom - 1;
+    lens_move(lens, box, -growth * (x - box.x - 0.5 * box.width),
+              -growth * (y - box.y - 0.5 * box.height));
 }
 
 void lens_move(Lens *lens, Box box, double dx, double dy)

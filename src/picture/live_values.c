@@ -164,7 +164,7 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
         add_step_end(trace, values);
     if (trace->trials > 0 && trace->difference) {
         double alpha = trace_step_length(trace, trace->trials);
-        double change = trace->difference(trace->function, alpha);
+        double change = trace->difference(trace->difference_data, alpha);
         values_add(values, "change", change);
         values_add_words(values, "change", "no number");
         values_add_words(values, "+", change > 0 ? "+" : "");
@@ -226,7 +226,7 @@ static const Trace *descent_trace(const Simulation *simulation,
                         : descent->slope,
         .projected = taken ? record->projected : -1,
         .difference = aims ? energy_difference : NULL,
-        .function = space,
+        .difference_data = space,
         .trials = taken ? record->trials : 0,
         .accepted = taken,
     };

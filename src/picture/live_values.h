@@ -1,20 +1,19 @@
-/* live_values.h - numbers and words of a frame by name, and texts that use
- * them.
+/* live_values.h - numbers and words of a frame by name, and their texts.
  *
  * A text is lines of markup in which a name in braces stands for a live value:
  * "line 5: {alpha} = {length:/}".
- *   - A line that names an unknown value is left out.  So a value without words
- *     is a switch, and often only the first known line of a text is shown.
- *   - {-H} is the negative of H.  After a colon: the number of digits (3 if it
- * is missing), / to write 1/4 instead of 0.25, ' to put a negative number in
+ *   - A line that names an unknown value is left out: a flag is a value without
+ *     words.  Many texts show only their first known line.
+ *   - {-H} is the negative of H.  After a colon: the number of digits (else 3),
+ *     / to write 1/4 instead of 0.25, ' to put a negative number in
  *     parentheses.  Braces of the markup (text.h) stay markup.
- *   - "#warning " in front of a line sets its colour, "#warning* " makes it
- * bold, too.
- *   - Lines after a line "@" are repeated for the runs 1, 2 and 3, with the
- * values of that run; "#run " is the run's colour.
+ *   - "#warning " before a line sets its colour, "#warning* " makes it bold,
+ * too.
+ *   - Lines after a line "@" are repeated with the values of the runs 1, 2, 3;
+ *     "#run " is the run's colour.
  */
-#ifndef ELASTO_FACTS_H
-#define ELASTO_FACTS_H
+#ifndef ELASTO_LIVE_VALUES_H
+#define ELASTO_LIVE_VALUES_H
 
 #include "picture/picture.h"
 
@@ -33,10 +32,10 @@ void values_add_point(LiveValues *values, const char *name,
 void values_add_matrix(LiveValues *values, const char *const names[3],
                        const double H[3], double tiny);
 
-/* The number with this name; NaN: unknown. */
+/* Returns the number with this name; NaN: unknown. */
 double values_find_number(const LiveValues *values, const char *name);
 
-/* A line of a text with its values filled in, and the position in the text. */
+/* A line of a text with its values, and the position in the text. */
 typedef struct TextLine {
     Colour colour;
     Face face;
@@ -53,22 +52,21 @@ typedef struct TextLine {
 TextLine text_begin(const LiveValues *values, const char *text);
 bool text_next_line(TextLine *line);
 
-/* The first known line of a text, and whether a text has a known line. */
+/* Returns the first known line of a text, empty if no line is known. */
 TextLine text_first_line(const LiveValues *values, const char *text);
+/* Whether a text has a known line. */
 bool text_has_line(const LiveValues *values, const char *text);
 
-/* Writes all known lines of a text into a card, as large as they fit but no
- * larger than plain text (1.2 times that on a page).  An empty line has half
- * the height. */
+/* Writes all known lines of a text into a card, as large as they fit: at most
+ * as plain text, 1.2 times that on a page, 1.6 times as a page's star. */
 void card_write_text(const Plot *card, const LiveValues *values,
                      const char *text);
 
-/* Writes words behind each other from the left edge of a card, and on the next
- * line if the width is used up.
+/* Writes a text behind the last one, from the left edge of a card, or on the
+ * next line if the width is used up.  Returns the height used so far, pixels.
  *   gap  ems between two texts
- *   at   [2] in/out, pixels from the card's corner to the next text; starts as
- *        0, 0
- * Returns the height in pixels that is used so far. */
+ *   at   [2] in/out, pixels from the card's corner to the next text; at first
+ *        0, 0 */
 int card_flow_words(const Plot *card, int at[2], double size, double gap,
                     const TextLine *line);
 

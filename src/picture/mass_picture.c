@@ -33,7 +33,7 @@ static Colour run_colour(const Simulation *simulation, int run)
  * for each step. */
 static void draw_trails(const Plot *stage, bool steps)
 {
-    const History *history = stage->content->pane[stage->pane].history;
+    const History *history = stage->pane->history;
     int runs = stage->simulation->runs;
     for (int r = 0; history && history->series && r < runs; r++) {
         const double *x = history->value[runs + 2 * r];
@@ -221,7 +221,7 @@ void matrix_draw(const Plot *card)
     else
         plane.box = box_cut_off(&numbers.box, EDGE_RIGHT,
                                 rest < box->height ? rest : box->height);
-    card_write_text(&numbers, &active_pane(card->content)->values,
+    card_write_text(&numbers, &card->pane->values,
                     box->height < high ? text_eigenvalues : text_matrix);
     Box before = canvas_set_clip(&card->paper->canvas, plane.box);
     draw_complex_plane(&plane);

@@ -1,10 +1,8 @@
 /* plot.h - drawing in metres, or in the units of two axes.
  *
  * A Plot is a box of the paper with a camera.  The stage of a pane is a plot in
- * metres without axes; its x and y have one scale unless the picture is
- * stretched.  The inside of a card is a plot, too, and plot_create gives it
- * axes. Thus all pictures and cards share the same functions for lines, discs,
- * arrows and labels.
+ * metres without axes.  The inside of a card is a plot to which plot_create
+ * adds axes.
  *
  * Points are [2] in the units of the axes, widths and radii in units of the
  * paper, other sizes in ems.  In a plot with axes, lines and arrows are clipped
@@ -20,46 +18,50 @@
 
 typedef struct Axis {
     double low, high;  /* high > low; both > 0 on a logarithmic axis */
-    bool log;          /* is logarithmic: numbers stand at powers of ten */
-    bool whole;        /* shows whole numbers only */
-    const char *label; /* markup, or NULL.  x: below the right end of the axis,
-                          y: in the upper right corner */
+    bool log;          /* is logarithmic, with numbers at powers of ten */
+    bool whole;        /* has whole numbers only */
+    const char *label; /* markup at the right end below or, of y, above */
 } Axis;
 
 typedef struct Plot {
     Paper *paper; /* NULL: the plot only computes positions */
     const FrameContent *content;
-    const Simulation
-        *simulation;  /* of the pane; in a card, of the active pane */
-    bool revealed;    /* is on a page whose answer is shown */
-    Box box;          /* pixels; without the numbers of the axes */
+    const Pane *pane;             /* in a card, the active pane */
+    const Simulation *simulation; /* simulation of the pane */
+    bool revealed;                /* is on a page whose answer is shown */
+    Box box;                      /* pixels, without the numbers of the axes */
     Camera camera;    /* maps the logarithm where an axis is logarithmic */
-    Axis x, y;        /* low = high = 0: a stage in metres */
-    int pane;         /* index in the show */
+    Axis x, y;        /* low = high = 0: no axes, metres */
     bool has_text;    /* has room for words */
     double em;        /* pixels */
     int legend_at[2]; /* pixels, position of the legend's next words */
 } Plot;
 
-/* A point or vector that a function returns by value, for use as in
+/* Returns the index of the plot's pane in the frame. */
+static inline int plot_pane_index(const Plot *plot)
+{
+    return (int)(plot->pane - plot->content->pane);
+}
+
+/* A point or vector as the value of a function:
  * plot_line(plot, a, point_along(a, t, d).at, ...). */
 typedef struct Point {
     double at[2];
 } Point;
 
-/* a + t d */
+/* Returns a + t d. */
 static inline Point point_along(const double *a, double t, const double *d)
 {
     return (Point){{a[0] + t * d[0], a[1] + t * d[1]}};
 }
 
-/* b - a */
+/* Returns b - a. */
 static inline Point vector_between(const double *a, const double *b)
 {
     return point_along(b, -1, a);
 }
 
-/* |b - a| */
+/* Returns |b - a|. */
 static inline double point_distance(const double *a, const double *b)
 {
     return math_hypot(b[0] - a[0], b[1] - a[1]);
@@ -70,32 +72,33 @@ static inline double vector_length(const double *d)
     return math_hypot(d[0], d[1]);
 }
 
-/* The smallest 1, 2 or 5 times a power of ten that is at least value > 0. */
+/* Rounds value > 0 up to 1, 2 or 5 times a power of ten. */
 double plot_round_up(double value);
 
-/* The smallest number that is at least value > 0 and that an axis from 0 to it
- * shows at its end. */
+/* Rounds value > 0 up to a number that stands at the end of an axis from 0. */
 double plot_round_axis(double value);
 
 /* Draws axes in a card: numbers on the left and below, light lines across. */
 Plot plot_create(const Plot *card, Axis x, Axis y);
 
-/* Draws axes over a stage that has room for words.  Each axis covers the range
- * that the camera sees, except y if y.high is not 0: then y keeps its own. */
+/* Adds axes to a stage, drawn if the stage has room for words.  Each axis
+ * covers the range that the camera sees; y keeps its own range if y.high is not
+ * 0. */
 Plot plot_on_stage(const Plot *stage, Axis x, Axis y);
 
-/* Maps a point to pixels; not finite if the point has no logarithm. */
+/* Maps a point to pixels, not finite ones if the point has no logarithm. */
 void plot_pixel(const Plot *plot, const double *at, double pixel[2]);
 
-/* Picks the point of [count][2] that is nearest to pixel (x, y), the last one
- * of equal distances.  Returns false if none lies within `reach` pixels. */
+/* Picks the point nearest to pixel (x, y), the last one of equal distances.
+ * Returns false if no point lies within `reach` pixels.
+ *   at  [count][2] in, points */
 bool plot_pick_point(const Plot *plot, int count, const double *at,
                      double reach, double x, double y, PickKind kind,
                      Pick *pick);
 
-/* Bounds of a square view around the origin: half a side is `reach` metres
- * times the smallest power of `factor` that makes it at least `most`.  A view
- * that grows by steps seldom moves. */
+/* Finds bounds of a square view around the origin.  Half a side is `reach`
+ * metres times the smallest power of `factor` that makes it at least `most`: a
+ * view that grows by steps seldom moves. */
 void bounds_grow(double reach, double most, double factor, double bounds[4]);
 
 /* ---- shapes; the phase of dashes is that of canvas_dashes -----------------
@@ -106,25 +109,26 @@ void plot_line(const Plot *plot, const double *a, const double *b, double width,
 void plot_dashes(const Plot *plot, const double *a, const double *b,
                  double width, double *phase, Colour colour);
 
-/* The curve middle + a cos t + b sin t. */
+/* Draws the curve middle + a cos t + b sin t. */
 void plot_ellipse(const Plot *plot, const double *middle, const double *a,
                   const double *b, double width, bool dashed, Colour colour);
 
-/* All unbroken springs of a system at positions x [2n]. */
+/* Draws all unbroken springs of a system at positions x [2n]. */
 void plot_springs(const Plot *plot, const System *system, const double *x,
                   double width, Colour colour);
 
 /* A filled quadrilateral; neighbours have no seam between them. */
 void plot_quad(const Plot *plot, const double *const corner[4], Colour colour);
 
-/* A polyline through points x, y [count]; a function y over the whole axis. */
+/* Draws a polyline through points x, y [count]. */
 void plot_curve(const Plot *plot, int count, const double *x, const double *y,
                 double width, Colour colour);
+/* Draws the function y over the whole axis of x. */
 void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
                 const void *data, double width, Colour colour);
 
-/* A disc; returns whether its centre is inside.  A hollow disc is white up to
- * the radius `inner`. */
+/* Draws a disc.  Returns whether the centre is inside the plot.  A hollow disc
+ * is white up to the radius `inner`. */
 bool plot_disc(const Plot *plot, const double *at, double radius,
                Colour colour);
 void plot_hollow_disc(const Plot *plot, const double *at, double radius,
@@ -132,10 +136,10 @@ void plot_hollow_disc(const Plot *plot, const double *at, double radius,
 void plot_ring(const Plot *plot, const double *at, double radius, double width,
                Colour colour);
 
-/* The mark of a pinned node. */
+/* Draws the mark of a pinned node. */
 void plot_pin(const Plot *plot, const double *at, double radius);
 
-/* An arrow from a to a + factor d. */
+/* Draws an arrow from a to a + factor d. */
 void plot_arrow(const Plot *plot, const double *a, const double *d,
                 double factor, double width, Colour colour);
 
@@ -148,31 +152,31 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...);
 /* Draws a scale of 1, 2 or 5 times a power of ten metres, lower left. */
 void plot_scale(const Plot *plot);
 
-/* Cost of a label's position: high if the box covers drawn pixels or reaches
- * out of the plot. */
+/* Returns the cost of a place for a label, which is high if the box covers
+ * drawn pixels or reaches out of the plot. */
 double plot_label_cost(const Plot *plot, Box place);
 
-/* Writes a label, formatted as by printf, in bold beside one of the points at
- * [points][2], where it covers the fewest drawn pixels; earlier points are
- * preferred. */
+/* Writes a label, formatted as by printf, in bold beside one of the points,
+ * where the label covers the fewest drawn pixels.
+ *   at  [points][2] in; earlier points are preferred */
 void plot_label(const Plot *plot, int points, const double *at, Colour colour,
                 const char *format, ...);
 
-/* A number as markup: 100000, 0.003, or with a power of ten such as
- * 2.5 10^{7}; format_number writes three digits. */
+/* A number as markup: 100000, 0.003, or 2.5 10^{7}.  format_number writes three
+ * digits. */
 typedef struct Number {
     char text[48];
 } Number;
 Number format_digits(double value, int digits);
 Number format_number(double value);
 
-/* ---- stages (show.c) ---------------------------------------------------- */
+/* ---- stages (frame_content.c) ------------------------------------------- */
 
-/* The stage of a pane; paper NULL: the stage only computes positions. */
+/* Makes the stage of a pane; paper NULL: the stage only computes positions. */
 Plot stage_create(Paper *paper, const FrameContent *content,
                   const Layout *layout, int pane);
 
 /* Draws a ring at each of the scene's handles, which the mouse can drag. */
-void stage_handles(const Plot *stage);
+void stage_draw_handles(const Plot *stage);
 
 #endif

@@ -227,7 +227,7 @@ void tangent_draw(Plot *stage)
     }
     if (!stage->has_text)
         return;
-    stage_handles(&plot[1]);
+    stage_draw_handles(&plot[1]);
     if (plot_disc(&plot[1], target, 5, COLOUR_X_TILDE))
         plot_label(&plot[1], 1, target, COLOUR_X_TILDE, "{xt}");
     Paper *paper = stage->paper;
@@ -297,7 +297,7 @@ void update_draw(const Plot *card)
     Plot left = *card, right = *card;
     right.box = box_cut_off(&left.box, EDGE_RIGHT,
                             paper_pixels(card->paper, ITERATES_WIDE));
-    card_write_text(&left, &active_pane(card->content)->values, text_update);
+    card_write_text(&left, &card->pane->values, text_update);
     draw_iterates(&right);
 }
 

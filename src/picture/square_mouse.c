@@ -24,7 +24,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(system);
-    const double *at = pane_x(&stage->content->pane[stage->pane]);
+    const double *at = pane_x(stage->pane);
     double spacing = stage->camera.scale[0] * mesh->spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
     int springs = neo_hookean_of(system) ? 0 : system->springs;
@@ -174,7 +174,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
 
 void square_hover(Plot *stage)
 {
-    const Pane *pane = &stage->content->pane[stage->pane];
+    const Pane *pane = stage->pane;
     const Pick *hover = &stage->content->view->hover;
     const System *system = &pane->simulation->system;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)

@@ -45,17 +45,15 @@ static bool is_fixed(const SquarePen *pen, int node)
 SquarePen square_pen_create(Plot *stage, int run)
 {
     const FrameContent *content = stage->content;
-    const Pane *pane = &content->pane[stage->pane];
     const Simulation *simulation = stage->simulation;
-    const Trace *trace = pane->trace;
+    const Trace *trace = stage->pane->trace;
     const System *system = simulation->run[run].system;
     const Plasticity *plasticity = system_term_data(system, &plastic_energy);
     const SquareMesh *mesh = &simulation->mesh;
     SquarePen pen = {.stage = stage,
                      .simulation = simulation,
-                     .pane = pane,
                      .system = system,
-                     .x = run ? simulation->run[run].x : pane_x(pane),
+                     .x = run ? simulation->run[run].x : pane_x(stage->pane),
                      .v = simulation->run[run].v,
                      .spacing = stage->camera.scale[0] * mesh->spacing,
                      .shade_strain = strain_range(simulation, NULL),
@@ -167,7 +165,7 @@ static bool cell_is_whole(const Simulation *simulation, int cell, int node[4])
     return broken == 0;
 }
 
-int pane_folded(const Pane *pane)
+int pane_count_folded(const Pane *pane)
 {
     int folded = 0, node[4];
     for (int c = 0; c < pane->simulation->mesh.cells; c++)

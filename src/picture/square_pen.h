@@ -7,44 +7,46 @@
 #include "model/contact.h"
 #include "picture/plot.h"
 
-/* One run of a pane, and what is the same for all its springs.  Widths and
+/* A run on the stage, and how its springs and nodes are drawn.  Widths and
  * radii are in units of the paper. */
 typedef struct SquarePen {
     Plot *stage;
-    const Simulation *simulation; /* the stage's */
-    const Pane *pane;
+    const Simulation *simulation; /* simulation of the stage */
     const System *system;
     const double *x, *v;    /* [2n] m, m/s */
-    double spacing;         /* pixels between two nodes at rest; larger if the
+    double spacing;         /* pixels between two nodes at rest, or more if the
                                nodes have flown apart */
-    double width;           /* of a spring */
-    double radius;          /* of a node */
+    double width;           /* width of a spring */
+    double radius;          /* radius of a node */
     double shade_strain;    /* strain of the lightest and darkest face */
     double colour_range;    /* strain of the end colours; 0: springs are blue */
     Colour below, above;    /* end colours at -colour_range, +colour_range */
-    bool shows_plastic;     /* colours are of the plastic strain */
+    bool shows_plastic;     /* colours show plastic strain, not strain */
     const double *ep;       /* [springs] plastic strain; NULL: no plasticity */
     const Contact *contact; /* NULL: the scene has no contact */
     EvalPoint contact_at;   /* evaluation point of the contact term */
     bool shows_projected;   /* springs with a projected block are coloured */
-    unsigned fixed_bodies;  /* bit b: body b of several is pinned everywhere and
-                               drawn like a wall */
+    unsigned fixed_bodies;  /* bit b: body b is pinned everywhere and drawn like
+                               a wall; 0 for a single body */
 } SquarePen;
 
 SquarePen square_pen_create(Plot *stage, int run);
 
-/* Draws one spring in a given colour, all unbroken springs, or the nodes. Nodes
- * of a fine mesh are hidden by the springs and left out. */
+/* Draws one spring. */
 void square_spring(const SquarePen *pen, int s, double width, Colour colour);
+
+/* Draws all unbroken springs, or all nodes; those of a fine mesh are left out,
+ * as springs hide them. */
 void square_springs(const SquarePen *pen);
 void square_nodes(const SquarePen *pen);
 
-/* Draws the cells of a fine mesh as shaded faces, folded cells dark, and the
- * outline.  Cells of less than a few pixels are merged into larger faces. */
+/* Draws a fine mesh as shaded faces of at least a few pixels, with dark folded
+ * cells and an outline. */
 void square_faces(const SquarePen *pen);
 
-/* Fills unbroken cells lightly and folded ones in another colour; all false:
- * only the folded ones.  Returns the number of folded cells. */
+/* Fills the unbroken cells in a pale colour, the folded ones in red; all false:
+ * only the folded ones.  Of a solid fills the triangles.  Returns the number of
+ * folded cells. */
 int square_cells(const SquarePen *pen, bool all);
 
 /* Draws the outline at positions x; NULL: the rest shape. */
@@ -55,29 +57,26 @@ void square_outline(const SquarePen *pen, const double *x, bool dashed,
  * are not many. */
 void square_ghost(const SquarePen *pen, const double *x, Colour colour);
 
-/* The contacts of a run: for (ElementIterator at = square_contacts(pen);
- * elements_next(&at);) square_contact_force(pen, &at.element). */
-ElementIterator square_contacts(const SquarePen *pen);
-
-/* Everything here follows from positions and velocities alone, so that an old
- * state of the past is drawn as it was when it was new.  The contacts of a run:
+/* Iterates over the contacts of a run:
  *     for (ElementIterator at = square_contacts(pen); elements_next(&at);)
- *         square_contact_force(pen, &at.element); */
+ *         square_contact_force(pen, &at.element);
+ * Forces follow from positions and velocities alone, so that a step of the past
+ * is drawn as when it was new. */
 ElementIterator square_contacts(const SquarePen *pen);
 
 typedef struct ContactForce {
     int node;
-    double force[2]; /* N, on the node, friction included */
+    double force[2]; /* N, force on the node, with friction */
     bool has_friction;
-    bool slides; /* is faster than eps_v */
+    bool slides; /* slips faster than eps_v */
 } ContactForce;
 ContactForce square_contact_force(const SquarePen *pen, const Element *element);
 
-/* Draws walls and balls of a run.  Walls of several runs are drawn as slabs, so
- * that they do not cover each other. */
+/* Draws walls and balls of a run.  With several runs walls are thin slabs,
+ * which do not cover each other. */
 void square_contact_obstacles(const SquarePen *pen);
 
-/* Writes the coefficient of friction of a sloping first wall as a multiple of
+/* Writes the coefficient of friction of a sloping first wall, as a multiple of
  * the slope, below the wall and right of the body. */
 void square_contact_slope(const SquarePen *pen);
 

@@ -1,5 +1,4 @@
-/* square_picture.c - the picture of the square: its view of the world, its
- * layers, its live values. */
+/* square_picture.c - the picture of the square: bounds, layers, live values. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,37 +11,35 @@
 #include "base/mathematics.h"
 #include "run/control.h"
 
-enum { ARROW_SPACING = 16 }; /* pixels between nodes with arrows, at least */
-static const double MIN_ARROW =
-    1.5;                 /* ems, the longest arrow of p has at least */
-enum { MIN_CELL = 5 };   /* pixels; smaller cells are drawn as faces */
-enum { NUMBERED = 121 }; /* the most nodes whose numbers are shown */
+enum {
+    ARROW_SPACING = 16, /* pixels, least distance of nodes with arrows */
+    MIN_CELL = 5,       /* pixels; smaller cells are drawn as faces */
+    NUMBERED = 121,     /* the most nodes whose numbers are shown */
+    MAGNIFIER_SIZES = 3
+};
 
+static const double MIN_ARROW = 1.5; /* ems, the longest arrow of p, at least */
 static const double MAX_VIEW = 1e303; /* largest view, times the first view */
 static const double ROOM = 1.14;      /* size of the stage, times the square */
+static const double BARE_ROOM = 1.75; /* size of a bare stage, likewise */
 static const double MAGNIFIER = 12;   /* ems, side of the magnifier, at most */
-enum { MAGNIFIER_SIZES = 3 };
 static const double BALL_REACH = 4;   /* reach for balls, times the view */
 static const double GROUND_REACH = 2; /* reach for grounds, times the view */
-static const double BARE_ROOM =
-    1.75; /* size of a bare stage, times the square */
 
 /* ---- how much of the world is seen -------------------------------------- */
 
-/* Whether the scene sets its view. */
 static bool scene_sets_view(const Simulation *simulation)
 {
     const double *frame = simulation->scene->frame;
     return frame[2] > frame[0];
 }
 
-/* A part of the world, m: its middle, and the distances to its sides. */
+/* A part of the world, m: middle, and half of width and height. */
 typedef struct Extent {
     double middle[2], size[2];
 } Extent;
 
-/* Whether nothing holds the body or is in its way; then the view follows the
- * body from the start. */
+/* Whether nothing holds the body or is in its way. */
 static bool moves_freely(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
@@ -51,20 +48,20 @@ static bool moves_freely(const Simulation *simulation)
            simulation->runs == 1;
 }
 
-/* The view of the scene; else the square at its start, with the room that a
- * compressed one needs to spring out and bulge. */
+/* Returns the view that the scene sets, or else the square at the start with
+ * room in which a compressed square can spring out and bulge. */
 static Extent first_view(const FrameContent *content,
                          const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     const double *frame = simulation->scene->frame;
-    Extent view = {{0, 0}, {0, 0}};
     double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half =
         0.5 * simulation->mesh.side * (content->bare ? BARE_ROOM : ROOM);
-    view.size[0] = half * extent;
-    view.size[1] = half * (content->bare ? extent : fmin(extent, 1.25));
+    Extent view = {
+        {0, 0},
+        {half * extent, half * (content->bare ? extent : fmin(extent, 1.25))}};
     for (int k = 0; k < 2 && scene_sets_view(simulation); k++) {
         view.middle[k] = 0.5 * (frame[2 + k] + frame[k]);
         view.size[k] = 0.5 * (frame[2 + k] - frame[k]);
@@ -72,8 +69,9 @@ static Extent first_view(const FrameContent *content,
     return view;
 }
 
-/* What the stage shows if the view fits: more at two sides. */
-static Extent view_seen(const Plot *stage, const Extent *view)
+/* Returns the part of the world that fills the stage if the view fits: more at
+ * two sides. */
+static Extent fill_stage(const Plot *stage, const Extent *view)
 {
     Extent seen = *view;
     const double box[2] = {stage->box.width, stage->box.height};
@@ -83,11 +81,10 @@ static Extent view_seen(const Plot *stage, const Extent *view)
     return seen;
 }
 
-/* Widens the view to a circle that is partly hidden and not too far.  The wider
- * view begins as what is seen, and returns to that between `reach` and 1.5
- * times `reach`, so that the camera never jumps.
- *   reach  distance from the middle, times the view, up to which the circle is
- *          seen */
+/* Widens the view by a circle that is partly outside of the seen part.  Between
+ * `reach` and 1.5 times `reach` the view shrinks to the seen part again, so
+ * that the camera never jumps. at, radius  m, circle reach       distance from
+ * the middle, times the seen part, up to which the whole circle is shown */
 static void widen_view(const Extent *seen, const double at[2], double radius,
                        double reach, Extent *view)
 {
@@ -112,14 +109,14 @@ static void widen_view(const Extent *seen, const double at[2], double radius,
     }
 }
 
-/* Widens the view by the balls and grounds in reach.  Of a ground a strip is
- * shown that is wide enough for the mouse. */
+/* Widens the view by the balls in reach, and by a strip of each ground in reach
+ * that is wide enough for the mouse. */
 static void add_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
-    const Extent seen = view_seen(stage, view);
+    const Extent seen = fill_stage(stage, view);
     double air = 0.04 * fmin(view->size[0], view->size[1]);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
@@ -148,8 +145,7 @@ void pane_node_bounds(const Pane *pane, int runs, double bounds[4])
     }
 }
 
-/* Moves the view just enough for the middle of the body to be in its inner
- * half. */
+/* Moves the view just enough for its inner half to hold the body's middle. */
 static void follow_body(const Simulation *simulation, const double *x,
                         Extent *view)
 {
@@ -164,7 +160,7 @@ static void follow_body(const Simulation *simulation, const double *x,
     }
 }
 
-/* Moves the view just enough for the box to be in it; centres a larger box. */
+/* Moves the view just enough to hold the box; centres a larger box. */
 static void pan_view(const double box[4], Extent *view)
 {
     for (int k = 0; k < 2; k++) {
@@ -175,8 +171,8 @@ static void pan_view(const double box[4], Extent *view)
     }
 }
 
-/* Factor by which the view must grow to show the box.
- *   tall  out, the same upwards only */
+/* Returns the factor by which the view must grow to show the box.
+ *   tall  out, the factor for the height alone */
 static double needed_growth(const double box[4], const Extent *view,
                             double *tall)
 {
@@ -188,21 +184,19 @@ static double needed_growth(const double box[4], const Extent *view,
     return fmax(need[0], need[1]);
 }
 
-/* The view is the first view, or 1.5 times as large if nodes have left that;
- * then it moves with the nodes.  It grows further, by factors of 1.5, if nodes
- * are too far from each other.  From the start it follows a body that nothing
- * holds.  Last come balls and grounds in reach. */
+/* Starts from the first view, which follows a body that nothing holds.  While
+ * nodes are outside, the view grows by factors of 1.5 and moves with the nodes.
+ * Then the view widens to balls and grounds in reach. */
 void square_bounds(const Plot *stage, double bounds[4])
 {
     static const double GROWTH = 1.5;
-    const FrameContent *content = stage->content;
-    const Pane *pane = &content->pane[stage->pane];
     const Simulation *simulation = stage->simulation;
-    Extent view = first_view(content, simulation);
+    bool bare = stage->content->bare;
+    Extent view = first_view(stage->content, simulation);
     double box[4], tall, grown = 1;
-    pane_node_bounds(pane, simulation->runs, box);
+    pane_node_bounds(stage->pane, simulation->runs, box);
     if (moves_freely(simulation))
-        follow_body(simulation, pane_x(pane), &view);
+        follow_body(simulation, pane_x(stage->pane), &view);
     while (grown < needed_growth(box, &view, &tall) * (1 - 1e-12) &&
            grown < MAX_VIEW) {
         Extent larger = view;
@@ -213,7 +207,7 @@ void square_bounds(const Plot *stage, double bounds[4])
         memcpy(view.middle, larger.middle, sizeof view.middle);
     }
     /* A wide bare window has less room above the square. */
-    double low = content->bare && !scene_sets_view(simulation)
+    double low = bare && !scene_sets_view(simulation)
                      ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown)
                      : 1;
     view.size[0] *= grown;
@@ -227,13 +221,13 @@ void square_bounds(const Plot *stage, double bounds[4])
 
 /* ---- what Newton does --------------------------------------------------- */
 
-/* Draws p as arrows to where a full step leads.  Arrows that would be too short
- * or too long are scaled by a power of ten, which the legend tells.  A fine
- * mesh has an arrow every few nodes. */
+/* Draws p as arrows at every node, or at every few nodes of a fine mesh.  If
+ * the longest arrow is too short or too long, all are scaled by a power of ten,
+ * which the legend names. */
 static void draw_direction(const SquarePen *pen)
 {
     Plot *stage = pen->stage;
-    const Trace *trace = pen->pane->trace;
+    const Trace *trace = pen->stage->pane->trace;
     double scale = stage->camera.scale[0], factor = 1, longest = 0;
     double most = 0.5 * fmin(stage->box.width, stage->box.height);
     double least = fmin(MIN_ARROW * stage->em, 0.1 * most);
@@ -270,15 +264,17 @@ static void draw_push(const SquarePen *pen, const Control *hand)
     plot_disc(pen->stage, hand->at, 4, COLOUR_HAND);
 }
 
-/* Marks what the mouse is over, and draws the spring of the hand. */
+/* Marks the node or spring under the mouse, and draws the spring of the hand.
+ */
 static void draw_mouse(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const FrameContent *content = stage->content;
     const System *system = pen->system;
-    const Control *hand = stage->pane == content->active ? content->hand : NULL;
+    const Control *hand =
+        stage->pane == active_pane(content) ? content->hand : NULL;
     const Pick *hover = &content->view->hover;
-    bool over = hover->pane == stage->pane;
+    bool over = hover->pane == plot_pane_index(stage);
     bool writes = pen->simulation->options.next == NEXT_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? newest_spring(pen->simulation)
@@ -298,18 +294,18 @@ static void draw_mouse(const SquarePen *pen)
     plot_disc(stage, hand->at, 4, COLOUR_HAND);
 }
 
-/* ---- all of it ---------------------------------------------------------- */
+/* ---- layers ------------------------------------------------------------- */
 
-/* Draws what is below the springs: rest shape, cells, ghosts.  Returns the
+/* Draws the layers below the springs: rest shape, cells, ghosts.  Returns the
  * number of folded cells. */
 static int draw_below_springs(const SquarePen *pen)
 {
-    const Pane *pane = pen->pane;
+    const Pane *pane = pen->stage->pane;
     const Trace *trace = pane->trace;
     if (!scene_sets_view(pen->simulation) && !pen->contact &&
         pen->simulation->options.bodies == 0) {
         square_outline(pen, NULL, false, COLOUR_RULE);
-        if (pen->stage->pane == 0)
+        if (plot_pane_index(pen->stage) == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
     int folded = square_cells(
@@ -354,7 +350,7 @@ static void draw_warnings(const SquarePen *pen, int folded)
                     folded == 1 ? "" : "s");
 }
 
-/* Marks the place of the square when it is too small to be seen. */
+/* Marks the place of a square that is too small to be seen. */
 static void draw_origin(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
@@ -408,8 +404,8 @@ static void draw_numbers(const SquarePen *pen)
     }
 }
 
-/* Draws an arrow factor * d at each node, cut at nine tenths of a cell; factor
- * 0: the longest arrow has that length. */
+/* Draws an arrow factor * d at each node, cut at nine tenths of a spring; with
+ * factor 0 the longest arrow has that length. */
 static void draw_arrows(const SquarePen *pen, const double *d, double factor,
                         Colour colour, const char *word)
 {
@@ -459,7 +455,7 @@ static void draw_page_arrows(const SquarePen *pen)
 }
 
 /* Draws springs in the colours of their kinds.  On a page with switches for the
- * kinds, the kind of the newest spring is wider. */
+ * kinds, springs of the kind of the newest spring are wider. */
 static void draw_kinds(const SquarePen *pen)
 {
     static const int colours[] = {0, 1, 3, 3}; /* colours of these runs */
@@ -474,9 +470,9 @@ static void draw_kinds(const SquarePen *pen)
     }
 }
 
-/* Draws a magnifier on the gap of the page's law.  It is placed in the corner
- * of the stage where it hides least, right ones first, and is smaller if it
- * would hide something in all of them. */
+/* Draws a magnifier on the contact of the page's law, in the corner of the
+ * stage where the magnifier hides least, and smaller if it hides something in
+ * each. */
 static void draw_magnifier(const SquarePen *pen)
 {
     Plot lens = *pen->stage;
@@ -522,7 +518,8 @@ static void draw_magnifier(const SquarePen *pen)
     canvas_set_clip(canvas, before);
 }
 
-/* Draws how far a body has slid, and how far a rigid one would. */
+/* Draws the distances that a body has slid and that a rigid body would slide.
+ */
 static void draw_slide(const Plot *stage)
 {
     static const double ABOVE = 0.04; /* m, height above the body */
@@ -546,8 +543,8 @@ static void draw_slide(const Plot *stage)
                format_number(gone[0]).text);
 }
 
-/* Draws all layers from the ground up.  The first of several runs comes last,
- * and walls are below all bodies. */
+/* Draws the walls, then the bodies of all runs, the first one last, and then
+ * the layers above them. */
 void square_draw(Plot *stage)
 {
     SquarePen pen[SIMULATION_MAX_RUNS];
@@ -605,7 +602,7 @@ void square_draw(Plot *stage)
     draw_magnifier(pen);
 }
 
-/* ---- its numbers --------------------------------------------------------- */
+/* ---- live values --------------------------------------------------------- */
 
 int newest_spring(const Simulation *simulation)
 {
@@ -613,8 +610,8 @@ int newest_spring(const Simulation *simulation)
     return simulation->steps < last ? (int)simulation->steps : last;
 }
 
-/* Adds h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and its
- * rows. */
+/* Adds h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and the
+ * rows of this block in the whole matrix. */
 static void add_block(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};
@@ -631,8 +628,8 @@ static void add_block(const Simulation *simulation, LiveValues *values)
     values_add_matrix(values, names, H, 1e-7 * k);
 }
 
-/* Adds force and acceleration of the last node, and the number of nodes without
- * force. */
+/* Adds force and acceleration of the last node, and the number of nodes whose
+ * force is 0 up to rounding. */
 static void add_force_values(const Simulation *simulation, const double *x,
                              LiveValues *values)
 {
@@ -640,7 +637,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
     double a[2 * NUMBERED] = {0}, m = simulation->system.m[last];
     double *at = a + 2 * last;
     system_acceleration(&simulation->system, x, a);
-    for (int i = 0; i <= last; i++) /* up to rounding */
+    for (int i = 0; i <= last; i++)
         balanced += vector_length(a + 2 * i) <= 1e-9 * vector_length(at);
     values_add_point(values, "a", at);
     values_add_point(values, "f", (double[2]){m * at[0], m * at[1]});
@@ -648,8 +645,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
     values_add(values, "balanced", balanced);
 }
 
-/* Adds the values that pages have about mesh, Hessian and one row of M a = f.
- */
+/* Adds the values that pages use about mesh, law, mode and forces. */
 void square_add_values(const Simulation *simulation, LiveValues *values)
 {
     const System *system = &simulation->system;
@@ -696,8 +692,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
         add_force_values(simulation, x, values);
 }
 
-/* Samples all energies of the first run, J; cards leave out those that are 0.
- */
+/* Samples all energies of the first run, J. */
 int square_sample(const Simulation *simulation, Energy *row)
 {
     Energies energies = simulation_energies(simulation, 0);

@@ -10,15 +10,13 @@
 #include "picture/colour_map.h"
 
 enum {
-    MIN_STEPS = 60, /* steps that the time line has room for, at least */
-    MIN_BAR =
-        3, /* pixels, width of a bar, at least; narrower steps are grouped */
-    FULL_BAR_UPDATES =
-        12 /* updates of a step whose bar has full height, at least */
+    MIN_STEPS = 60, /* the time line has room for at least these steps */
+    MIN_BAR = 3,    /* pixels, width of a bar; narrower steps are grouped */
+    FULL_BAR_UPDATES = 12 /* a step with fewer updates has no full bar */
 };
 
-static const double TOPIC = 1.3; /* ems, letters of the topic */
-static const double VALUE = 0.95;
+static const double TOPIC = 1.3;  /* ems, letters of the topic */
+static const double VALUE = 0.95; /* ems, letters of settings and time */
 
 /* Draws the white ground of a zone, with a thin line along one edge. */
 static void draw_zone(Paper *paper, Box zone, bool rule_below)
@@ -32,50 +30,48 @@ static void draw_zone(Paper *paper, Box zone, bool rule_below)
 /* Draws topic and sentence from the left, method and state from the right.  A
  * message takes the place of the sentence, in a low strip also that of the
  * topic unless both fit. */
-static void draw_strip(Paper *paper, Box room, const FrameContent *content)
+static void draw_strip(Paper *paper, Box room, const Strip *strip)
 {
     double em = paper->em;
-    bool low = room.height <= 2.6 * em, message = content->strip.message[0];
-    const char *said =
-        message ? content->strip.message : content->strip.sentence;
-    Colour colour = !message                    ? COLOUR_TEXT
-                    : content->strip.is_warning ? COLOUR_WARNING
-                                                : COLOUR_VALUE;
+    bool low = room.height <= 2.6 * em, message = strip->message[0];
+    const char *said = message ? strip->message : strip->sentence;
+    const char *topic = strip->topic ? strip->topic : "";
+    Colour colour = !message            ? COLOUR_TEXT
+                    : strip->is_warning ? COLOUR_WARNING
+                                        : COLOUR_VALUE;
     char words[2 * SENTENCE_SIZE];
     draw_zone(paper, room, true);
     box_cut_off(&room, EDGE_LEFT, (int)(0.9 * em));
     room.width -= (int)(0.9 * em);
-    snprintf(words, sizeof words, "%s%s%s", content->strip.method,
-             content->strip.method[0] && content->strip.state[0] ? " \u00b7 "
-                                                                 : "",
-             content->strip.state);
+    snprintf(words, sizeof words, "%s%s%s", strip->method,
+             strip->method[0] && strip->state[0] ? " \u00b7 " : "",
+             strip->state);
     if (paper_width(paper, FACE_REGULAR, 1, words) > 0.45 * room.width)
-        snprintf(words, sizeof words, "%s", content->strip.state);
+        snprintf(words, sizeof words, "%s", strip->state);
     room.width -= paper_fit(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
                             ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
+    double wide = paper_width(paper, FACE_REGULAR, 1, said);
     bool beside =
         !low || !message ||
-        paper_width(paper, FACE_BOLD, TOPIC,
-                    content->strip.topic ? content->strip.topic : "") +
-                paper_width(paper, FACE_REGULAR, 1, said) + 1.1 * em <
+        paper_width(paper, FACE_BOLD, TOPIC, topic) + wide + 1.1 * em <
             room.width;
-    if (content->strip.topic && beside)
+    if (strip->topic && beside)
         box_cut_off(&room, EDGE_LEFT,
                     (int)(1.1 * em) + paper_fit(paper, FACE_BOLD, TOPIC,
                                                 COLOUR_TEXT, room, ALIGN_LEFT,
-                                                content->strip.topic));
-    bool two = !low && paper_width(paper, FACE_REGULAR, 1, said) > room.width;
+                                                topic));
+    bool two = !low && wide > room.width;
     room.y += (int)(0.5 * room.height - (two ? 1.27 : 0.65) * em);
     if (room.width > 6 * em)
         paper_paragraph(paper, FACE_REGULAR, two ? 0.9 : 1, colour, room,
                         two ? 2 : 1, said);
 }
 
-/* ---- the row ------------------------------------------------------------ */
+/* ---- settings ------------------------------------------------------------ */
 
-/* Draws a setting: name and value; dots below the value tell that it can be
- * changed. */
+/* Draws name and value of a setting.  Dots below the value are the sign of a
+ * value that can be changed. */
 static void draw_setting(Paper *paper, Box box, const Setting *setting,
                          bool selected, bool over)
 {
@@ -109,78 +105,80 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
 
 long time_line_steps(const FrameContent *content)
 {
-    return content->time_line.steps > MIN_STEPS ? content->time_line.steps
-                                                : MIN_STEPS;
+    long steps = content->time_line.steps;
+    return steps > MIN_STEPS ? steps : MIN_STEPS;
 }
 
-/* Draws a bar for each step, or for the largest step of a group if there is no
- * room for all; then the handle at the current step with its words. */
-static void draw_time(Paper *paper, const Layout *layout,
-                      const FrameContent *content)
+/* Draws a bar for each step, or for the largest step of each group of steps. */
+static void draw_bars(Paper *paper, Box bars, double pitch,
+                      const TimeLine *line)
 {
-    Box zone = layout->time_line, bars = layout->bars;
-    double em = paper->em,
-           part = (content->time_line.step - 0.5) / time_line_steps(content);
-    double pitch = (double)bars.width / time_line_steps(content);
     long group = (long)ceil(MIN_BAR / pitch), most = FULL_BAR_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
-    bool words = zone.height > 3.5 * em;
-    double x = floor(bars.x + fmax(part, 0) * bars.width) + 0.5;
-    double top = zone.y + (words ? 1.1 : 0.5) * em, at = x + 1.1 * em;
-    if (zone.width <= 0)
-        return;
-    draw_zone(paper, zone, false);
-    for (long s = 1; content->time_line.bar && s <= content->time_line.steps;
-         s++)
-        most = (long)fmax(
-            most, content->time_line.bar(content->time_line.past, s).updates);
-    for (long s = 0; content->time_line.bar && s < content->time_line.steps;
-         s += group) {
+    for (long s = 1; s <= line->steps; s++)
+        most = (long)fmax(most, line->bar(line->past, s).updates);
+    for (long s = 0; s < line->steps; s += group) {
         StepBar bar = {0, false};
-        for (long k = s; k < s + group && k < content->time_line.steps; k++) {
-            StepBar one =
-                content->time_line.bar(content->time_line.past, k + 1);
+        for (long k = s; k < s + group && k < line->steps; k++) {
+            StepBar one = line->bar(line->past, k + 1);
             bar.updates = (int)fmax(bar.updates, one.updates);
             bar.unconverged |= one.unconverged;
         }
         int left = (int)(s * pitch), right = (int)((s + group) * pitch) - gap;
         int high = least + (int)((bars.height - least) *
                                  sqrt((double)bar.updates / most));
+        bool shown = line->step > s && line->step <= s + group;
         canvas_fill(&paper->canvas,
                     (Box){bars.x + left, bars.y + bars.height - high,
                           right > left ? right - left : 1, high},
                     bar.unconverged ? COLOUR_WARNING
-                    : content->time_line.step > s &&
-                            content->time_line.step <= s + group
-                        ? COLOUR_VALUE
-                        : COLOUR_BAR);
+                    : shown         ? COLOUR_VALUE
+                                    : COLOUR_BAR);
     }
+}
+
+/* Draws the bars of the steps, and the handle at the shown step with its words.
+ */
+static void draw_time(Paper *paper, const Layout *layout,
+                      const FrameContent *content)
+{
+    Box zone = layout->time_line, bars = layout->bars;
+    const TimeLine *line = &content->time_line;
+    double em = paper->em, room = time_line_steps(content);
+    bool words = zone.height > 3.5 * em;
+    double part = fmax((line->step - 0.5) / room, 0);
+    double x = floor(bars.x + part * bars.width) + 0.5;
+    double top = zone.y + (words ? 1.1 : 0.5) * em, at = x + 1.1 * em;
+    if (zone.width <= 0)
+        return;
+    draw_zone(paper, zone, false);
+    if (line->bar)
+        draw_bars(paper, bars, bars.width / room, line);
     canvas_line(&paper->canvas, x, top, x, bars.y + bars.height + 0.2 * em,
                 2 * paper->unit, COLOUR_TEXT);
     canvas_disc(&paper->canvas, x, top, (words ? 7 : 5) * paper->unit,
                 COLOUR_TEXT);
-    int width =
-        paper_width(paper, FACE_REGULAR, VALUE, content->time_line.text);
+    int width = paper_width(paper, FACE_REGULAR, VALUE, line->text);
     if (at + width > zone.x + zone.width - 0.9 * em)
         at = fmax(x - 1.1 * em - width, zone.x + 0.4 * em);
     if (words)
         paper_write(paper, FACE_REGULAR, VALUE, COLOUR_TEXT, at,
-                    top - 0.62 * em, ALIGN_LEFT, "%s", content->time_line.text);
+                    top - 0.62 * em, ALIGN_LEFT, "%s", line->text);
 }
 
-/* ---- the last line ------------------------------------------------------ */
+/* ---- chips --------------------------------------------------------------- */
 
 static void draw_chips(Paper *paper, const Layout *layout,
                        const FrameContent *content)
 {
     const double gap = 0.5 * paper->em, size = 0.92;
+    const Hit *mouse = &content->view->over;
     draw_zone(paper, layout->chip_row, false);
     for (int i = 0; i < layout->chips; i++) {
         const Chip *chip = &content->chips.item[i];
         Box box = layout->chip[i];
         bool all = layout->chips_left_out > 0 && i == layout->chips - 1;
-        bool over = content->view->over.zone == ZONE_CHIP &&
-                    content->view->over.index == i;
+        bool over = mouse->zone == ZONE_CHIP && mouse->index == i;
         const char *label = all ? "all \u2026" : chip->label;
         int key = paper_width(paper, FACE_BOLD, size, chip->key);
         int width = key + paper_width(paper, FACE_REGULAR, size, label);
@@ -202,13 +200,13 @@ static void draw_chips(Paper *paper, const Layout *layout,
 void window_rows_draw(Paper *paper, const Layout *layout,
                       const FrameContent *content)
 {
-    draw_strip(paper, layout->strip, content);
+    const Hit *mouse = &content->view->over;
+    draw_strip(paper, layout->strip, &content->strip);
     draw_zone(paper, layout->settings_row, false);
     for (int i = 0; i < layout->settings; i++)
         draw_setting(paper, layout->setting[i], &content->settings.item[i],
                      content->settings.selected == i,
-                     content->view->over.zone == ZONE_SETTING &&
-                         content->view->over.index == i);
+                     mouse->zone == ZONE_SETTING && mouse->index == i);
     draw_time(paper, layout, content);
     draw_chips(paper, layout, content);
 }

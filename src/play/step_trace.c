@@ -289,11 +289,11 @@ static void trace_round(const StepTrace *kept, const TracePlace *at,
     trace->residual = record->residual;
     trace->p = round->p;
     trace->slope = record->slope;
-    trace->first = round->first;
+    trace->first_alpha = round->first;
     if (!round->p)
         return;
     trace->difference = kept_difference;
-    trace->function = round;
+    trace->difference_data = round;
 }
 
 const double *step_trace_at(const StepTrace *kept, int place, Trace *trace)

@@ -163,8 +163,7 @@ static void put_graph(Writer *to, const FrameContent *content, const char *name)
 
 static void put_cards(Writer *to, const FrameContent *content)
 {
-    const Picture *picture =
-        picture_of(active_pane(content)->simulation->scene);
+    const Picture *picture = active_picture(content);
     const LiveValues *values = &active_pane(content)->values;
     const LecturePage *page = content->lecture.page;
     for (int i = 0; i < picture->count && content->sheet.cells == 0; i++) {

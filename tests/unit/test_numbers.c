@@ -28,11 +28,12 @@ static void check_number(const char *line, const char *name, double said,
 static void check_trace(const char *line, const Pane *pane)
 {
     const Trace *trace = pane->trace;
-    double risen = 0, change = NAN, first = trace->first > 0 ? trace->first : 1;
+    double risen = 0, change = NAN,
+           first = trace->first_alpha > 0 ? trace->first_alpha : 1;
     for (int i = 0; i < trace->updates; i++)
         risen += trace->record[i].change;
     if (trace->difference && trace->trials > 0)
-        change = trace->difference(trace->function,
+        change = trace->difference(trace->difference_data,
                                    trace_step_length(trace, trace->trials));
     const struct {
         const char *name;

@@ -99,10 +99,11 @@ TEST(the_curve_goes_through_the_step)
                     continue;
                 }
                 const NewtonRecord *record = &kept->made.row[round];
-                double change = trace.difference(trace.function, record->alpha);
+                double change =
+                    trace.difference(trace.difference_data, record->alpha);
                 rough += kept->round[round].rough;
                 if (kept->round[round].rough &&
-                    record->alpha < trace.first / ROUND_PARTS)
+                    record->alpha < trace.first_alpha / ROUND_PARTS)
                     continue; /* between two kept values */
                 CHECK_NEAR(change, record->change,
                            1e-7 * fabs(record->slope) * record->alpha);
@@ -126,10 +127,10 @@ static int look_along(double *out, int room)
     for (int place = 0; place < kept->places && count < room; place++) {
         Trace trace;
         step_trace_at(kept, place, &trace);
-        const Round *round = trace.function;
+        const Round *round = trace.difference_data;
         if (trace.difference && round->rough)
-            out[count++] =
-                trace.difference(trace.function, 0.625 * trace.first);
+            out[count++] = trace.difference(trace.difference_data,
+                                            0.625 * trace.first_alpha);
     }
     return count;
 }
@@ -152,7 +153,8 @@ TEST(curves_are_kept_where_they_are_drawn)
         if (way == WALKED)
             CHECK_OK(obey("next"));
         step_trace_at(&machine(0)->trace, -1, &trace);
-        double last = trace.difference(trace.function, 0.625 * trace.first);
+        double last =
+            trace.difference(trace.difference_data, 0.625 * trace.first_alpha);
         CHECK(isnan(last) == (way == UNSEEN) && player.past.step == 4);
         count[way] = look_along(kept[way], ROOM);
         CHECK(isnan(kept[way][0]) == (way != WALKED));

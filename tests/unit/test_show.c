@@ -84,6 +84,7 @@ static Plot blank_card(int width, int height)
     canvas_clear(&paper.canvas, COLOUR_WHITE);
     return (Plot){.paper = &paper,
                   .content = &content,
+                  .pane = &content.pane[0],
                   .simulation = &simulation,
                   .box = {0, 0, width, height},
                   .has_text = true,
