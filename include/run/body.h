@@ -14,9 +14,9 @@ SquareMesh body_shape(const Options *options);
  * the second body.
  *   pinned  [nodes] in/out: 1 for each node that is named; NULL: the text is
  *           only checked
- * Returns OK or INVALID_INPUT. */
-Status pins_read(const char *text, const SquareMesh *shape,
-                 unsigned char *pinned);
+ * Returns the part of the text that names no node; NULL: there is none. */
+const char *pins_read(const char *text, const SquareMesh *shape,
+                      unsigned char *pinned);
 
 /* Creates the mesh, the system with all its terms, and the run at its start.  A
  * ball of the scene is the last node.
@@ -39,20 +39,18 @@ const char *body_needs_end_of_step(const Options *options);
  * Returns OK, INVALID_INPUT with a message, OUT_OF_MEMORY. */
 Status body_check(const Options *options, Message message);
 
-/* Reads positions and velocities of a run from a table that --states wrote, or
- * which of its springs are broken and have flowed from one of --springs.
- * Columns are found by their names, so that a table may have more.
- *   step     step in the table; below 0: the last one
- *   nodes    nodes of each run; the rows of run r follow those of run r - 1
- *   runs     runs of the scene
- *   x, v     [2 nodes] out, m, m/s
- *   system   in/out, with all its terms
- * Returns OK, or INVALID_INPUT if the file has no such step, has a line that
- * cannot be read, or is about another number of nodes, springs or runs.  Of a
- * table with several panes the first one is read. */
-Status start_table_read(const char *name, double step, int nodes, int run,
-                        int runs, double *x, double *v, Message message);
-Status start_springs_read(const Options *options, int run, int runs,
-                          System *system, Message message);
+/* Reads positions and velocities of a run from options->state, a table that
+ * --states wrote, or which of its springs are broken and have yielded from
+ * options->state_springs, a table of --springs.  Columns are found by their
+ * names, so that a table may have more.  Of a table with several panes the
+ * first one is read. nodes    nodes of each run; the rows of run r follow those
+ * of run r - 1 x, v     [2 nodes] out, m, m/s system   in/out, with all its
+ * terms Returns OK, OUT_OF_MEMORY, or INVALID_INPUT if the file has no such
+ * step, has a line that cannot be read, or is about another number of nodes,
+ * springs or runs. */
+Status start_table_read(const Options *options, int run, int nodes, double *x,
+                        double *v, Message message);
+Status start_springs_read(const Options *options, int run, System *system,
+                          Message message);
 
 #endif

@@ -434,22 +434,17 @@ static Status pick_values(Line *line, int pane)
 static Status check_pins(const Options *options, Message message)
 {
     const SquareMesh shape = body_shape(options);
-    char part[64];
-    const char *at = options->pin;
-    for (size_t length; at; at = at[length] ? at + length + 1 : NULL) {
-        length = strcspn(at, ",");
-        snprintf(part, sizeof part, "%.*s", (int)length, at);
-        const char *colon = strchr(part, ':');
-        if (pins_read(part, &shape, NULL))
-            return refuse(message,
-                          "--pin: '%s' is no node from 0 to %d, and none "
-                          "of: " PINS_WORDS "%s",
-                          part, shape.nodes - 1,
-                          colon && atoi(colon + 1) > shape.bodies
-                              ? "; there are not so many bodies"
-                              : "");
-    }
-    return STATUS_OK;
+    const char *bad =
+        options->pin ? pins_read(options->pin, &shape, NULL) : NULL;
+    if (!bad)
+        return STATUS_OK;
+    int length = (int)fmin(strcspn(bad, ","), 60), body = 0;
+    sscanf(bad, "%*[^:,]:%d", &body);
+    return refuse(
+        message,
+        "--pin: '%.*s' is no node from 0 to %d, and none of: " PINS_WORDS "%s",
+        length, bad, shape.nodes - 1,
+        body > shape.bodies ? "; there are not so many bodies" : "");
 }
 
 /* Refuses options that have no effect beside the others.  Several bodies touch

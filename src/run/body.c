@@ -18,11 +18,11 @@
 
 /* ---- pins --------------------------------------------------------------- */
 
-/* A word of --pin and the nodes that it names. */
+/* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int side;  /* the node is on this side; 0: anywhere */
-    int other; /* the node is also on one of these sides; 0: anywhere */
+    int side;  /* side of all nodes; 0: anywhere */
+    int other; /* sides, one of which each node is on as well; 0: anywhere */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -31,8 +31,8 @@ static const struct PinWord {
                  {"all", 0, 0},
                  {NULL, 0, 0}};
 
-Status pins_read(const char *text, const SquareMesh *shape,
-                 unsigned char *pinned)
+const char *pins_read(const char *text, const SquareMesh *shape,
+                      unsigned char *pinned)
 {
     for (;; text++) {
         char name[16] = "", digits[10] = ""; /* "top" and "2" of "top:2" */
@@ -42,23 +42,23 @@ Status pins_read(const char *text, const SquareMesh *shape,
             sscanf(text, "%9[0-9]%n", digits, &end);
         while (word->word && strcmp(word->word, name) != 0)
             word++;
-        int number = atoi(digits);
+        int number = atoi(digits); /* of a body, from 1, or of a node */
         int most = name[0] ? shape->bodies : shape->nodes - 1;
-        bool good =
+        bool is_pin =
             name[0] ? word->word && (!digits[0] || number > 0) : digits[0];
-        if (!good || number > most || (text[end] && text[end] != ','))
-            return STATUS_INVALID_INPUT;
+        if (!is_pin || number > most || (text[end] && text[end] != ','))
+            return text;
         for (int i = 0; pinned && i < shape->nodes; i++) {
             int own = i, sides = square_mesh_get_sides(shape, i);
-            bool here = !digits[0] ||
-                        square_mesh_locate_body(shape, &own) + 1 == number;
-            pinned[i] |= name[0] ? here && (sides & word->side) == word->side &&
-                                       (!word->other || (sides & word->other))
-                                 : i == number;
+            bool in_body = !digits[0] ||
+                           square_mesh_locate_body(shape, &own) + 1 == number;
+            bool on_side = (sides & word->side) == word->side &&
+                           (!word->other || (sides & word->other));
+            pinned[i] |= name[0] ? in_body && on_side : i == number;
         }
         text += end;
         if (*text == '\0')
-            return STATUS_OK;
+            return NULL;
     }
 }
 
@@ -73,8 +73,9 @@ SquareMesh body_shape(const Options *options)
                               options->side, (int)fmax(options->bodies, 1));
 }
 
-/* Last node if it is the centre of a ball of the scene, else -1. */
-static int scene_ball_node(const Options *options)
+/* Returns the node at the centre of the scene's ball, which is the last node;
+ * -1: the scene has no ball. */
+static int find_ball_node(const Options *options)
 {
     return options->scene->body.obstacle
                ? options->scene->body.obstacle(options).node
@@ -87,7 +88,7 @@ static int scene_ball_node(const Options *options)
 static Status create_system(const Options *options, System *system)
 {
     const SquareMesh shape = body_shape(options);
-    int nodes = shape.nodes / shape.bodies, ball = scene_ball_node(options);
+    int nodes = shape.nodes / shape.bodies, ball = find_ball_node(options);
     bool square = shape.rows == shape.segments;
     if ((double)shape.segments * shape.rows * shape.bodies >
         SQUARE_MESH_MAX_CELLS)
@@ -119,8 +120,9 @@ static Status create_system(const Options *options, System *system)
         system->segments = shape.segments;
     system->gravity[1] = -options->gravity;
     square_mesh_order_nodes(&shape, system->order);
-    return options->pin ? pins_read(options->pin, &shape, system->pinned)
-                        : STATUS_OK;
+    return options->pin && pins_read(options->pin, &shape, system->pinned)
+               ? STATUS_INVALID_INPUT
+               : STATUS_OK;
 }
 
 _Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS + 2 <=
@@ -172,17 +174,17 @@ static int list_obstacles(const Options *options,
     return count;
 }
 
-/* Whether the options give an obstacle the same place as before, so that it
- * stays where the mouse has moved it. */
-static bool is_given_again(const Obstacle *had, const Obstacle *now)
+/* Whether the options give an obstacle the same place as before, so that the
+ * obstacle stays where the mouse has moved it. */
+static bool has_same_place(const Obstacle *old, const Obstacle *new)
 {
-    return had->kind == now->kind && had->given[0] == now->given[0] &&
-           had->given[1] == now->given[1];
+    return old->kind == new->kind && old->given[0] == new->given[0] &&
+           old->given[1] == new->given[1];
 }
 
-/* The barrier of the options; by default kappa = 4 k and d_hat = side/100.  A
- * node counts for one segment of the boundary. */
-static Barrier barrier_of(const Options *options)
+/* Returns the barrier of the options; by default kappa = 4 k and d_hat =
+ * side/100.  A node counts for one segment of the boundary. */
+static Barrier make_barrier(const Options *options)
 {
     double d_hat = options->barrier[0], kappa = options->barrier[1];
     if (!(d_hat > 0))
@@ -198,17 +200,18 @@ static Barrier barrier_of(const Options *options)
  * mouse has moved it, unless the options give it a new place. */
 static Status set_obstacles(const Options *options, System *system)
 {
-    const Barrier barrier = barrier_of(options);
-    const Contact *contact = contact_of(system);
+    const Barrier barrier = make_barrier(options);
+    const Contact *old = contact_of(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
     int fixed = (int)(options->grounds + options->balls);
     int count = list_obstacles(options, list);
-    int had = contact ? contact->obstacles : 0;
-    for (int k = 1; k <= count - fixed && k <= had; k++)
-        memcpy(list[count - k].o, contact->obstacle[had - k].o, sizeof list->o);
-    for (int k = 0; k < fixed && k < had; k++)
-        if (is_given_again(&contact->obstacle[k], &list[k]))
-            memcpy(list[k].o, contact->obstacle[k].o, sizeof list->o);
+    int old_count = old ? old->obstacles : 0;
+    for (int k = 1; k <= count - fixed && k <= old_count; k++)
+        memcpy(list[count - k].o, old->obstacle[old_count - k].o,
+               sizeof list->o);
+    for (int k = 0; k < fixed && k < old_count; k++)
+        if (has_same_place(&old->obstacle[k], &list[k]))
+            memcpy(list[k].o, old->obstacle[k].o, sizeof list->o);
     Status status = contact_set(system, &barrier, count, list);
     return status ? status
                   : friction_set(system, &friction_energy,
@@ -222,7 +225,7 @@ static Status set_obstacles(const Options *options, System *system)
 static Status set_self_contact(const Options *options, const SquareMesh *mesh,
                                System *system)
 {
-    Barrier barrier = barrier_of(options);
+    Barrier barrier = make_barrier(options);
     double mu =
         options->self_friction < 0 ? options->friction : options->self_friction;
     double width = fmin(barrier.d_hat, 0.25 * mesh->spacing);
@@ -258,12 +261,6 @@ static Status set_terms(const Options *options, System *system)
     return status;
 }
 
-/* Number of runs of the scene with a body of their own. */
-static int count_runs(const Options *options)
-{
-    return options->scene->body.runs > 0 ? options->scene->body.runs : 1;
-}
-
 /* Computes the start of a run: a step of a table, or the rest shape stretched,
  * turned and moved as in the options; a turn of 0 degrees changes no bit.  The
  * scene's ball starts where the scene has it.
@@ -273,17 +270,17 @@ static Status place_body(const Options *options, int run, double *x, double *v,
 {
     const SquareMesh shape = body_shape(options);
     const double *at = options->at, *speed = options->velocity;
-    const double only[BODY_NUMBERS] = {
+    const double single[BODY_NUMBERS] = {
         at[0], at[1], options->turn, speed[0], speed[1], options->stretch, 1};
-    int ball = scene_ball_node(options);
+    int ball = find_ball_node(options);
     if (options->state)
-        return start_table_read(options->state, options->state_step,
-                                shape.nodes + (ball >= 0), run,
-                                count_runs(options), x, v, message);
+        return start_table_read(options, run, shape.nodes + (ball >= 0), x, v,
+                                message);
     for (int i = 0; i < shape.nodes; i++) {
         double rest[2];
         int node = i, body = square_mesh_locate_body(&shape, &node);
-        const double *start = options->bodies > 0 ? options->body[body] : only;
+        const double *start =
+            options->bodies > 0 ? options->body[body] : single;
         double angle = start[2] * DEGREE, c = cos(angle), s = sin(angle);
         square_mesh_rest_position(&shape, i, rest);
         rest[0] *= start[5];
@@ -300,16 +297,17 @@ static Status place_body(const Options *options, int run, double *x, double *v,
     return STATUS_OK;
 }
 
-/* The options of one run, changed by its variant. */
+/* Returns the options of one run, changed by its variant. */
 static Options options_of_run(const Simulation *simulation, int run,
                               const Options *options)
 {
+    const RunVariant *variant = &simulation->variant[run];
     Options own = *options;
-    if (simulation->variant[run].friction_factor > 0)
-        own.friction *= simulation->variant[run].friction_factor;
-    own.at[1] += simulation->variant[run].lift;
+    if (variant->friction_factor > 0)
+        own.friction *= variant->friction_factor;
+    own.at[1] += variant->lift;
     for (int i = 0; i < own.grounds; i++)
-        own.ground[i][3] += simulation->variant[run].lift;
+        own.ground[i][3] += variant->lift;
     return own;
 }
 
@@ -329,8 +327,7 @@ static Status build_body(const Options *options, int run, System *system,
     status = place_body(options, run, *x, *x + size, message);
     return status || !options->state_springs
                ? status
-               : start_springs_read(options, run, count_runs(options), system,
-                                    message);
+               : start_springs_read(options, run, system, message);
 }
 
 /* Pinned nodes start with velocity 0. */
@@ -380,30 +377,27 @@ const char *body_needs_end_of_step(const Options *options)
     return options->scene->body.moving_pins ? "moving pins" : NULL;
 }
 
-/* Names an obstacle for a message: "the ball", or "ball 2" if there are
- * several.
- *   number  of the obstacle: grounds, balls, the ceiling, that of the scene */
+/* Writes the name of an obstacle for a message: "the ball", or "ball 2" if
+ * there are several. */
 static void name_obstacle(const Options *options, int number, char *name,
                           size_t size)
 {
+    Obstacle list[CONTACT_MAX_OBSTACLES];
+    list_obstacles(options, list);
+    const Obstacle *obstacle = &list[number];
     int ball = number - (int)options->grounds;
-    bool of_scene = ball > options->balls ||
-                    (ball == options->balls && options->ceiling[1] == 0);
-    double alike = ball < 0                ? options->grounds
-                   : ball < options->balls ? options->balls
-                                           : 1;
-    const char *kind = ball < 0                ? "ground"
-                       : ball < options->balls ? "ball"
-                       : of_scene && scene_ball_node(options) >= 0
-                           ? "falling ball"
-                           : "ceiling";
-    if (alike > 1)
+    const char *kind = obstacle->node >= 0               ? "falling ball"
+                       : obstacle->motion.phases > 0     ? "ceiling"
+                       : obstacle->kind == OBSTACLE_BALL ? "ball"
+                                                         : "ground";
+    if (ball < 0 ? options->grounds > 1
+                 : ball < options->balls && options->balls > 1)
         snprintf(name, size, "%s %d", kind, (ball < 0 ? number : ball) + 1);
     else
         snprintf(name, size, "the %s", kind);
 }
 
-/* Refuses an obstacle whose gap to a body, m, is not above 0; NaN: a ball
+/* Refuses an obstacle whose gap to a body, m, is not above 0; NaN: a ball is
  * inside the body. */
 static Status refuse_place(const Options *options, int number, double gap,
                            Message message)
@@ -420,13 +414,16 @@ static Status refuse_place(const Options *options, int number, double gap,
                   gap == 0 ? "touch" : "be inside", body);
 }
 
-/* Checks that no node touches an obstacle and no cell is turned over.
+/* Checks that no node touches an obstacle, no cell is turned over, and no ball
+ * is inside a cell: contact looks at nodes only, and a small ball may have none
+ * near it.
  *   x      [2n] m
  *   apart  m, smallest gap to the obstacle `number`; to others it is 0 */
 static Status check_places(const Options *options, const System *system,
                            const double *x, double apart, int number,
                            Message message)
 {
+    const SquareMesh shape = body_shape(options);
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
@@ -448,11 +445,16 @@ static Status check_places(const Options *options, const System *system,
                                 element->node[0], element->s);
         }
     }
+    for (int k = 0; k < options->balls; k++)
+        if (square_mesh_find_cell(&shape, x, options->ball[k], 0,
+                                  shape.cells) >= 0)
+            return refuse_place(options, (int)options->grounds + k, NAN,
+                                message);
     return STATUS_OK;
 }
 
-/* Checks that the obstacles of the options make sense. */
-static Status check_numbers(const Options *options, Message message)
+/* Checks the numbers of the obstacles. */
+static Status check_obstacles(const Options *options, Message message)
 {
     const double *ceiling = options->ceiling;
     for (int i = 0; i < options->grounds; i++)
@@ -478,49 +480,27 @@ static Status check_numbers(const Options *options, Message message)
     return STATUS_OK;
 }
 
-/* Twice the signed area of the triangle a b p: positive if p is left of the
- * line from a to b. */
-static double side_of(const double *a, const double *b, const double *p)
-{
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-}
-
-/* Checks that no ball is inside a cell.  Contact looks at nodes only, and a
- * small ball may have none near it. */
-static Status check_balls(const Options *options, const SquareMesh *mesh,
-                          const double *x, Message message)
-{
-    for (int k = 0; k < options->balls; k++)
-        if (square_mesh_find_cell(mesh, x, options->ball[k], 0, mesh->cells) >=
-            0)
-            return refuse_place(options, (int)options->grounds + k, NAN,
-                                message);
-    return STATUS_OK;
-}
-
 /* Checks that the obstacles of these options overlap no body where it is now.
  *   apart  smallest gap to the obstacle `number`, as a part of the barrier's
  *          width; to others it is 0 */
 static Status check_room(const Simulation *simulation, const Options *options,
                          double apart, int number, Message message)
 {
-    Status status = check_numbers(options, message);
+    Status status = check_obstacles(options, message);
     for (int run = 0; run < simulation->runs && !status; run++) {
-        const Options its = options_of_run(simulation, run, options);
+        const Options own = options_of_run(simulation, run, options);
         System system = *simulation->run[run].system;
-        Contact contact = {.barrier = barrier_of(&its), .ball = -1};
-        int count = list_obstacles(&its, contact.obstacle);
-        contact.obstacles = (int)(its.grounds + its.balls);
+        Contact contact = {.barrier = make_barrier(&own), .ball = -1};
+        int count = list_obstacles(&own, contact.obstacle);
+        contact.obstacles = (int)(own.grounds + own.balls);
         if (count > 0 && contact.obstacle[count - 1].node >= 0)
             contact.ball = count - 1;
         system.terms = 1;
         system.term[0] = (Term){&contact_energy, &contact};
-        status = check_places(&its, &system, simulation->run[run].x,
+        status = check_places(&own, &system, simulation->run[run].x,
                               apart * contact.barrier.d_hat, number, message);
     }
-    return status ? status
-                  : check_balls(options, &simulation->mesh,
-                                simulation->run[0].x, message);
+    return status;
 }
 
 Status simulation_has_room(const Simulation *simulation, const Options *options,
@@ -548,6 +528,13 @@ double simulation_free_way(const Simulation *simulation, const Options *options,
             free += step;
     }
     return free;
+}
+
+/* Twice the signed area of the triangle a b p: positive if p is left of the
+ * line from a to b. */
+static double side_of(const double *a, const double *b, const double *p)
+{
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
 /* Whether two edges have a common point. */
@@ -614,7 +601,7 @@ static Status check_overlap(const Options *options, const double *x,
 Status body_check(const Options *options, Message message)
 {
     Obstacle list[CONTACT_MAX_OBSTACLES];
-    Status status = check_numbers(options, message);
+    Status status = check_obstacles(options, message);
     if (status ||
         (list_obstacles(options, list) == 0 && !options->cells &&
          !options->state && options->material == 0 && !options->self_contact))
@@ -626,10 +613,6 @@ Status body_check(const Options *options, Message message)
         status = check_overlap(options, x, message);
     if (!status)
         status = check_places(options, &system, x, 0, -1, message);
-    if (!status) {
-        const SquareMesh shape = body_shape(options);
-        status = check_balls(options, &shape, x, message);
-    }
     free(x);
     system_free(&system);
     return status;

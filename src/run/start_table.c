@@ -11,27 +11,34 @@
 #include <string.h>
 
 #include "model/fracture.h"
-#include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 
 /* ---- CSV ----------------------------------------------------------------- */
 
-enum { MOST_COLUMNS = 8 };
+enum { MAX_COLUMNS = 7 };
 
 /* A table that is being read.  The first line has the names of the columns;
  * wanted columns are found by name, others are skipped. */
 typedef struct Reader {
     FILE *file;
-    char *text;                      /* present line */
-    size_t room;                     /* bytes of text */
-    long line;                       /* number of the present line, from 1 */
-    int columns;                     /* number of columns */
-    const char *const *names;        /* names of wanted columns, up to NULL */
-    const char *field[MOST_COLUMNS]; /* texts of wanted columns in the line */
-    int place[MOST_COLUMNS];         /* index of each wanted column */
-    bool has_panes;                  /* the table has a column "pane" */
-    char why[200];                   /* why the table cannot be read, or "" */
+    char *text;               /* present line */
+    size_t room;              /* bytes of text */
+    long line;                /* number of the present line, from 1 */
+    int columns;              /* number of columns */
+    const char *const *names; /* names of wanted columns, up to NULL */
+    int place[MAX_COLUMNS];   /* index of each wanted column; -1: missing */
+    bool has_panes;           /* the table has a column "pane" */
+    char why[200];            /* why the table cannot be read, or "" */
 } Reader;
+
+/* Stores why the table cannot be read. */
+#define explain(reader, ...)                                                   \
+    snprintf((reader)->why, sizeof(reader)->why, __VA_ARGS__)
+
+/* The numbers of the wanted columns in one row. */
+typedef struct Row {
+    double value[MAX_COLUMNS];
+} Row;
 
 /* Reads the next line, without LF or CR LF, and without the byte order mark
  * that some programs write before UTF-8.  Returns false at the end. */
@@ -48,8 +55,8 @@ static bool next_line(Reader *reader)
     return true;
 }
 
-/* Cuts the next field out of a line, without the blanks and quotes around it.
- * NULL: the line has no more fields. */
+/* Cuts the next field out of a line, without the blanks and quotes around the
+ * field.  Returns NULL if the line has no more fields. */
 static char *next_field(char **rest)
 {
     char *field = strsep(rest, ",");
@@ -63,28 +70,18 @@ static char *next_field(char **rest)
     return field;
 }
 
-/* A hint why the first line lacks a column. */
-static const char *hint_at_names(const char *line)
-{
-    return strchr("\xff\xfe", line[0]) && line[0] ? "; UTF-8 is wanted"
-           : !strchr(line, ',') && strpbrk(line, ";\t")
-               ? "; commas must be between the columns"
-               : "; --states and --springs write such tables";
-}
-
 /* Finds the columns in the first line. */
 static void read_names(Reader *reader)
 {
-    char shown[40], *rest;
+    char shown[40];
     if (!next_line(reader)) {
-        snprintf(reader->why, sizeof reader->why, "it is empty");
+        explain(reader, "it is empty");
         return;
     }
     snprintf(shown, sizeof shown, "%s", reader->text);
-    const char *hint = hint_at_names(reader->text);
     for (int k = 0; reader->names[k]; k++)
         reader->place[k] = -1;
-    rest = reader->text;
+    char *rest = reader->text;
     for (char *name; (name = next_field(&rest)); reader->columns++) {
         reader->has_panes = reader->has_panes || !strcmp(name, "pane");
         for (int k = 0; reader->names[k]; k++)
@@ -93,194 +90,170 @@ static void read_names(Reader *reader)
     }
     for (int k = 0; reader->names[k] && !reader->why[0]; k++)
         if (reader->place[k] < 0)
-            snprintf(reader->why, sizeof reader->why,
-                     "its first line, '%s', has no column '%s'%s", shown,
-                     reader->names[k], hint);
+            explain(reader,
+                    "its first line, '%s', has no column '%s'; --states and "
+                    "--springs write such tables",
+                    shown, reader->names[k]);
 }
 
-/* Reads a field that is a finite number. */
-static bool read_number(const char *field, double *number)
-{
-    char *end;
-    *number = strtod(field, &end);
-    return end != field && *end == '\0' && isfinite(*number);
-}
-
-/* Reads the next row.
- *   value  out, a number for each wanted column
- * Returns false at the end, and if the row cannot be read; reader->why then
- * tells. */
-static bool next_row(Reader *reader, double *value)
+/* Reads the next row.  Returns false at the end, and if the row cannot be read;
+ * reader->why then has the reason. */
+static bool next_row(Reader *reader, Row *row)
 {
     int fields = 0;
     do
         if (reader->why[0] || !next_line(reader))
             return false;
     while (reader->text[0] == '\0');
-    char *rest = reader->text;
+    char *rest = reader->text, *end;
     for (char *field; (field = next_field(&rest)); fields++)
-        for (int k = 0; reader->names[k]; k++)
-            if (reader->place[k] == fields)
-                reader->field[k] = field;
+        for (int k = 0; reader->names[k]; k++) {
+            if (reader->place[k] != fields)
+                continue;
+            row->value[k] = strtod(field, &end);
+            if (end == field || *end || !isfinite(row->value[k]))
+                explain(reader, "line %ld: %s is '%.40s', not a number",
+                        reader->line, reader->names[k], field);
+        }
     if (fields != reader->columns)
-        snprintf(reader->why, sizeof reader->why,
-                 "line %ld has %d columns, the first line %d%s", reader->line,
-                 fields, reader->columns,
-                 fields > reader->columns
-                     ? "; a number has a point, a comma ends it"
-                     : "");
-    for (int k = 0; reader->names[k] && !reader->why[0]; k++)
-        if (!read_number(reader->field[k], &value[k]))
-            snprintf(reader->why, sizeof reader->why,
-                     "line %ld: %s is '%.40s', not a number", reader->line,
-                     reader->names[k], reader->field[k]);
+        explain(reader, "line %ld has %d columns, the first line %d%s",
+                reader->line, fields, reader->columns,
+                fields > reader->columns
+                    ? "; a number has a point, a comma ends it"
+                    : "");
     return !reader->why[0];
 }
 
 /* ---- a step of a table --------------------------------------------------- */
 
-/* Part of a table: rows of one step, which the second column numbers from 0. */
+/* The rows of one step and one run in a table.  The second column numbers the
+ * rows of a step from 0. */
 typedef struct Part {
-    const char *option;       /* option with the table, for messages */
-    const char *name;         /* name of the file */
-    const char *element_name; /* "node" or "spring" */
-    double step;              /* below 0: the last step */
-    int size;                 /* rows of a run */
-    int run, runs;            /* the run that is read, and their number */
+    const char *option;             /* option with the table, for messages */
+    const char *file;               /* name of the file */
+    const char *element;            /* "node" or "spring" */
+    const char *names[MAX_COLUMNS]; /* columns, up to NULL */
+    int size;                       /* rows of a run */
+    int run;                        /* run that is read */
 } Part;
 
-/* Stores row i of a run.  Returns why it does not fit, or NULL. */
-typedef const char *TakeRow(void *into, int i, const double *value);
-
-/* Reads the rows of the step, or of all steps, of which the last one remains. A
- * table has a step several times if the user went back; the last one counts. */
-static void read_rows(Reader *reader, const Part *part, TakeRow *take,
-                      void *into)
+/* Reads the rows of the step of the options, or of all steps, of which the last
+ * one remains.  A table has a step several times if the user went back; the
+ * last one counts.
+ *   row  [part->size] out */
+static void read_rows(Reader *reader, const Options *options, const Part *part,
+                      Row *row)
 {
-    double value[MOST_COLUMNS], last = -1;
-    int count = 0, bodies;
-    while (next_row(reader, value)) {
-        bool follows = value[0] == last && value[1] != 0;
-        last = value[0];
-        if (part->step >= 0 && value[0] != part->step)
+    const double step = options->state_step;
+    const char *element = part->element;
+    double last = -1;
+    int count = 0, runs = (int)fmax(options->scene->body.runs, 1);
+    Row next = {{0}};
+    while (next_row(reader, &next)) {
+        bool goes_on = next.value[0] == last && next.value[1] != 0;
+        last = next.value[0];
+        if (step >= 0 && last != step)
             continue;
-        count = follows ? count : 0;
+        count = goes_on ? count : 0;
         int i = count - part->run * part->size;
-        const char *why =
-            i >= 0 && i < part->size ? take(into, i, value) : NULL;
-        if (value[1] != count)
-            snprintf(reader->why, sizeof reader->why,
-                     "line %ld has %s %g where %s %d is missing", reader->line,
-                     part->element_name, value[1], part->element_name, count);
-        else if (why)
-            snprintf(reader->why, sizeof reader->why, "line %ld: %s",
-                     reader->line, why);
+        if (next.value[1] != count)
+            explain(reader, "line %ld has %s %g where %s %d is missing",
+                    reader->line, element, next.value[1], element, count);
+        if (i >= 0 && i < part->size)
+            row[i] = next;
         count++;
     }
+    int bodies = count / part->size;
     if (reader->why[0])
         return;
-    bodies = count / part->size;
-    if (part->step >= 0 && count == 0)
-        snprintf(reader->why, sizeof reader->why, "step %.0f is not in it",
-                 part->step);
+    if (step >= 0 && count == 0)
+        explain(reader, "step %.0f is not in it", step);
     else if (count == 0 || count % part->size != 0 ||
-             (!reader->has_panes && bodies > part->runs))
-        snprintf(reader->why, sizeof reader->why,
-                 "its %sstep has %d %ss, the body %d; --segments may differ",
-                 part->step < 0 ? "last " : "", count, part->element_name,
-                 part->size);
+             (!reader->has_panes && bodies > runs))
+        explain(reader,
+                "its %sstep has %d %ss, the body %d; --segments may differ",
+                step < 0 ? "last " : "", count, element, part->size);
     else if (part->run >= bodies)
-        snprintf(reader->why, sizeof reader->why,
-                 "body %d of the scene is not in it", part->run + 1);
+        explain(reader, "body %d of the scene is not in it", part->run + 1);
 }
 
-static Status read_part(const Part *part, const char *const *names,
-                        TakeRow *take, void *into, Message message)
+/* Reads a part of a table.
+ *   row  out, [part->size], to be freed by the caller in any case
+ * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
+static Status read_part(const Options *options, const Part *part, Row **row,
+                        Message message)
 {
-    Reader reader = {.file = fopen(part->name, "r"), .names = names};
+    Reader reader = {.file = fopen(part->file, "r"), .names = part->names};
     errno = reader.file ? 0 : errno;
-    if (reader.file) {
+    *row = malloc((size_t)part->size * sizeof **row);
+    if (reader.file && *row) {
         read_names(&reader);
-        read_rows(&reader, part, take, into);
+        read_rows(&reader, options, part, *row);
     }
     if (!reader.file || ferror(reader.file))
-        snprintf(reader.why, sizeof reader.why, "%s", strerror(errno));
+        explain(&reader, "%s", strerror(errno));
     free(reader.text);
     if (reader.file)
         fclose(reader.file);
-    return reader.why[0] ? refuse(message, "--%s '%.60s': %s", part->option,
-                                  part->name, reader.why)
-                         : STATUS_OK;
+    if (reader.why[0])
+        return refuse(message, "--%s '%.60s': %s", part->option, part->file,
+                      reader.why);
+    return *row ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
-/* ---- nodes --------------------------------------------------------------- */
-
-static const char *read_node(void *into, int i, const double *value)
+Status start_table_read(const Options *options, int run, int nodes, double *x,
+                        double *v, Message message)
 {
-    double *const *xv = into;
-    memcpy(xv[0] + 2 * i, value + 2, 2 * sizeof *value);
-    memcpy(xv[1] + 2 * i, value + 4, 2 * sizeof *value);
-    return NULL;
+    const Part part = {"state", options->state,
+                       "node",  {"step", "node", "x", "y", "vx", "vy"},
+                       nodes,   run};
+    Row *row;
+    Status status = read_part(options, &part, &row, message);
+    for (int i = 0; i < nodes && !status; i++) {
+        memcpy(x + 2 * i, row[i].value + 2, 2 * sizeof *x);
+        memcpy(v + 2 * i, row[i].value + 4, 2 * sizeof *v);
+    }
+    free(row);
+    return status;
 }
 
-Status start_table_read(const char *name, double step, int nodes, int run,
-                        int runs, double *x, double *v, Message message)
+/* Gives a spring the plastic strain of its row, and breaks the spring if the
+ * row says that it is broken.  Returns why the row does not fit, or NULL. */
+static const char *restore_spring(const Options *options, System *system,
+                                  int spring, const double *value)
 {
-    static const char *const names[] = {"step", "node", "x", "y",
-                                        "vx",   "vy",   NULL};
-    const Part part = {"state", name, "node", step, nodes, run, runs};
-    double *xv[] = {x, v};
-    return read_part(&part, names, read_node, xv, message);
-}
-
-/* ---- springs ------------------------------------------------------------- */
-
-/* The springs that a table describes. */
-typedef struct Springs {
-    System *system;
-    double stiffness; /* J/m^2, of springs that are not broken */
-} Springs;
-
-/* Gives a spring the plastic strain of the table, and breaks it if it is broken
- * there. */
-static const char *take_spring(void *into, int i, const double *value)
-{
-    const Springs *springs = into;
-    System *system = springs->system;
     Plasticity *flow = system_term_data(system, &plastic_energy);
-    const int *e = system->e + 2 * i;
-    bool broken = value[4] == 0, breaks = system_find_term(system, &fracture);
-    if (value[3] - value[2] != e[1] - e[0])
-        return "this spring belongs to another square";
-    if (broken && !spring_is_broken(system, i) && !breaks)
-        return "this spring is broken; --tear is missing, which lets springs "
-               "break";
-    if (value[6] != 0 && !flow)
-        return "this spring has yielded; --yield is missing, which lets "
-               "springs yield";
-    if (breaks)
-        system->k[i] = broken ? 0 : springs->stiffness;
+    bool is_broken = value[2] == 0;
+    bool can_break = system_find_term(system, &fracture);
+    if (is_broken && !spring_is_broken(system, spring) && !can_break)
+        return "is broken; --tear is missing, which lets springs break";
+    if (value[4] != 0 && !flow)
+        return "has yielded; --yield is missing, which lets springs yield";
+    if (can_break)
+        system->k[spring] = is_broken ? 0 : options->stiffness;
     if (flow) {
-        flow->ep[i] = value[5];
-        flow->kappa[i] = value[6];
+        flow->ep[spring] = value[3];
+        flow->kappa[spring] = value[4];
     }
     return NULL;
 }
 
-Status start_springs_read(const Options *options, int run, int runs,
-                          System *system, Message message)
+Status start_springs_read(const Options *options, int run, System *system,
+                          Message message)
 {
-    static const char *const names[] = {"step",  "spring",  "i",      "j",
-                                        "whole", "plastic", "flowed", NULL};
-    const Part part = {"state-springs",
-                       options->state_springs,
-                       "spring",
-                       options->state_step,
-                       system->springs,
-                       run,
-                       runs};
-    Springs springs = {system, options->stiffness};
-    Status status = read_part(&part, names, take_spring, &springs, message);
+    const Part part = {
+        "state-springs", options->state_springs,
+        "spring",        {"step", "spring", "whole", "plastic", "flowed"},
+        system->springs, run};
+    Row *row;
+    Status status = read_part(options, &part, &row, message);
+    for (int s = 0; s < system->springs && !status; s++) {
+        const char *why = restore_spring(options, system, s, row[s].value);
+        if (why)
+            status = refuse(message, "--state-springs '%.60s': spring %d %s",
+                            options->state_springs, s, why);
+    }
+    free(row);
     system_mark_changed(system, false);
     return status;
 }

@@ -186,7 +186,7 @@ TEST(the_words_of_pin_name_their_nodes)
         unsigned char pinned[9] = {0};
         const SquareMesh shape =
             square_mesh_create(cases[i].columns, cases[i].rows, 1, 1);
-        CHECK_OK(pins_read(cases[i].text, &shape, pinned));
+        CHECK(!pins_read(cases[i].text, &shape, pinned));
         for (int node = 0; cases[i].pinned[node]; node++)
             CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
     }
@@ -200,7 +200,7 @@ TEST(the_words_of_pin_name_their_nodes)
     };
     const SquareMesh shape = square_mesh_create(2, 2, 1, 1);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        CHECK_STATUS(pins_read(bad[i], &shape, NULL), STATUS_INVALID_INPUT);
+        CHECK(pins_read(bad[i], &shape, NULL));
 }
 
 TESTS(NULL, NULL)
