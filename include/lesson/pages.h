@@ -47,7 +47,7 @@ typedef struct LecturePage {
     const char *tell;        /* commands when N shows the answer; or NULL */
     int lines;               /* or so many lines on from where the page opens */
     unsigned layers;         /* bits of Layer */
-    NextDeed next;           /* what N does */
+    NextAction next;           /* what N does */
     int pause;               /* step at which playing pauses; 0: none */
 } LecturePage;
 

@@ -130,7 +130,7 @@ typedef struct Frame {
     char chip_label[LAYOUT_CHIPS][VALUE_SIZE];
     CommandKind chip[LAYOUT_CHIPS]; /* command of each chip */
     int numbers;                    /* count of numbers in the row */
-    const OptionRow *number[OPTIONS_MOST];
+    const OptionRow *number[OPTIONS_MAX_ROWS];
 } Frame;
 
 typedef struct Screen {

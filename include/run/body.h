@@ -7,7 +7,7 @@
 #include "model/contact.h"
 #include "run/simulation.h"
 
-/* The mesh of the options; in scenes with a beam it has fewer rows. */
+/* Returns the mesh of the options; a beam has fewer rows than columns. */
 SquareMesh body_shape(const Options *options);
 
 /* Reads node numbers and PINS_WORDS, separated by commas; "top:2" is the top of
@@ -18,24 +18,24 @@ SquareMesh body_shape(const Options *options);
 const char *pins_read(const char *text, const SquareMesh *shape,
                       unsigned char *pinned);
 
-/* Creates the mesh, the system with all its terms, and the run at its start.  A
- * ball of the scene is the last node.
- * Returns OK, INVALID_INPUT, TOO_LARGE, OUT_OF_MEMORY. */
+/* Creates the mesh, the system with all its terms, and the run at its start.
+ * The centre of a scene's ball is the last node. Returns OK, INVALID_INPUT,
+ * TOO_LARGE, OUT_OF_MEMORY. */
 Status body_create(Simulation *simulation, int run);
 
-/* Gives the terms and springs of a run the numbers of the simulation's options,
- * while the run goes on.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status body_follow(Simulation *simulation, int run);
+/* Gives the terms and springs of a run the present numbers of the simulation's
+ * options.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status body_update(Simulation *simulation, int run);
 
-/* Creates a scene with one run, which is this body. */
+/* Creates a scene with one run of the body of the options. */
 Status create_square(Simulation *simulation);
 
-/* Name of a term or feature that needs a method whose step ends at the
- * minimiser, as backward Euler's does; NULL: the options have none. */
+/* Returns the name of a term or feature that works only with backward Euler,
+ * whose step ends at the minimiser; NULL: the options have none. */
 const char *body_needs_end_of_step(const Options *options);
 
-/* Checks that the body can start: obstacles make sense, no body overlaps an
- * obstacle or another body, no cell is turned over.
+/* Checks that the body can start: obstacles have possible numbers, no body
+ * overlaps an obstacle or another body, no cell is turned over.
  * Returns OK, INVALID_INPUT with a message, OUT_OF_MEMORY. */
 Status body_check(const Options *options, Message message);
 

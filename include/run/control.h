@@ -9,8 +9,8 @@
 
 #include "run/simulation.h"
 
-/* Decisions of a user about a run.  Steps share a control, which is therefore
- * not changed after it was made. */
+/* Decisions of a user about a run.  Steps share a control, so a shared control
+ * is never changed. */
 typedef struct Control {
     int users; /* reference count; the last user frees the control */
     Options options;
@@ -21,28 +21,28 @@ typedef struct Control {
     unsigned char pinned[]; /* [nodes] 1: the node is pinned */
 } Control;
 
-/* The control of a simulation now, or a copy, with one user, who may change it
- * until others share it.  NULL: no memory. */
+/* Return the present control of a simulation, or a copy of a control.  The only
+ * user may change the new control until others share it.  NULL: no memory. */
 Control *control_of(const Simulation *simulation);
 Control *control_copy(const Control *from);
 
 /* Whether the mouse holds a node or an obstacle. */
 bool control_holds(const Control *control);
 
-/* Finds where an obstacle of a run is now; in slope, where grounds differ by
- * their run, without that difference.
+/* Finds the present place of an obstacle of a run, without the lift by which
+ * grounds of different runs differ in slope.
  *   at  [2] out, m */
-void simulation_obstacle(const Simulation *simulation, int run, int number,
-                         double at[2]);
+void simulation_find_obstacle(const Simulation *simulation, int run, int number,
+                              double at[2]);
 
-/* Copies the position of an obstacle from the simulation to the options, if it
- * is the same in all runs. */
-void control_keep_place(Control *control, int number,
-                        const Simulation *simulation);
+/* Copies the position of an obstacle from the simulation to the options, if the
+ * position is the same in all runs. */
+void control_store_obstacle(Control *control, int number,
+                            const Simulation *simulation);
 
 /* Adds a user, or removes one; NULL is accepted. */
-const Control *control_keep(const Control *control);
-void control_drop(const Control *control);
+const Control *control_retain(const Control *control);
+void control_release(const Control *control);
 
 /* Gives a simulation this control from the next step on; scene, mesh and start
  * must be the same.  The change of the energy is booked as work.
@@ -53,11 +53,11 @@ Status control_apply(Simulation *simulation, const Control *control);
 /* ---- the state ----------------------------------------------------------- */
 
 /* The state is all that a step changes: positions, velocities, the memory of
- * integrators and terms, counters, and what a small scene shows. */
+ * integrators and terms, counters, and the data of small scenes. */
 
 /* Writes the state as bytes.
  *   bytes  out, or NULL
- * Returns how many bytes there are. */
+ * Returns the number of bytes. */
 size_t state_save(const Simulation *simulation, void *bytes);
 
 /* Restores a saved state.  The stiffness of whole springs and the numbers of
@@ -65,8 +65,8 @@ size_t state_save(const Simulation *simulation, void *bytes);
  *   bytes  in, from a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);
 
-/* Hash (FNV-1a) of steps, positions and velocities of all runs.
- *   seed  STATE_HASH_SEED, or the hash of the simulation before, if several
+/* Returns the hash (FNV-1a) of steps, positions and velocities of all runs.
+ *   seed  STATE_HASH_SEED, or the hash of the previous simulation, if several
  *         are hashed together */
 uint64_t state_hash(const Simulation *simulation, uint64_t seed);
 

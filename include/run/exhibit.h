@@ -1,6 +1,6 @@
-/* exhibit.h - the data of the lecture's small scenes, as far as it is not the
- * state of a run, and what the mouse drags and switches in them.  The data are
- * plain numbers and part of the saved state.
+/* exhibit.h - data of the lecture's small scenes besides positions and
+ * velocities, and the points and switches that a user can move in them.  The
+ * data are plain numbers and part of the saved state.
  */
 #ifndef ELASTO_EXHIBIT_H
 #define ELASTO_EXHIBIT_H
@@ -10,36 +10,36 @@
 
 typedef struct Simulation Simulation;
 
-/* A guess of where the next step leads, and where it does lead. */
+/* A user's guess where the next step leads, and where the step does lead. */
 typedef struct Prediction {
-    bool made;       /* the fields below are valid */
+    bool made;       /* the user has made a guess */
     long step;       /* number of steps when the guess was made */
     double at[2];    /* guess, m */
-    double came[2];  /* end of the step, m */
+    double end[2];   /* end of the step, m */
     double distance; /* from guess to end, m; along x in one variable */
 } Prediction;
 
-/* ---- descents: a minimum that Newton looks for, update by update --------- */
+/* ---- descents: minimisation by Newton's method, update by update --------- */
 
-/* Value, gradient and Hessian (xx, xy, yy) of E or f at a point, J s^2 and m.
- * A function of one unknown uses the first number of each; the others are 0. */
-typedef struct Local {
+/* Value, gradient and Hessian (xx, xy, yy) of E or f at a point, in J s^2 and
+ * m. A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
+typedef struct LocalModel {
     double value, g[2], H[3];
     int projected; /* springs whose Hessian the projection has changed */
-} Local;
+} LocalModel;
 
 /* A function of one unknown. */
-typedef Local ScalarEnergy(const Simulation *simulation, double x);
+typedef LocalModel ScalarEnergy(const Simulation *simulation, double x);
 
 enum { DESCENT_MAX = 256 };
 
 /* A minimisation that is shown iteration by iteration. */
 typedef struct Descent {
-    int count;                        /* iterations so far */
-    NewtonRecord record[DESCENT_MAX]; /* the first iterations */
+    int count;                        /* number of records */
+    NewtonRecord record[DESCENT_MAX]; /* of the first iterations */
     double point[2];                  /* present iterate, m */
     double value;                     /* f or E at the iterate */
-    double began;                     /* E where the search began */
+    double start_value;               /* E at the start of the search */
     double direction[2];              /* p at the iterate, m; 0: none */
     double slope;         /* gradient times p; negative is downhill */
     bool by_gradient;     /* Algorithm 1, whose loop tests |g| */
@@ -66,13 +66,14 @@ typedef struct DialCurve {
 
 #define RACE_TIME 0.064 /* s, simulated time of each run */
 
-/* RACE_SHOWN is the row of step sizes in the table of methods. */
-enum { RACE_SHOWN = 1, RACE_METHODS = 7, RACE_STEP_SIZES = 7 };
+/* RACE_SHOWN_ROW is the step size, by its number, of the table of methods. */
+enum { RACE_SHOWN_ROW = 1, RACE_METHODS = 7, RACE_STEP_SIZES = 7 };
 
-/* An explicit run counts as stable if RACE_LONGER further steps, which are not
- * measured, leave the energy below RACE_ENERGY times that of the start: with
- * too long a time step a run may be accurate for a while and explode later. */
-enum { RACE_LONGER = 2048, RACE_ENERGY = 2 };
+/* An explicit run counts as stable if RACE_EXTRA_STEPS further steps, which are
+ * not measured, leave the energy below RACE_MAX_ENERGY times that of the start:
+ * with too long a time step a run may be accurate for a while and explode
+ * later. */
+enum { RACE_EXTRA_STEPS = 2048, RACE_MAX_ENERGY = 2 };
 
 /* A run of the race: a method with a time step. */
 typedef struct RacePoint {
@@ -82,9 +83,9 @@ typedef struct RacePoint {
                        the run failed */
     double seconds; /* s, processor time */
     bool converged; /* every step converged */
-    double later;   /* energy after a second, over that of the start; only of
-                       the runs of RACE_SHOWN */
-    bool stable;    /* the energy stays bounded when the run goes on */
+    double energy_after_second; /* energy after a second over that of the start;
+                                   only of the runs of RACE_SHOWN_ROW */
+    bool stable; /* the energy stays bounded when the run goes on */
 } RacePoint;
 
 typedef struct Race {
@@ -97,7 +98,7 @@ typedef struct Race {
 enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
 typedef struct EnvelopeCell {
-    bool known;
+    bool known;   /* the run of the cell was made */
     Status worst; /* last status that is not OK */
     int updates;  /* Newton updates of all steps */
 } EnvelopeCell;
@@ -109,41 +110,45 @@ typedef struct EnvelopeMap {
     int column, row; /* cell whose run is shown; -1: none */
 } EnvelopeMap;
 
-/* ---- all of it ----------------------------------------------------------- */
+/* ---- data of all scenes, points and switches ------------------------------
+ */
 
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct Exhibit {
-    double began[4];  /* m, m/s, start x, v of the exact path of one mass */
-    double target[2]; /* m, x_tilde; in one unknown its x */
-    unsigned parts;   /* bit s: switch s is on; of landscape and dial enum
-                         LandscapePart */
+    double start[4];   /* m, m/s, start x, v of the exact path of one mass */
+    double target[2];  /* m, x_tilde; in one unknown target[0] */
+    unsigned switches; /* bit s: switch s is on; in landscape and dial enum
+                          LandscapePart; of kinds of springs 1 means off */
     DialCurve dial;
     Race race;
     EnvelopeMap map;
 } Exhibit;
 
-/* Lists the points that can be dragged, m, or the switches.
- * Each returns how many. */
-int exhibit_handles(const struct Simulation *simulation,
-                    double at[SCENE_MAX_HANDLES][2]);
-int exhibit_switches(const struct Simulation *simulation,
-                     Switch out[SCENE_MAX_SWITCHES]);
+/* Lists the points that can be dragged, m.  Returns how many there are. */
+int exhibit_list_handles(const struct Simulation *simulation,
+                         double at[SCENE_MAX_HANDLES][2]);
 
-/* Bit s: switch s differs from the start of the scene. */
-unsigned exhibit_flips(const struct Simulation *simulation);
+/* Lists the switches and whether each is on.  Returns how many there are. */
+int exhibit_list_switches(const struct Simulation *simulation,
+                          Switch out[SCENE_MAX_SWITCHES]);
+
+/* Returns the switches that differ from the start of the scene, bit s for
+ * switch s. */
+unsigned exhibit_find_flips(const struct Simulation *simulation);
 
 /* Whether the switches are the kinds of springs, which a page asks for. */
 bool exhibit_has_kinds(const struct Simulation *simulation);
 
-/* Kind of a spring: 0 horizontal, 1 vertical, 2 and 3 the diagonals. */
-int exhibit_kind(const struct Simulation *simulation, int spring);
+/* Returns the kind of a spring: 0 horizontal, 1 vertical, 2 and 3 the
+ * diagonals. */
+int exhibit_spring_kind(const struct Simulation *simulation, int spring);
 
 /* Moves a point to (x, y), m, and begins the scene again from there; without
  * effect if x or y is not finite. */
 void exhibit_drag(struct Simulation *simulation, int handle, double x,
                   double y);
 
-/* Turns a switch over. */
+/* Turns a switch on or off. */
 void exhibit_flip(struct Simulation *simulation, int number);
 
 #endif

@@ -11,11 +11,10 @@
 
 /* Copies a text for a message.  Control characters, characters that change the
  * direction of writing, and bytes that are not UTF-8 become '?', so that the
- * message stays one line and a terminal takes no command from it.  A text that
- * is too long loses its middle: "abc...xyz".
- *   text  in, or NULL: ""
- *   line  [size] out, size at least 12; may be the text itself */
-void one_line(const char *text, char *line, size_t size);
+ * message stays one line and contains no command for a terminal.  A text that
+ * is too long loses its middle: "abc...xyz". text  in, or NULL: "" line  [size]
+ * out, size at least 12; may be the text itself */
+void copy_one_line(const char *text, char *line, size_t size);
 
 /* Whether a text is UTF-8 without control characters. */
 bool is_one_line(const char *text);

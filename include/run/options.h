@@ -26,18 +26,18 @@ typedef enum Layer {
     LAYER_MODES = 1 << 2,      /* fastest oscillation, or eigenvectors */
     LAYER_KINDS = 1 << 3,      /* colour of each kind of spring; kinds are
                                   switches */
-    LAYER_CUTS = 1 << 4,       /* a solid without springs before the guess */
+    LAYER_CUTS = 1 << 4,       /* no springs before the user has guessed */
     LAYER_DOWNHILL = 1 << 5,   /* -grad E, and the half plane on its side */
     LAYER_CURVES = 1 << 6,     /* curves on which a component of grad E is 0 */
-    LAYER_FIRST_STEP = 1 << 7, /* the first step alone, as large as it fits */
+    LAYER_FIRST_STEP = 1 << 7, /* only the first step, in the whole picture */
 } Layer;
 
-/* What N does. */
-typedef enum NextDeed {
+/* Effect of the key N. */
+typedef enum NextAction {
     NEXT_STEP,   /* makes a step */
-    NEXT_NEARER, /* brings the end of the spring nearer by a fifth */
-    NEXT_SPRING, /* lights the spring whose number is that of the step */
-} NextDeed;
+    NEXT_NEARER, /* makes the spring shorter by a fifth */
+    NEXT_SPRING, /* makes a step, which adds a spring to the shown Hessian */
+} NextAction;
 
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 
@@ -56,9 +56,8 @@ enum { OPTIONS_NUMBERS = 256 };
 /* The value of every option.  Numbers, whole numbers, switches (0 or 1) and
  * names (their index in the row's list) are doubles; the union makes them an
  * array, so that a row of the table can name its number by an index, the slot.
- * The struct has many fields because there are many options; meaning, unit and
- * range of each stand in its row in options.c. */
-
+ * The struct has many fields because there are many options; the row of an
+ * option in options.c has its meaning, unit and range. */
 typedef struct Options {
     union {
         struct {
@@ -71,8 +70,7 @@ typedef struct Options {
             double ball[OPTIONS_MAX_BALLS][3];
             double bodies; /* number of rows of body that are used */
             double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
-            /* height, velocity, height at which it stops; velocity 0: no
-             * ceiling */
+            /* height, velocity, lowest height; velocity 0: no ceiling */
             double ceiling[3];
             double barrier[2]; /* 0: side/100 and 4 k */
             double friction, slip_speed, cells, self_contact;
@@ -98,13 +96,13 @@ typedef struct Options {
     const struct Scene *scene;
     const struct LecturePage *page; /* page of the tour, or NULL */
     unsigned layers;                /* bits of Layer */
-    NextDeed next;                  /* effect of the key N */
+    NextAction next;                /* effect of the key N */
     int pause;                      /* step at which playing pauses; 0: none */
     const char *law;                /* law that the card "law" draws, or NULL */
     const char *star;               /* name of the enlarged card, or NULL */
     const char *pin;                /* nodes that are pinned, or NULL */
     const char *state;              /* CSV file with the start, or NULL */
-    const char *state_springs;      /* CSV file with its springs, or NULL */
+    const char *state_springs;      /* CSV file with springs, or NULL */
     const char *frames, *states, *log, *energies, *springs, *film, *script;
     int panes; /* runs side by side; 1: no option has a list of values */
 } Options;
@@ -114,7 +112,7 @@ typedef struct Options {
 
 _Static_assert(OPTION_SLOT(scene) == OPTIONS_NUMBERS, "each number has a slot");
 
-/* Most runs of one command line: drawn side by side, and without pictures. */
+/* Largest number of runs of a command line, with pictures and without. */
 enum { OPTIONS_MAX_DRAWN = 6, OPTIONS_MAX_PANES = 64 };
 
 /* ---- the table ---------------------------------------------------------- */
@@ -128,8 +126,9 @@ typedef enum OptionKind {
     OPTION_PAGE,   /* page of the tour; the value may be left out */
 } OptionKind;
 
-/* The first column of a table whose rows begin with a name; a NULL name ends
- * the table. */
+/* The names of a table whose rows begin with a name; a NULL name ends the
+ * table.
+ */
 typedef struct Names {
     const void *table;
     size_t size; /* bytes of a row */
@@ -137,21 +136,21 @@ typedef struct Names {
 
 #define NAMES_OF(table) ((Names){table, sizeof *(table)})
 
-/* Name i; NULL after the last one. */
-const char *name_at(Names names, int i);
+/* Returns name i; NULL after the last name. */
+const char *names_at(Names names, int i);
 
-/* Index of a name; -1 if the table has no such name. */
-int name_place(Names names, const char *name);
+/* Returns the index of a name; -1: the table has no such name. */
+int names_find(Names names, const char *name);
 
-/* Index of a name, or of a number that counts the names from 1; -1: neither. */
-int name_or_number(Names names, const char *text);
+/* Returns the index of a text that is a name or the number of a name from 1;
+ * -1: the text is neither. */
+int names_find_or_number(Names names, const char *text);
 
 int names_count(Names names);
 
 /* When a changed option takes effect. */
 typedef enum Effect {
-    EFFECT_START, /* at the start of a new run: the system or the start differ
-                   */
+    EFFECT_START, /* from the start of a new run on */
     EFFECT_LIVE,  /* from the next step on */
     EFFECT_AGAIN  /* from the present step on, which is computed again */
 } Effect;
@@ -165,8 +164,8 @@ typedef struct OptionDisplay {
                          the number, or chooses the next name */
 } OptionDisplay;
 
-/* One option.  The fields are many because each is one thing that may differ
- * between options; most rows leave most of them 0. */
+/* One option.  There are many fields because options differ in many ways; most
+ * fields of a row are 0. */
 typedef struct OptionRow {
     const char *name; /* without dashes; "": help is the heading of a section
                          of --help; NULL ends the table */
@@ -193,21 +192,22 @@ typedef struct OptionRow {
     const char *unit;      /* unit of the numbers, or "" */
     Names names;           /* OPTION_NAME: the values */
     unsigned needs; /* enum SceneNeeds: the scene must have one of these */
-    /* Returns why the option has no effect beside the others; NULL: it has. */
+    /* Returns why the option has no effect beside the others; NULL: it has one.
+     * The function is NULL for options that always have one. */
     const char *(*idle_reason)(const Options *options);
     Effect effect;
     const TermKind *term; /* energy term that the option adds, or NULL */
     const char *label;    /* name in the window, in the markup of text.h; NULL:
-                             the option takes no list of values */
+                             the option can have no list of values */
     OptionDisplay display;
 } OptionRow;
 
 extern const OptionRow option_rows[];
 
 /* Capacity of arrays with an element for each row. */
-enum { OPTIONS_MOST = 64 };
+enum { OPTIONS_MAX_ROWS = 64 };
 
-/* The row with this name, or NULL. */
+/* Returns the row with this name, or NULL. */
 const OptionRow *option_find(const char *name);
 
 /* Whether a number is in the row's range; the number of a name is its index. */
@@ -229,14 +229,13 @@ bool option_read(const OptionRow *row, int count, const char *text,
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 
-/* Writes the value of an option in short, for the window, or "none" if the
- * option is not given.  A repeated option has its last value written.
+/* Writes the value of an option with few digits, for the window, or "none" if
+ * the option is not given.  Of a repeated option the last value is written.
  *   text  [size] out */
-void option_value(const OptionRow *row, const Options *options, char *text,
-                  size_t size);
+void option_write_short(const OptionRow *row, const Options *options,
+                        char *text, size_t size);
 
-/* Whether the option is given with a number other than 0, so that its term is
- * part of the energy. */
+/* Whether a number of the option is not 0, so that the energy has its term. */
 bool option_is_on(const OptionRow *row, const Options *options);
 
 /* Returns what the window and the page call an option: "h" for timestep. */
@@ -244,30 +243,30 @@ const char *option_label(const OptionRow *row);
 
 /* Writes the unit of an option as the window shows it, "J/m\u00b2", or "".
  *   text  [size] out */
-void option_unit(const OptionRow *row, char *text, size_t size);
+void option_write_unit(const OptionRow *row, char *text, size_t size);
 
-/* The options that the row of numbers shows for these options, in order.
- *   found  [OPTIONS_MOST] out
- * Returns how many. */
+/* Lists the options that the window's row of numbers shows, in order.
+ *   found  [OPTIONS_MAX_ROWS] out
+ * Returns how many there are. */
 int options_list_fields(const Options *options,
-                        const OptionRow *found[OPTIONS_MOST]);
+                        const OptionRow *found[OPTIONS_MAX_ROWS]);
 
 /* Returns the value of an option after notches of the wheel: up, or down if the
  * number of notches is negative.  A notch adds the row's increment.  Without an
  * increment six notches are a factor of 10, and whole notches end on 1, 1.5, 2,
  * 3, 5, 7; names follow each other in a circle.  A drag gives fractions of a
  * notch, and a value of three digits. */
-double option_paced(const OptionRow *row, const Options *options,
-                    double notches);
+double option_turn_wheel(const OptionRow *row, const Options *options,
+                         double notches);
 
-/* Place of an obstacle in the options, [2] m.
+/* Returns the place of an obstacle in the options, [2] m.
  *   number  of the obstacle: grounds first, then balls */
-double *obstacle_at(Options *options, int number);
+double *options_obstacle_at(Options *options, int number);
 
-/* The chosen integrator, or the first of the table. */
+/* Returns the chosen integrator, or the first of the table. */
 const IntegratorMethod *options_method(const Options *options);
 
-/* The name of a solver on the command line. */
+/* Returns the name of a solver on the command line. */
 const char *solver_name(int solver);
 
 #endif

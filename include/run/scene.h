@@ -1,8 +1,7 @@
 /* scene.h - what a scene is: a row of the table in scenes.h.
  *
- * A row names what the scene needs; the rest is neither computed nor drawn.  A
- * new scene is a row in scene.c and a function that fills the system and the
- * start, such as create_square; keys, files, options and --list read the row.
+ * A new scene is a row in scene.c and a function that fills the system and the
+ * start, such as create_square.  Keys, files, options and --list read the row.
  */
 #ifndef ELASTO_SCENE_H
 #define ELASTO_SCENE_H
@@ -27,7 +26,8 @@ typedef enum PictureKind {
     PICTURE_COUNT
 } PictureKind;
 
-/* Parts that a scene may have; options about missing parts are refused. */
+/* Parts that a scene may have, as bits.  Options about missing parts are
+ * refused. */
 enum SceneNeeds {
     NEEDS_MESH = 1,        /* a square: segments, side, density, stiffness */
     NEEDS_TIME = 2,        /* motion in time, by an integrator */
@@ -50,18 +50,18 @@ typedef struct Switch {
     bool on;
 } Switch;
 
-/* The body of a scene, as far as no option describes it. */
+/* Properties of a scene's body for which there is no option. */
 typedef struct SceneBody {
     double aspect;         /* height over width; 0: a square */
     double cell_stiffness; /* k_c over k; 0: one half */
     bool moving_pins;      /* pinned nodes move at a given velocity */
-    int runs;              /* runs, each with a body of its own; 0: one */
-    /* An obstacle besides those of the options, as it is at the start, a ball
-     * with its centre o.  NULL: none. */
+    int runs;              /* number of runs with a body each; 0: one run */
+    /* Returns an obstacle, at its start, that is added to those of the options.
+     * NULL: none. */
     struct Obstacle (*obstacle)(const struct Options *options);
 } SceneBody;
 
-/* A row of the table of scenes; 0 and NULL mean "none" or "as usual". */
+/* A row of the table of scenes.  0 and NULL mean "none", or the usual value. */
 typedef struct Scene {
     const char *name;     /* name on the command line */
     const char *title;    /* heading above the picture */
@@ -69,36 +69,37 @@ typedef struct Scene {
                              letters */
     PictureKind picture;
     unsigned needs;   /* enum SceneNeeds */
-    const char *line; /* options where the scene differs from the slides */
+    const char *line; /* options with other values than on the slides */
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);
     double speed;    /* steps a frame when the scene opens; 0: 1 */
     double frame[4]; /* m, left, bottom, right, top of the view; 0: the choice
                         of the picture */
-    double strain_colour_max; /* strain with the full colour, where springs are
-                                 coloured from the start; 0: they are not */
-    bool settles;      /* the sentence describes a motion that dies away, which
-                          holds only with methods that dissipate */
-    const char *turn;  /* name of what a step does; NULL: a step in time */
-    bool explains;     /* the window waits at step 0, to be stepped through */
-    const char *group; /* heading of the group that begins with this scene */
-    bool by_name;      /* opens by name or by a page, neither by a key nor in
-   the sheet */
-    const char *pin;   /* value of --pin */
+    double strain_colour_max; /* strain with the full colour; 0: springs have no
+                                 colours at the start */
+    bool needs_dissipation;   /* the sentence describes a motion that dies away,
+                                 which is true only of methods that dissipate */
+    const char *step_name; /* name of a step, "iteration"; NULL: a time step */
+    bool starts_paused;    /* the window waits at step 0, to be stepped
+                              through */
+    const char *group;     /* heading of the group whose first scene this is */
+    bool only_by_name;     /* opens by name or by a page, neither by a key nor
+                              from the overview */
+    const char *pin;       /* value of --pin */
     SceneBody body;
     /* Makes one step; NULL: a step in time of each run. */
     Status (*step)(struct Simulation *simulation);
     /* Computes the next direction again, after the projection or the line
-     * search changed; NULL: the next step does. */
-    void (*aim)(struct Simulation *simulation);
-    /* Begins the search again, after a point was dragged; NULL: the scene moves
-     * in time. */
+     * search changed.  NULL: the next step computes its direction. */
+    void (*find_direction)(struct Simulation *simulation);
+    /* Begins the search again, after a point was dragged.  NULL: the scene
+     * moves in time. */
     void (*restart)(struct Simulation *simulation);
-    /* A letter for each point that can be dragged: x is the mass or the
-     * iterate, v the tip of the velocity, t x_tilde. */
-    const char *grips;
+    /* A letter for each point that can be dragged: x for the mass or the
+     * iterate, v for the tip of the velocity, t for x_tilde. */
+    const char *handle_kinds;
     /* Names of the parts of the picture that can be switched. */
-    const char *parts[SCENE_MAX_SWITCHES];
+    const char *switch_labels[SCENE_MAX_SWITCHES];
 } Scene;
 
 #endif

@@ -31,7 +31,7 @@ typedef struct Ledger {
     Gain gain;
 } Ledger;
 
-/* How a run differs from the options, in scenes that compare runs. */
+/* Difference of a run from the options, in scenes that compare runs. */
 typedef struct RunVariant {
     double friction_factor; /* times the friction of the options; 0: 1 */
     double lift;            /* m, added to the heights of body and grounds */
@@ -42,27 +42,29 @@ struct Simulation {
     const Scene *scene;
     Options options;
     SquareMesh mesh;                  /* zero in scenes without a square */
-    System system;                    /* system of run 0, and mostly of all */
-    System more[SIMULATION_MAX_RUNS]; /* runs 1 and 2, where they have their own
-                                         system */
+    System system;                    /* system of run 0 or of all runs */
+    System more[SIMULATION_MAX_RUNS]; /* systems of runs 1 and 2, if each run
+                                         has its own */
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     RunVariant variant[SIMULATION_MAX_RUNS];
     Ledger ledger[SIMULATION_MAX_RUNS];
     int stepping; /* run whose step is being computed */
     Status worst; /* last status of the runs before `stepping` that is not OK */
-    double before;   /* J, energy less work of run `stepping` before its step */
-    Descent descent; /* zero in scenes that move in time */
-    Exhibit exhibit; /* zero in scenes of the square */
-    Prediction prediction;     /* guess where the next step leads */
-    NewtonObserver observer;   /* called after each Newton iteration, or NULL */
-    void *user;                /* argument of observer */
-    long steps;                /* steps so far */
-    long unconverged;          /* steps so far that did not converge */
-    int reasons[STATUS_COUNT]; /* unconverged steps by their status */
-    Status status;             /* status of the last step */
-    bool done;                 /* the scene has ended: step does nothing */
-    NewtonCounters old_counters; /* counters of replaced integrators */
+    double energy_before;    /* J, energy less work of run `stepping` before its
+                                step */
+    Descent descent;         /* zero in scenes that move in time */
+    Exhibit exhibit;         /* zero in scenes of the square */
+    Prediction prediction;   /* guess where the next step leads */
+    NewtonObserver observer; /* called after each Newton iteration, or NULL */
+    void *user;              /* argument of observer */
+    long steps;              /* steps so far */
+    long unconverged;        /* steps so far that did not converge */
+    int reasons[STATUS_COUNT];   /* unconverged steps by their status */
+    Status status;               /* status of the last step */
+    bool done;                   /* the scene has ended: a step does nothing */
+    NewtonCounters old_counters; /* counters of integrators before the present
+                                    ones */
 };
 
 /* A quantity of energy by its name: "elastic", "friction". */
@@ -92,7 +94,7 @@ typedef struct Energies {
     double work;       /* done by walls, pins and hand */
     double dissipated; /* by the integrator; negative: it has made energy */
     int rows;
-    Energy row[ENERGY_ROWS]; /* list of the energies, in the order of legends */
+    Energy row[ENERGY_ROWS]; /* all energies, in the order of legends */
 } Energies;
 
 /* Creates the simulation of options->scene; free it in any case.
@@ -103,8 +105,9 @@ Status simulation_create(const Options *options, NewtonObserver observer,
                          void *user, Simulation *simulation);
 void simulation_free(Simulation *simulation);
 
-/* Takes the settings of Newton's method from the options. */
-void newton_settings_take(const Options *options, NewtonSettings *settings);
+/* Copies the settings of Newton's method from the options. */
+void options_fill_newton_settings(const Options *options,
+                                  NewtonSettings *settings);
 
 /* Creates a run of a scene at x, v; for Scene.create. */
 Status simulation_start(Simulation *simulation, int run,
@@ -125,7 +128,7 @@ Status simulation_step(Simulation *simulation);
 Status simulation_begin(Simulation *simulation);
 Status simulation_advance(Simulation *simulation);
 
-/* Simulated time, s; 0 in scenes without time. */
+/* Returns the simulated time, s; 0 in scenes without time. */
 double simulation_time(const Simulation *simulation);
 
 /* Computes the energies of a run. */
@@ -135,35 +138,35 @@ Energies simulation_energies(const Simulation *simulation, int run);
  * a millionth of the shortest spring, and the nodes are within a thousandth of
  * it from where the forces vanish.  Without the second condition a turning
  * point would count as rest. */
-bool simulation_rests(const Simulation *simulation);
+bool simulation_is_at_rest(const Simulation *simulation);
 
-/* Newton's counters, summed over the runs; zero with explicit methods. */
+/* Returns Newton's counters, summed over the runs; zero with explicit methods.
+ */
 NewtonCounters simulation_counters(const Simulation *simulation);
 
-/* When a changed option takes effect in this scene: as its row says, except
- * that scenes without time, and another method where runs have different ones,
- * need a new start. */
+/* Returns when a changed option takes effect in this scene: the effect of its
+ * row, except that scenes without time need a new start, and so does another
+ * method if runs have different ones. */
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
 
-/* Checks that obstacles of changed options overlap no body where it is now.
- *   message  out, why not
- * Returns OK or INVALID_INPUT. */
+/* Checks that obstacles of changed options overlap no body at its present
+ * place. Returns OK, or INVALID_INPUT with a message. */
 Status simulation_has_room(const Simulation *simulation, const Options *options,
                            Message message);
 
-/* The part of the way that an obstacle of these options can move straight
- * towards `to` [2] m: 1 if there is room at the end, else the part before the
- * obstacle touches a body.
- *   number  of the obstacle: grounds first, then balls */
+/* Returns the part of the straight way to a point that an obstacle of these
+ * options can move: 1 if there is room at the end, else the part up to the
+ * first body. number  of the obstacle: grounds first, then balls to      [2] m,
+ * in, the point */
 double simulation_free_way(const Simulation *simulation, const Options *options,
                            int number, const double to[2]);
 
 /* Puts a node at rest at (x, y), m; the change of the energy is booked as work.
- *   really  false: only checks whether the node can be there
+ *   moves  false: only checks whether the node can be there
  * Returns OK, or INVALID_INPUT if there is no such node, an obstacle is in the
  * way, or a cell would be turned over. */
 Status simulation_place(Simulation *simulation, int node, double x, double y,
-                        bool really);
+                        bool moves);
 
 /* Whether the mouse can drag the nodes. */
 bool simulation_is_draggable(const Simulation *simulation);
@@ -171,23 +174,23 @@ bool simulation_is_draggable(const Simulation *simulation);
 /* Whether a time step consists of updates of Newton's method. */
 bool simulation_has_updates(const Simulation *simulation);
 
-/* Whether the method projects a Hessian, and whether it searches a line; an
- * explicit integrator does neither. */
+/* Whether the method projects a Hessian, and whether the method searches along
+ * a line.  Explicit integrators do neither. */
 bool simulation_has_projection(const Simulation *simulation);
 bool simulation_has_line_search(const Simulation *simulation);
 
 /* Whether springs are the only terms whose Hessian may need the projection. */
 bool simulation_projects_springs(const Simulation *simulation);
 
-/* The point that a scene shows: the iterate, or the only mass of run 0.
+/* Finds the point that a scene shows: the iterate, or the only mass of run 0.
  *   at  [2] out, m
- * Returns how many coordinates count: 1 for a function of one variable, 0 if
+ * Returns how many coordinates are used: 1 for a function of one variable, 0 if
  * the scene has several points. */
 int simulation_point(const Simulation *simulation, double at[2]);
 
-/* Angular frequency of the fastest small oscillation around x, 1/s:
- * M mode'' = -H mode with the Hessian H of P, not projected.  NaN if no mode
- * oscillates, or with more than SIMULATION_MODE_NODES nodes.
+/* Finds the fastest small oscillation around x, M mode'' = -H mode, with the
+ * Hessian H of P, not projected.  Returns its angular frequency, 1/s; NaN if no
+ * mode oscillates, or with more than SIMULATION_MODE_NODES nodes.
  *   x     [2n] m, in
  *   mode  [2n] out, of length 1 */
 double simulation_fastest_mode(const Simulation *simulation, const double *x,

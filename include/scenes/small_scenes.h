@@ -30,13 +30,13 @@ void scene_predict(Simulation *simulation, double x, double y);
 
 /* Creates a system of a free node 0 and `held` pinned nodes, each with a spring
  * to node 0; kg, m, J/m^2.  Returns as system_create. */
-Status small_system(System *system, int held, double mass, double length,
-                    double stiffness);
+Status create_small_system(System *system, int held, double mass, double length,
+                           double stiffness);
 
 /* Runs 0, 1, 2 by forward, symplectic and backward Euler; a single run if an
  * integrator is chosen. */
 Status create_circle(Simulation *simulation);
-Status create_mass(Simulation *simulation);
+Status create_arrows(Simulation *simulation);
 
 /* Node 0 is free, node 1 is pinned at the origin. */
 Status create_spring(Simulation *simulation);
@@ -54,13 +54,13 @@ typedef struct MassStep {
 /* Computes the next step of a run.
  *   step  out
  * Returns false if the method is not forward, symplectic or backward Euler. */
-bool mass_next_step(const Simulation *simulation, int run, MassStep *step);
+bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step);
 
 /* Exact solution x(t), m, out; t seconds since the start or the last drag. */
-void mass_exact(const Simulation *simulation, double t, double x[2]);
+void mass_find_exact(const Simulation *simulation, double t, double x[2]);
 
 /* A spring with its free end at d from the other end. */
-typedef struct SpringFacts {
+typedef struct SpringValues {
     double length;      /* |d|, m */
     double strain;      /* |d|^2/l2 - 1 */
     double energy;      /* P, J */
@@ -70,10 +70,10 @@ typedef struct SpringFacts {
     double root_energy; /* P_root, J */
     double root_along, root_across; /* eigenvalues of P_root, J/m^2; across it
                                        is -infinity at d = 0 */
-} SpringFacts;
+} SpringValues;
 
 /* d [2] m; l2 m^2; k J/m^2 */
-SpringFacts spring_facts(const double d[2], double l2, double k);
+SpringValues spring_evaluate(const double d[2], double l2, double k);
 
 /* ---- descents: a minimisation by Newton's method, update by update ------- */
 
@@ -89,14 +89,14 @@ Status create_landscape(Simulation *simulation);
 Status step_descent(Simulation *simulation);
 
 /* Computes the direction at the present iterate with the present methods. */
-void aim_descent(Simulation *simulation);
+void descent_find_direction(Simulation *simulation);
 
 /* Begins the search again at the present iterate. */
 void descent_restart(Simulation *simulation);
 
 /* E or f at (x, y), of the parts that are switched on. */
-Local descent_at(const Simulation *simulation, Projection projection, double x,
-                 double y);
+LocalModel descent_at(const Simulation *simulation, Projection projection,
+                      double x, double y);
 
 /* Computes p = -H^-1 g with a given projection.
  *   x  [2] m, in
@@ -144,7 +144,7 @@ Status create_race(Simulation *simulation);
 Status step_race(Simulation *simulation);
 
 /* Longest time step so far with which a method was stable, s; NaN: none. */
-double race_stable(const Race *race, int method);
+double race_find_stable_h(const Race *race, int method);
 
 /* The method of column i, 0 ... RACE_METHODS - 1. */
 const IntegratorMethod *race_method(int i);
@@ -165,6 +165,6 @@ Status step_envelope(Simulation *simulation);
 
 /* Runs a cell and shows it as run 0.  Returns OK, also if its steps did not
  * converge, or OUT_OF_MEMORY. */
-Status envelope_visit(Simulation *simulation, int column, int row);
+Status envelope_run_cell(Simulation *simulation, int column, int row);
 
 #endif

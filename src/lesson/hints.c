@@ -14,7 +14,7 @@ Phrase list_names(Names names)
 {
     Phrase list = {""};
     const char *name;
-    for (int i = 0; (name = name_at(names, i)); i++)
+    for (int i = 0; (name = names_at(names, i)); i++)
         append(list.text, sizeof list.text, "%s%s", i > 0 ? ", " : "", name);
     return list;
 }
@@ -106,7 +106,7 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
     int letters = (int)strlen(text);
     int fewest = letters > 2 ? (letters + 1) / 3 + 1 : 1;
     bool is_comparable = letters > 1 && letters <= NAME_LETTERS;
-    for (int i = 0; is_comparable && (name = name_at(names, i)); i++) {
+    for (int i = 0; is_comparable && (name = names_at(names, i)); i++) {
         int mistakes = count_mistakes(text, name);
         if (name[0] && mistakes < fewest) {
             fewest = mistakes;
@@ -115,7 +115,7 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
     }
     for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
         if (strcasecmp(text, synonyms[i].word) == 0 &&
-            name_place(names, synonyms[i].name) >= 0)
+            names_find(names, synonyms[i].name) >= 0)
             meant = synonyms[i].name;
     if (meant)
         append(hint.text, sizeof hint.text, "; did you mean %s%s?", dashes,

@@ -40,7 +40,7 @@ typedef struct Corner {
 static double rim_value(const Simulation *simulation)
 {
     const double *target = simulation->exhibit.target;
-    unsigned parts = simulation->exhibit.parts;
+    unsigned parts = simulation->exhibit.switches;
     double rim = 0;
     if (parts & PART_INERTIA)
         rim += landscape_part_value(simulation, PART_INERTIA,
@@ -53,7 +53,7 @@ static double rim_value(const Simulation *simulation)
 
 static Corner corner_at(const Relief *relief, double x, double y)
 {
-    Local E = descent_at(relief->simulation, PROJECTION_NONE, x, y);
+    LocalModel E = descent_at(relief->simulation, PROJECTION_NONE, x, y);
     return (Corner){x, y, E.value, landscape_is_convex(&E)};
 }
 

@@ -69,7 +69,7 @@ double page_letters(Paper *paper, Box inside, const FrameContent *content);
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content);
 
 /* Whether the Hessian before projection is positive definite. */
-bool landscape_is_convex(const Local *E);
+bool landscape_is_convex(const LocalModel *E);
 
 /* Adds the values of the page's law at the most loaded element. */
 void law_add_values(const Simulation *simulation, LiveValues *values);

@@ -166,7 +166,7 @@ Held frame_hold_bounds(const FrameContent *content, const Layout *layout,
 void stage_draw_handles(const Plot *stage)
 {
     double at[SCENE_MAX_HANDLES][2];
-    int count = exhibit_handles(stage->simulation, at);
+    int count = exhibit_list_handles(stage->simulation, at);
     const Pick *hover = &stage->content->view->hover;
     for (int i = 0; i < count && !stage->content->bare; i++) {
         bool over = hover->kind == PICK_HANDLE && hover->index == i &&
@@ -215,7 +215,7 @@ static void draw_guess(const Plot *stage)
     if (!guess->made || stage->content->bare)
         return;
     plot_pixel(stage, guess->at, at);
-    plot_pixel(stage, guess->came, came);
+    plot_pixel(stage, guess->end, came);
     if (simulation_point(stage->simulation, point) == 1) {
         canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
                     1.5 * unit, COLOUR_HAND);

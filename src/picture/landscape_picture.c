@@ -29,11 +29,11 @@ static double contour_distance(double value)
 static double level_factor(const Simulation *simulation)
 {
     double h = simulation->run[0].h / 0.2;
-    bool elastic = simulation->exhibit.parts & PART_ELASTICITY;
+    bool elastic = simulation->exhibit.switches & PART_ELASTICITY;
     return elastic && h > 1 ? h * h : 1;
 }
 
-bool landscape_is_convex(const Local *E)
+bool landscape_is_convex(const LocalModel *E)
 {
     return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
@@ -78,9 +78,9 @@ static void draw_contour_map(const Plot *plot)
     canvas_fill(canvas, *box, COLOUR_WHITE);
     for (int j = box->y; j < box->y + box->height; j += 2)
         for (int i = box->x; i < box->x + box->width; i += 2) {
-            Local E = descent_at(simulation, PROJECTION_NONE,
-                                 plot->x.low + (i - box->x + 1) * metre,
-                                 plot->y.high - (j - box->y + 1) * metre);
+            LocalModel E = descent_at(simulation, PROJECTION_NONE,
+                                      plot->x.low + (i - box->x + 1) * metre,
+                                      plot->y.high - (j - box->y + 1) * metre);
             if (!landscape_is_convex(&E))
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             draw_contours(plot, i, j, E.value / e, E.g[0] * metre / e,
@@ -126,7 +126,7 @@ static Plot draw_map(const Plot *stage)
     const Exhibit *exhibit = &simulation->exhibit;
     const double *x = simulation->run[0].x;
     Plot plot = plot_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
-    bool elastic = exhibit->parts != PART_INERTIA;
+    bool elastic = exhibit->switches != PART_INERTIA;
     draw_contour_map(&plot);
     if (plot.has_text && stage->content->lecture.page)
         name_levels(&plot);
@@ -168,7 +168,7 @@ static void draw_directions(const Plot *plot, bool both)
     const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
     bool raw = simulation->options.projection == PROJECTION_NONE;
-    bool alone = simulation->exhibit.parts != PART_BOTH;
+    bool alone = simulation->exhibit.switches != PART_BOTH;
     const double *own = descent->direction, *from = descent->point;
     double p[2], slope;
     if (own[0] == 0 && own[1] == 0)
@@ -204,7 +204,7 @@ static double view_size(const Plot *plot)
 static void draw_steepest(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
-    Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
+    LocalModel E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
     double far = 6 * plot->em / plot->camera.scale[0] / vector_length(E.g);
     plot_arrow(plot, x, E.g, -far, 2.2, COLOUR_TEXT);
     plot_label(plot, 1, point_along(x, -far, E.g).at, COLOUR_TEXT,
@@ -218,8 +218,8 @@ static void draw_forces(const Plot *plot)
     const Simulation *simulation = plot->simulation;
     const double *x = simulation->descent.point, *m = simulation->system.m;
     const double *target = simulation->exhibit.target;
-    unsigned parts = simulation->exhibit.parts;
-    Local E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
+    unsigned parts = simulation->exhibit.switches;
+    LocalModel E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
     double inertia[2], springs[2];
     for (int c = 0; c < 2; c++) {
         inertia[c] = parts & PART_INERTIA ? m[0] * (target[c] - x[c]) : 0;
@@ -279,10 +279,10 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     static const char *const raw[] = {"Hxx", "Hxy", "Hyy"};
     static const char *const projected[] = {"Pxx", "Pxy", "Pyy"};
     const Descent *descent = &simulation->descent;
-    unsigned parts = simulation->exhibit.parts;
+    unsigned parts = simulation->exhibit.switches;
     double h = simulation->run[0].h;
     const double *x = descent->point;
-    Local E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
+    LocalModel E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
     values_add_point(values, "place", x);
     values_add_point(values, "x tilde", simulation->exhibit.target);
     for (int k = 0; k < 2; k++) /* rounding becomes 0 */
@@ -291,7 +291,7 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add_point(values, "solution", descent->direction);
     values_add(values, "slope", descent->slope != 0 ? descent->slope : NAN);
     if (parts == PART_BOTH) { /* the projected Hessian and its direction */
-        Local P = descent_at(simulation, PROJECTION_CLAMP, x[0], x[1]);
+        LocalModel P = descent_at(simulation, PROJECTION_CLAMP, x[0], x[1]);
         values_add_matrix(values, projected, P.H, 0);
         values_add_flag(values, "directions",
                         simulation->options.layers & LAYER_DOWNHILL &&
@@ -334,7 +334,7 @@ static void draw_model_ellipses(const Plot *plot)
     static const double levels[] = {1, 0.6, 0.25};
     const Descent *descent = &simulation->descent;
     const double *x = descent->point, *p = descent->direction;
-    Local E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
+    LocalModel E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
     double low = E.H[0], lift = E.H[1] / E.H[0];
     double rest = E.H[2] - lift * E.H[1]; /* H = L D L^T */
     double q = p[0] + lift * p[1];
@@ -353,7 +353,7 @@ static void draw_model_ellipses(const Plot *plot)
 static void draw_linearised_zeros(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
-    Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
+    LocalModel E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
     for (int k = 0; k < 2; k++) {
         const double *slope = E.H + k, across[2] = {-slope[1], slope[0]};
         double square = slope[0] * slope[0] + slope[1] * slope[1];
@@ -369,7 +369,7 @@ static void draw_linearised_zeros(const Plot *plot)
 static void draw_downhill(const Plot *plot)
 {
     const double *x = plot->simulation->descent.point;
-    Local E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
+    LocalModel E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
     const double across[2] = {-E.g[1], E.g[0]};
     double far = view_size(plot) / vector_length(E.g);
     const Point a = point_along(x, far, across),
@@ -417,7 +417,8 @@ void landscape_draw(Plot *stage)
         draw_directions(&plot, plot.has_text && both);
     if (halves)
         draw_steepest(&plot);
-    if (revealed && plot.has_text && simulation->exhibit.parts != PART_INERTIA)
+    if (revealed && plot.has_text &&
+        simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
     plot_label(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
@@ -448,7 +449,7 @@ void dial_add_values(const Simulation *simulation, LiveValues *values)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
     double elastic = part_value(simulation, PART_ELASTICITY, x);
-    add_part_name(simulation->exhibit.parts, values);
+    add_part_name(simulation->exhibit.switches, values);
     values_add(values, "h", h);
     values_add_point(values, "minimiser", x);
     values_add(values, "distance",

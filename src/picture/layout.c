@@ -393,7 +393,7 @@ static void place_folded(const FrameContent *content, Layout *layout)
     if (!content->lecture.page || options->star || content->cards.large >= 0 ||
         folded >= layout->cards ||
         (!big && ((options->law && !layout->page) || layout->panes != 1 ||
-                  simulation->scene->parts[layout->page])))
+                  simulation->scene->switch_labels[layout->page])))
         return;
     const Box *stage = &layout->stage;
     double em = layout->em;

@@ -72,7 +72,7 @@ static void add_settings(const FrameContent *content,
                    ? (double)(content->lecture.page - lecture_pages + 1)
                    : NAN);
     values_add(values, "pages", lecture_count());
-    bool settles = scene->settles && !content->lecture.page;
+    bool settles = scene->needs_dissipation && !content->lecture.page;
     values_add_flag(values, "grows", settles && forward);
     values_add_flag(values, "keeps", settles && method && !method->damps);
     values_add(values, "panes", content->panes > 1 ? content->panes : NAN);
@@ -185,9 +185,9 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
 static double energy_difference(const void *function, double alpha)
 {
     const DescentTrace *space = function;
-    Local there = descent_at(space->simulation, PROJECTION_NONE,
-                             space->from[0] + alpha * space->p[0],
-                             space->from[1] + alpha * space->p[1]);
+    LocalModel there = descent_at(space->simulation, PROJECTION_NONE,
+                                  space->from[0] + alpha * space->p[0],
+                                  space->from[1] + alpha * space->p[1]);
     return there.value - space->value;
 }
 

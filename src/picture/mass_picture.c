@@ -261,7 +261,7 @@ void mass_bounds(const Plot *stage, double bounds[4])
     const Simulation *simulation = stage->simulation;
     MassStep first;
     if (simulation->options.layers & LAYER_FIRST_STEP &&
-        simulation->steps == 0 && mass_next_step(simulation, 0, &first)) {
+        simulation->steps == 0 && mass_find_next_step(simulation, 0, &first)) {
         double side = 0;
         for (int k = 0; k < 2; k++) {
             double x = first.x[k], tip = x + first.v[k], next = first.new_x[k];
@@ -273,11 +273,11 @@ void mass_bounds(const Plot *stage, double bounds[4])
             bounds[i] += (i < 2 ? -0.14 : 0.14) * side;
         return;
     }
-    const double *began = simulation->exhibit.began;
+    const double *began = simulation->exhibit.start;
     double most = math_hypot(vector_length(began), vector_length(began + 2));
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
-        mass_next_step(simulation, r, &step);
+        mass_find_next_step(simulation, r, &step);
         for (int k = 0; k < 2; k++)
             most = fmax(most,
                         fmax(fabs(step.new_x[k]), fabs(step.x[k] + step.v[k])));
@@ -314,7 +314,7 @@ static void draw_mass_lesson(Plot *stage)
     MassStep step;
     double h = stage->simulation->run[0].h;
     bool implicit = stage->simulation->run[0].method->implicit;
-    if (!mass_next_step(stage->simulation, 0, &step))
+    if (!mass_find_next_step(stage->simulation, 0, &step))
         return;
     const Point end = exact_position(&step, h);
     plot_hollow_disc(stage, end.at, 6, 3.4, COLOUR_GREY);
@@ -360,7 +360,7 @@ static void draw_mass_step(Plot *stage)
     static const int order[] = {0, 1, 3, 2, 4};
     static const double part[] = {0.55, 0.8, 0.35, 0.7};
     MassStep step;
-    if (!mass_next_step(simulation, 0, &step))
+    if (!mass_find_next_step(simulation, 0, &step))
         return;
     bool backward = simulation->run[0].method->implicit;
     const double *a = backward ? step.new_a : step.a;
@@ -405,8 +405,8 @@ void mass_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const TimeIntegrator *run = simulation->run;
     double start[2], across[2]; /* semi-axes of the exact path */
-    mass_exact(simulation, 0, start);
-    mass_exact(simulation, 0.25 * TWO_PI, across);
+    mass_find_exact(simulation, 0, start);
+    mass_find_exact(simulation, 0.25 * TWO_PI, across);
     plot_ellipse(stage, origin, start, across, 4, false, COLOUR_GRID);
     for (int r = 0; r < simulation->runs; r++)
         plot_line(stage, origin, run[r].x, 1.4, COLOUR_REST);
@@ -414,7 +414,7 @@ void mass_draw(Plot *stage)
     draw_trails(stage, true);
     for (int r = 0; simulation->runs > 1 && r < simulation->runs; r++) {
         MassStep step;
-        mass_next_step(simulation, r, &step);
+        mass_find_next_step(simulation, r, &step);
         plot_arrow(stage, step.x, vector_between(step.x, step.new_x).at, 1, 3,
                    run_colour(simulation, r));
         plot_ring(stage, step.new_x, 8, 2.2, run_colour(simulation, r));
@@ -441,7 +441,7 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     bool one = simulation->runs == 1;
     circle_add_values(simulation, values);
     for (int r = 0; r < simulation->runs; r++) {
-        if (!mass_next_step(simulation, r, &step))
+        if (!mass_find_next_step(simulation, r, &step))
             continue;
         double before = mass_energy(step.x, step.v);
         double after = mass_energy(step.new_x, step.new_v);
@@ -452,7 +452,7 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     }
     values->run = 0;
     bool backward = simulation->run[0].method->implicit;
-    bool known = mass_next_step(simulation, 0, &step);
+    bool known = mass_find_next_step(simulation, 0, &step);
     values_add_flag(values, "stages", one && !known);
     if (!one || !known)
         return;

@@ -17,7 +17,7 @@ static const double REFERENCE_ERROR = 1e-8; /* m, accuracy of the reference */
 /* Bounds in powers of ten. */
 void race_bounds(const Plot *stage, double bounds[4])
 {
-    bool over_h = stage->simulation->exhibit.parts;
+    bool over_h = stage->simulation->exhibit.switches;
     bounds[0] = over_h ? -4.8 : -7.6;
     bounds[1] = over_h ? -9 : -10;
     bounds[2] = over_h ? -1.9 : 0.3;
@@ -73,7 +73,7 @@ void race_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const Race *race = &simulation->exhibit.race;
     double named[RACE_METHODS][2]; /* point with the name; NaN: none */
-    bool over_h = simulation->exhibit.parts;
+    bool over_h = simulation->exhibit.switches;
     bool wide = stage->has_text && stage->box.width > NAMES_WIDTH * stage->em;
     Plot plot = plot_on_stage(
         stage,
@@ -135,14 +135,14 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
         values_add_flag(values, i ? "" : "no explicit", !best && all);
     }
     bool failed = false; /* in the table */
-    for (int i = RACE_SHOWN * RACE_METHODS; i < race->count; i++)
+    for (int i = RACE_SHOWN_ROW * RACE_METHODS; i < race->count; i++)
         failed = failed || (isnan(race->point[i].error) &&
-                            i < (RACE_SHOWN + HALVED + 1) * RACE_METHODS);
+                            i < (RACE_SHOWN_ROW + HALVED + 1) * RACE_METHODS);
     values_add_flag(values, "failed run", failed);
     values_add_flag(values, all ? "all runs" : "some runs",
                     !simulation->status);
-    values_add_flag(values, simulation->exhibit.parts ? "over h" : "over time",
-                    true);
+    values_add_flag(
+        values, simulation->exhibit.switches ? "over h" : "over time", true);
     values_add(values, "methods", RACE_METHODS);
     values_add_flag(values, "failed", simulation->status);
 }
@@ -165,12 +165,13 @@ enum { COLUMNS = 9, CELL = 64 };
 static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
 {
     const IntegratorMethod *shown = race_method(method);
-    const RacePoint *point = &race->point[RACE_SHOWN * RACE_METHODS + method];
+    const RacePoint *point =
+        &race->point[RACE_SHOWN_ROW * RACE_METHODS + method];
     snprintf(cell[0], CELL, "%s", shown->label);
     if (race->count > point - race->point) {
         put_cell(cell[1], CELL, "", point->error, 2, "");
         snprintf(cell[6], CELL, "explodes");
-        put_cell(cell[6], CELL, "\u00d7 ", point->later, 2, "");
+        put_cell(cell[6], CELL, "\u00d7 ", point->energy_after_second, 2, "");
         put_cell(cell[8], CELL, "", 1e3 * point->seconds, 2, " ms");
     }
     for (int k = 1; k <= HALVED; k++) {
@@ -190,7 +191,8 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
     else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
         snprintf(cell[7], CELL, "none");
     put_cell(cell[7], CELL, "",
-             shown->implicit ? NAN : 1e3 * race_stable(race, method), 3, " ms");
+             shown->implicit ? NAN : 1e3 * race_find_stable_h(race, method), 3,
+             " ms");
 }
 
 /* Draws as many columns as there is room for, the most important first. */
@@ -210,7 +212,7 @@ void table_draw(const Plot *card)
                                                 "0.0055 ms"};
     static const int order[2][COLUMNS] = {{0, 6, 7, 1, 2, 3, 4, 5, 8},
                                           {0, 2, 3, 4, 5, 1, 6, 7, 8}};
-    const int *next = order[card->simulation->exhibit.parts != 0];
+    const int *next = order[card->simulation->exhibit.switches != 0];
     Paper *paper = card->paper;
     Box inside = card->box;
     char cell[COLUMNS][CELL];

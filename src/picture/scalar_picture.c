@@ -26,7 +26,7 @@ typedef struct ScalarUpdate {
                   */
 } ScalarUpdate;
 
-static Local scalar_at(const Simulation *simulation, double x)
+static LocalModel scalar_at(const Simulation *simulation, double x)
 {
     return descent_at(simulation, PROJECTION_NONE, x, 0);
 }
@@ -46,7 +46,7 @@ static ScalarUpdate update_at(const Simulation *simulation, int i)
         update.number = i;
         update.is_made = true;
     }
-    Local at = scalar_at(simulation, update.x0);
+    LocalModel at = scalar_at(simulation, update.x0);
     update.f = at.value;
     update.slope = at.g[0];
     update.curvature = at.H[0];
@@ -58,7 +58,7 @@ static ScalarUpdate update_at(const Simulation *simulation, int i)
 static double curve_at(const void *data, double x)
 {
     const ScalarUpdate *update = data;
-    Local at = scalar_at(update->simulation, x);
+    LocalModel at = scalar_at(update->simulation, x);
     return update->slopes ? at.g[0] : at.value;
 }
 
@@ -199,7 +199,7 @@ static Plot tangent_plot(const Plot *stage, int half)
     const Descent *descent = &stage->simulation->descent;
     double high = half ? 2 : 4;
     for (int i = 0; i <= descent->count; i++) {
-        Local at = scalar_at(stage->simulation, iterate_at(descent, i));
+        LocalModel at = scalar_at(stage->simulation, iterate_at(descent, i));
         high = fmax(high, half ? at.value : fabs(at.g[0]));
     }
     high = plot_round_axis(fmin(high, 1e12));
@@ -246,7 +246,7 @@ static double find_root(const Simulation *simulation)
     double x = simulation->descent.point[0], p = INFINITY;
     for (int i = 0; i < ROOT_UPDATES && fabs(p) > 1e-14 * fmax(1, fabs(x));
          i++) {
-        Local at = scalar_at(simulation, x);
+        LocalModel at = scalar_at(simulation, x);
         p = -at.g[0] / at.H[0];
         x += p;
     }
@@ -305,7 +305,7 @@ void update_draw(const Plot *card)
 void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     double at[SCENE_MAX_HANDLES][2];
-    int handles = exhibit_handles(stage->simulation, at);
+    int handles = exhibit_list_handles(stage->simulation, at);
     for (int i = 0; i < handles; i++)
         at[i][1] = pick->point[1];
     plot_pick_point(stage, handles, *at, 14, x, y, PICK_HANDLE, pick);

@@ -22,9 +22,9 @@ void spring_bounds(const Plot *stage, double bounds[4])
     bounds_grow(SPRING_REACH, 1.1 * vector_length(x), sqrt(2), bounds);
 }
 
-static SpringFacts spring_at(const double d[2], const System *system)
+static SpringValues spring_at(const double d[2], const System *system)
 {
-    return spring_facts(d, system->l2[0], system->k[0]);
+    return spring_evaluate(d, system->l2[0], system->k[0]);
 }
 
 /* Energies at a signed length d, for plot_graph. */
@@ -73,7 +73,7 @@ void spring_draw(Plot *stage)
     const FrameContent *content = stage->content;
     const double *x = simulation->run[0].x;
     double l = sqrt(simulation->system.l2[0]);
-    SpringFacts spring = spring_at(x, &simulation->system);
+    SpringValues spring = spring_at(x, &simulation->system);
     bool projects = spring.across < 0 && !content->lecture.hides_answer;
     bool modes = simulation->options.layers & LAYER_MODES;
     draw_length_circle(stage, l, COLOUR_FAINT, "l");
@@ -114,7 +114,7 @@ static void add_differences(const Simulation *simulation, LiveValues *values)
     const double *d = simulation->run[0].x;
     double force[2];
     for (int i = 0; i < 2; i++) {
-        const SpringFacts at[2] = {
+        const SpringValues at[2] = {
             spring_at(point_along(d, -step, unit[i]).at, system),
             spring_at(point_along(d, step, unit[i]).at, system)};
         force[i] = (at[0].energy - at[1].energy) / (2 * step);
@@ -133,13 +133,13 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     const System *system = &simulation->system;
     const double *d = simulation->run[0].x, k = system->k[0];
     double l2 = system->l2[0], H[3];
-    SpringFacts now = spring_at(d, system);
+    SpringValues now = spring_at(d, system);
     double along = 2 * now.along,
            across = 2 * now.across; /* eigenvalues of the block */
     bool page = simulation->options.page;
     bool folds = simulation->options.projection == PROJECTION_ABS && !page;
     Projection projection = folds ? PROJECTION_ABS : PROJECTION_CLAMP;
-    bool both = simulation->exhibit.parts;
+    bool both = simulation->exhibit.switches;
     values_add_point(values, "d", d);
     values_add(values, "distance", now.length);
     values_add(values, "l", sqrt(l2));
@@ -177,8 +177,8 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
 void profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
-    SpringFacts now = spring_at(card->simulation->run[0].x, system);
-    bool both = card->simulation->exhibit.parts;
+    SpringValues now = spring_at(card->simulation->run[0].x, system);
+    bool both = card->simulation->exhibit.switches;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_over : energy_over)(system, 0);
     Axis x = {-reach, reach, false, false, "d in m"};

@@ -460,10 +460,11 @@ static void draw_kinds(const SquarePen *pen)
 {
     static const int colours[] = {0, 1, 3, 3}; /* colours of these runs */
     const System *system = pen->system;
-    int newest = exhibit_kind(pen->simulation, newest_spring(pen->simulation));
+    int newest =
+        exhibit_spring_kind(pen->simulation, newest_spring(pen->simulation));
     bool wide = pen->simulation->options.layers & LAYER_KINDS;
     for (int s = 0; s < system->springs; s++) {
-        int kind = exhibit_kind(pen->simulation, s);
+        int kind = exhibit_spring_kind(pen->simulation, s);
         if (system->k[s] > 0)
             square_spring(pen, s, wide && kind == newest ? 3.5 : 2,
                           colour_of_run(colours[kind]));

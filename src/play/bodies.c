@@ -54,7 +54,7 @@ Status obey_push(Player *player, const Command *command)
     double at[2];
     if (!simulation_is_draggable(simulation))
         return player_refuse(player, "nothing to push here");
-    simulation_obstacle(simulation, 0, (int)command->number, at);
+    simulation_find_obstacle(simulation, 0, (int)command->number, at);
     return grab(player, COMMAND_PUSH, command->number, at);
 }
 
@@ -78,7 +78,7 @@ Status obey_place(Player *player, const Command *command)
 Status obey_obstacle(Player *player, const Command *command)
 {
     Options moved = *player_settings(player);
-    double *at = obstacle_at(&moved, (int)command->number);
+    double *at = options_obstacle_at(&moved, (int)command->number);
     at[0] = command->x;
     at[1] = command->y;
     Status status = STATUS_OK;

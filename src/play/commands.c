@@ -237,7 +237,7 @@ Status script_read(const char *name, Script *script, Message message)
     *script = (Script){0};
     if (!name)
         return STATUS_OK;
-    one_line(name, shown, sizeof shown);
+    copy_one_line(name, shown, sizeof shown);
     FILE *file = fopen(name, "r");
     Status status = STATUS_OK;
     long number = 0;

@@ -70,7 +70,7 @@ static void fill_settings(const Player *player, Frame *frame)
     FrameContent *content = &frame->content;
     const Hit *mouse = &player->screen.view.over;
     const Options shown = player_numbers(player), *options = &shown;
-    const OptionRow *all[OPTIONS_MOST];
+    const OptionRow *all[OPTIONS_MAX_ROWS];
     content->settings.selected = -1;
     frame->numbers = player_visible_options(player, false, frame->number);
     bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->numbers;
@@ -82,9 +82,10 @@ static void fill_settings(const Player *player, Frame *frame)
         setting->letters = row->display.letters;
         player_format_value(row, options, player_simulation(player),
                             setting->value, VALUE_SIZE);
-        option_value(row, options, now, sizeof now);
-        option_value(row, &past_start(&player->past, player->active)->options,
-                     start, sizeof start);
+        option_write_short(row, options, now, sizeof now);
+        option_write_short(row,
+                           &past_start(&player->past, player->active)->options,
+                           start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
         const char *idle = player_idle_reason(player, row);
         setting->off = strcmp(setting->value, "none") == 0 || idle;
@@ -106,7 +107,7 @@ static void fill_settings(const Player *player, Frame *frame)
 /* Lists all numbers of the scene, and why some have no meaning now. */
 static void fill_options(const Player *player, FrameContent *content)
 {
-    const OptionRow *all[OPTIONS_MOST];
+    const OptionRow *all[OPTIONS_MAX_ROWS];
     const Options options = player_numbers(player);
     content->list.rows = player_visible_options(player, true, all);
     for (int i = 0; i < content->list.rows; i++) {
@@ -257,7 +258,7 @@ static StepBar bar_of(const void *shown, long step)
 static void fill_time(const Player *player, FrameContent *content)
 {
     const Past *past = &player->past;
-    const char *turn = player_simulation(player)->scene->turn;
+    const char *turn = player_simulation(player)->scene->step_name;
     char *text = content->time_line.text;
     double time = 0, longest = -1; /* s; the longest h says the time */
     for (int p = 0; p < past_panes(past); p++) {

@@ -98,7 +98,7 @@ static Keyboard keyboard_now(const Player *player)
 /* Opens a page or adds a number by its line in the list. */
 static Status open_line(Player *player, const char *line)
 {
-    const OptionRow *all[OPTIONS_MOST];
+    const OptionRow *all[OPTIONS_MAX_ROWS];
     Command page = {.kind = COMMAND_PAGE, .joins = true};
     char *end;
     long number = strtol(line, &end, 10);
@@ -160,7 +160,7 @@ static Status drag_number(Player *player, const Under *under)
     else if (paces == rint(paces))
         paces += 1e-9; /* a value between the round ones */
     if (!edge)
-        wanted = option_paced(row, &mouse->options, paces);
+        wanted = option_turn_wheel(row, &mouse->options, paces);
     return now.number[row->slot] == wanted ? STATUS_OK
                                            : ask_set(player, row, wanted);
 }
@@ -207,7 +207,8 @@ static Status take_under_mouse(Player *player, const Under *under)
     switch (under->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
-        simulation_obstacle(player_simulation(player), 0, mouse->index, point);
+        simulation_find_obstacle(player_simulation(player), 0, mouse->index,
+                                 point);
         mouse->grip[0] = point[0] - under->at[0];
         mouse->grip[1] = point[1] - under->at[1];
         return STATUS_OK;
@@ -276,7 +277,7 @@ static Status drag_obstacle(Player *player, const double at[2])
         part = fmin(part, simulation_free_way(&past->machine[p].simulation,
                                               options, number, at));
     }
-    simulation_obstacle(player_simulation(player), 0, number, from);
+    simulation_find_obstacle(player_simulation(player), 0, number, from);
     if (part == 0)
         return player_refuse(player, "no room: the square is in its way");
     const double to[2] = {from[0] + part * (at[0] - from[0]),

@@ -24,7 +24,7 @@ static bool is_number(const Player *player, const OptionRow *row)
 }
 
 int player_visible_options(const Player *player, bool all,
-                           const OptionRow *found[OPTIONS_MOST])
+                           const OptionRow *found[OPTIONS_MAX_ROWS])
 {
     const Options options = player_numbers(player);
     int own = all ? 0 : options_list_fields(&options, found), count = own;
@@ -79,7 +79,7 @@ Status obey_add(Player *player, const Command *command)
 /* Selects the next number, after the last one none. */
 Status obey_select(Player *player, const Command *command)
 {
-    const OptionRow *number[OPTIONS_MOST];
+    const OptionRow *number[OPTIONS_MAX_ROWS];
     int next = 0, count = player_visible_options(player, false, number);
     for (int i = 0; i < count; i++)
         next = number[i] == player->hands.selected ? i + 1 : next;
@@ -184,7 +184,7 @@ Status player_paced(Player *player, const OptionRow *row, int paces,
     const Options now = player_numbers(player);
     if (row->count > 1)
         return player_refuse(player, "several numbers: type them");
-    *value = option_paced(row, &now, paces);
+    *value = option_turn_wheel(row, &now, paces);
     return STATUS_OK;
 }
 
@@ -192,7 +192,7 @@ Status player_paced(Player *player, const OptionRow *row, int paces,
  * wheel. */
 Status obey_raise(Player *player, const Command *command)
 {
-    const OptionRow *number[OPTIONS_MOST];
+    const OptionRow *number[OPTIONS_MAX_ROWS];
     if (player_visible_options(player, false, number) == 0)
         return player_refuse(player, "there is no number to change here");
     player->hands.selected =

@@ -33,9 +33,9 @@ static long count_targets(const Player *player, int pane, CommandKind kind)
     case COMMAND_PLACE:
         return simulation->system.nodes;
     case COMMAND_HANDLE:
-        return exhibit_handles(simulation, at);
+        return exhibit_list_handles(simulation, at);
     case COMMAND_FLIP:
-        return exhibit_switches(simulation, part);
+        return exhibit_list_switches(simulation, part);
     case COMMAND_OBSTACLE:
     case COMMAND_PUSH:
         return (long)(simulation->options.grounds + simulation->options.balls);
@@ -125,7 +125,7 @@ static Status obey_queue(Player *player, bool now)
         return status;
     }
     if (status) {
-        control_drop(queue.pins);
+        control_release(queue.pins);
         return status;
     }
     queue.count -= i;

@@ -108,7 +108,7 @@ static void drop_state(Past *past, Entry *entry)
 
 static void drop_entry(Past *past, Entry *entry)
 {
-    control_drop(entry->control);
+    control_release(entry->control);
     drop_state(past, entry);
     *entry = (Entry){0};
 }
@@ -290,7 +290,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
         for (int i = 0; i < branch->given; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
             *to = *branch_entry(branch - 1, source, branch->first + i);
-            control_keep(to->control);
+            control_retain(to->control);
             to->state = NULL;
         }
         branch->source[p] = source;
@@ -355,8 +355,8 @@ static void machine_forget_step(Machine *machine)
 static void machine_free(Machine *machine)
 {
     simulation_free(&machine->simulation);
-    control_drop(machine->control);
-    control_drop(machine->start);
+    control_release(machine->control);
+    control_release(machine->start);
     machine->control = machine->start = NULL;
     machine->has_state = machine->iterating = false;
     machine_forget_step(machine);
@@ -375,8 +375,8 @@ static Status machine_use_control(Machine *machine, const Control *control)
     if (machine->control == control)
         return STATUS_OK;
     Status status = control_apply(&machine->simulation, control);
-    control_keep(control);
-    control_drop(machine->control);
+    control_retain(control);
+    control_release(machine->control);
     machine->control = control;
     if (status)
         machine_free(machine);
@@ -434,7 +434,7 @@ static Status machine_seek(Past *past, int pane, long goal)
     }
     if (machine->start != start) {
         status = machine_create(machine, &start->options);
-        machine->start = status ? NULL : control_keep(start);
+        machine->start = status ? NULL : control_retain(start);
     }
     if (!status)
         status = machine_load_state(machine, stored);
@@ -535,7 +535,7 @@ static Status machine_finish_step(Past *past, int pane)
     if (step > past_newest(past)) {
         if (!to->control)
             to->control =
-                control_keep(find_entry(past, pane, step - 1)->control);
+                control_retain(find_entry(past, pane, step - 1)->control);
         to->substeps = machine->substeps;
         to->outcome = machine->outcome;
     }
@@ -764,7 +764,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
         }
         control->options = options[p];
         machine->start = control;
-        machine->control = control_keep(control);
+        machine->control = control_retain(control);
         machine->outcome = (Outcome){.status = machine->simulation.status};
         step_trace_clear(&machine->trace);
     }
@@ -778,7 +778,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     invalidate_tables(past, 0, true);
     for (int p = 0; p < panes && !status; p++) {
         Entry *entry = &branch->entry[p];
-        entry->control = control_keep(past->machine[p].start);
+        entry->control = control_retain(past->machine[p].start);
         entry->substeps = 1;
         if (past->keeps)
             status = store_state(past, p, entry);
@@ -817,7 +817,7 @@ static const Control *edited_control(const Control *from, const Command *edit,
     else if (edit->kind == COMMAND_SET)
         control->options.number[option_rows[edit->number].slot] = edit->x;
     if (edit->kind == COMMAND_OBSTACLE) {
-        double *at = obstacle_at(&control->options, (int)edit->number);
+        double *at = options_obstacle_at(&control->options, (int)edit->number);
         at[0] = edit->x;
         at[1] = edit->y;
     }
@@ -825,7 +825,7 @@ static const Control *edited_control(const Control *from, const Command *edit,
         control->pinned[edit->number] = edit->x != 0;
     bool takes = edit->kind == COMMAND_GRAB || edit->kind == COMMAND_PUSH;
     if ((takes || edit->kind == COMMAND_RELEASE) && from->push >= 0)
-        control_keep_place(control, from->push, simulation);
+        control_store_obstacle(control, from->push, simulation);
     if (takes || edit->kind == COMMAND_RELEASE) {
         control->hand = edit->kind == COMMAND_GRAB ? (int)edit->number : -1;
         control->push = edit->kind == COMMAND_PUSH ? (int)edit->number : -1;
@@ -847,7 +847,7 @@ static Status edit_entry(Past *past, int pane, const Command *edit,
             edited_control(entry->control, edit, simulation);
         if (!control)
             return STATUS_OUT_OF_MEMORY;
-        control_drop(entry->control);
+        control_release(entry->control);
         entry->control = control;
         return STATUS_OK;
     }

@@ -77,7 +77,7 @@ static Status obey_script(Player *player)
         if (status == STATUS_INVALID_INPUT) {
             char line[128];
             command_format(command, line, sizeof line);
-            one_line(line, line, sizeof line);
+            copy_one_line(line, line, sizeof line);
             fprintf(stderr, "script: step %ld: '%s': %s\n", player->past.step,
                     line, player->message);
             player->message[0] = '\0';
@@ -186,12 +186,12 @@ static void open_view(Player *player)
         player->screen.window =
             window_open("elasto", size, options->fullscreen);
     if (!options->headless && !player->screen.window) {
-        one_line(window_failure(), reason, sizeof reason);
+        copy_one_line(window_failure(), reason, sizeof reason);
         window_close();
         if (!options->frames && !options->film)
             options->frames = "frames";
-        one_line(options->frames ? options->frames : options->film, shown,
-                 sizeof shown);
+        copy_one_line(options->frames ? options->frames : options->film, shown,
+                      sizeof shown);
         fprintf(stderr, "no screen: %s; the frames go to %s%s\n", reason, shown,
                 options->frames ? "/" : "");
     }
@@ -224,7 +224,7 @@ Status player_create(const Options *options, int count, char *const *words,
         player->screen.window || options->script || options->page;
     options = player->given.options;
     if (options->paused || (player->given.asks && options->steps < 0 &&
-                            (options->page || options->scene->explains)))
+                            (options->page || options->scene->starts_paused)))
         player->time.mode = MODE_PAUSE;
     status =
         recording_open(&player->given.options[0], count, &player->recording);
@@ -276,7 +276,7 @@ void player_free(Player *player)
     past_free(&player->past);
     player_forget_step(player);
     sheet_close(player);
-    control_drop(player->orders.queue.pins);
+    control_release(player->orders.queue.pins);
     script_free(&player->given.script);
     script_free(&player->orders.journal);
 }

@@ -147,7 +147,7 @@ Status player_reveal(Player *player, const char *typed);
 /* Finds the numbers in the row, or all numbers of the scene.  Returns their
  * count. */
 int player_visible_options(const Player *player, bool all,
-                           const OptionRow *found[OPTIONS_MOST]);
+                           const OptionRow *found[OPTIONS_MAX_ROWS]);
 
 /* Returns why a number has no effect now, or NULL. */
 const char *player_idle_reason(const Player *player, const OptionRow *row);

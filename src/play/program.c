@@ -29,7 +29,7 @@ print_error(int code, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    one_line(line, line, sizeof line);
+    copy_one_line(line, line, sizeof line);
     fprintf(stderr, "elasto: %s\n", line);
     return code;
 }
@@ -127,7 +127,7 @@ print(FILE *file, const char *name, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    one_line(line, line, sizeof line);
+    copy_one_line(line, line, sizeof line);
     fprintf(file, "%-20s%s\n", name, line);
 }
 
@@ -222,7 +222,7 @@ static void print_older(const Recording *recording)
     char folder[256], last[32] = "";
     const long *stayed = recording->stayed;
     bool several = stayed[0] > 1;
-    one_line(recording->folder, folder, sizeof folder);
+    copy_one_line(recording->folder, folder, sizeof folder);
     if (several)
         snprintf(last, sizeof last, " ... frame_%06ld.png", stayed[2]);
     if (stayed[0] > 0)

@@ -45,7 +45,7 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
     const Past *past = &player->past;
     for (int p = 0; p < past_panes(past); p++) {
         options[p] = past_control(past, p)->options;
-        options[p].flips = exhibit_flips(&past->machine[p].simulation);
+        options[p].flips = exhibit_find_flips(&past->machine[p].simulation);
     }
     return past_panes(past);
 }
@@ -153,10 +153,10 @@ void player_format_value(const OptionRow *row, const Options *options,
                          const Simulation *simulation, char *text, size_t size)
 {
     char value[COMMAND_TEXT_SIZE], unit[16];
-    option_unit(row, unit, sizeof unit);
+    option_write_unit(row, unit, sizeof unit);
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
         unit[0] = '\0'; /* the tolerance of a gradient has another unit */
-    option_value(row, options, value, sizeof value);
+    option_write_short(row, options, value, sizeof value);
     if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
         simulation->run[0].method != simulation->run[1].method)
         snprintf(text, size, "three Eulers");

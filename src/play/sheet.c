@@ -47,10 +47,10 @@ Status obey_sheet(Player *player, const Command *command)
         return STATUS_OUT_OF_MEMORY;
     int cells = 1; /* the tour */
     while (cells < LAYOUT_CELLS && scenes[cells - 1].name &&
-           !scenes[cells - 1].by_name)
+           !scenes[cells - 1].only_by_name)
         cells++;
     player->screen.sheet->cells = cells;
-    player->screen.view.chosen = options->page || options->scene->by_name
+    player->screen.view.chosen = options->page || options->scene->only_by_name
                                      ? 0
                                      : (int)(options->scene - scenes) + 1;
     return STATUS_OK;

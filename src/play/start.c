@@ -30,7 +30,7 @@ Status obey_scene(Player *player, const Command *command)
         return status;
     sheet_close(player);
     bool explains =
-        options->scene->explains && !player->given.options[0].script;
+        options->scene->starts_paused && !player->given.options[0].script;
     player->time.mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
     if (player->screen.column != COLUMN_KEYS)
         player->screen.column = COLUMN_CARDS;
@@ -68,12 +68,13 @@ static Status clear_start(Player *player, int pane, Options *options)
     if (began.grounds != options->grounds || began.balls != options->balls)
         return STATUS_INVALID_INPUT;
     for (int k = 0; k < count; k++)
-        memcpy(obstacle_at(&kept, k), obstacle_at(&began, k), sizeof began.at);
+        memcpy(options_obstacle_at(&kept, k), options_obstacle_at(&began, k),
+               sizeof began.at);
     for (int k = 0; k < count; k++) {
-        double *at = obstacle_at(&kept, k);
-        memcpy(at, obstacle_at(options, k), sizeof began.at);
+        double *at = options_obstacle_at(&kept, k);
+        memcpy(at, options_obstacle_at(options, k), sizeof began.at);
         if (body_check(&kept, message))
-            memcpy(at, obstacle_at(&began, k), sizeof began.at);
+            memcpy(at, options_obstacle_at(&began, k), sizeof began.at);
     }
     *options = kept;
     return body_check(options, message);
@@ -96,14 +97,14 @@ Status player_restore_pins(Player *player, const Control *before)
             status =
                 player_edit(player, &pin, 0, past_panes(&player->past), false);
     }
-    control_drop(before);
+    control_release(before);
     return status;
 }
 
 Status player_begin_again(Player *player, const Options *options, int panes,
                           const Command *edit)
 {
-    const Control *before = control_keep(past_control(&player->past, 0));
+    const Control *before = control_retain(past_control(&player->past, 0));
     bool opens = edit->kind == COMMAND_RESTART && opens_again(player, options);
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
     player->time.fine = opens ? 0 : player->time.fine;
@@ -114,7 +115,7 @@ Status player_begin_again(Player *player, const Options *options, int panes,
     }
     if (!status)
         return player_restore_pins(player, before);
-    control_drop(before);
+    control_release(before);
     return status;
 }
 
@@ -138,7 +139,7 @@ Status obey_restart(Player *player, const Command *command)
     if (moves)
         player->time.mode = MODE_PAUSE;
     else if (player->time.mode >= MODE_END && !options->page &&
-             !options->scene->explains)
+             !options->scene->starts_paused)
         player->time.mode = MODE_RUN;
     if (!moves)
         player->screen.view.lens = LENS_FITS;
@@ -263,7 +264,7 @@ Status obey_predict(Player *player, const Command *command)
     const Prediction *guess = &simulation->prediction;
     if (!player_hides_answer(player))
         return STATUS_OK;
-    double way = math_hypot(guess->came[0] - at[0], guess->came[1] - at[1]);
+    double way = math_hypot(guess->end[0] - at[0], guess->end[1] - at[1]);
     bool right = guess->distance <= 0.1 * way;
     Status status = player_reveal(player, NULL);
     judge_guess(player, right,
@@ -277,6 +278,6 @@ Status obey_predict(Player *player, const Command *command)
 Status obey_cell(Player *player, const Command *command)
 {
     int cell = (int)command->number;
-    return envelope_visit(&player->past.machine[player->active].simulation,
-                          cell % ENVELOPE_COLUMNS, cell / ENVELOPE_COLUMNS);
+    return envelope_run_cell(&player->past.machine[player->active].simulation,
+                             cell % ENVELOPE_COLUMNS, cell / ENVELOPE_COLUMNS);
 }

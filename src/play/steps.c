@@ -249,7 +249,7 @@ static void detect_rest(Player *player)
         ended = ended && (simulation->done || machine->failed);
         rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
                 simulation->runs == 1 && !control_holds(machine->control) &&
-                simulation_rests(simulation);
+                simulation_is_at_rest(simulation);
         bad = bad || machine->outcome.status;
     }
     bad = bad && past_panes(past) == 1;

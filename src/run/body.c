@@ -1,5 +1,5 @@
 /* body.c - creates bodies, obstacles and energy terms from the options, and
- * checks that they can start.
+ * checks that a run can start with them.
  */
 #include "run/body.h"
 
@@ -83,7 +83,7 @@ static int find_ball_node(const Options *options)
 }
 
 /* Creates masses, springs, gravity and pins (slide simulator.py).  Each node
- * has an equal part of the body's mass, and a ball of the scene as much as a
+ * has an equal part of the body's mass, and the scene's ball has the mass of a
  * node; l2 = |d|^2 in the rest positions. */
 static Status create_system(const Options *options, System *system)
 {
@@ -129,8 +129,8 @@ _Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS + 2 <=
                    CONTACT_MAX_OBSTACLES,
                "the ceiling and the scene's obstacle fit in");
 
-/* Lists the obstacles of the options, with unit normals, and then that of the
- * scene.  Returns how many. */
+/* Lists the obstacles of the options, with unit normals, and then the obstacle
+ * of the scene.  Returns how many there are. */
 static int list_obstacles(const Options *options,
                           Obstacle list[CONTACT_MAX_OBSTACLES])
 {
@@ -155,7 +155,7 @@ static int list_obstacles(const Options *options,
     }
     if (options->ceiling[1] != 0) {
         const double *ceiling = options->ceiling;
-        /* A blocked ceiling stops after the time that its way takes. */
+        /* A blocked ceiling stops when an unblocked one would have arrived. */
         double way = (ceiling[2] - ceiling[0]) / ceiling[1];
         list[count++] = (Obstacle){.kind = OBSTACLE_WALL,
                                    .n = {0, -1},
@@ -237,10 +237,10 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
                                  options->slip_speed);
 }
 
-/* Adds the terms that the options ask for, changes the numbers of those that
- * the system has, and removes those whose option is off.  Obstacles,
- * self-contact and cells depend on several options each; every other term
- * belongs to one row of option_rows. */
+/* Adds the terms of the options, changes the numbers of terms that the system
+ * has, and removes terms whose option is off.  Obstacles, self-contact and
+ * cells depend on several options each; every other term belongs to one row of
+ * option_rows. */
 static Status set_terms(const Options *options, System *system)
 {
     const SquareMesh shape = body_shape(options);
@@ -262,8 +262,8 @@ static Status set_terms(const Options *options, System *system)
 }
 
 /* Computes the start of a run: a step of a table, or the rest shape stretched,
- * turned and moved as in the options; a turn of 0 degrees changes no bit.  The
- * scene's ball starts where the scene has it.
+ * turned and moved by the options; a turn of 0 degrees changes no bit.  The
+ * scene's ball starts at its place in the scene.
  *   x, v  [2 nodes] out, m, m/s */
 static Status place_body(const Options *options, int run, double *x, double *v,
                          Message message)
@@ -350,7 +350,7 @@ Status body_create(Simulation *simulation, int run)
     return status;
 }
 
-Status body_follow(Simulation *simulation, int run)
+Status body_update(Simulation *simulation, int run)
 {
     System *system = simulation->run[run].system;
     Options options = options_of_run(simulation, run, &simulation->options);
@@ -515,7 +515,7 @@ double simulation_free_way(const Simulation *simulation, const Options *options,
     enum { HALVINGS = 20 };
     static const double APART = 0.999; /* just inside the barrier's width */
     Options moved = *options;
-    double *at = obstacle_at(&moved, number), free = 0, from[2];
+    double *at = options_obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
     memcpy(at, to, sizeof from);
     if (!check_room(simulation, &moved, 0, -1, (Message){0}))
@@ -537,7 +537,7 @@ static double side_of(const double *a, const double *b, const double *p)
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-/* Whether two edges have a common point. */
+/* Whether two edges, a pair of nodes each, have a common point. */
 static bool edges_cross(const double *x, const int one[2], const int other[2])
 {
     const double *a = x + 2 * one[0], *b = x + 2 * one[1];

@@ -14,7 +14,9 @@
 #include "model/pull_energy.h"
 #include "run/body.h"
 
-static Control *make_control(int nodes)
+/* Creates a control without a hand, which holds `nodes` pins; NULL: no memory.
+ */
+static Control *create_control(int nodes)
 {
     Control *control = calloc(1, sizeof *control + (size_t)nodes);
     if (control)
@@ -27,7 +29,7 @@ Control *control_of(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     const Pull *hand = system_term_data(system, &hand_energy);
-    Control *control = make_control(system->nodes);
+    Control *control = create_control(system->nodes);
     if (!control)
         return NULL;
     control->options = simulation->options;
@@ -46,7 +48,7 @@ Control *control_of(const Simulation *simulation)
 
 Control *control_copy(const Control *from)
 {
-    Control *control = make_control(from->nodes);
+    Control *control = create_control(from->nodes);
     if (!control)
         return NULL;
     memcpy(control, from, sizeof *from + (size_t)from->nodes);
@@ -59,32 +61,32 @@ bool control_holds(const Control *control)
     return control->hand >= 0 || control->push >= 0;
 }
 
-/* Returns how much higher an obstacle is than in the options, m.  Only
+/* Returns how much higher an obstacle of a run is than in the options, m.  Only
  * grounds differ between runs; a ball has 0. */
-static double obstacle_lift(const Simulation *simulation, int run,
-                            const Obstacle *obstacle)
+static double find_lift(const Simulation *simulation, int run,
+                        const Obstacle *obstacle)
 {
     return obstacle->kind == OBSTACLE_WALL ? simulation->variant[run].lift : 0;
 }
 
-void simulation_obstacle(const Simulation *simulation, int run, int number,
-                         double at[2])
+void simulation_find_obstacle(const Simulation *simulation, int run, int number,
+                              double at[2])
 {
     const Contact *contact = contact_of(simulation->run[run].system);
     const Obstacle *obstacle = &contact->obstacle[number];
     at[0] = obstacle->o[0];
-    at[1] = obstacle->o[1] - obstacle_lift(simulation, run, obstacle);
+    at[1] = obstacle->o[1] - find_lift(simulation, run, obstacle);
 }
 
-void control_keep_place(Control *control, int number,
-                        const Simulation *simulation)
+void control_store_obstacle(Control *control, int number,
+                            const Simulation *simulation)
 {
-    static const double SAME =
-        1e-9; /* part of a side within which places are equal */
-    double *at = obstacle_at(&control->options, number), place[2], other[2];
-    simulation_obstacle(simulation, 0, number, place);
+    static const double SAME = 1e-9; /* sides; nearer places are equal */
+    double *at = options_obstacle_at(&control->options, number), place[2],
+           other[2];
+    simulation_find_obstacle(simulation, 0, number, place);
     for (int r = 1; r < simulation->runs; r++) {
-        simulation_obstacle(simulation, r, number, other);
+        simulation_find_obstacle(simulation, r, number, other);
         double away = math_hypot(other[0] - place[0], other[1] - place[1]);
         if (!(away < SAME * simulation->options.side))
             return;
@@ -92,14 +94,14 @@ void control_keep_place(Control *control, int number,
     memcpy(at, place, sizeof place);
 }
 
-const Control *control_keep(const Control *control)
+const Control *control_retain(const Control *control)
 {
     if (control)
         ((Control *)control)->users++;
     return control;
 }
 
-void control_drop(const Control *control)
+void control_release(const Control *control)
 {
     Control *own = (Control *)control;
     if (own && --own->users == 0)
@@ -109,32 +111,33 @@ void control_drop(const Control *control)
 /* ---- applying a control ---------------------------------------------------
  */
 
-/* Energy that each run has dissipated so far, J: out [runs]. */
-static void dissipated_so_far(const Simulation *simulation, double *out)
+/* Stores the energy that each run has dissipated so far.
+ *   out  [runs] J */
+static void store_dissipated(const Simulation *simulation, double *out)
 {
     for (int r = 0; r < simulation->runs; r++)
         out[r] = simulation_energies(simulation, r).dissipated;
 }
 
 /* Books the energy that a changed stiffness or pin has added as work, so that
- * no other number of the ledger jumps.
- *   had  [runs] J, dissipated before the change */
-static void book_external_work(Simulation *simulation, const double *had)
+ * the dissipated energy does not jump.
+ *   before  [runs] J, dissipated before the change */
+static void book_external_work(Simulation *simulation, const double *before)
 {
     for (int r = 0; r < simulation->runs; r++)
         simulation->ledger[r].work +=
-            had[r] - simulation_energies(simulation, r).dissipated;
+            before[r] - simulation_energies(simulation, r).dissipated;
 }
 
-/* Gives a run the changed options; with another integrator the run goes on in a
- * new one. */
-static Status change_run(Simulation *simulation, int r, const Options *before)
+/* Gives a run the changed options.  With another method a new integrator takes
+ * over the state of the run. */
+static Status update_run(Simulation *simulation, int r, const Options *before)
 {
     const Options *options = &simulation->options;
     TimeIntegrator *run = &simulation->run[r], old = *run;
     Status status = STATUS_OK;
     if (simulation->scene->needs & NEEDS_BODY)
-        status = body_follow(simulation, r);
+        status = body_update(simulation, r);
     if (!status && options->integrator != before->integrator) {
         status = simulation_start(simulation, r, options_method(options),
                                   old.system, old.x, old.v);
@@ -153,60 +156,64 @@ static Status change_run(Simulation *simulation, int r, const Options *before)
         run->memory_h = 0;
     run->h = options->timestep;
     if (run->newton)
-        newton_settings_take(options, &run->newton->settings);
+        options_fill_newton_settings(options, &run->newton->settings);
     return status;
 }
 
-static Status use_options(Simulation *simulation, const Options *options)
+/* Gives all runs the options.  A guess about the next step is discarded if the
+ * step may lead elsewhere now. */
+static Status apply_options(Simulation *simulation, const Options *options)
 {
     const Options before = simulation->options;
     Status status = STATUS_OK;
     simulation->options = *options;
     for (int r = 0; r < simulation->runs && !status; r++)
-        status = change_run(simulation, r, &before);
+        status = update_run(simulation, r, &before);
     if (options->stiffness != before.stiffness ||
         options->integrator != before.integrator)
         simulation->prediction = (Prediction){0};
-    if (simulation->scene->aim && !simulation->done &&
+    if (simulation->scene->find_direction && !simulation->done &&
         (options->projection != before.projection ||
          options->line_search != before.line_search))
-        simulation->scene->aim(simulation);
+        simulation->scene->find_direction(simulation);
     return status;
 }
 
+/* Sets the velocity of a node to 0. */
 static void stop_node(TimeIntegrator *run, int node)
 {
     run->v[2 * node] = run->v[2 * node + 1] = 0;
     run->memory_h = 0;
 }
 
-/* Pulls the node of the control to the mouse, by a spring far stiffer than
- * those of the body: the node follows the mouse, and the body gives way. */
-static Status use_hand(Simulation *simulation, const Control *control)
+/* Pulls the node of the control to the mouse, by a spring far stiffer than the
+ * body's springs: the node follows the mouse, and the body gives way. */
+static Status apply_hand(Simulation *simulation, const Control *control)
 {
-    static const double TIMES = 1000; /* stiffness over that of the body */
+    static const double TIMES = 1000; /* times the stiffness of the body */
     System *system = &simulation->system;
+    const SquareMesh *mesh = &simulation->mesh;
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
-    Pull wanted = {.node = control->hand, .cell = INFINITY};
-    double k;
-    if (wanted.node < 0) {
+    int node = control->hand;
+    if (node < 0) {
         system_remove_term(system, &hand_energy);
         return STATUS_OK;
     }
-    memcpy(wanted.mouse, control->at, sizeof wanted.mouse);
-    memcpy(wanted.target, simulation->run[0].x + 2 * wanted.node,
-           sizeof wanted.target);
-    k = neo_hookean_of(system) ? simulation->options.young
-                               : mass_spring_curvature_bound(&at);
-    wanted.strength = k > 0 ? TIMES * k : 1e5 * system->m[wanted.node];
-    if (simulation->mesh.nodes > 0)
-        wanted.cell = simulation->mesh.spacing;
-    wanted.side = simulation->mesh.side;
-    return pull_set(system, &hand_energy, &wanted);
+    const double *x = simulation->run[0].x + 2 * node;
+    double k = neo_hookean_of(system) ? simulation->options.young
+                                      : mass_spring_curvature_bound(&at);
+    return pull_set(
+        system, &hand_energy,
+        &(Pull){.node = node,
+                .cell = mesh->nodes > 0 ? mesh->spacing : INFINITY,
+                .side = mesh->side,
+                .mouse = {control->at[0], control->at[1]},
+                .target = {x[0], x[1]},
+                .strength = k > 0 ? TIMES * k : 1e5 * system->m[node]});
 }
 
-/* Pushes the obstacle of the control in each run, or none. */
-static void use_push(Simulation *simulation, const Control *control)
+/* Pushes the obstacle that the mouse holds, if there is one, in each run. */
+static void apply_push(Simulation *simulation, const Control *control)
 {
     for (int r = 0; r < simulation->runs; r++) {
         Contact *contact = contact_of(simulation->run[r].system);
@@ -219,16 +226,16 @@ static void use_push(Simulation *simulation, const Control *control)
                                .shape = simulation->mesh};
         if (contact->push.on)
             contact->push.to[1] +=
-                obstacle_lift(simulation, r, &contact->obstacle[control->push]);
+                find_lift(simulation, r, &contact->obstacle[control->push]);
     }
 }
 
 Status control_apply(Simulation *simulation, const Control *control)
 {
     System *system = &simulation->system;
-    double had[SIMULATION_MAX_RUNS];
-    dissipated_so_far(simulation, had);
-    Status status = use_options(simulation, &control->options);
+    double dissipated[SIMULATION_MAX_RUNS];
+    store_dissipated(simulation, dissipated);
+    Status status = apply_options(simulation, &control->options);
     /* A node stops when it is pinned and when its pin is taken away. */
     for (int i = 0; i < system->nodes; i++) {
         if (system->pinned[i] == control->pinned[i])
@@ -240,23 +247,23 @@ Status control_apply(Simulation *simulation, const Control *control)
     }
     memcpy(system->pinned, control->pinned, (size_t)system->nodes);
     if (!status)
-        status = use_hand(simulation, control);
-    use_push(simulation, control);
+        status = apply_hand(simulation, control);
+    apply_push(simulation, control);
     if (!status)
-        book_external_work(simulation, had);
+        book_external_work(simulation, dissipated);
     return status;
 }
 
 Status simulation_place(Simulation *simulation, int node, double x, double y,
-                        bool really)
+                        bool moves)
 {
     TimeIntegrator *run = &simulation->run[0];
     double *before = run->new_x, *p = run->new_v; /* scratch, unused now */
     if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
         !isfinite(y))
         return STATUS_INVALID_INPUT;
-    double had[SIMULATION_MAX_RUNS];
-    dissipated_so_far(simulation, had);
+    double dissipated[SIMULATION_MAX_RUNS];
+    store_dissipated(simulation, dissipated);
     memcpy(before, run->x, run->size * sizeof *before);
     run->x[2 * node] = x;
     run->x[2 * node + 1] = y;
@@ -265,11 +272,11 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
         p[i] = run->x[i] - before[i];
     if (!status && !system_path_is_free(run->system, before, p))
         status = STATUS_INVALID_INPUT;
-    if (status || !really) {
+    if (status || !moves) {
         memcpy(run->x, before, run->size * sizeof *before);
         return status;
     }
     stop_node(run, node);
-    book_external_work(simulation, had);
+    book_external_work(simulation, dissipated);
     return STATUS_OK;
 }

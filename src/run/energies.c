@@ -3,7 +3,7 @@
 
 #include "run/simulation.h"
 
-/* Adds a value to the row with this name, which is created if necessary. */
+/* Adds a value, J, to the row with this name; a missing row is created. */
 static void add_energy(Energies *energies, const char *name, double value)
 {
     int i = 0;

@@ -1,19 +1,19 @@
-/* exhibit.c - moves points and turns switches of the lecture's small scenes. */
+/* exhibit.c - drags points and turns switches of the lecture's small scenes. */
 #include <math.h>
 #include <string.h>
 
 #include "run/simulation.h"
 
-int exhibit_handles(const Simulation *simulation,
-                    double at[SCENE_MAX_HANDLES][2])
+int exhibit_list_handles(const Simulation *simulation,
+                         double at[SCENE_MAX_HANDLES][2])
 {
     const TimeIntegrator *run = &simulation->run[0];
-    const char *grip = simulation->scene->grips;
+    const char *kind = simulation->scene->handle_kinds;
     int count = 0;
-    for (; grip && grip[count]; count++)
+    for (; kind && kind[count]; count++)
         for (int k = 0; k < 2; k++)
-            at[count][k] = grip[count] == 't'   ? simulation->exhibit.target[k]
-                           : grip[count] == 'v' ? run->x[k] + run->v[k]
+            at[count][k] = kind[count] == 't'   ? simulation->exhibit.target[k]
+                           : kind[count] == 'v' ? run->x[k] + run->v[k]
                                                 : run->x[k];
     return count;
 }
@@ -24,27 +24,26 @@ void exhibit_drag(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = simulation->run;
-    double *began = simulation->exhibit.began; /* x and v */
-    char grip = scene->grips[handle];
-    bool line = scene->needs & NEEDS_ONE_NUMBER; /* y is ignored */
-    const double to[2] = {x, line ? 0 : y};
+    double *start = simulation->exhibit.start; /* x and v */
+    char kind = scene->handle_kinds[handle];
+    const double to[2] = {x, scene->needs & NEEDS_ONE_NUMBER ? 0 : y};
     if (!isfinite(to[0]) || !isfinite(to[1]))
         return;
     simulation->prediction = (Prediction){0};
     if (!(scene->needs & NEEDS_TIME)) {
-        memcpy(grip == 't' ? simulation->exhibit.target : run->x, to,
+        memcpy(kind == 't' ? simulation->exhibit.target : run->x, to,
                sizeof to);
         scene->restart(simulation);
         return;
     }
     for (int k = 0; k < 2; k++) {
         double v = simulation->system.springs ? 0 : run->v[k];
-        began[k] = grip == 'v' ? run->x[k] : to[k];
-        began[k + 2] = grip == 'v' ? to[k] - run->x[k] : v;
+        start[k] = kind == 'v' ? run->x[k] : to[k];
+        start[k + 2] = kind == 'v' ? to[k] - run->x[k] : v;
     }
     for (int r = 0; r < simulation->runs; r++) {
-        memcpy(run[r].x, began, 2 * sizeof *began);
-        memcpy(run[r].v, began + 2, 2 * sizeof *began);
+        memcpy(run[r].x, start, 2 * sizeof *start);
+        memcpy(run[r].v, start + 2, 2 * sizeof *start);
         run[r].memory_h = 0;
     }
 }
@@ -56,34 +55,35 @@ bool exhibit_has_kinds(const Simulation *simulation)
 
 /* The order of the mesh: n (n + 1) horizontal springs, as many vertical ones,
  * and two diagonals for each cell. */
-int exhibit_kind(const Simulation *simulation, int spring)
+int exhibit_spring_kind(const Simulation *simulation, int spring)
 {
     int n = simulation->system.segments, half = n * (n + 1);
     return spring < half ? 0 : spring < 2 * half ? 1 : 2 + spring % 2;
 }
 
-/* Lists the switches of the scene and whether each is on.  For kinds of springs
- * a bit of `parts` is 1 if the kind is off; elsewhere 1 means on. */
-int exhibit_switches(const Simulation *simulation,
-                     Switch out[SCENE_MAX_SWITCHES])
+int exhibit_list_switches(const Simulation *simulation,
+                          Switch out[SCENE_MAX_SWITCHES])
 {
     static const char *const kinds[SCENE_MAX_SWITCHES] = {
         "horizontal", "vertical", "diagonal /", "diagonal \\"};
     bool has_kinds = exhibit_has_kinds(simulation);
-    const char *const *part = has_kinds ? kinds : simulation->scene->parts;
+    const char *const *label =
+        has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
-    bool none = options->next == NEXT_NEARER && !options->flips; /* alone */
+    /* a page on which N moves a spring shows this spring alone */
+    bool none = options->next == NEXT_NEARER && !options->flips;
     int count = 0;
-    for (; !none && count < SCENE_MAX_SWITCHES && part[count]; count++)
-        out[count] = (Switch){
-            part[count], (simulation->exhibit.parts >> count & 1) != has_kinds};
+    for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)
+        out[count] =
+            (Switch){label[count],
+                     (simulation->exhibit.switches >> count & 1) != has_kinds};
     return count;
 }
 
-unsigned exhibit_flips(const Simulation *simulation)
+unsigned exhibit_find_flips(const Simulation *simulation)
 {
-    unsigned begins = simulation->scene->parts[1] ? PART_BOTH : 0;
-    return simulation->exhibit.parts ^ begins;
+    unsigned at_start = simulation->scene->switch_labels[1] ? PART_BOTH : 0;
+    return simulation->exhibit.switches ^ at_start;
 }
 
 /* The energy that a kind of springs takes away is booked as work.  At least one
@@ -93,23 +93,23 @@ void exhibit_flip(Simulation *simulation, int number)
 {
     const Scene *scene = simulation->scene;
     System *system = &simulation->system;
-    unsigned parts = simulation->exhibit.parts ^ (1U << number);
+    unsigned switches = simulation->exhibit.switches ^ (1U << number);
     if (exhibit_has_kinds(simulation)) {
-        double k = parts >> number & 1 ? 0 : simulation->options.stiffness;
+        double k = switches >> number & 1 ? 0 : simulation->options.stiffness;
         double before = simulation_energies(simulation, 0).total;
-        simulation->exhibit.parts = parts;
+        simulation->exhibit.switches = switches;
         for (int s = 0; s < system->springs; s++)
-            if (exhibit_kind(simulation, s) == number)
+            if (exhibit_spring_kind(simulation, s) == number)
                 system->k[s] = k;
         system_mark_changed(system, false);
         simulation->ledger[0].work +=
             simulation_energies(simulation, 0).total - before;
         return;
     }
-    bool none = parts == 0 && scene->parts[1];
-    simulation->exhibit.parts = none ? PART_BOTH ^ (1U << number) : parts;
+    bool none = switches == 0 && scene->switch_labels[1];
+    simulation->exhibit.switches = none ? PART_BOTH ^ (1U << number) : switches;
     simulation->descent.count = 0;
     simulation->prediction = (Prediction){0};
-    if (scene->aim)
-        scene->aim(simulation);
+    if (scene->find_direction)
+        scene->find_direction(simulation);
 }

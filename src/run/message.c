@@ -16,7 +16,7 @@ static bool is_continuation(char byte)
 }
 
 /* Whether a character moves the cursor, ends a line, has no width, or changes
- * the direction of writing, so that a message could hide something. */
+ * the direction of writing, and so could hide a part of a message. */
 static bool is_control(long letter)
 {
     static const long hidden[][2] = {
@@ -29,9 +29,9 @@ static bool is_control(long letter)
     return false;
 }
 
-/* Number of bytes of the first character of a text; 0: not UTF-8, or a control
- * character. */
-static int letter_bytes(const char *text)
+/* Returns how many bytes the first character of a text has; 0: the text does
+ * not begin with UTF-8, or with a control character. */
+static int count_bytes(const char *text)
 {
     /* [bytes]: smallest character that needs so many bytes */
     static const long least[] = {0, 0, 0x80, 0x800, 0x10000};
@@ -51,12 +51,12 @@ static int letter_bytes(const char *text)
 bool is_one_line(const char *text)
 {
     int bytes = 1;
-    while (*text && (bytes = letter_bytes(text)) > 0)
+    while (*text && (bytes = count_bytes(text)) > 0)
         text += bytes;
     return bytes > 0;
 }
 
-void one_line(const char *text, char *line, size_t size)
+void copy_one_line(const char *text, char *line, size_t size)
 {
     if (!text)
         text = "";
@@ -77,7 +77,7 @@ void one_line(const char *text, char *line, size_t size)
         memmove(line + left + sizeof CUT - 1, rest, right + 1);
     }
     for (const char *from = line; *from;) {
-        int bytes = letter_bytes(from);
+        int bytes = count_bytes(from);
         if (bytes == 0) {
             *line++ = '?';
             from++;
@@ -104,6 +104,6 @@ Status refuse(Message message, const char *format, ...)
     vsnprintf(message.text, message.size, format, arguments);
     va_end(arguments);
     if (message.size > 0)
-        one_line(message.text, message.text, message.size);
+        copy_one_line(message.text, message.text, message.size);
     return STATUS_INVALID_INPUT;
 }

@@ -29,7 +29,7 @@ static bool is_unit(const OptionRow *row, const char *text)
 {
     size_t length = strcspn(row->unit, " ");
     char shown[32];
-    option_unit(row, shown, sizeof shown);
+    option_write_unit(row, shown, sizeof shown);
     return (strlen(text) == length && !strncmp(text, row->unit, length)) ||
            strcmp(text, shown) == 0 ||
            (strcmp(text, "deg") == 0 && strcmp(row->unit, "degrees") == 0);
@@ -87,7 +87,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
     int given = option_count_values(text, separator[0]);
     char copy[256], *rest = copy;
     if (row->kind == OPTION_NAME) {
-        *number = name_place(row->names, text);
+        *number = names_find(row->names, text);
         return *number >= 0;
     }
     if (strlen(text) >= sizeof copy)
@@ -113,7 +113,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
     if (row && row->kind == OPTION_NAME) { /* -1, the scene's own: the first */
-        snprintf(text, size, "%s", name_at(row->names, (int)fmax(value, 0)));
+        snprintf(text, size, "%s", names_at(row->names, (int)fmax(value, 0)));
         return;
     }
     snprintf(text, size, "%.15g", value);
@@ -121,8 +121,8 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
         snprintf(text, size, "%.17g", value);
 }
 
-void option_value(const OptionRow *row, const Options *options, char *text,
-                  size_t size)
+void option_write_short(const OptionRow *row, const Options *options,
+                        char *text, size_t size)
 {
     enum { MOST_DIGITS = 6, MOST_LETTERS = 20 }; /* of a list of numbers */
     int count = row->count > 1 ? row->count : 1, times = 1;
@@ -144,7 +144,7 @@ void option_value(const OptionRow *row, const Options *options, char *text,
         }
 }
 
-void option_unit(const OptionRow *row, char *text, size_t size)
+void option_write_unit(const OptionRow *row, char *text, size_t size)
 {
     int length = (int)strcspn(row->unit, " ^");
     bool angle = strcmp(row->unit, "degrees") == 0;
@@ -165,8 +165,8 @@ static double round_number(double index)
 /* The result is rounded by way of text, because only strtod finds the double
  * nearest to a decimal number.  Arithmetic with powers of 10 may miss that
  * double by a bit, and the number would be shown with 17 digits. */
-double option_paced(const OptionRow *row, const Options *options,
-                    double notches)
+double option_turn_wheel(const OptionRow *row, const Options *options,
+                         double notches)
 {
     static const double FIRST = 0.01; /* value after 0 */
     double value = options->number[row->slot];

@@ -1,8 +1,8 @@
 /* options.c - the table of options.
  *
- * To add an option: a field in options.h and a row here.  Reading, range, unit,
- * "did you mean", refusal where a scene cannot make use of it, --help, lists
- * side by side, its place in the window and the term come from the row.
+ * A new option is a field in options.h and a row in this table.  Reading,
+ * range, unit, refusal in scenes that cannot use the option, --help, lists of
+ * values, the number in the window and the term come from the row.
  */
 #include "run/options.h"
 
@@ -39,52 +39,53 @@ const char *solver_name(int solver)
 static const double body_omitted[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
 /* Functions for OptionRow.idle_reason: each returns why an option has no
- * effect, or NULL if `found` says that it has one. */
-#define REASON(name, found, why)                                               \
+ * effect, or NULL if the condition `works` is true. */
+#define REASON(name, works, why)                                               \
     static const char *name(const Options *options)                            \
     {                                                                          \
-        return (found) ? NULL : (why);                                         \
+        return (works) ? NULL : (why);                                         \
     }
-REASON(nothing_meets,
+REASON(why_nothing_meets,
        options->self_contact != 0 || options->grounds + options->balls > 0 ||
            options->ceiling[1] != 0,
        "there is nothing to touch; --ground or --ball adds an obstacle")
-REASON(no_self_contact, options->self_contact != 0,
+REASON(why_no_self_contact, options->self_contact != 0,
        "bodies do not touch each other; --self-contact on lets them")
-REASON(start_is_said, options->bodies == 0 && !options->state,
+REASON(why_start_is_given, options->bodies == 0 && !options->state,
        options->state ? "the table of --state gives the start"
                       : "each --body has its own; add it there")
-REASON(has_its_own,
+REASON(why_own_bodies,
        !options->scene->body.obstacle && !options->scene->body.moving_pins &&
            options->scene->body.runs == 0,
        "this scene has its own bodies; --body works in square")
-REASON(no_springs, options->material == 0,
+REASON(why_no_springs, options->material == 0,
        "the body has no springs; --material springs gives it some")
-REASON(no_triangles, options->material != 0,
+REASON(why_no_triangles, options->material != 0,
        "the body has no triangles; --material neo-hookean gives it some")
-REASON(no_state, options->state,
+REASON(why_no_table, options->state,
        "there is no table to start from; --state FILE names it")
-REASON(nothing_flows, options->yield > 0,
+REASON(why_nothing_yields, options->yield > 0,
        "the springs do not yield; --yield lets them")
-REASON(nothing_minimised,
+REASON(why_nothing_minimised,
        options_method(options)->implicit || !options->headless ||
            options->script || options->panes > 1,
        "an explicit integrator minimises nothing; choose an implicit one, such "
        "as backward-euler")
-REASON(no_window, !options->headless,
+REASON(why_no_window, !options->headless,
        "with --headless there is no window; leave one of them out")
-REASON(no_key, !options->headless || options->script,
+REASON(why_no_key, !options->headless || options->script,
        "with --headless no key can end the pause; --steps 0 gives the start "
        "alone")
-REASON(no_frames, !options->headless || options->script || options->speed < 1,
+REASON(why_no_frames,
+       !options->headless || options->script || options->speed < 1,
        "with --headless each step is a frame; below 1 a film is slower")
-REASON(nothing_drawn,
+REASON(why_nothing_drawn,
        !options->headless || options->script || options->frames ||
            options->film,
        "with --headless only --frames and --film are drawn")
 
-/* The beginning of a row: field, placeholder of the value, description; then
- * for numbers the unit, default, and range. */
+/* Macros for the beginning of a row: field, placeholder of the value,
+ * description; then for numbers the unit, default, and range. */
 #define SECTION(text) .name = "", .help = text
 #define VALUE(sort, word, letters, text, u)                                    \
     .name = word, .placeholder = letters, .help = text, .kind = OPTION_##sort, \
@@ -107,9 +108,9 @@ REASON(nothing_drawn,
 #define SWITCH(field, text)                                                    \
     VALUE(SWITCH, #field, NULL, text, ""), .slot = OPTION_SLOT(field)
 
-/* The rest of a row: needs of the scene, repetitions, the label of an
- * option with lists of values; ROW puts it into the row of numbers of the
- * window: its place, the length of its values, the step of the wheel. */
+/* Macros for the rest of a row: parts that the scene must have, repetitions,
+ * the label of an option with lists of values.  SHOWN puts the option into the
+ * window's row of numbers: place, length of the values, increment. */
 #define NEEDS(what)             .needs = NEEDS_##what
 #define TIMES(n, field)         .max_times = n, .counter = OPTION_SLOT(field)
 #define FEWER(bits, others)     .short_counts = bits, .omitted = others
@@ -134,34 +135,36 @@ const OptionRow option_rows[] = {
      NEEDS(MESH), LIST("\u03c1")},
     {NUMBER(stiffness, "K", "stiffness k of each spring", "J/m^2", 1e5, 1e-30,
             1e30),
-     NEEDS(MESH), LIST("k"), LIVE, IDLE(no_springs), SHOWN(2, 11, 0)},
+     NEEDS(MESH), LIST("k"), LIVE, IDLE(why_no_springs), SHOWN(2, 11, 0)},
     {NAME("material", material, "M", "a net of springs, or elastic triangles",
           0, materials),
      NEEDS(BODY), LIST("material"), TERM(neo_hookean_energy)},
     {NUMBER(young, "E", "Young's modulus of the triangles", "J/m^2", 1e5, 1e-30,
             1e30),
-     NEEDS(BODY), IDLE(no_triangles), LIST("Young"), LIVE, SHOWN(12, 11, 0)},
+     NEEDS(BODY), IDLE(why_no_triangles), LIST("Young"), LIVE,
+     SHOWN(12, 11, 0)},
     {NUMBER(poisson, "NU",
             "Poisson's ratio; near 0.5 triangles keep their area", "", 0.4, 0,
             0.499),
-     NEEDS(BODY), IDLE(no_triangles), LIST("\u03bd"), LIVE, SHOWN(13, 8, 0.02)},
+     NEEDS(BODY), IDLE(why_no_triangles), LIST("\u03bd"), LIVE,
+     SHOWN(13, 8, 0.02)},
     {NUMBER(stretch, "S",
             "horizontal stretch at the start; 1 is the rest shape", "", 1.4,
             -1e200, 1e200),
-     NEEDS(MESH), LIST("stretch"), IDLE(start_is_said), SHOWN(3, 5, 0.05)},
+     NEEDS(MESH), LIST("stretch"), IDLE(why_start_is_given), SHOWN(3, 5, 0.05)},
     {NUMBER(turn, "DEG", "angle of the body at the start, anticlockwise",
             "degrees", 0, -1e6, 1e6),
-     NEEDS(BODY), LIST("turned by"), IDLE(start_is_said)},
+     NEEDS(BODY), LIST("turned by"), IDLE(why_start_is_given)},
     {NUMBERS(at, 2, "X,Y", "centre of the body at the start", "m", -1e30, 1e30),
-     NEEDS(BODY), IDLE(start_is_said)},
+     NEEDS(BODY), IDLE(why_start_is_given)},
     {NUMBERS(velocity, 2, "VX,VY", "velocity of every node at the start", "m/s",
              -1e30, 1e30),
-     NEEDS(BODY), IDLE(start_is_said)},
+     NEEDS(BODY), IDLE(why_start_is_given)},
     {NUMBERS(body, BODY_NUMBERS, "X,Y[,DEG[,VX,VY[,SX,SY]]]",
              "a body with centre, angle, velocity, stretch; up to 16", "", -1e9,
              1e9),
      NEEDS(BODY), TIMES(SQUARE_MESH_MAX_BODIES, bodies),
-     FEWER(1 << 2 | 1 << 3 | 1 << 5, body_omitted), IDLE(has_its_own)},
+     FEWER(1 << 2 | 1 << 3 | 1 << 5, body_omitted), IDLE(why_own_bodies)},
     {NUMBER(gravity, "G", "acceleration of gravity", "m/s^2 downwards", 0, 0,
             1e30),
      NEEDS(BODY), LIST("gravity"), LIVE},
@@ -173,11 +176,11 @@ const OptionRow option_rows[] = {
      NEEDS(BODY)},
     {RANGE(WHOLE, "state-step", state_step, "N",
            "start from this step of that table", "", -1, 0, 1e15),
-     NEEDS(BODY), IDLE(no_state)},
+     NEEDS(BODY), IDLE(why_no_table)},
     {VALUE(TEXT, "state-springs", "FILE",
            "broken and yielded springs at the start, a table of --springs", ""),
      .offset = offsetof(Options, state_springs), .is_table = true, NEEDS(BODY),
-     IDLE(no_state)},
+     IDLE(why_no_table)},
     {NUMBERS(start, 2, "X,Y",
              "start point of overshoot and tangent (X alone), landscape, "
              "arrows and spring",
@@ -200,38 +203,38 @@ const OptionRow option_rows[] = {
     {NUMBERS(barrier, 2, "DHAT,KAPPA",
              "distance (m) at which contact begins, stiffness (J/m^2)", "",
              1e-12, 1e18),
-     NEEDS(BODY), IDLE(nothing_meets), LIVE},
+     NEEDS(BODY), IDLE(why_nothing_meets), LIVE},
     {NUMBER(friction, "MU", "coefficient of friction of all obstacles", "", 0,
             0, 1e3),
-     NEEDS(BODY), IDLE(nothing_meets), LIST("\u03bc"), LIVE,
+     NEEDS(BODY), IDLE(why_nothing_meets), LIST("\u03bc"), LIVE,
      TERM(friction_energy), SHOWN(6, 7, 0.01)},
     {RANGE(NUMBER, "slip-speed", slip_speed, "EPSV",
            "slip velocity from which friction has its full force", "m/s", 1e-3,
            1e-12, 1e6),
-     NEEDS(BODY), IDLE(nothing_meets), LIST("slip speed"), LIVE},
+     NEEDS(BODY), IDLE(why_nothing_meets), LIST("slip speed"), LIVE},
     {NAME("self-contact", self_contact, "on|off",
           "contact of bodies with each other and themselves", 0, cells),
      NEEDS(BODY), TERM(self_contact_energy)},
     {RANGE(NUMBER, "self-friction", self_friction, "MU",
            "coefficient of friction between bodies; else --friction", "", -1, 0,
            1e3),
-     NEEDS(BODY), IDLE(no_self_contact)},
+     NEEDS(BODY), IDLE(why_no_self_contact)},
     {NAME("cells", cells, "on|off",
           "keep the cells of springs from turning over", 0, cells),
-     NEEDS(BODY), IDLE(no_springs), LIST("cells"), TERM(cell_energy)},
+     NEEDS(BODY), IDLE(why_no_springs), LIST("cells"), TERM(cell_energy)},
     {NUMBER(yield, "Y", "strain beyond which a spring stays deformed", "", 0,
             1e-9, 1e9),
-     NEEDS(BODY), IDLE(no_springs), LIST("yield"), TERM(plastic_energy)},
+     NEEDS(BODY), IDLE(why_no_springs), LIST("yield"), TERM(plastic_energy)},
     {NUMBER(hardening, "H", "how much that strain grows as a spring yields", "",
             0, 0, 1e9),
-     NEEDS(BODY), IDLE(nothing_flows), LIST("hardening")},
+     NEEDS(BODY), IDLE(why_nothing_yields), LIST("hardening")},
     {NUMBER(tear, "S", "strain at which a spring breaks, +-10 % at random", "",
             0, 1e-9, 1e9),
-     NEEDS(BODY), IDLE(no_springs), LIST("tear"), TERM(fracture)},
+     NEEDS(BODY), IDLE(why_no_springs), LIST("tear"), TERM(fracture)},
     {NUMBER(damping, "ETA",
             "damping of the springs' strain rate (Kelvin-Voigt)", "s", 0, 0,
             1e6),
-     NEEDS(BODY), IDLE(no_springs), LIST("\u03b7"), LIVE, TERM(damping),
+     NEEDS(BODY), IDLE(why_no_springs), LIST("\u03b7"), LIVE, TERM(damping),
      SHOWN(7, 8, 0)},
 
     {SECTION("time step and solver:")},
@@ -242,35 +245,36 @@ const OptionRow option_rows[] = {
      NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},
     {NUMBER(tolerance, "T", "Newton's method stops at |p|/h <= T", "m/s", 1e-2,
             1e-300, 1e300),
-     NEEDS(MINIMUM), LIST("\u03b5"), LIVE, IDLE(nothing_minimised),
+     NEEDS(MINIMUM), LIST("\u03b5"), LIVE, IDLE(why_nothing_minimised),
      SHOWN(5, 9, 0)},
     {NAME("solver", solver, "S",
           "how p is found; auto is newton up to 8 segments", SOLVER_AUTO,
           solvers),
-     NEEDS(MESH), LIST("solver"), LIVE, IDLE(nothing_minimised),
+     NEEDS(MESH), LIST("solver"), LIVE, IDLE(why_nothing_minimised),
      SHOWN(11, 15, 0)},
     {NAME("projection", projection, "P",
           "what replaces negative eigenvalues of H", PROJECTION_CLAMP,
           projections),
-     NEEDS(SPRINGS), LIST("projection"), AGAIN, IDLE(nothing_minimised),
+     NEEDS(SPRINGS), LIST("projection"), AGAIN, IDLE(why_nothing_minimised),
      SHOWN(9, 9, 0)},
     {NAME("line-search", line_search, "L", "line search along p",
           LINE_SEARCH_BACKTRACK, searches),
-     NEEDS(MINIMUM), LIST("line search"), AGAIN, IDLE(nothing_minimised),
+     NEEDS(MINIMUM), LIST("line search"), AGAIN, IDLE(why_nothing_minimised),
      SHOWN(10, 9, 0)},
 
     {SECTION("the run, its window and its files:")},
     {RANGE(WHOLE, "steps", steps, "N",
            "end after N steps; without a window after 100", "", -1, 0, 1e15)},
-    {SWITCH(paused, "wait at the start until a key is pressed"), IDLE(no_key)},
+    {SWITCH(paused, "wait at the start until a key is pressed"),
+     IDLE(why_no_key)},
     {NUMBER(speed, "S", "steps a frame; a second has 60 frames", "", 0,
             1.0 / 64, 1024),
-     IDLE(no_frames)},
+     IDLE(why_no_frames)},
     {WHOLE(size, "WxH", "size of the window or of the frames, pixels", "", 0,
            16, 8192),
-     .count = 2, .separator = 'x', IDLE(nothing_drawn)},
+     .count = 2, .separator = 'x', IDLE(why_nothing_drawn)},
     {SWITCH(fullscreen, "fill the screen; F11 or Esc leaves it"),
-     IDLE(no_window)},
+     IDLE(why_no_window)},
     {SWITCH(headless, "open no window")},
     {TEXT(frames, "DIR",
           "write a PNG picture of every drawn step into a folder")},
@@ -296,44 +300,44 @@ const OptionRow option_rows[] = {
     {.name = NULL},
 };
 
-_Static_assert(sizeof option_rows / sizeof *option_rows - 1 <= OPTIONS_MOST,
+_Static_assert(sizeof option_rows / sizeof *option_rows - 1 <= OPTIONS_MAX_ROWS,
                "arrays have a place for each row");
 
 const OptionRow *option_find(const char *name)
 {
     if (strcmp(name, "filter") == 0) /* old name of the option */
         name = "projection";
-    int place = name_place(NAMES_OF(option_rows), name);
+    int place = names_find(NAMES_OF(option_rows), name);
     return place >= 0 && name[0] ? &option_rows[place] : NULL;
 }
 
-const char *name_at(Names names, int i)
+const char *names_at(Names names, int i)
 {
     const char *row = (const char *)names.table + (size_t)i * names.size;
     return *(const char *const *)row;
 }
 
-int name_place(Names names, const char *name)
+int names_find(Names names, const char *name)
 {
     for (int i = names_count(names) - 1; i >= 0; i--)
-        if (strcmp(name_at(names, i), name) == 0)
+        if (strcmp(names_at(names, i), name) == 0)
             return i;
     return -1;
 }
 
-int name_or_number(Names names, const char *text)
+int names_find_or_number(Names names, const char *text)
 {
     char *end;
     long number = strtol(text, &end, 10);
     if (end == text || *end)
-        return name_place(names, text);
+        return names_find(names, text);
     return number >= 1 && number <= names_count(names) ? (int)number - 1 : -1;
 }
 
 int names_count(Names names)
 {
     int count = 0;
-    while (name_at(names, count))
+    while (names_at(names, count))
         count++;
     return count;
 }
@@ -343,7 +347,7 @@ const IntegratorMethod *options_method(const Options *options)
     return &integrator_methods[(int)fmax(options->integrator, 0)];
 }
 
-double *obstacle_at(Options *options, int number)
+double *options_obstacle_at(Options *options, int number)
 {
     int ball = number - (int)options->grounds;
     return ball < 0 ? options->ground[number] + 2 : options->ball[ball];
@@ -364,13 +368,13 @@ const char *option_label(const OptionRow *row)
     return row->label ? row->label : row->name;
 }
 
-/* Lists the options of the row of numbers by their place.  A number that
- * changes by factors is left out while it is 0, as no factor changes it. */
+/* Lists the options of the row of numbers by their place.  A number that a
+ * notch multiplies is left out while the number is 0. */
 int options_list_fields(const Options *options,
-                        const OptionRow *found[OPTIONS_MOST])
+                        const OptionRow *found[OPTIONS_MAX_ROWS])
 {
     int count = 0;
-    for (int place = 1; place < OPTIONS_MOST; place++)
+    for (int place = 1; place < OPTIONS_MAX_ROWS; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
             if (row->display.place == place &&
                 (row->needs & options->scene->needs) &&

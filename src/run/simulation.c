@@ -1,5 +1,5 @@
-/* simulation.c - creates a scene, makes its steps, and finds whether it is at
- * rest.
+/* simulation.c - creates a scene, makes its steps, and tests whether a body is
+ * at rest.
  */
 #include "run/simulation.h"
 
@@ -16,7 +16,8 @@
  * need some thousands. */
 enum { MAX_NEWTON_ITERATIONS = 10000 };
 
-void newton_settings_take(const Options *options, NewtonSettings *settings)
+void options_fill_newton_settings(const Options *options,
+                                  NewtonSettings *settings)
 {
     settings->h = options->timestep;
     settings->tolerance = options->tolerance;
@@ -32,7 +33,7 @@ Status simulation_start(Simulation *simulation, int run,
 {
     NewtonSettings settings = {.observer = simulation->observer,
                                .user = simulation->user};
-    newton_settings_take(&simulation->options, &settings);
+    options_fill_newton_settings(&simulation->options, &settings);
     return time_integrator_create(method, system, &settings, x, v,
                                   &simulation->run[run]);
 }
@@ -45,9 +46,9 @@ Status simulation_create(const Options *options, NewtonObserver observer,
                                .observer = observer,
                                .user = user};
     Status status = options->scene->create(simulation);
-    Switch part[SCENE_MAX_SWITCHES];
-    int parts = status ? 0 : exhibit_switches(simulation, part);
-    for (int i = 0; i < parts; i++)
+    Switch list[SCENE_MAX_SWITCHES];
+    int switches = status ? 0 : exhibit_list_switches(simulation, list);
+    for (int i = 0; i < switches; i++)
         if ((unsigned)options->flips >> i & 1)
             exhibit_flip(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
@@ -69,7 +70,8 @@ void simulation_free(Simulation *simulation)
 int simulation_point(const Simulation *simulation, double at[2])
 {
     const TimeIntegrator *run = &simulation->run[0];
-    bool single = simulation->system.nodes == 1 || simulation->scene->aim;
+    bool single =
+        simulation->system.nodes == 1 || simulation->scene->find_direction;
     if (!single || !run->x)
         return 0;
     at[0] = run->x[0];
@@ -77,7 +79,7 @@ int simulation_point(const Simulation *simulation, double at[2])
     return simulation->descent.scalar ? 1 : 2;
 }
 
-/* Ends a step that was made, or that failed. */
+/* Counts a step that was made.  A failed step is not counted. */
 static Status finish_step(Simulation *simulation, Status status)
 {
     Prediction *guess = &simulation->prediction;
@@ -85,7 +87,7 @@ static Status finish_step(Simulation *simulation, Status status)
     if (status && !status_is_unconverged(status))
         return status;
     simulation->steps++;
-    if (simulation->steps > guess->step + 1) /* a guess of the step before */
+    if (simulation->steps > guess->step + 1) /* about an earlier step */
         *guess = (Prediction){0};
     if (status) {
         simulation->unconverged++;
@@ -94,7 +96,7 @@ static Status finish_step(Simulation *simulation, Status status)
     return status;
 }
 
-/* Energy of a run less the work done so far, J.
+/* Returns the energy of a run less the work done so far, J.
  *   abs_sum  out, J, sum of the absolute values of all energies */
 static double energy_less_work(const Simulation *simulation, int run,
                                double *abs_sum)
@@ -111,7 +113,7 @@ static Status begin_run(Simulation *simulation)
 {
     double abs_sum;
     int run = simulation->stepping;
-    simulation->before = energy_less_work(simulation, run, &abs_sum);
+    simulation->energy_before = energy_less_work(simulation, run, &abs_sum);
     return time_integrator_begin(&simulation->run[run]);
 }
 
@@ -121,7 +123,7 @@ static void book_gain(Simulation *simulation)
 {
     int run = simulation->stepping;
     double abs_sum, now = energy_less_work(simulation, run, &abs_sum);
-    double gained = now - simulation->before;
+    double gained = now - simulation->energy_before;
     bool backward_euler = simulation->run[run].method->at_end;
     if (!backward_euler || !(gained > 1e-9 * abs_sum))
         return;
@@ -129,7 +131,8 @@ static void book_gain(Simulation *simulation)
     simulation->ledger[run].gain.energy += gained;
 }
 
-/* Steps run by run; the last status that is not OK is returned. */
+/* The runs make their steps one after another.  The last status that is not OK
+ * is returned. */
 Status simulation_advance(Simulation *simulation)
 {
     while (simulation->stepping < simulation->runs) {
@@ -182,7 +185,7 @@ double simulation_time(const Simulation *simulation)
 bool simulation_is_draggable(const Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
-    return (scene->needs & NEEDS_TIME) && !scene->step && !scene->grips;
+    return (scene->needs & NEEDS_TIME) && !scene->step && !scene->handle_kinds;
 }
 
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row)
@@ -196,16 +199,17 @@ Effect simulation_effect(const Simulation *simulation, const OptionRow *row)
     return row->effect;
 }
 
-/* A body is at rest if no node moves by more than STILL of the shortest spring
- * in a frame or a step, whichever is longer, and if the forces vanish within
- * BALANCED of it. */
+/* A body is at rest if no node moves by more than STILL in a frame or a step,
+ * whichever is longer, and if the forces vanish at a distance of at most
+ * BALANCED.  The unit is the shortest spring. */
 static const double STILL = 1e-6, BALANCED = 1e-3, FRAME = 1.0 / 60;
 
-/* Whether the nodes are close to where the forces f vanish.  Their distance is
- * p = (M/T^2 + H_P)^-1 f, the direction of Algorithm 3 for a step from rest
- * that is so long that masses hardly count; T^2 = 1e10 m / curvature of P is
- * the longest one for which p is accurate.  A separate Newton object computes
- * p, so that the run is not changed. */
+/* Whether the nodes are close to places where the forces f vanish.  The
+ * distance is p = (M/T^2 + H_P)^-1 f, the direction of Algorithm 3 for a step
+ * from rest that is so long that masses hardly matter.  With a T^2 above 1e10 m
+ * / curvature of P rounding would make p inaccurate.  A separate Newton object
+ * computes p, so that the run is not changed. l  m, length of the shortest
+ * spring */
 static bool forces_balance(const Simulation *simulation, double l)
 {
     const System *system = &simulation->system;
@@ -233,7 +237,7 @@ static bool forces_balance(const Simulation *simulation, double l)
     return balances;
 }
 
-bool simulation_rests(const Simulation *simulation)
+bool simulation_is_at_rest(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     const TimeIntegrator *run = &simulation->run[0];
@@ -269,7 +273,7 @@ bool simulation_has_projection(const Simulation *simulation)
            (simulation->scene->needs & NEEDS_SPRINGS);
 }
 
-/* Newton's method searches lines with springs, or in one variable. */
+/* Newton's method searches along a line with springs, or in one variable. */
 bool simulation_has_line_search(const Simulation *simulation)
 {
     return simulation_has_projection(simulation) || simulation->descent.scalar;
@@ -285,7 +289,7 @@ bool simulation_projects_springs(const Simulation *simulation)
 
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
 
-/* Number of power iterations, and of numbers in a mode. */
+/* Power iterations, and numbers of the longest mode. */
 enum { ITERATIONS = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
 
 double simulation_fastest_mode(const Simulation *simulation, const double *x,
@@ -297,7 +301,7 @@ double simulation_fastest_mode(const Simulation *simulation, const double *x,
     int n = 2 * system->nodes;
     if (n > ROOM)
         return NAN;
-    /* A first vector without symmetry has a part of every mode */
+    /* A vector without symmetry contains every mode. */
     for (int i = 0; i < n; i++)
         mode[i] = sin(1 + i + 0.1 * i * i);
     for (int k = 0; k < ITERATIONS; k++) {
@@ -306,20 +310,20 @@ double simulation_fastest_mode(const Simulation *simulation, const double *x,
             length2 += mode[i] * mode[i];
         for (int i = 0; i < n; i++)
             mode[i] /= sqrt(length2);
-        double pulled[ROOM] = {0}; /* M^-1 H mode, 1/s^2 */
+        double image[ROOM] = {0}; /* M^-1 H mode, 1/s^2 */
         for (int t = 0; t < system->terms; t++) {
             const TermKind *kind = eval_point_term(&at, t);
             if (kind->hessian)
-                kind->hessian(&at, PROJECTION_NONE, NULL, mode, pulled);
+                kind->hessian(&at, PROJECTION_NONE, NULL, mode, image);
         }
         for (int i = 0; i < n; i++)
-            pulled[i] /= system->m[i / 2];
-        system_clear_pinned(system, pulled);
+            image[i] /= system->m[i / 2];
+        system_clear_pinned(system, image);
         omega2 = 0;
         for (int i = 0; i < n; i++)
-            omega2 += mode[i] * pulled[i];
+            omega2 += mode[i] * image[i];
         for (int i = 0; i < n && k + 1 < ITERATIONS; i++)
-            mode[i] = pulled[i];
+            mode[i] = image[i];
     }
     return omega2 > 0 ? sqrt(omega2) : NAN;
 }

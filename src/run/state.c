@@ -8,15 +8,16 @@
 #include "model/plasticity.h"
 #include "run/body.h"
 
-/* A place in the bytes of a state.  The same
- * functions visit the pieces of a state to save, restore or count them. */
+/* A place in the bytes of a state.  The same functions visit the pieces of a
+ * state to save, restore or count them. */
 typedef struct Cursor {
     unsigned char *bytes; /* NULL: the pieces are only counted */
     bool restores;        /* bytes are read, not written */
     size_t used;          /* bytes visited so far */
 } Cursor;
 
-static void pass(Cursor *cursor, void *piece, size_t size)
+/* Saves, restores or counts a piece of the state. */
+static void visit(Cursor *cursor, void *piece, size_t size)
 {
     unsigned char *at = cursor->bytes ? cursor->bytes + cursor->used : NULL;
     if (at && cursor->restores)
@@ -26,72 +27,73 @@ static void pass(Cursor *cursor, void *piece, size_t size)
     cursor->used += size;
 }
 
-#define PASS(piece) pass(cursor, &(piece), sizeof(piece))
+#define VISIT(piece) visit(cursor, &(piece), sizeof(piece))
 
-/* Visits what steps change in a system: broken springs, plastic strains, moving
- * obstacles, and the energy that each term has lost. */
-static void pass_system(Cursor *cursor, System *system)
+/* Visits all that steps change in a system: broken springs, plastic strains,
+ * moving obstacles, and the energy that each term has lost. */
+static void visit_system(Cursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = system_term_data(system, &plastic_energy);
     Contact *contact = contact_of(system);
-    PASS(system->lost);
+    VISIT(system->lost);
     if (plasticity) {
-        pass(cursor, plasticity->ep, springs);
-        pass(cursor, plasticity->kappa, springs);
+        visit(cursor, plasticity->ep, springs);
+        visit(cursor, plasticity->kappa, springs);
     }
     if (system_find_term(system, &fracture))
-        pass(cursor, system->k, springs);
+        visit(cursor, system->k, springs);
     if (contact)
-        pass(cursor, contact->obstacle,
-             (size_t)contact->obstacles * sizeof *contact->obstacle);
+        visit(cursor, contact->obstacle,
+              (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
 /* Visits the data of a small scene. */
-static void pass_exhibit(Cursor *cursor, Simulation *simulation)
+static void visit_exhibit(Cursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
     bool kinds = exhibit_has_kinds(simulation);
     if (kinds)
-        PASS(simulation->exhibit.parts);
+        VISIT(simulation->exhibit.switches);
     if (kinds || scene->step)
-        pass(cursor, simulation->system.k,
-             (size_t)simulation->system.springs * sizeof(double));
-    if (scene->step || scene->grips)
-        PASS(simulation->exhibit);
+        visit(cursor, simulation->system.k,
+              (size_t)simulation->system.springs * sizeof(double));
+    if (scene->step || scene->handle_kinds)
+        VISIT(simulation->exhibit);
     if (!scene->step)
         return;
-    PASS(simulation->descent);
-    PASS(simulation->options.timestep);
-    PASS(run->h);
+    VISIT(simulation->descent);
+    VISIT(simulation->options.timestep);
+    VISIT(run->h);
     if (run->newton)
         run->newton->settings.h = run->h;
 }
 
-static void pass_all(Cursor *cursor, Simulation *simulation)
+/* Visits the whole state. */
+static void visit_all(Cursor *cursor, Simulation *simulation)
 {
-    PASS(simulation->steps);
-    PASS(simulation->unconverged);
-    PASS(simulation->ledger);
-    PASS(simulation->reasons);
-    PASS(simulation->status);
-    PASS(simulation->done);
-    pass_exhibit(cursor, simulation);
+    VISIT(simulation->steps);
+    VISIT(simulation->unconverged);
+    VISIT(simulation->ledger);
+    VISIT(simulation->reasons);
+    VISIT(simulation->status);
+    VISIT(simulation->done);
+    visit_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++) {
         TimeIntegrator *run = &simulation->run[r];
         size_t array = run->size * sizeof(double);
-        PASS(run->steps);
-        PASS(run->clock);
-        PASS(run->moved);
-        PASS(run->work);
-        PASS(run->status);
-        pass(cursor, run->x, array);
-        pass(cursor, run->v, array);
-        PASS(run->memory_h);
-        pass(cursor, run->memory, (size_t)run->method->memory * array);
+        VISIT(run->steps);
+        VISIT(run->clock);
+        VISIT(run->moved);
+        VISIT(run->work);
+        VISIT(run->status);
+        visit(cursor, run->x, array);
+        visit(cursor, run->v, array);
+        VISIT(run->memory_h);
+        visit(cursor, run->memory, (size_t)run->method->memory * array);
         if (r == 0 || run->system != simulation->run[0].system)
-            pass_system(cursor, run->system);
+            visit_system(cursor, run->system);
         if (cursor->restores)
             system_mark_changed(run->system, false);
     }
@@ -100,7 +102,7 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
 size_t state_save(const Simulation *simulation, void *bytes)
 {
     Cursor cursor = {bytes, false, 0};
-    pass_all(&cursor, (Simulation *)simulation); /* saving changes nothing */
+    visit_all(&cursor, (Simulation *)simulation); /* saving changes nothing */
     return cursor.used;
 }
 
@@ -108,10 +110,10 @@ void state_restore(const void *bytes, Simulation *simulation)
 {
     Cursor cursor = {(unsigned char *)bytes, true, 0};
     simulation->prediction = (Prediction){0}; /* a guess is about one step */
-    pass_all(&cursor, simulation);
+    visit_all(&cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         if (simulation->scene->needs & NEEDS_BODY)
-            body_follow(simulation, r);
+            body_update(simulation, r);
 }
 
 /* FNV-1a hash of bytes. */

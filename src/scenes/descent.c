@@ -34,16 +34,16 @@ enum { DIAL_UPDATES = 100 };
 
 /* ln(e^x + e^-x), written as |x| + ln(1 + e^(-2|x|)), which cannot overflow.
  * The derivatives are tanh and 1/cosh^2. */
-static Local log_two_cosh(const Simulation *simulation, double x)
+static LocalModel log_two_cosh(const Simulation *simulation, double x)
 {
     double f = fabs(x) + log1p(exp(-2 * fabs(x)));
     double g = tanh(x);
     double H = 1 / (cosh(x) * cosh(x));
     (void)simulation;
-    return (Local){.value = f, .g = {g}, .H = {H}};
+    return (LocalModel){.value = f, .g = {g}, .H = {H}};
 }
 
-static Local line_energy(const Simulation *simulation, double x)
+static LocalModel line_energy(const Simulation *simulation, double x)
 {
     double m = POINT_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
     double h = simulation->run[0].h, x_tilde = simulation->exhibit.target[0];
@@ -53,13 +53,14 @@ static Local line_energy(const Simulation *simulation, double x)
     double g = m * d + spring_gradient_factor(k, s) * x;
     double H =
         m + spring_hessian_factor(l2, k) * spring_eigenvalue_along(x * x, l2);
-    return (Local){.value = E, .g = {g}, .H = {H}};
+    return (LocalModel){.value = E, .g = {g}, .H = {H}};
 }
 
 /* Value and derivatives of parts of E for a time step h, in landscape and dial,
  * or of the function of one unknown. */
-static Local landscape_at(const Simulation *simulation, unsigned parts,
-                          double h, Projection projection, const double at[2])
+static LocalModel landscape_at(const Simulation *simulation, unsigned parts,
+                               double h, Projection projection,
+                               const double at[2])
 {
     if (simulation->descent.scalar)
         return simulation->descent.scalar(simulation, at[0]);
@@ -67,12 +68,12 @@ static Local landscape_at(const Simulation *simulation, unsigned parts,
     const double *pins = simulation->run[0].x, *o = simulation->exhibit.target;
     double m = system->m[0], w = h * h, P = 0;
     const double away[2] = {at[0] - o[0], at[1] - o[1]};
-    Local E = {.value = 0};
+    LocalModel E = {.value = 0};
     if (parts & PART_INERTIA)
-        E = (Local){0.5 * m * (away[0] * away[0] + away[1] * away[1]),
-                    {m * away[0], m * away[1]},
-                    {m, 0, m},
-                    0};
+        E = (LocalModel){0.5 * m * (away[0] * away[0] + away[1] * away[1]),
+                         {m * away[0], m * away[1]},
+                         {m, 0, m},
+                         0};
     for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
         const double *pin = pins + 2 * system->e[2 * s + 1];
         const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
@@ -91,11 +92,11 @@ static Local landscape_at(const Simulation *simulation, unsigned parts,
     return E;
 }
 
-Local descent_at(const Simulation *simulation, Projection projection, double x,
-                 double y)
+LocalModel descent_at(const Simulation *simulation, Projection projection,
+                      double x, double y)
 {
     const double at[2] = {x, y};
-    return landscape_at(simulation, simulation->exhibit.parts,
+    return landscape_at(simulation, simulation->exhibit.switches,
                         simulation->run[0].h, projection, at);
 }
 
@@ -108,7 +109,7 @@ double landscape_part_value(const Simulation *simulation, unsigned parts,
 
 int descent_hessian_index(const Simulation *simulation, double x, double y)
 {
-    Local E = descent_at(simulation, PROJECTION_NONE, x, y);
+    LocalModel E = descent_at(simulation, PROJECTION_NONE, x, y);
     if (simulation->descent.scalar)
         return E.H[0] < 0 ? 2 : 0;
     bool same = E.H[0] * E.H[2] - E.H[1] * E.H[1] > 0;
@@ -124,7 +125,7 @@ static double tangent_direction(double g, double H)
 }
 
 /* Computes p = -H^-1 g.  Returns g . p. */
-static double newton_direction(const Local *E, bool scalar, double p[2])
+static double newton_direction(const LocalModel *E, bool scalar, double p[2])
 {
     const double *g = E->g, *H = E->H;
     if (scalar) {
@@ -143,7 +144,7 @@ static double newton_direction(const Local *E, bool scalar, double p[2])
 double descent_direction(const Simulation *simulation, Projection projection,
                          const double *x, double p[2])
 {
-    Local E = descent_at(simulation, projection, x[0], x[1]);
+    LocalModel E = descent_at(simulation, projection, x[0], x[1]);
     return newton_direction(&E, simulation->descent.scalar, p);
 }
 
@@ -162,14 +163,14 @@ static double descent_difference(const void *function, double alpha)
     const SearchLine *line = function;
     const double to[2] = {line->x[0] + alpha * line->p[0],
                           line->x[1] + alpha * line->p[1]};
-    Local E = landscape_at(line->simulation, line->parts, line->h,
-                           PROJECTION_NONE, to);
+    LocalModel E = landscape_at(line->simulation, line->parts, line->h,
+                                PROJECTION_NONE, to);
     return E.value - line->value;
 }
 
 /* E and its derivatives at the iterate, with the projection of the options; on
  * demand means: if the Hessian is not positive definite. */
-static Local local_at_iterate(const Simulation *simulation)
+static LocalModel local_at_iterate(const Simulation *simulation)
 {
     const double *at = simulation->descent.point;
     Projection projection = (Projection)simulation->options.projection;
@@ -195,12 +196,12 @@ static Status show_iterate(Simulation *simulation, Status status)
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
-    Local E = local_at_iterate(simulation);
+    LocalModel E = local_at_iterate(simulation);
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->by_gradient
                             ? math_hypot(E.g[0], E.g[1])
                             : (fabs(p[0]) + fabs(p[1])) / run->h;
-    double most = descent->began + 1e-12 * fabs(descent->began);
+    double most = descent->start_value + 1e-12 * fabs(descent->start_value);
     bool passed = descent->residual <= simulation->options.tolerance;
     if (status == STATUS_RUNNING && passed)
         status = descent->value > most ? STATUS_DIVERGED : STATUS_OK;
@@ -224,15 +225,15 @@ static void choose_test(Simulation *simulation)
     descent->by_gradient = plain;
 }
 
-void aim_descent(Simulation *simulation)
+void descent_find_direction(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     choose_test(simulation);
-    descent->began = INFINITY; /* known only after show_iterate */
+    descent->start_value = INFINITY; /* known only after show_iterate */
     Status status = show_iterate(simulation, STATUS_RUNNING);
     simulation->status = simulation->done ? status : STATUS_OK;
     if (!descent->scalar)
-        descent->began = descent->value;
+        descent->start_value = descent->value;
 }
 
 Status step_descent(Simulation *simulation)
@@ -250,7 +251,7 @@ Status step_descent(Simulation *simulation)
     const double *p = descent->direction;
     double *x = simulation->run[0].x;
     const SearchLine line = {simulation,
-                             simulation->exhibit.parts,
+                             simulation->exhibit.switches,
                              simulation->run[0].h,
                              descent->point,
                              p,
@@ -284,7 +285,7 @@ void descent_restart(Simulation *simulation)
 {
     simulation->descent.count = 0;
     simulation->steps = simulation->unconverged = 0;
-    aim_descent(simulation);
+    descent_find_direction(simulation);
 }
 
 /* ---- the scenes ---------------------------------------------------------- */
@@ -301,14 +302,14 @@ static Status begin_descent(Simulation *simulation)
     const char *method = scalar ? "forward-euler" : "backward-euler";
     simulation->runs = 1;
     Status status =
-        small_system(&simulation->system, scalar ? 0 : LANDSCAPE_PINS,
-                     POINT_MASS, LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
+        create_small_system(&simulation->system, scalar ? 0 : LANDSCAPE_PINS,
+                            POINT_MASS, LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
     if (!status)
         status = simulation_start(simulation, 0, integrator_method(method),
                                   &simulation->system, x, v);
     if (status)
         return status;
-    aim_descent(simulation);
+    descent_find_direction(simulation);
     return status_is_unconverged(simulation->status) ? STATUS_OK
                                                      : simulation->status;
 }
@@ -332,7 +333,7 @@ Status create_landscape(Simulation *simulation)
 {
     memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
            sizeof LANDSCAPE_TARGET);
-    simulation->exhibit.parts = PART_BOTH;
+    simulation->exhibit.switches = PART_BOTH;
     return begin_descent(simulation);
 }
 
@@ -349,7 +350,7 @@ static void dial_minimise(const Simulation *simulation, double h,
     if (fabs(point[1]) < DIAL_BESIDE)
         point[1] = copysign(DIAL_BESIDE, point[1]);
     for (int update = 0; update < DIAL_UPDATES && length > 1e-14; update++) {
-        Local E =
+        LocalModel E =
             landscape_at(simulation, PART_BOTH, h, PROJECTION_CLAMP, point);
         const SearchLine line = {simulation, PART_BOTH, h, point, p, E.value};
         double alpha = 1;

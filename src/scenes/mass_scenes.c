@@ -13,8 +13,8 @@ static const double SPRING_MASS = 1;                  /* kg */
 static const double SPRING_STIFFNESS = 100;           /* J/m^2 */
 static const double SPRING_LENGTH = 1;                /* m, at rest */
 
-Status small_system(System *system, int held, double mass, double length,
-                    double stiffness)
+Status create_small_system(System *system, int held, double mass, double length,
+                           double stiffness)
 {
     Status status = system_create(1 + held, held, system);
     for (int i = 0; i <= held && !status; i++)
@@ -36,13 +36,13 @@ static Status create_orbit(Simulation *simulation, double omega2,
         "forward-euler", "symplectic-euler", "backward-euler"};
     const Options *options = &simulation->options;
     bool chosen = options->integrator >= 0;
-    Status status = small_system(&simulation->system, 0, 1, 0, 0);
+    Status status = create_small_system(&simulation->system, 0, 1, 0, 0);
     if (!status)
         status = pull_set(&simulation->system, &central_field,
                           &(Pull){.k = omega2}); /* the mass is 1 kg */
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
-    memcpy(simulation->exhibit.began, x, 2 * sizeof *x);
-    memcpy(simulation->exhibit.began + 2, v, 2 * sizeof *v);
+    memcpy(simulation->exhibit.start, x, 2 * sizeof *x);
+    memcpy(simulation->exhibit.start + 2, v, 2 * sizeof *v);
     for (int i = 0; i < simulation->runs && !status; i++)
         status = simulation_start(simulation, i,
                                   chosen ? options_method(options)
@@ -57,13 +57,13 @@ Status create_circle(Simulation *simulation)
     return create_orbit(simulation, CIRCLE_OMEGA * CIRCLE_OMEGA, x, v);
 }
 
-Status create_mass(Simulation *simulation)
+Status create_arrows(Simulation *simulation)
 {
     const double v[2] = {0, 1};
     return create_orbit(simulation, MASS_OMEGA2, simulation->options.start, v);
 }
 
-bool mass_next_step(const Simulation *simulation, int run, MassStep *step)
+bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step)
 {
     const TimeIntegrator *integrator = &simulation->run[run];
     const char *name = integrator->method->name;
@@ -87,21 +87,21 @@ bool mass_next_step(const Simulation *simulation, int run, MassStep *step)
     return forward || symplectic || backward;
 }
 
-void mass_exact(const Simulation *simulation, double t, double x[2])
+void mass_find_exact(const Simulation *simulation, double t, double x[2])
 {
-    const double *began = simulation->exhibit.began, omega = sqrt(MASS_OMEGA2);
+    const double *began = simulation->exhibit.start, omega = sqrt(MASS_OMEGA2);
     for (int i = 0; i < 2; i++)
         x[i] =
             began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
 }
 
-SpringFacts spring_facts(const double d[2], double l2, double k)
+SpringValues spring_evaluate(const double d[2], double l2, double k)
 {
     double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
     double s = spring_eigenvalue_across(d2, l2) / l2,
            pull = spring_gradient_factor(k, s);
     double c = spring_hessian_factor(l2, k);
-    return (SpringFacts){
+    return (SpringValues){
         .length = r,
         .strain = s,
         .energy = spring_energy(l2, k, s),
@@ -120,8 +120,8 @@ Status create_spring(Simulation *simulation)
     System *system = &simulation->system;
     const double x[4] = {options->start[0], options->start[1], 0, 0};
     const double v[4] = {0};
-    Status status =
-        small_system(system, 1, SPRING_MASS, SPRING_LENGTH, SPRING_STIFFNESS);
+    Status status = create_small_system(system, 1, SPRING_MASS, SPRING_LENGTH,
+                                        SPRING_STIFFNESS);
     simulation->runs = 1;
     return status ? status
                   : simulation_start(simulation, 0, options_method(options),

@@ -17,7 +17,7 @@
 
 const Scene scenes[] = {
     {"square", "A stretched square", "the stretched square relaxes", SQUARE,
-     NULL, create_square, .speed = 0.25, .settles = true,
+     NULL, create_square, .speed = 0.25, .needs_dissipation = true,
      .group = "Time steps and Newton's method"},
     {"circle", "Stability on a circle",
      "one circle, three Euler methods: out, in, or on it", PICTURE_CIRCLE,
@@ -26,12 +26,12 @@ const Scene scenes[] = {
      "Newton's full steps overshoot; a line search tames them", PICTURE_CURVE,
      NEEDS_START | NEEDS_ONE_NUMBER | NEEDS_MINIMUM,
      "--start 2 --tolerance 1e-10 --line-search none", create_overshoot,
-     .turn = "iteration", .explains = true, .step = step_descent,
-     .restart = descent_restart, .grips = "x"},
+     .step_name = "iteration", .starts_paused = true, .step = step_descent,
+     .restart = descent_restart, .handle_kinds = "x"},
     {"unprojected", "Without projection",
      "the squeezed square: without projection Newton is stuck", SQUARE,
      "--timestep 0.02 --stretch 0.5 --projection none", create_square,
-     .explains = true},
+     .starts_paused = true},
     /* Nodes fly 1.7 km in the first step, in which E rises to 2e16 J s^2;
      * projection or line search prevents that.  The setting was found by trying
      * 2560 squares. */
@@ -39,7 +39,7 @@ const Scene scenes[] = {
      "one step without projection and line search: nodes fly", SQUARE,
      "--segments 3 --timestep 0.02 --stretch 0.485 --projection none "
      "--line-search none",
-     create_square, .explains = true},
+     create_square, .starts_paused = true},
     {"hang", "Gravity: a hanging square",
      "pinned at its upper corners, it sags and swings", SQUARE,
      "--segments 12 --stiffness 1e4 --stretch 1 --timestep 0.01 "
@@ -51,8 +51,8 @@ const Scene scenes[] = {
      FALL "--segments 16 --timestep 0.005 --turn 25 --at -0.3,0.75 "
           "--velocity 0.9,-1 --friction 0.3 --ground 0,1,0,-0.5 "
           "--ground 1,0,-1.1,0 --ground -1,0,1.1,0",
-     create_square, .settles = true, .frame = {-1.25, -0.65, 1.25, 1.45},
-     .strain_colour_max = 0.1},
+     create_square, .needs_dissipation = true,
+     .frame = {-1.25, -0.65, 1.25, 1.45}, .strain_colour_max = 0.1},
     {"slope", "Friction: three blocks",
      "three blocks, each with a friction of its own", SQUARE,
      FALL "--segments 6 --stiffness 5e4 --timestep 0.01 "
@@ -72,7 +72,7 @@ const Scene scenes[] = {
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
      "--material neo-hookean",
-     .create = create_square, .speed = 0.125, .settles = true,
+     .create = create_square, .speed = 0.125, .needs_dissipation = true,
      .frame = {-1.1, -1.1, 1.1, 1.1}},
     {"stack", "Self-contact: three squares",
      "three soft squares fall on one another", SQUARE,
@@ -117,47 +117,50 @@ const Scene scenes[] = {
     {"race", "Run time and error", "run time against error, measured now",
      PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
      /* no chaos; the tolerance is below the error of every time step */
-     "--stretch 1.1 --tolerance 1e-8", create_race, .turn = "run",
-     .step = step_race, .parts = {"error over h"}, .group = "Measured now"},
+     "--stretch 1.1 --tolerance 1e-8", create_race, .step_name = "run",
+     .step = step_race, .switch_labels = {"error over h"},
+     .group = "Measured now"},
     {"envelope", "How far it can be trusted",
      "where the square converges: h across, k upwards", PICTURE_ENVELOPE,
      NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_STEP, NULL,
-     create_envelope, .turn = "row", .step = step_envelope},
+     create_envelope, .step_name = "row", .step = step_envelope},
     /* Scenes of the tour, small enough to compute on paper. */
     {"landscape", "Search directions",
      "without projection Newton may go uphill; clamped, never",
      PICTURE_LANDSCAPE,
      NEEDS_START | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_STEP,
      "--start 0.1,-0.35 --tolerance 1e-6 --timestep 0.2", create_landscape,
-     .turn = "iteration", .explains = true, .step = step_descent,
-     .restart = descent_restart, .aim = aim_descent, .grips = "tx",
-     .parts = {"inertia", "elasticity"}, .by_name = true},
+     .step_name = "iteration", .starts_paused = true, .step = step_descent,
+     .restart = descent_restart, .find_direction = descent_find_direction,
+     .handle_kinds = "tx", .switch_labels = {"inertia", "elasticity"},
+     .only_by_name = true},
     {"arrows", "One mass",
      "one mass on a spring: the arrows of three Euler steps", PICTURE_MASS,
-     NEEDS_TIME | NEEDS_START, "--timestep 0.5 --start 1,0", create_mass,
-     .explains = true, .grips = "xv", .by_name = true},
+     NEEDS_TIME | NEEDS_START, "--timestep 0.5 --start 1,0", create_arrows,
+     .starts_paused = true, .handle_kinds = "xv", .only_by_name = true},
     {"tangent", "Newton in one dimension",
      "Newton in one dimension: tangents of g, parabolas of E", PICTURE_TANGENT,
      NEEDS_START | NEEDS_MINIMUM | NEEDS_ONE_NUMBER | NEEDS_STEP,
      "--start 2.5 --tolerance 1e-10 --line-search none --timestep 0.3",
-     create_tangent, .turn = "iteration", .step = step_descent,
-     .restart = descent_restart, .grips = "xt", .by_name = true},
+     create_tangent, .step_name = "iteration", .step = step_descent,
+     .restart = descent_restart, .handle_kinds = "xt", .only_by_name = true},
     {"dial", "The time step as a dial",
      "a longer time step: from free flight to the rest shape", PICTURE_DIAL,
-     NEEDS_STEP, "--timestep 0.005", create_dial, .turn = "point",
-     .step = step_dial, .restart = dial_restart, .grips = "t",
-     .parts = {"inertia", "elasticity"}, .by_name = true},
+     NEEDS_STEP, "--timestep 0.005", create_dial, .step_name = "point",
+     .step = step_dial, .restart = dial_restart, .handle_kinds = "t",
+     .switch_labels = {"inertia", "elasticity"}, .only_by_name = true},
     {"spring", "One spring",
      "one spring: energy, force, eigenvalues; drag its end", PICTURE_SPRING,
      NEEDS_TIME | NEEDS_START | NEEDS_SPRINGS | NEEDS_MINIMUM,
      "--timestep 0.02 --start 0.6,0.3 --tolerance 1e-6", create_spring,
-     .grips = "x", .parts = {"with the square root"}, .by_name = true},
+     .handle_kinds = "x", .switch_labels = {"with the square root"},
+     .only_by_name = true},
     {.name = NULL},
 };
 
 const Scene *scene_find(const char *text)
 {
-    int place = name_or_number(NAMES_OF(scenes), text);
+    int place = names_find_or_number(NAMES_OF(scenes), text);
     return place < 0 ? NULL : &scenes[place];
 }
 
@@ -165,7 +168,7 @@ void scene_predict(Simulation *simulation, double x, double y)
 {
     const DialCurve *curve = &simulation->exhibit.dial;
     const double *p = simulation->descent.direction;
-    double at[2], came[2];
+    double at[2], end[2];
     int count = simulation_point(simulation, at);
     MassStep step;
     if (simulation->done || count == 0)
@@ -173,15 +176,15 @@ void scene_predict(Simulation *simulation, double x, double y)
     bool time = simulation->scene->needs & NEEDS_TIME;
     bool dial = simulation->scene->step == step_dial;
     if (time)
-        mass_next_step(simulation, 0, &step);
+        mass_find_next_step(simulation, 0, &step);
     for (int k = 0; k < 2; k++)
-        came[k] = time   ? step.new_x[k]
-                  : dial ? curve->point[DIAL_POINTS - 1][k]
-                         : at[k] + p[k];
+        end[k] = time   ? step.new_x[k]
+                 : dial ? curve->point[DIAL_POINTS - 1][k]
+                        : at[k] + p[k];
     simulation->prediction = (Prediction){
         .made = true,
         .step = simulation->steps,
         .at = {x, y},
-        .came = {came[0], came[1]},
-        .distance = math_hypot(came[0] - x, count == 1 ? 0 : came[1] - y)};
+        .end = {end[0], end[1]},
+        .distance = math_hypot(end[0] - x, count == 1 ? 0 : end[1] - y)};
 }

@@ -17,7 +17,7 @@ static Status trial_run(const Options *options, const IntegratorMethod *method,
                         TimeIntegrator *run)
 {
     NewtonSettings settings = {0};
-    newton_settings_take(options, &settings);
+    options_fill_newton_settings(options, &settings);
     Status worst = time_integrator_create(method, system, &settings, from->x,
                                           from->v, run);
     bool goes_on = worst == STATUS_OK;
@@ -97,7 +97,7 @@ Status race_reference(Simulation *simulation, double time)
     NewtonSettings settings = {0};
     double bound = frequency_bound(&simulation->system, start->x);
     double intervals = floor(1 + time * bound);
-    newton_settings_take(&simulation->options, &settings);
+    options_fill_newton_settings(&simulation->options, &settings);
     Status status =
         time_integrator_create(integrator_method("verlet"), &simulation->system,
                                &settings, start->x, start->v, run);
@@ -139,11 +139,11 @@ static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
 {
     if (strcmp(run->method->name, "forward-euler") == 0)
         return false;
-    for (int i = 0; i < RACE_LONGER && !run->method->implicit; i++)
+    for (int i = 0; i < RACE_EXTRA_STEPS && !run->method->implicit; i++)
         if (time_integrator_step(run))
             return false;
     return run->method->implicit ||
-           energy_of(run) <= RACE_ENERGY * energy_of(&simulation->run[0]);
+           energy_of(run) <= RACE_MAX_ENERGY * energy_of(&simulation->run[0]);
 }
 
 /* Energy of a run after a second, over that of the start; NaN: the run failed.
@@ -201,7 +201,7 @@ Status race_measure(Simulation *simulation, const IntegratorMethod *method,
     *point = (RacePoint){.method = method,
                          .h = time / (double)steps,
                          .error = NAN,
-                         .later = NAN};
+                         .energy_after_second = NAN};
     Status status =
         measure_run(simulation, method, point->h, steps, run, &point->seconds);
     point->converged = status == STATUS_OK;
@@ -215,7 +215,7 @@ Status race_measure(Simulation *simulation, const IntegratorMethod *method,
     return STATUS_OK;
 }
 
-double race_stable(const Race *race, int method)
+double race_find_stable_h(const Race *race, int method)
 {
     for (int i = method; i < race->count; i += RACE_METHODS)
         if (race->point[i].stable)
@@ -239,8 +239,8 @@ Status step_race(Simulation *simulation)
     Status status =
         race_measure(simulation, method, RACE_TIME, steps, &run, point);
     if (!status) {
-        if (race->count / RACE_METHODS == RACE_SHOWN)
-            point->later = energy_later(simulation, &run);
+        if (race->count / RACE_METHODS == RACE_SHOWN_ROW)
+            point->energy_after_second = energy_later(simulation, &run);
         point->stable = is_stable(simulation, &run);
     }
     time_integrator_free(&run);
@@ -270,7 +270,7 @@ static int nearest(double value, double first, double per_ten, int count)
     return (int)fmin(fmax(place, 0), count - 1);
 }
 
-Status envelope_visit(Simulation *simulation, int column, int row)
+Status envelope_run_cell(Simulation *simulation, int column, int row)
 {
     EnvelopeMap *map = &simulation->exhibit.map;
     TimeIntegrator *run = &simulation->run[0];
@@ -301,9 +301,9 @@ Status create_envelope(Simulation *simulation)
     simulation->run[0] = (TimeIntegrator){0};
     if (status)
         return status;
-    return envelope_visit(simulation,
-                          nearest(options->timestep, -9, 2, ENVELOPE_COLUMNS),
-                          nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
+    return envelope_run_cell(
+        simulation, nearest(options->timestep, -9, 2, ENVELOPE_COLUMNS),
+        nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
 }
 
 /* After the row the cell that was shown before is shown again. */
@@ -313,9 +313,9 @@ Status step_envelope(Simulation *simulation)
     int row = (int)simulation->steps, shown[2] = {map->column, map->row};
     Status status = STATUS_OK;
     for (int column = 0; column < ENVELOPE_COLUMNS && !status; column++)
-        status = envelope_visit(simulation, column, row);
+        status = envelope_run_cell(simulation, column, row);
     if (!status)
-        status = envelope_visit(simulation, shown[0], shown[1]);
+        status = envelope_run_cell(simulation, shown[0], shown[1]);
     simulation->done = row + 1 >= ENVELOPE_ROWS;
     return status;
 }

@@ -214,7 +214,7 @@ static void put_numbers(Writer *to, const Player *player)
     const LecturePage *page = player->screen.frame.content.lecture.hides_answer
                                   ? NULL
                                   : player->screen.frame.content.lecture.page;
-    const OptionRow *row[OPTIONS_MOST];
+    const OptionRow *row[OPTIONS_MAX_ROWS];
     const Options now = player_numbers(player);
     int count = player_visible_options(player, true, row);
     for (int i = 0; i < count; i++) {
@@ -223,13 +223,13 @@ static void put_numbers(Writer *to, const Player *player)
         bool shown = false;
         for (int k = 0; k < player->screen.frame.numbers; k++)
             shown = shown || player->screen.frame.number[k] == row[i];
-        option_value(row[i], &now, value, sizeof value);
-        option_unit(row[i], unit, sizeof unit);
+        option_write_short(row[i], &now, value, sizeof value);
+        option_write_unit(row[i], unit, sizeof unit);
         put(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name, option_label(row[i]),
             value, unit);
         bool named = row[i]->kind == OPTION_NAME;
-        for (int k = 0; named && name_at(row[i]->names, k); k++)
-            put(to, "%s%s", k ? "|" : "", name_at(row[i]->names, k));
+        for (int k = 0; named && names_at(row[i]->names, k); k++)
+            put(to, "%s%s", k ? "|" : "", names_at(row[i]->names, k));
         put(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
             !shown                                            ? "more"
             : !named && page && is_tried(page->touch, row[i]) ? "tried"
@@ -241,8 +241,8 @@ static void put_exhibit(Writer *to, const Simulation *simulation)
 {
     double at[SCENE_MAX_HANDLES][2];
     Switch part[SCENE_MAX_SWITCHES];
-    int handles = exhibit_handles(simulation, at);
-    int switches = exhibit_switches(simulation, part);
+    int handles = exhibit_list_handles(simulation, at);
+    int switches = exhibit_list_switches(simulation, part);
     for (int i = 0; i < handles; i++)
         put(to, "point\t%d\t%.4g\t%.4g\n", i, at[i][0], at[i][1]);
     for (int i = 0; i < switches; i++)
@@ -299,7 +299,7 @@ static void put_event(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Trace *trace = active_pane(content)->update;
-    const char *turn = player_simulation(player)->scene->turn;
+    const char *turn = player_simulation(player)->scene->step_name;
     double change = 0;
     put(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
     if (trace && trace->line != LINE_NONE) {

@@ -274,7 +274,7 @@ TEST(texts_become_one_line)
         {NULL, ""}};
     char line[12];
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        one_line(rows[i][0], line, sizeof line);
+        copy_one_line(rows[i][0], line, sizeof line);
         assert_string_equal(line, rows[i][1]);
     }
 }
@@ -292,7 +292,8 @@ TEST(help_fits_a_terminal)
     CHECK(strncmp(help, "usage: ", 7) == 0);
     for (const OptionRow *row = option_rows; row->name; row++) {
         snprintf(line, sizeof line, "\n  --%s%s%s", row->name,
-                 row->placeholder ? " " : "", row->placeholder ? row->placeholder : "");
+                 row->placeholder ? " " : "",
+                 row->placeholder ? row->placeholder : "");
         CHECK(strstr(help, row->name[0] ? line : row->help) != NULL);
     }
     for (const char *end; *help; help = end + 1) {

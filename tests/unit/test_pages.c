@@ -591,7 +591,7 @@ TEST(claim_parts)
         open_page("parts", ""); /* inertia alone is done in one update */
     CHECK(simulation->options.page->flips == 2);
     exhibit_flip(simulation, 1);
-    CHECK(simulation->exhibit.parts == PART_INERTIA);
+    CHECK(simulation->exhibit.switches == PART_INERTIA);
     /* ((0.6 - 0.2)^2 + (0.9 - 0.3)^2) / 2 */
     const Descent *descent = &simulation->descent;
     CHECK_NEAR(descent->value, 0.26, 1e-15);
@@ -659,7 +659,7 @@ TEST(claim_psd)
     exhibit_drag(simulation, 0, 2, 1);
     CHECK(known_now(simulation, "negative") == 0);
     for (double r = 0.02; r < 1.5; r += 0.02) {
-        SpringFacts spring = spring_facts((double[2]){r, 0}, 1, 100);
+        SpringValues spring = spring_evaluate((double[2]){r, 0}, 1, 100);
         CHECK_NEAR(2 * spring.across, 4 * 100 * (r * r - 1), 1e-9);
         CHECK_NEAR(2 * spring.along, 4 * 100 * (3 * r * r - 1), 1e-9);
         CHECK((spring.along <= 0) == (r < 1 / sqrt(3)));
@@ -679,7 +679,7 @@ static double held_by_kinds(const Simulation *simulation, double kind[4])
         double d[2] = {a[0] - b[0], a[1] - b[1]}, l2 = system->l2[s];
         double strain = (d[0] * d[0] + d[1] * d[1]) / l2 - 1;
         double held = 0.5 * l2 * system->k[s] * strain * strain;
-        kind[exhibit_kind(simulation, s)] += held;
+        kind[exhibit_spring_kind(simulation, s)] += held;
         sum += held;
     }
     return sum;
@@ -704,14 +704,14 @@ TEST(claim_stretched)
 TEST(claim_energy)
 {
     const double k = 100;
-    SpringFacts rest = spring_facts((double[2]){1, 0}, 1, k);
-    SpringFacts near = spring_facts((double[2]){0, 0}, 1, k);
+    SpringValues rest = spring_evaluate((double[2]){1, 0}, 1, k);
+    SpringValues near = spring_evaluate((double[2]){0, 0}, 1, k);
     CHECK_NEAR(rest.along, 4 * k, 0);
     CHECK_NEAR(rest.root_along, 4 * k, 0);
     CHECK_NEAR(near.energy, 50, 0);
     CHECK_NEAR(near.root_energy, 200, 0);
     CHECK_NEAR(known("energy", "tip"), 200, 1e-12);
-    near = spring_facts((double[2]){1e-3, 0}, 1, k);
+    near = spring_evaluate((double[2]){1e-3, 0}, 1, k);
     CHECK_NEAR(near.across, -2 * k, 1e-5 * k);
     CHECK_NEAR(near.root_across, -3996 * k, 1e-9 * k);
 }
@@ -721,7 +721,7 @@ TEST(claim_force)
     Simulation *simulation = open_page("force", "");
     const double *x = simulation->run[0].x;
     const System *system = &simulation->system;
-    SpringFacts spring = spring_facts(x, system->l2[0], system->k[0]);
+    SpringValues spring = spring_evaluate(x, system->l2[0], system->k[0]);
     CHECK_NEAR(spring.strain, 0.69, 1e-15);
     CHECK_NEAR(spring.energy, 23.805, 1e-12);
     CHECK_NEAR(spring.force[0], -179.4, 1e-12);
@@ -1045,8 +1045,8 @@ static void check_race_table(void)
     CHECK(race->point[VERLET].method == integrator_method("verlet"));
     CHECK(race->point[VERLET].error < 0.01 && !race->point[VERLET].stable);
     CHECK(race->point[VERLET + RACE_METHODS].stable);
-    CHECK_NEAR(race_stable(race, VERLET), 0.004, 1e-15);
-    CHECK(isnan(race_stable(race, 0))); /* forward Euler */
+    CHECK_NEAR(race_find_stable_h(race, VERLET), 0.004, 1e-15);
+    CHECK(isnan(race_find_stable_h(race, 0))); /* forward Euler */
     Simulation *longer = simulate("square --stretch 1.1 --tolerance 1e-8 "
                                   "--timestep 1 --integrator midpoint");
     double start = simulation_energies(longer, 0).total, most = 0;
@@ -1075,7 +1075,7 @@ TEST(claim_order)
         /* terms of higher order: a quarter */
         CHECK_NEAR((point - RACE_METHODS)->error / point->error, factor[i],
                    0.25 * factor[i]);
-        point = &race->point[RACE_SHOWN * RACE_METHODS + i];
+        point = &race->point[RACE_SHOWN_ROW * RACE_METHODS + i];
         CHECK_NEAR(point->h, 0.004, 1e-15);
         Simulation *again =
             simulate("square --stretch 1.1 --tolerance 1e-8 --timestep 0.004 "
@@ -1083,12 +1083,12 @@ TEST(claim_order)
                      point->method->name);
         double start = simulation_energies(again, 0).total;
         if (i == 0) { /* forward Euler explodes */
-            CHECK(isnan(point->later));
+            CHECK(isnan(point->energy_after_second));
             continue;
         }
         make_steps(again, 250);
-        CHECK_NEAR(point->later, simulation_energies(again, 0).total / start,
-                   1e-6);
+        CHECK_NEAR(point->energy_after_second,
+                   simulation_energies(again, 0).total / start, 1e-6);
     }
     check_race_table();
 }
@@ -1101,7 +1101,7 @@ TEST(claim_trust)
     CHECK(isnan(known_now(simulation, "known"))); /* a single run is no map */
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
-            CHECK_STATUS(envelope_visit(simulation, column, row), STATUS_OK);
+            CHECK_STATUS(envelope_run_cell(simulation, column, row), STATUS_OK);
             const EnvelopeCell *cell =
                 &simulation->exhibit.map.cell[row][column];
             good += cell->worst == STATUS_OK && cell->updates > 0;

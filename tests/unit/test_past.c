@@ -330,7 +330,7 @@ static Command random_edit(Random *random, int kind)
     edit.y = x[1] + random_uniform(random, -0.1, 0.1);
     if (kind < 4)
         edit.kind = COMMAND_PIN;
-    else if (exhibit_handles(simulation, at) > 0)
+    else if (exhibit_list_handles(simulation, at) > 0)
         edit.kind = COMMAND_HANDLE;
     else if (past_control(&past, 0)->hand < 0)
         edit.kind = COMMAND_GRAB;

@@ -113,7 +113,7 @@ TEST(mass_is_dragged)
     make_steps(scene, 1);
     exhibit_drag(scene, 0, 0.25, -0.5);
     exhibit_drag(scene, 1, 0.25 + 2, -0.5 + 3);
-    CHECK(exhibit_handles(scene, at) == 2);
+    CHECK(exhibit_list_handles(scene, at) == 2);
     CHECK(at[0][0] == 0.25 && at[1][1] == 2.5);
     const double x[2] = {0.25, -0.5}, v[2] = {2, 3};
     for (int run = 0; run < 3; run++) {
@@ -124,8 +124,8 @@ TEST(mass_is_dragged)
     exhibit_drag(one, 0, 0.25, -0.5);
     exhibit_drag(one, 1, 0.25 + 2, -0.5 + 3);
     for (int changed = 0; changed < 2; changed++) {
-        mass_exact(one, 0, now);
-        mass_exact(one, 0.5 * M_PI, later);
+        mass_find_exact(one, 0, now);
+        mass_find_exact(one, 0.5 * M_PI, later);
         CHECK_SAME_BITS(now, x, 2);
         for (int i = 0; i < 2; i++)
             CHECK_NEAR(later[i], v[i], 1e-15);
@@ -153,7 +153,7 @@ TEST(landscape_minimises_what_it_shows)
         make_steps(scene, 1);
         exhibit_flip(scene, off);
         unsigned part = off ? PART_INERTIA : PART_ELASTICITY;
-        CHECK(scene->exhibit.parts == part && descent->count == 0);
+        CHECK(scene->exhibit.switches == part && descent->count == 0);
         while (!scene->done) {
             double before = descent->value;
             make_steps(scene, 1);
@@ -176,7 +176,7 @@ TEST(landscape_minimises_what_it_shows)
 
 static const EnvelopeCell *visit(Simulation *map, int column, int row)
 {
-    CHECK_OK(envelope_visit(map, column, row));
+    CHECK_OK(envelope_run_cell(map, column, row));
     return &map->exhibit.map.cell[row][column];
 }
 
@@ -218,7 +218,7 @@ TEST(predictions_are_compared)
     scene_predict(scene, 1.3, 0.9);        /* the step leads to (1, 0.5) */
     for (int step = 0; step < 2; step++) { /* the guess stays beside its step */
         CHECK(guess->made);
-        CHECK_NEAR(guess->came[1], 0.5, 1e-15);
+        CHECK_NEAR(guess->end[1], 0.5, 1e-15);
         CHECK_NEAR(guess->distance, 0.5, 1e-15);
         make_steps(scene, 1);
     }

@@ -187,7 +187,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
     const Pane *pane = &player.screen.frame.content.pane[p];
     double at[2], grip[SCENE_MAX_HANDLES][2];
     if (sscanf(place, "grip %d", &i) == 1) {
-        assert_true(i < exhibit_handles(pane->simulation, grip));
+        assert_true(i < exhibit_list_handles(pane->simulation, grip));
         memcpy(at, grip[i], sizeof at);
     } else if (sscanf(place, "node %d", &i) == 1)
         memcpy(at, pane_x(pane) + 2 * i, sizeof at);
@@ -681,7 +681,8 @@ static void grips_go_where_they_are_dragged(void **unused)
     (void)unused;
     int grips = 0;
     for (const Scene *scene = scenes; scene->name; scene++)
-        for (int i = 0; scene->grips && scene->grips[i]; i++, grips++) {
+        for (int i = 0; scene->handle_kinds && scene->handle_kinds[i];
+             i++, grips++) {
             char line[80];
             double at[SCENE_MAX_HANDLES][2];
             bool flat = scene->needs & NEEDS_ONE_NUMBER; /* x alone counts */
@@ -692,7 +693,7 @@ static void grips_go_where_they_are_dragged(void **unused)
             session_line("move +9 +9");
             session_line("move m 0.4,-0.3");
             session_line("release +0 +0");
-            exhibit_handles(player_simulation(&player), at);
+            exhibit_list_handles(player_simulation(&player), at);
             CHECK_NEAR(at[i][0], 0.4, 1e-9);
             CHECK(flat || fabs(at[i][1] + 0.3) < 1e-9);
         }

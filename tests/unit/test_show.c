@@ -639,7 +639,7 @@ TEST(maps_have_levels_and_pulls)
     stand_up("landscape --projection none --start 0.6,0.9 --timestep 0.1", 0);
     content.lecture.page = lecture_find("parts");
     lecture_enter(content.lecture.page, &simulation.options);
-    simulation.exhibit.parts = PART_INERTIA;
+    simulation.exhibit.switches = PART_INERTIA;
     CHECK(is_drawn("0.6"));
     Plot stage = stage_create(&paper, &content, &layout, 0);
     const double *target = simulation.exhibit.target;

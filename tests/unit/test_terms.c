@@ -568,8 +568,8 @@ static void accelerations_are_forces_over_masses(void **unused)
 
 int main(void)
 {
-    static Row all[ROWS + OPTIONS_MOST];
-    static struct CMUnitTest tests[ROWS + OPTIONS_MOST + 1] = {
+    static Row all[ROWS + OPTIONS_MAX_ROWS];
+    static struct CMUnitTest tests[ROWS + OPTIONS_MAX_ROWS + 1] = {
         cmocka_unit_test(accelerations_are_forces_over_masses)};
     int count = ROWS;
     memcpy(all, rows, sizeof rows);

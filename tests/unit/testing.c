@@ -206,7 +206,7 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
 static Status use(Simulation *simulation, Control *control)
 {
     Status status = control_apply(simulation, control);
-    control_drop(control);
+    control_release(control);
     return status;
 }
 
