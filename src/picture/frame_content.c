@@ -136,7 +136,8 @@ Plot stage_create(Paper *paper, const FrameContent *content,
     Switch switches[SCENE_MAX_SWITCHES];
     find_bounds(content, layout, pane, bounds);
     stage.camera = camera_create(room, bounds, stretched, lens);
-    if (!stage.has_text || exhibit_switches(stage.simulation, switches) == 0)
+    if (!stage.has_text ||
+        exhibit_list_switches(stage.simulation, switches) == 0)
         return stage;
     /* The view moves to the left of the switches unless that makes it smaller.
      */
@@ -189,7 +190,7 @@ static void draw_switches(const Plot *stage)
 {
     Paper *paper = stage->paper;
     Switch switches[SCENE_MAX_SWITCHES];
-    int count = exhibit_switches(stage->simulation, switches);
+    int count = exhibit_list_switches(stage->simulation, switches);
     for (int i = 0; i < count && stage->has_text; i++) {
         Box box = switch_box(stage, i), mark = box_inset(box, box.height / 4);
         bool on = switches[i].on;
@@ -243,16 +244,17 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
     camera_world(&stage.camera, x, y, pick.point);
     pick.kind = picture->takes_clicks ? PICK_PLACE : PICK_NONE;
     if (!picture->own_handles) {
-        int count =
-            stage.has_text ? exhibit_switches(stage.simulation, switches) : 0;
+        int count = stage.has_text
+                        ? exhibit_list_switches(stage.simulation, switches)
+                        : 0;
         for (pick.index = 0; pick.index < count; pick.index++)
             if (box_contains(switch_box(&stage, pick.index), x, y)) {
                 pick.kind = PICK_SWITCH;
                 return pick;
             }
         pick.index = 0;
-        if (plot_pick_point(&stage, exhibit_handles(stage.simulation, at), *at,
-                            HANDLE_REACH, x, y, PICK_HANDLE, &pick))
+        if (plot_pick_point(&stage, exhibit_list_handles(stage.simulation, at),
+                            *at, HANDLE_REACH, x, y, PICK_HANDLE, &pick))
             return pick;
     }
     if (picture->pick)

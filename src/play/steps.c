@@ -576,7 +576,7 @@ static void describe_edit(const Player *player, const Command *edit, char *line,
     switch (edit->kind) {
     case COMMAND_SET:
         edited.number[row->slot] = edit->x;
-        option_value(row, &edited, value, sizeof value);
+        option_write_short(row, &edited, value, sizeof value);
         snprintf(line, size, "%s %s", row->name,
                  edit->text[0] ? edit->text : value);
         break;
