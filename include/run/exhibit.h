@@ -36,7 +36,7 @@ enum { DESCENT_MAX = 256 };
 /* A minimisation that is shown iteration by iteration. */
 typedef struct Descent {
     int count;                        /* number of records */
-    NewtonRecord record[DESCENT_MAX]; /* of the first iterations */
+    NewtonRecord record[DESCENT_MAX]; /* first iterations */
     double point[2];                  /* present iterate, m */
     double value;                     /* f or E at the iterate */
     double start_value;               /* E at the start of the search */

@@ -17,10 +17,10 @@ typedef enum PictureKind {
     PICTURE_CIRCLE,    /* trails around the exact circle, radius over time */
     PICTURE_CURVE,     /* f(x), its quadratic model, the iterates */
     PICTURE_LANDSCAPE, /* contours of E, the Newton path */
-    PICTURE_MASS,      /* one mass and the arrows of a step */
+    PICTURE_MASS,      /* a mass and the arrows of a step */
     PICTURE_TANGENT,   /* g and its tangents above E and its parabolas */
     PICTURE_DIAL,      /* the landscape's minimiser for every h */
-    PICTURE_SPRING,    /* one spring, its energies and eigenvalues */
+    PICTURE_SPRING,    /* a spring, its energies and eigenvalues */
     PICTURE_RACE,      /* error over run time */
     PICTURE_ENVELOPE,  /* convergence for each time step and stiffness */
     PICTURE_COUNT

@@ -94,7 +94,7 @@ typedef struct Energies {
     double work;       /* done by walls, pins and hand */
     double dissipated; /* by the integrator; negative: it has made energy */
     int rows;
-    Energy row[ENERGY_ROWS]; /* all energies, in the order of legends */
+    Energy row[ENERGY_ROWS]; /* energies in the order of legends */
 } Energies;
 
 /* Creates the simulation of options->scene; free it in any case.

@@ -42,7 +42,7 @@ const char *pins_read(const char *text, const SquareMesh *shape,
             sscanf(text, "%9[0-9]%n", digits, &end);
         while (word->word && strcmp(word->word, name) != 0)
             word++;
-        int number = atoi(digits); /* of a body, from 1, or of a node */
+        int number = atoi(digits); /* number of a body, from 1, or of a node */
         int most = name[0] ? shape->bodies : shape->nodes - 1;
         bool is_pin =
             name[0] ? word->word && (!digits[0] || number > 0) : digits[0];

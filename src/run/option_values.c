@@ -124,7 +124,7 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size)
 {
-    enum { MOST_DIGITS = 6, MOST_LETTERS = 20 }; /* of a list of numbers */
+    enum { MOST_DIGITS = 6, MOST_LETTERS = 20 }; /* lengths of a list */
     int count = row->count > 1 ? row->count : 1, times = 1;
     if (row->max_times)
         times = (int)options->number[row->counter];

@@ -8,8 +8,8 @@
 #include "model/plasticity.h"
 #include "run/body.h"
 
-/* A place in the bytes of a state.  The same functions visit the pieces of a
- * state to save, restore or count them. */
+/* A place in the bytes of a state.  Saving, restoring and counting visit the
+ * pieces of a state by the same functions. */
 typedef struct Cursor {
     unsigned char *bytes; /* NULL: the pieces are only counted */
     bool restores;        /* bytes are read, not written */
