@@ -1,5 +1,5 @@
-/* view.h - the window: window_sdl.c makes it on a computer, window_web.c in a
- * page.
+/* view.h - the window: of the computer (window_sdl.c) or in a web page
+ * (window_web.c).
  */
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H
@@ -8,62 +8,66 @@
 
 #include "picture/paper.h"
 
-/* An event of keyboard, mouse or window. */
+/* Kinds of events, and the fields of Input that each has. */
 typedef enum InputKind {
     INPUT_NONE,
-    INPUT_KEY,     /* key */
-    INPUT_CLOSE,   /* the window is to be closed */
+    INPUT_KEY,     /* a key is pressed: key, repeats */
+    INPUT_CLOSE,   /* the user closes the window */
     INPUT_REDRAW,  /* the window was uncovered or resized */
-    INPUT_MOVE,    /* x, y */
-    INPUT_PRESS,   /* button, x, y, clicks */
-    INPUT_RELEASE, /* button, x, y */
-    INPUT_WHEEL,   /* x, y, amount: > 0 away from the hand */
+    INPUT_MOVE,    /* the mouse moves: x, y */
+    INPUT_PRESS,   /* a button is pressed: button, clicks, x, y */
+    INPUT_RELEASE, /* a button is released: button, x, y */
+    INPUT_WHEEL,   /* the wheel turns: amount, x, y */
     INPUT_LEAVE    /* the mouse has left the window */
 } InputKind;
 
 enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
 
+/* An event of keyboard, mouse or window. */
 typedef struct Input {
     InputKind kind;
     char key[32]; /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */
     bool repeats; /* the key is held down */
     int button, clicks;
-    double x, y; /* pixels of the paper */
-    double amount;
+    double x, y;   /* pixels of the paper */
+    double amount; /* notches of the wheel; > 0: away from the user */
 } Input;
 
-/* Opens the only window.  Returns false if it cannot, window_failure says why.
+/* Opens the only window.  Returns false after a failure (window_failure).
  *   size  [2] in, pixels; 0: 1280 x 800, or what fits on the screen
  *   full  the window fills the screen */
 bool window_open(const char *title, const int size[2], bool full);
 void window_close(void);
 
-/* size  [2] out, pixels of a paper that fills it */
+/* Finds the size of a paper that fills the window, pixels. */
 void window_size(int size[2]);
 
-/* Size of a letter that can be read there, pixels. */
+/* Returns the size of letters that are well read, pixels. */
 double window_letter(void);
 
-/* Whether a page shows texts, numbers, keys and cards beside the paper. */
+/* Whether texts, numbers, keys and cards are elements of a web page. */
 bool window_has_document(void);
 
 void window_set_title(const char *title);
 
-/* Reason of the last SCREEN_FAILED, or "". */
+/* Returns the reason of the last failure, or "". */
 const char *window_failure(void);
 
-/* Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
+/* Shows the paper's canvas.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
 Status window_show(const Canvas *canvas);
 
-/* Switches to the full screen or back; whether the window is full. */
+/* Switches to the full screen or back. */
 void window_set_full(bool full);
+
+/* Whether the window fills the screen. */
 bool window_is_full(void);
 
-/* Returns the next input, or INPUT_NONE.  Several movements in a row are one.
+/* Returns the next input, or INPUT_NONE; of several movements in a row the
+ * last.
  */
 Input window_input(void);
 
-/* Waits for an input, up to a time. */
+/* Waits for an input, at most for this time. */
 void window_wait(int milliseconds);
 
 #endif

@@ -14,7 +14,7 @@
 #include "lesson/command_line.h"
 
 const CommandRow command_rows[COMMAND_KINDS] = {
-#define ROW(kind, deed, ...) [COMMAND_##kind] = {__VA_ARGS__},
+#define ROW(kind, function, ...) [COMMAND_##kind] = {__VA_ARGS__},
 #include "play/command_rows.def"
 #undef ROW
 };

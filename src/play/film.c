@@ -6,12 +6,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Pixels in a format that all players read; it needs an even width and height.
- */
+/* Options of ffmpeg for pixels that all players can show; the width and height
+ * become even, as this format needs. */
 #define COMMON "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"
 
 static const struct FilmKind {
-    const char *end;   /* end of the name: a dot and the name of the format */
+    const char *end;   /* end of the film's name: ".mp4" */
     int rate;          /* frames a second */
     const char *words; /* options of ffmpeg for its output */
 } film_kinds[] = {
@@ -47,9 +47,9 @@ Status film_open(const char *name, char *message, Film *film)
     return output_report(message, name, STATUS_INVALID_INPUT, why);
 }
 
-/* Starts ffmpeg with the first frame, whose size the film has.  Its messages
- * are discarded; a session of its own keeps Ctrl+C from it, so that the film
- * ends when the pipe does. */
+/* Starts ffmpeg for frames of the size of the first one.  The messages of
+ * ffmpeg are discarded; setsid keeps Ctrl+C from ffmpeg, so that a film which
+ * is interrupted has its end. */
 static void start_ffmpeg(Film *film, const Canvas *canvas)
 {
     char line[512];
@@ -67,7 +67,7 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
         setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
 }
 
-Status film_add(Film *film, const Canvas *canvas, int shown)
+Status film_add(Film *film, const Canvas *canvas, int times)
 {
     const Colour white = 0xffffffffu;
     if (!film->pipe)
@@ -75,14 +75,14 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
     if (!film->pipe)
         return output_report_failure(&film->output, NULL);
     int both = canvas->width < film->width ? canvas->width : film->width;
-    for (int i = 0; i < shown * film->height; i++) {
+    for (int i = 0; i < times * film->height; i++) {
         int y = i % film->height, there = y < canvas->height ? both : 0;
         size_t first = there > 0 ? (size_t)canvas->width * (size_t)y : 0;
         fwrite(canvas->pixels + first, sizeof white, (size_t)there, film->pipe);
         for (int x = there; x < film->width; x++)
             fwrite(&white, sizeof white, 1, film->pipe);
     }
-    film->frames += shown;
+    film->frames += times;
     if (!ferror(film->pipe))
         return STATUS_OK;
     return output_report_failure(&film->output,

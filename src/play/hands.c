@@ -67,7 +67,7 @@ static Status ask(Player *player, CommandKind kind, long number)
 
 static Status ask_set(Player *player, const OptionRow *row, double value)
 {
-    const Command command = set_command(row, value);
+    const Command command = command_of_set(row, value);
     return player_obey(player, &command);
 }
 
@@ -75,7 +75,7 @@ static Status ask_set(Player *player, const OptionRow *row, double value)
 static Status change_pace(Player *player, const OptionRow *row, int paces)
 {
     double value;
-    Status status = player_paced(player, row, paces, &value);
+    Status status = player_find_paced(player, row, paces, &value);
     return status ? status : ask_set(player, row, value);
 }
 
@@ -244,7 +244,7 @@ static Status take_under_mouse(Player *player, const Under *under)
 static Status put_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_simulation(player);
-    Command command = set_command(option_find("ball"), 0);
+    Command command = command_of_set(option_find("ball"), 0);
     double radius =
         fmax(simulation->options.side / 8, 0.7 * simulation->mesh.spacing);
     for (int i = 0; i < simulation->system.nodes; i++) {
@@ -472,7 +472,7 @@ static Status release(Player *player)
             player_enqueue(
                 player,
                 &(Command){.kind = COMMAND_PIN, .number = node, .joins = true});
-        return player_obey_waiting(player, false);
+        return player_obey_queue(player, false);
     }
     if (drag == COMMAND_SET && mouse->moved)
         player_deselect(player); /* a drag sets it, a click waits for keys */
@@ -532,7 +532,7 @@ Status player_input(Player *player, const Input *input)
     if (press && mouse->drag != COMMAND_NONE)
         status = release(player); /* another button was down */
     if (!status)
-        status = player_obey_waiting(player, press && player->hands.holds);
+        status = player_obey_queue(player, press && player->hands.holds);
     if (status)
         return status;
     bool key = input->kind == INPUT_KEY && !input->repeats &&

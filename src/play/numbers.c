@@ -178,8 +178,8 @@ Status obey_set(Player *player, const Command *command)
     return player_edit(player, &change, from, to, false);
 }
 
-Status player_paced(Player *player, const OptionRow *row, int paces,
-                    double *value)
+Status player_find_paced(Player *player, const OptionRow *row, int paces,
+                         double *value)
 {
     const Options now = player_numbers(player);
     if (row->count > 1)
@@ -199,7 +199,8 @@ Status obey_raise(Player *player, const Command *command)
         player->hands.selected ? player->hands.selected : number[0];
     double value;
     int paces = command->kind == COMMAND_RAISE ? 1 : -1;
-    Status status = player_paced(player, player->hands.selected, paces, &value);
+    Status status =
+        player_find_paced(player, player->hands.selected, paces, &value);
     if (!status)
         player_enqueue_set(player, player->hands.selected, value);
     return status;

@@ -10,8 +10,8 @@
 #include "run/scene.h"
 #include "scenes/small_scenes.h"
 
-static Deed *const deeds[COMMAND_KINDS] = {
-#define ROW(kind, deed, ...) [COMMAND_##kind] = deed,
+static CommandFunction *const functions[COMMAND_KINDS] = {
+#define ROW(kind, function, ...) [COMMAND_##kind] = function,
 #include "play/command_rows.def"
 #undef ROW
 };
@@ -96,9 +96,15 @@ static bool reveals_answer(Player *player, const Command *command,
     return true;
 }
 
-/* Obeys the commands in the queue, up to one that must wait for the end of a
- * step; a release also waits for a step with the hand at its last place.
- *   now  no command waits */
+/* Whether a step with the present place of the hand is due or being made. */
+static bool is_pull_due(const Player *player)
+{
+    return past_makes(&player->past) ||
+           (!player_is_stopped(player) &&
+            player->past.step <= player->hands.pulled);
+}
+
+/* Obeys the queue as player_obey_queue does, but returns INVALID_INPUT. */
 static Status obey_queue(Player *player, bool now)
 {
     Queue queue = player->orders.queue;
@@ -108,8 +114,7 @@ static Status obey_queue(Player *player, bool now)
     player->orders.queue = (Queue){.count = 0};
     for (; i < queue.count && !status; i++) {
         const Command *command = &queue.command[i];
-        bool pulls =
-            command->kind == COMMAND_RELEASE && player_pull_is_due(player);
+        bool pulls = command->kind == COMMAND_RELEASE && is_pull_due(player);
         if (!now && (past_works(&player->past) || pulls))
             break;
         player->tour.opens = opens || queue.of_page;
@@ -135,7 +140,7 @@ static Status obey_queue(Player *player, bool now)
     return STATUS_OK;
 }
 
-Status player_obey_waiting(Player *player, bool now)
+Status player_obey_queue(Player *player, bool now)
 {
     return player_report(player, obey_queue(player, now));
 }
@@ -165,7 +170,7 @@ static Status abandon_step(Player *player)
     int gesture = player->orders.gesture;
     past_aim(&player->past, player->past.step, false);
     player->time.after = AFTER_NOTHING;
-    Status status = player_obey_waiting(player, true);
+    Status status = player_obey_queue(player, true);
     player->orders.gesture = gesture;
     return status;
 }
@@ -227,13 +232,13 @@ Status player_obey(Player *player, const Command *asked)
     if (!status && stops)
         player_note(player, "step abandoned: the last whole one is shown");
     else if (!status)
-        status = deeds[command.kind](player, &command);
+        status = functions[command.kind](player, &command);
     if (flags & KEPT && status != STATUS_INVALID_INPUT &&
         script_add(&player->orders.journal, step, &command,
                    player->orders.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_works(past);
-    player_complete_line(player); /* a card or another pane may show it now */
+    player_complete_line(player); /* the command may have opened its card */
     if (past_works(past) && (!worked || !(flags & SCREEN))) {
         Status shown = player_work(player);
         status = status ? status : shown;
@@ -252,7 +257,7 @@ Status player_obey(Player *player, const Command *asked)
 Status player_continue(Player *player)
 {
     Status status = player_work(player);
-    return status ? status : player_obey_waiting(player, false);
+    return status ? status : player_obey_queue(player, false);
 }
 
 Status player_step(Player *player)

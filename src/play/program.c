@@ -1,5 +1,5 @@
-/* program.c - the command line and the terminal: beginning, messages,
- * summary, exit codes.
+/* program.c - begins the program from its command line and ends it with a
+ * summary or a message, and an exit code.
  */
 #include "play/player.h"
 
@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -34,15 +33,15 @@ print_error(int code, const char *format, ...)
     return code;
 }
 
-/* Whether the reader of standard output has closed it, as head(1) does; then no
- * message is printed. */
+/* Whether the reader of standard output has closed it, as head(1) does. */
 static bool reader_is_gone(void)
 {
     struct pollfd out = {.fd = STDOUT_FILENO};
     return poll(&out, 1, 0) == 1 && out.revents & (POLLERR | POLLHUP);
 }
 
-/* Whether everything printed arrived; errno was 0 before. */
+/* Checks that all prints have arrived; errno was 0 before.  Prints a failure,
+ * unless the reader is gone.  Returns the exit code. */
 static int check_output(void)
 {
     if (!ferror(stdout) && fflush(stdout) == 0)
@@ -52,8 +51,8 @@ static int check_output(void)
                                           output_reason(STATUS_FILE_FAILED));
 }
 
-/* --help, --version, --lecture --list, --list.  Returns the exit code;
- * PROGRAM_PLAYS: none of them was asked for. */
+/* Prints the answer to --help, --version, --lecture --list or --list.  Returns
+ * the exit code, or PROGRAM_PLAYS without such an option. */
 static int print_information(const Options *options)
 {
     errno = 0;
@@ -73,8 +72,8 @@ static int print_information(const Options *options)
     return check_output();
 }
 
-/* Returns advice for a failure. */
-static const char *advice(const Player *player, Status status)
+/* Returns advice for the user after a failure. */
+static const char *failure_advice(const Player *player, Status status)
 {
     bool time = player->given.options[0].scene->needs & NEEDS_TIME;
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE
@@ -111,16 +110,16 @@ static int report_failure(const Player *player, Status status)
     if (p < panes)
         return print_error(code, "%sstep %ld failed: %s%s", pane,
                            player->past.machine[p].simulation.steps + 1,
-                           status_text(status), advice(player, status));
+                           status_text(status), failure_advice(player, status));
     return print_error(code, "%s%s", status_text(status),
-                       advice(player, status));
+                       failure_advice(player, status));
 }
 
 /* ---- summary ------------------------------------------------------------- */
 
-/* Prints a quantity, its name in the first column. */
+/* Prints a quantity of the summary, its name in the first column. */
 __attribute__((format(printf, 3, 4))) static void
-print(FILE *file, const char *name, const char *format, ...)
+print_quantity(FILE *file, const char *name, const char *format, ...)
 {
     char line[512];
     va_list arguments;
@@ -131,8 +130,8 @@ print(FILE *file, const char *name, const char *format, ...)
     fprintf(file, "%-20s%s\n", name, line);
 }
 
-/* Prints the solver of the last step of run 0, why it was not multigrid, and
- * the counts of its work. */
+/* Prints the solver of the last step, why this was not multigrid, and counts of
+ * Newton's work. */
 static void print_newton(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
@@ -151,15 +150,15 @@ static void print_newton(FILE *file, const Simulation *simulation)
         {"not at a minimum", sum.negative},
     };
     if (newton && needs & NEEDS_SPRINGS)
-        print(file, "solver", "%s%s%s", solver_name(newton->working),
-              newton->refusal ? "; no multigrid: " : "",
-              newton->refusal ? newton->refusal : "");
+        print_quantity(file, "solver", "%s%s%s", solver_name(newton->working),
+                       newton->refusal ? "; no multigrid: " : "",
+                       newton->refusal ? newton->refusal : "");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].count > 0)
-            print(file, rows[i].name, "%lld", rows[i].count);
+            print_quantity(file, rows[i].name, "%lld", rows[i].count);
 }
 
-/* Reports steps of backward Euler in which the total energy has risen. */
+/* Prints by how much the total energy has risen in steps of backward Euler. */
 static void print_gain(FILE *file, const Simulation *simulation)
 {
     Gain sum = {0};
@@ -168,14 +167,16 @@ static void print_gain(FILE *file, const Simulation *simulation)
         sum.energy += simulation->ledger[r].gain.energy;
     }
     if (sum.steps > 0)
-        print(file, "energy gained",
-              "%.4g J without work, in %ld steps of backward Euler; a shorter "
-              "timestep gains less",
-              sum.energy, sum.steps);
+        print_quantity(
+            file, "energy gained",
+            "%.4g J without work, in %ld steps of backward Euler; a shorter "
+            "timestep gains less",
+            sum.energy, sum.steps);
 }
 
-/* Prints for each pane its steps, their work and the energies of run 0; then
- * time, files and hash. */
+/* Prints the steps, solver and energies of each pane; then time, files and
+ * hash.
+ */
 static void print_summary(FILE *file, const Player *player)
 {
     const Recording *recording = &player->recording;
@@ -187,15 +188,16 @@ static void print_summary(FILE *file, const Player *player)
         player_label(player, p, label);
         if (panes > 1)
             fprintf(file, "pane %-14d %s\n", p + 1, label);
-        print(file, "steps", "%ld", simulation->steps);
+        print_quantity(file, "steps", "%ld", simulation->steps);
         if (in_time)
-            print(file, "simulated time", "%g s", simulation_time(simulation));
+            print_quantity(file, "simulated time", "%g s",
+                           simulation_time(simulation));
         print_newton(file, simulation);
         if (in_time) {
-            print(file, "energy at start", "%.9g J",
-                  simulation->ledger[0].start + 0.0); /* no -0 */
-            print(file, "energy at end", "%.9g J",
-                  simulation_energies(simulation, 0).total);
+            print_quantity(file, "energy at start", "%.9g J",
+                           simulation->ledger[0].start + 0.0); /* no -0 */
+            print_quantity(file, "energy at end", "%.9g J",
+                           simulation_energies(simulation, 0).total);
             print_gain(file, simulation);
         }
         fprintf(file, "steps not converged %ld", simulation->unconverged);
@@ -205,37 +207,38 @@ static void print_summary(FILE *file, const Player *player)
                         simulation->reasons[i]);
         fputs(panes > 1 ? "\n\n" : "\n", file);
     }
-    print(file, "wall time", "%.3f s", clock_now() - player->given.started);
+    print_quantity(file, "wall time", "%.3f s",
+                   clock_now() - player->given.started);
     if (recording->folder)
-        print(file, "frames written", "%ld, in %s/", recording->frames,
-              recording->folder);
+        print_quantity(file, "frames written", "%ld, in %s/", recording->frames,
+                       recording->folder);
     if (recording->film.frames > 0)
-        print(file, "film", "%ld frames, in %s", recording->film.frames,
-              recording->film.output.name);
-    print(file, "state hash", "%016llx",
-          (unsigned long long)player_hash(player));
+        print_quantity(file, "film", "%ld frames, in %s",
+                       recording->film.frames, recording->film.output.name);
+    print_quantity(file, "state hash", "%016llx",
+                   (unsigned long long)player_hash(player));
 }
 
-/* Reports frames of an earlier, longer run that are left in the folder. */
-static void print_older(const Recording *recording)
+/* Reports frames of an earlier, longer run that are still in the folder. */
+static void print_old_frames(const Recording *recording)
 {
     char folder[256], last[32] = "";
-    const long *stayed = recording->stayed;
-    bool several = stayed[0] > 1;
+    const OldFrames *old = &recording->old;
+    bool several = old->count > 1;
     copy_one_line(recording->folder, folder, sizeof folder);
     if (several)
-        snprintf(last, sizeof last, " ... frame_%06ld.png", stayed[2]);
-    if (stayed[0] > 0)
+        snprintf(last, sizeof last, " ... frame_%06ld.png", old->last);
+    if (old->count > 0)
         fprintf(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s\n",
-                folder, stayed[0], several ? "frames" : "frame",
-                several ? "stay" : "stays", stayed[1], last);
+                folder, old->count, several ? "frames" : "frame",
+                several ? "stay" : "stays", old->first, last);
 }
 
 /* ---- the end ------------------------------------------------------------- */
 
 int program_end(Player *player, Status status)
 {
-    /* Before the panes leave the step that failed. */
+    /* player_finish may leave the step that failed, so this comes first. */
     int failed = status ? report_failure(player, status) : EXIT_FINE;
     status = player_finish(player, status);
     if (failed)
@@ -245,7 +248,7 @@ int program_end(Player *player, Status status)
     errno = 0;
     if (!player->given.options[0].quiet)
         print_summary(player->recording.standard ? stderr : stdout, player);
-    print_older(&player->recording);
+    print_old_frames(&player->recording);
     int code = check_output();
     if (code == EXIT_FINE && player->orders.refused)
         return EXIT_MISUSED;
@@ -258,18 +261,6 @@ int program_end(Player *player, Status status)
     return code;
 }
 
-/* Whether two names are those of one file or folder, which is no device. */
-static bool is_one_file(const char *a, const char *b)
-{
-    struct stat info[2];
-    if (output_is_standard(a) || output_is_standard(b))
-        return output_is_standard(a) && output_is_standard(b);
-    if (stat(a, &info[0]) || stat(b, &info[1]))
-        return strcmp(a, b) == 0;
-    return !S_ISCHR(info[0].st_mode) && info[0].st_dev == info[1].st_dev &&
-           info[0].st_ino == info[1].st_ino;
-}
-
 /* Returns the file or folder that an option names, or NULL. */
 static const char *file_of(const Options *options, const OptionRow *row)
 {
@@ -278,14 +269,18 @@ static const char *file_of(const Options *options, const OptionRow *row)
                : NULL;
 }
 
-/* Refuses one file for two options, since one would replace the other. */
+/* Refuses a name that is given to two options, since one file would replace the
+ * other. */
 static Status check_files(const Options *options, Message message)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
         for (const OptionRow *other = option_rows; other < row; other++) {
             const char *one = file_of(options, other);
             const char *two = file_of(options, row);
-            if (one && two && is_one_file(one, two))
+            if (one && two &&
+                (output_is_standard(one)
+                     ? output_is_standard(two)
+                     : strcmp(one, two) == 0 && strncmp(one, "/dev/", 5) != 0))
                 return refuse(message,
                               "--%s and --%s are one file, '%.200s': "
                               "each needs a name of its own",
@@ -294,8 +289,8 @@ static Status check_files(const Options *options, Message message)
     return STATUS_OK;
 }
 
-/* Reports what a table of states does not have, so that a run from it has this
- * as at its start. */
+/* Reports springs and walls that --state does not restore: they are as at the
+ * start of a run. */
 static void print_forgotten(const Options *options)
 {
     const Scene *scene = options->scene;

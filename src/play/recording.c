@@ -14,13 +14,13 @@
 
 /* ---- kinds of tables ----------------------------------------------------- */
 
-/* A run at a step: rows of tables are about it. */
+/* A run at a step, for the rows of tables. */
 typedef struct Moment {
     const Simulation *simulation;
     const TimeIntegrator *run;
     double step, time;
     int number;               /* index of the run in its simulation */
-    int pane;                 /* from 1 */
+    int pane;                 /* number of the pane, from 1 */
     int runs, nodes, springs; /* counts in all runs before this one */
 } Moment;
 
@@ -54,7 +54,7 @@ static void add_springs(Table *table, const Moment *at)
     }
 }
 
-/* 0 where the run has no such row. */
+/* An energy that the run does not have is 0. */
 static void add_energies(Table *table, const Moment *at)
 {
     const Energies energies = simulation_energies(at->simulation, at->number);
@@ -67,20 +67,21 @@ static void add_energies(Table *table, const Moment *at)
     table_add(table, row);
 }
 
-/* Returns the text of a number in the log. */
-static const char *log_text(const char *column, int place)
+/* Returns the text of a number in a column of the log. */
+static const char *text_in_log(const char *column, int number)
 {
     static const char *const kinds[] = {"value", "estimate"};
-    return strcmp(column, "status") == 0   ? status_name((Status)place)
-           : strcmp(column, "solver") == 0 ? solver_name(place)
-                                           : kinds[place];
+    return strcmp(column, "status") == 0   ? status_name((Status)number)
+           : strcmp(column, "solver") == 0 ? solver_name(number)
+                                           : kinds[number];
 }
 
-/* The tables are in the order of enum RecordingTable. */
+/* The tables, in the order of RecordingTable. */
 static const struct {
-    size_t file; /* offset of the name in Options */
-    const char *columns, *pane;
-    void (*add)(Table *table, const Moment *at); /* NULL: the log */
+    size_t file;         /* offset of the file's name in Options */
+    const char *columns; /* columns of each table */
+    const char *pane;    /* column with several panes, or NULL */
+    void (*add)(Table *table, const Moment *at); /* NULL for the log */
 } kinds[RECORDING_TABLES] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
      "pane:whole", add_states},
@@ -99,8 +100,8 @@ static const struct {
 
 /* ---- pictures ------------------------------------------------------------ */
 
-/* libpng's simplified writer takes red, green and blue of each pixel and keeps
- * errno of a failed write. */
+/* Writes red, green and blue of each pixel; libpng keeps errno of a failed
+ * write. */
 static Status png_write(FILE *file, const Canvas *canvas)
 {
     size_t count = (size_t)canvas->width * (size_t)canvas->height;
@@ -141,42 +142,41 @@ Status png_file_write(const char *name, char *message, const Canvas *canvas)
 
 /* ---- frames of an earlier run -------------------------------------------- */
 
-/* Finds the frames in the folder before the first one is written. */
-static void find_older(Recording *recording)
+/* Finds the frames that are in the folder before the first one is written. */
+static void find_old_frames(Recording *recording)
 {
     DIR *folder = opendir(recording->folder);
     struct dirent *file;
-    recording->older = calloc(FRAMES_MOST, 1);
-    while (folder && recording->older && (file = readdir(folder))) {
+    recording->old.at = calloc(FRAMES_MOST, 1);
+    while (folder && recording->old.at && (file = readdir(folder))) {
         int end = 0, step = 0;
         if (sscanf(file->d_name, "frame_%6d.png%n", &step, &end) == 1 &&
             end == (int)strlen("frame_000000.png") && !file->d_name[end] &&
             step >= 0)
-            recording->older[step] = 1;
+            recording->old.at[step] = 1;
     }
     if (folder)
         closedir(folder);
 }
 
-/* Counts the frames of an earlier run that were not replaced. */
-static void count_older(Recording *recording)
+/* Counts the old frames that were not replaced. */
+static void count_old_frames(OldFrames *old)
 {
-    for (long step = 0; recording->older && step < FRAMES_MOST; step++)
-        if (recording->older[step]) {
-            if (recording->stayed[0]++ == 0)
-                recording->stayed[1] = step;
-            recording->stayed[2] = step;
+    for (long step = 0; old->at && step < FRAMES_MOST; step++)
+        if (old->at[step]) {
+            if (old->count++ == 0)
+                old->first = step;
+            old->last = step;
         }
-    free(recording->older);
-    recording->older = NULL;
+    free(old->at);
+    old->at = NULL;
 }
 
 /* ---- all together -------------------------------------------------------- */
 
-/* Opens a table, if the options name one.  The table of energies has a column
- * for each energy of any scene; tables of several panes have a column for the
- * pane.
- */
+/* Opens a table, if the options name its file.  The table of energies has a
+ * column for each energy of any scene; with several panes the others have a
+ * column for the pane. */
 static Status open_table(const Options *options, Recording *recording, int t)
 {
     Table *table = &recording->table[t];
@@ -185,7 +185,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
         return STATUS_OK;
     recording->standard = recording->standard || output_is_standard(name);
     recording->tables = true;
-    table->text = log_text;
+    table->text = text_in_log;
     table_columns(table, kinds[t].columns);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (t == RECORDING_ENERGIES && row->term) {
@@ -208,7 +208,7 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     if (folder && mkdir(folder, 0777) && errno != EEXIST)
         status = output_report(message, folder, STATUS_FILE_FAILED, NULL);
     if (!status && folder)
-        find_older(recording);
+        find_old_frames(recording);
     if (!status && options->film)
         status = film_open(options->film, message, &recording->film);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
@@ -217,21 +217,21 @@ Status recording_open(const Options *options, int panes, Recording *recording)
 }
 
 Status recording_frame(Recording *recording, const Canvas *canvas, long step,
-                       int shown)
+                       int times)
 {
     Film *film = &recording->film;
     char name[OUTPUT_NAME];
-    Status status = film_runs(film) ? film_add(film, canvas, shown) : STATUS_OK;
+    Status status = film_runs(film) ? film_add(film, canvas, times) : STATUS_OK;
     if (status || !recording->folder)
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
     recording->frames++;
-    if (recording->older && step < FRAMES_MOST)
-        recording->older[step] = 0;
+    if (recording->old.at && step < FRAMES_MOST)
+        recording->old.at[step] = 0;
     return png_file_write(name, recording->message, canvas);
 }
 
-Status recording_states(Recording *recording, bool ledger,
+Status recording_states(Recording *recording, bool energies_only,
                         const Simulation *const *simulation, int count,
                         long step)
 {
@@ -246,7 +246,7 @@ Status recording_states(Recording *recording, bool ledger,
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLES; t++)
                 if (kinds[t].add && recording->table[t].output.file &&
-                    (!ledger || t == RECORDING_ENERGIES))
+                    (!energies_only || t == RECORDING_ENERGIES))
                     kinds[t].add(&recording->table[t], &at);
             at.runs++;
             at.nodes += at.run->system->nodes;
@@ -257,11 +257,11 @@ Status recording_states(Recording *recording, bool ledger,
     return status;
 }
 
-Status recording_update(Recording *recording, const NewtonRecord *record,
-                        int pane)
+Status recording_iteration(Recording *recording, const NewtonRecord *record,
+                           int pane)
 {
     Table *log = &recording->table[RECORDING_LOG];
-    /* A negative number: no iteration, a prescribed motion ended the step. */
+    /* Below 0: a prescribed motion has ended the step, no iteration. */
     double iteration = record->iteration < 0 ? NAN : record->iteration;
     double row[] = {(double)record->step, iteration,         record->residual,
                     record->alpha,        record->trials,    record->slope,
@@ -277,7 +277,7 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
 Status recording_close(Recording *recording, Keep keep)
 {
     bool failed = recording->message[0];
-    count_older(recording);
+    count_old_frames(&recording->old);
     for (int t = 0; t < RECORDING_TABLES; t++) {
         FILE *file = recording->table[t].output.file;
         if (file)

@@ -102,26 +102,13 @@ bool player_is_slow(const Player *player)
            simulation->system.nodes > SLOW_NODES;
 }
 
-int player_line_pane(const Player *player)
-{
-    return player->screen.draws && !player->screen.bare &&
-                   cards_need_line_energy(player_simulation(player),
-                                          player->screen.closed)
-               ? player->active
-               : -1;
-}
-
 void player_complete_line(Player *player)
 {
-    player->past.line = player_line_pane(player);
+    bool is_drawn = player->screen.draws && !player->screen.bare &&
+                    cards_need_line_energy(player_simulation(player),
+                                           player->screen.closed);
+    player->past.line = is_drawn ? player->active : -1;
     past_complete(&player->past, player->side[player->active].place);
-}
-
-bool player_pull_is_due(const Player *player)
-{
-    return past_makes(&player->past) ||
-           (!player_is_stopped(player) &&
-            player->past.step <= player->hands.pulled);
 }
 
 int player_initial_speed(const Player *player, const Options *options)
@@ -155,7 +142,7 @@ void player_format_value(const OptionRow *row, const Options *options,
     char value[COMMAND_TEXT_SIZE], unit[16];
     option_write_unit(row, unit, sizeof unit);
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
-        unit[0] = '\0'; /* the tolerance of a gradient has another unit */
+        unit[0] = '\0'; /* the tolerance is that of a gradient */
     option_write_short(row, options, value, sizeof value);
     if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
         simulation->run[0].method != simulation->run[1].method)
@@ -166,7 +153,7 @@ void player_format_value(const OptionRow *row, const Options *options,
     else if (strcmp(row->name, "solver") == 0 && simulation->steps > 0 &&
              simulation->run[0].newton &&
              simulation->run[0].newton->working != options->solver)
-        snprintf(text, size, "%.12s: %s", value, /* the one at work */
+        snprintf(text, size, "%.12s: %s", value,
                  solver_name(simulation->run[0].newton->working));
     else
         snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
@@ -211,7 +198,7 @@ Status player_tolerate_failure(Player *player, Status status)
     return STATUS_OK;
 }
 
-/* ---- commands that wait -------------------------------------------------- */
+/* ---- the queue ----------------------------------------------------------- */
 
 void player_enqueue(Player *player, const Command *command)
 {
@@ -223,7 +210,7 @@ void player_enqueue(Player *player, const Command *command)
         queue->command[queue->count++] = *command;
 }
 
-Command set_command(const OptionRow *row, double value)
+Command command_of_set(const OptionRow *row, double value)
 {
     return (Command){.kind = COMMAND_SET,
                      .number = row - option_rows,
@@ -233,7 +220,7 @@ Command set_command(const OptionRow *row, double value)
 
 void player_enqueue_set(Player *player, const OptionRow *row, double value)
 {
-    const Command command = set_command(row, value);
+    const Command command = command_of_set(row, value);
     player_enqueue(player, &command);
 }
 

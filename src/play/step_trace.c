@@ -1,5 +1,5 @@
-/* step_trace.c - keeps the iterates of one step for the cards and for a walk
- * line by line.
+/* step_trace.c - stores the iterates of one step for the cards and for a walk
+ * through its lines.
  */
 #include "play/step_trace.h"
 
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Trials of a line search that are walked through one by one. */
+/* A line search with fewer trials is walked through trial by trial. */
 enum { TRIALS_WALKED = 12 };
 
 bool records_fit(Records *records, int count)
@@ -29,58 +29,58 @@ static void free_round(Round *round)
     *round = (Round){0};
 }
 
-void step_trace_clear(StepTrace *kept)
+void step_trace_clear(StepTrace *trace)
 {
-    for (int i = 0; i < kept->room; i++)
-        free_round(&kept->round[i]);
-    free(kept->x_tilde);
-    free(kept->end);
-    kept->x_tilde = kept->end = NULL;
-    kept->made.count = kept->places = 0;
-    kept->bytes = 0;
+    for (int i = 0; i < trace->room; i++)
+        free_round(&trace->round[i]);
+    free(trace->x_tilde);
+    free(trace->end);
+    trace->x_tilde = trace->end = NULL;
+    trace->records.count = trace->places = 0;
+    trace->bytes = 0;
 }
 
-void step_trace_free(StepTrace *kept)
+void step_trace_free(StepTrace *trace)
 {
-    step_trace_clear(kept);
-    free(kept->round);
-    free(kept->made.row);
-    free(kept->place);
-    *kept = (StepTrace){0};
+    step_trace_clear(trace);
+    free(trace->round);
+    free(trace->records.row);
+    free(trace->place);
+    *trace = (StepTrace){0};
 }
 
-void step_trace_begin(StepTrace *kept, const Simulation *simulation, bool all,
+void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last)
 {
-    step_trace_clear(kept);
-    kept->all = all;
-    kept->last = last;
-    kept->start = (Trace){.h = simulation->options.timestep,
-                          .tolerance = simulation->options.tolerance,
-                          .projected = -1};
-    kept->size = 2 * simulation->system.nodes;
+    step_trace_clear(trace);
+    trace->samples_all = all;
+    trace->samples_last = last;
+    trace->start = (Trace){.h = simulation->options.timestep,
+                           .tolerance = simulation->options.tolerance,
+                           .projected = -1};
+    trace->size = 2 * simulation->system.nodes;
 }
 
-/* Reserves memory for one more round. */
-static bool reserve_round(StepTrace *kept)
+/* Reserves memory for one more round.  Returns false if memory is missing. */
+static bool reserve_round(StepTrace *trace)
 {
-    int count = kept->made.count + 1;
-    if (count > kept->room) {
-        Round *round = realloc(kept->round, 2 * (size_t)count * sizeof *round);
+    int count = trace->records.count + 1;
+    if (count > trace->room) {
+        Round *round = realloc(trace->round, 2 * (size_t)count * sizeof *round);
         if (!round)
             return false;
-        memset(round + kept->room, 0,
-               (size_t)(2 * count - kept->room) * sizeof *round);
-        kept->round = round;
-        kept->room = 2 * count;
+        memset(round + trace->room, 0,
+               (size_t)(2 * count - trace->room) * sizeof *round);
+        trace->round = round;
+        trace->room = 2 * count;
     }
-    return records_fit(&kept->made, count);
+    return records_fit(&trace->records, count);
 }
 
-/* ---- what is kept -------------------------------------------------------- */
+/* ---- rounds -------------------------------------------------------------- */
 
-/* Samples E along p where it is no polynomial. */
-static void sample(Round *round, const Iterate *at)
+/* Samples E along p, unless it is a polynomial. */
+static void sample_line(Round *round, const Iterate *at)
 {
     const LineEnergy along = {.smooth = round->along, .at = at, .rough = true};
     round->sampled = round->rough && round->x;
@@ -89,33 +89,34 @@ static void sample(Round *round, const Iterate *at)
             line_energy_difference(&along, i * round->first / ROUND_PARTS);
 }
 
-/* Keeps E along p of the newest round. */
-static void keep_line(StepTrace *kept, const Iterate *at)
+/* Stores E along p of the newest round. */
+static void store_line(StepTrace *trace, const Iterate *at)
 {
-    Round *round = &kept->round[kept->made.count];
-    const NewtonRecord *record = &kept->made.row[kept->made.count];
+    Round *round = &trace->round[trace->records.count];
+    const NewtonRecord *record = &trace->records.row[trace->records.count];
     LineEnergy along = incremental_potential_on_line(at);
     bool ended = record->status != STATUS_RUNNING;
     round->first = incremental_potential_max_step(at);
     round->along = along.smooth;
     round->rough = along.rough;
-    if (kept->all || (ended && (kept->last || record->alpha == 0)))
-        sample(round, at);
+    if (trace->samples_all ||
+        (ended && (trace->samples_last || record->alpha == 0)))
+        sample_line(round, at);
 }
 
-bool step_trace_lacks_line(const StepTrace *kept, int place)
+bool step_trace_lacks_line(const StepTrace *trace, int place)
 {
-    int last = kept->made.count - 1;
-    int i = place < 0 ? last : kept->place[place].round;
+    int last = trace->records.count - 1;
+    int i = place < 0 ? last : trace->place[place].round;
     if (last < 0)
         return false;
-    const Round *round = &kept->round[i < last ? i : last];
+    const Round *round = &trace->round[i < last ? i : last];
     return round->rough && round->x && !round->sampled;
 }
 
 /* Returns E(x + alpha p) - E(x): the polynomial, or the samples joined by
  * straight lines; without samples only at the step length that was taken. */
-static double kept_difference(const void *function, double alpha)
+static double round_difference(const void *function, double alpha)
 {
     const Round *round = function;
     if (!round->rough)
@@ -131,29 +132,29 @@ static double kept_difference(const void *function, double alpha)
 }
 
 /* Returns a copy of an array [size], or NULL. */
-static double *copy_of(const StepTrace *kept, const double *from)
+static double *copy_array(const StepTrace *trace, const double *from)
 {
-    size_t bytes = (size_t)kept->size * sizeof *from;
+    size_t bytes = (size_t)trace->size * sizeof *from;
     double *copy = malloc(bytes);
     return copy ? memcpy(copy, from, bytes) : NULL;
 }
 
-/* Copies x, u and p of the newest round, if there is memory.  The update has
- * left the iterate before it in x_trial and u_trial.  Multigrid's update is not
- * a step along p alone: p becomes its whole way, and alpha is 1. */
-static void keep_round(StepTrace *kept, const Newton *newton)
+/* Stores x, u and p of the newest round, if there is memory.  After an update
+ * x_trial and u_trial are the iterate before it.  Multigrid's update is not a
+ * step along p: p becomes the whole update, and alpha is 1. */
+static void store_round(StepTrace *trace, const Newton *newton)
 {
-    Round *round = &kept->round[kept->made.count];
-    NewtonRecord *record = &kept->made.row[kept->made.count];
+    Round *round = &trace->round[trace->records.count];
+    NewtonRecord *record = &trace->records.row[trace->records.count];
     Iterate at = newton->at;
-    size_t size = (size_t)kept->size;
+    size_t size = (size_t)trace->size;
     size_t bytes = (4 * size + ROUND_VALUES) * sizeof *round->x;
     free_round(round);
-    if (kept->bytes + bytes <= STEP_TRACE_BYTES)
+    if (trace->bytes + bytes <= STEP_TRACE_BYTES)
         round->x = malloc(bytes);
     if (!round->x)
         return;
-    kept->bytes += bytes;
+    trace->bytes += bytes;
     round->p = round->x + size;
     round->u = round->p + size;
     double *g = round->u + size;
@@ -172,72 +173,72 @@ static void keep_round(StepTrace *kept, const Newton *newton)
     }
     at.g = g;
     incremental_potential_gradient(&at.E, at.u, at.x, g);
-    keep_line(kept, &at);
+    store_line(trace, &at);
     record->slope = round->along.q[0];
     round->alpha = record->alpha;
     round->change = record->change;
 }
 
-void step_trace_add(StepTrace *kept, const Newton *newton,
+void step_trace_add(StepTrace *trace, const Newton *newton,
                     const NewtonRecord *record)
 {
-    if (!reserve_round(kept))
+    if (!reserve_round(trace))
         return;
-    kept->made.row[kept->made.count] = *record;
-    keep_round(kept, newton);
-    kept->made.count++;
-    free(kept->end);
-    kept->end = copy_of(kept, newton->at.x);
-    if (kept->x_tilde) /* a method with stages keeps that of the first */
+    trace->records.row[trace->records.count] = *record;
+    store_round(trace, newton);
+    trace->records.count++;
+    free(trace->end);
+    trace->end = copy_array(trace, newton->at.x);
+    if (trace->x_tilde) /* of several stages the first one has it */
         return;
-    kept->x_tilde = copy_of(kept, newton->u_tilde);
-    for (int i = 0; i < kept->size && kept->x_tilde; i++)
-        kept->x_tilde[i] += newton->at.E.x_n[i];
+    trace->x_tilde = copy_array(trace, newton->u_tilde);
+    for (int i = 0; i < trace->size && trace->x_tilde; i++)
+        trace->x_tilde[i] += newton->at.E.x_n[i];
 }
 
 /* ---- the listing --------------------------------------------------------- */
 
-/* Adds a place. */
-static void add_place(StepTrace *kept, int round, Line line, int trials)
+static void add_place(StepTrace *trace, int round, Line line, int trials)
 {
-    kept->place[kept->places++] = (TracePlace){round, line, trials};
+    trace->place[trace->places++] = (TracePlace){round, line, trials};
 }
 
-void step_trace_end(StepTrace *kept, const Options *options)
+void step_trace_end(StepTrace *trace, const Options *options)
 {
-    int count = kept->made.count;
-    TracePlace *place = realloc(
-        kept->place, ((size_t)count + 1) * (TRIALS_WALKED + 8) * sizeof *place);
-    kept->places = 0;
+    int count = trace->records.count;
+    TracePlace *place =
+        realloc(trace->place,
+                ((size_t)count + 1) * (TRIALS_WALKED + 8) * sizeof *place);
+    trace->places = 0;
     if (!place)
         return;
-    kept->place = place;
-    add_place(kept, 0, LINE_START, 0);
+    trace->place = place;
+    add_place(trace, 0, LINE_START, 0);
     for (int i = 0; i < count; i++) {
-        const NewtonRecord *record = &kept->made.row[i];
+        const NewtonRecord *record = &trace->records.row[i];
         bool searches = options->line_search != LINE_SEARCH_NONE;
         bool fails = record->alpha == 0, passes = record->status == STATUS_OK;
         int trials = record->trials;
-        add_place(kept, i, LINE_DO, 0);
+        add_place(trace, i, LINE_DO, 0);
         if (options->projection != PROJECTION_NONE)
-            add_place(kept, i, LINE_PROJECT, 0);
-        add_place(kept, i, LINE_SOLVE, 0);
+            add_place(trace, i, LINE_PROJECT, 0);
+        add_place(trace, i, LINE_SOLVE, 0);
         for (int t = 1; searches && t < trials && trials < TRIALS_WALKED; t++)
-            add_place(kept, i, LINE_SEARCH, t);
+            add_place(trace, i, LINE_SEARCH, t);
         if (searches || fails)
-            add_place(kept, i, LINE_SEARCH, trials);
+            add_place(trace, i, LINE_SEARCH, trials);
         if (!fails)
-            add_place(kept, i, LINE_UPDATE, trials);
+            add_place(trace, i, LINE_UPDATE, trials);
         if (!fails || passes)
-            add_place(kept, i, LINE_TEST, trials);
+            add_place(trace, i, LINE_TEST, trials);
     }
-    add_place(kept, count, LINE_END, 0);
+    add_place(trace, count, LINE_END, 0);
 }
 
-int step_trace_walk(const StepTrace *kept, int fine, int place, int way)
+int step_trace_walk(const StepTrace *trace, int fine, int place, int way)
 {
-    for (int i = place + way; 0 <= i && i < kept->places; i += way) {
-        Line line = kept->place[i].line;
+    for (int i = place + way; 0 <= i && i < trace->places; i += way) {
+        Line line = trace->place[i].line;
         if (fine == 2 || line == LINE_START || line == LINE_TEST ||
             line == LINE_END)
             return i;
@@ -245,84 +246,85 @@ int step_trace_walk(const StepTrace *kept, int fine, int place, int way)
     return place;
 }
 
-int step_trace_find(const StepTrace *kept, int round, Line line)
+int step_trace_find(const StepTrace *trace, int round, Line line)
 {
-    for (int i = kept->places - 1; i >= 0; i--)
-        if (kept->place[i].round == round && kept->place[i].line <= line)
+    for (int i = trace->places - 1; i >= 0; i--)
+        if (trace->place[i].round == round && trace->place[i].line <= line)
             return i;
-    return kept->places - 1;
+    return trace->places - 1;
 }
 
-/* The sum of the changes may be off by some units in the last place of the
- * highest E; only whether it is a tenth of that is asked. */
-int step_trace_peak(const StepTrace *kept)
+/* The sum of the changes has a rounding error of some units in the last place
+ * of the highest E, which a tenth of this E exceeds by far. */
+int step_trace_peak(const StepTrace *trace)
 {
     enum { FAR = 10 };
     double sum = 0, rise = 0;
     int round = -1;
-    for (int i = 0; i < kept->made.count; i++) {
-        sum += kept->made.row[i].change;
+    for (int i = 0; i < trace->records.count; i++) {
+        sum += trace->records.row[i].change;
         if (sum > rise) {
             rise = sum;
             round = i;
         }
     }
     bool far = round >= 0 && rise > FAR * fabs(sum);
-    return far ? step_trace_find(kept, round, LINE_UPDATE) : -1;
+    return far ? step_trace_find(trace, round, LINE_UPDATE) : -1;
 }
 
-/* Fills the numbers of a round, each from the line on that computes it. */
-static void trace_round(const StepTrace *kept, const TracePlace *at,
-                        Trace *trace)
+/* Fills the numbers of a round as far as its lines up to a place compute them.
+ */
+static void trace_round(const StepTrace *trace, const TracePlace *at,
+                        Trace *shown)
 {
-    const Round *round = &kept->round[at->round];
-    const NewtonRecord *record = &kept->made.row[at->round];
+    const Round *round = &trace->round[at->round];
+    const NewtonRecord *record = &trace->records.row[at->round];
     bool solved = at->line >= LINE_SOLVE;
-    trace->x = round->x;
-    trace->updates = at->round + solved;
-    trace->trials = at->trials;
-    trace->accepted = at->trials == record->trials && record->alpha > 0;
+    shown->x = round->x;
+    shown->updates = at->round + solved;
+    shown->trials = at->trials;
+    shown->accepted = at->trials == record->trials && record->alpha > 0;
     if (at->line >= LINE_PROJECT)
-        trace->projected = record->projected;
+        shown->projected = record->projected;
     if (!solved)
         return;
-    trace->residual = record->residual;
-    trace->p = round->p;
-    trace->slope = record->slope;
-    trace->first_alpha = round->first;
+    shown->residual = record->residual;
+    shown->p = round->p;
+    shown->slope = record->slope;
+    shown->first_alpha = round->first;
     if (!round->p)
         return;
-    trace->difference = kept_difference;
-    trace->difference_data = round;
+    shown->difference = round_difference;
+    shown->difference_data = round;
 }
 
-const double *step_trace_at(const StepTrace *kept, int place, Trace *trace)
+const double *step_trace_at(const StepTrace *trace, int place, Trace *shown)
 {
-    int count = kept->made.count;
-    const NewtonRecord *row = kept->made.row, *last = row + count - 1;
-    bool over = place < 0 || place >= kept->places;
+    int count = trace->records.count;
+    const NewtonRecord *row = trace->records.row, *last = row + count - 1;
+    bool over = place < 0 || place >= trace->places;
     bool given_up = count > 0 && last->status != STATUS_OK &&
                     last->status != STATUS_RUNNING;
     const TracePlace at =
-        over ? (TracePlace){count, LINE_END, 0} : kept->place[place];
+        over ? (TracePlace){count, LINE_END, 0} : trace->place[place];
     bool end = at.line == LINE_END;
-    TracePlace shown = at;
-    if (end && count > 0) /* the last round has led there */
-        shown = (TracePlace){count - 1, LINE_END, last->trials};
-    *trace = kept->start;
-    trace->line = over ? LINE_NONE : at.line;
-    trace->iteration = shown.round;
-    trace->updates = at.round;
-    trace->record = row;
-    trace->x_tilde = kept->x_tilde;
-    if (at.line != LINE_START && shown.round < count)
-        trace_round(kept, &shown, trace);
-    trace->given_up =
+    TracePlace source = at;
+    if (end && count > 0) /* the numbers are those of the last round */
+        source = (TracePlace){count - 1, LINE_END, last->trials};
+    *shown = trace->start;
+    shown->line = over ? LINE_NONE : at.line;
+    shown->iteration = source.round;
+    shown->updates = at.round;
+    shown->record = row;
+    shown->x_tilde = trace->x_tilde;
+    if (at.line != LINE_START && source.round < count)
+        trace_round(trace, &source, shown);
+    shown->given_up =
         given_up && (end || (at.line == LINE_SEARCH && at.round == count - 1 &&
                              at.trials == last->trials && last->alpha == 0));
     if (end || count == 0)
         return NULL;
     if (at.line != LINE_UPDATE && at.line != LINE_TEST)
-        return kept->round[at.round].x;
-    return at.round + 1 < count ? kept->round[at.round + 1].x : kept->end;
+        return trace->round[at.round].x;
+    return at.round + 1 < count ? trace->round[at.round + 1].x : trace->end;
 }

@@ -30,7 +30,7 @@ static Status record_iterations(Player *player, long step)
             NewtonRecord row = machine->records.row[i];
             if (recording->panes > 1)
                 row.step = step;
-            status = recording_update(recording, &row, p + 1);
+            status = recording_iteration(recording, &row, p + 1);
         }
     }
     return status;
@@ -274,24 +274,24 @@ static void detect_rest(Player *player)
 static void enter_lines(Player *player, AfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const StepTrace *kept = &player->past.machine[p].trace;
-        Trace trace;
+        const StepTrace *trace = &player->past.machine[p].trace;
+        Trace shown;
         double far = 0;
-        int place = kept->places <= 2      ? -1 /* only start and end */
+        int place = trace->places <= 2     ? -1 /* only start and end */
                     : after == AFTER_ENTER ? 0
-                    : after == AFTER_LEAVE ? kept->places - 1
-                                           : step_trace_peak(kept);
+                    : after == AFTER_LEAVE ? trace->places - 1
+                                           : step_trace_peak(trace);
         if (place < 0)
             continue;
         player->time.mode = MODE_PAUSE;
         player->side[p].place = place;
-        const double *x = step_trace_at(kept, place, &trace);
+        const double *x = step_trace_at(trace, place, &shown);
         if (after != AFTER_PEAK)
             continue;
-        for (int i = 0; x && i < kept->size; i++)
+        for (int i = 0; x && i < trace->size; i++)
             far = fmax(far, fabs(x[i]));
         player_note(player, "update %d of %d: nodes are %.4g m away; N goes on",
-                    kept->place[place].round + 1, kept->made.count, far);
+                    trace->place[place].round + 1, trace->records.count, far);
         player->warning = true;
     }
 }
@@ -302,11 +302,11 @@ static bool walk_lines(Player *player, int way)
 {
     bool moved = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const StepTrace *kept = &player->past.machine[p].trace;
+        const StepTrace *trace = &player->past.machine[p].trace;
         int *place = &player->side[p].place;
         if (*place < 0)
             continue;
-        int next = step_trace_walk(kept, player->time.fine, *place, way);
+        int next = step_trace_walk(trace, player->time.fine, *place, way);
         moved = moved || next != *place;
         *place = next;
     }
@@ -343,13 +343,13 @@ static void describe_outcome(const Player *player, const OptionRow *row,
 static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
-    const StepTrace *kept = &player_machine(player)->trace;
+    const StepTrace *trace = &player_machine(player)->trace;
     const TracePlace *at = &player->time.place;
     char has[256];
-    if (at->round >= 0 && kept->places > 2) {
+    if (at->round >= 0 && trace->places > 2) {
         player->time.mode = MODE_PAUSE;
         player->side[player->active].place =
-            step_trace_find(kept, at->round, at->line);
+            step_trace_find(trace, at->round, at->line);
     }
     describe_outcome(player, &option_rows[past->branch[past->now].edit.number],
                      has, sizeof has);
@@ -431,7 +431,7 @@ Status player_work(Player *player)
     double begin = clock_now();
     if (player->time.began == 0)
         player->time.began = begin;
-    past->line = player_line_pane(player);
+    player_complete_line(player);
     while (past_works(past) && !player->quit) {
         long before = past->step;
         bool made = past_makes(past);

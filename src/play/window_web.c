@@ -151,9 +151,9 @@ Status film_open(const char *name, char *message, Film *film)
                          "a page makes no films; the program does");
 }
 
-Status film_add(Film *film, const Canvas *canvas, int shown)
+Status film_add(Film *film, const Canvas *canvas, int times)
 {
-    (void)film, (void)canvas, (void)shown;
+    (void)film, (void)canvas, (void)times;
     return STATUS_OK;
 }
 

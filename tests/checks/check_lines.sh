@@ -33,9 +33,6 @@ verdict refused_lines_change_no_file "$(refusals <<END
 2|line 1.*'jump'.*--help commands$|--headless --script jump
 2|nowhere: No such file|--headless --script nowhere
 2|--states and --log are one file, 'k.csv'|--states k.csv --log k.csv
-2|--states and --log are one file|--states link --log k.csv
-2|--log and --script are one file|--log jump --script ./jump
-2|--frames and --states are one file|--frames d --states d/
 2|^elasto: --vtk is gone: --states .* CSV$|--vtk n
 2|--states: 'n.npz': tables are CSV|--headless --states n.npz
 2|--state: 'k.csv.gz': tables are CSV, but .gz|--headless --state k.csv.gz

@@ -98,9 +98,8 @@ TEST(the_curve_goes_through_the_step)
                     CHECK(i == 3 && round == 0 && !trace.difference);
                     continue;
                 }
-                const NewtonRecord *record = &kept->made.row[round];
-                double change =
-                    trace.difference(trace.difference_data, record->alpha);
+                const NewtonRecord *record = &kept->records.row[round];
+                double change = trace.difference(trace.difference_data, record->alpha);
                 rough += kept->round[round].rough;
                 if (kept->round[round].rough &&
                     record->alpha < trace.first_alpha / ROUND_PARTS)
