@@ -79,8 +79,6 @@ typedef struct Branch {
     long stride; /* each stride-th state is stored; entry 0 has a state only in
                     a fresh branch and after a drag */
     int panes;
-    int source[OPTIONS_MAX_PANES]; /* pane of the branch below that each pane
-                                      continues */
     Entry *entry; /* [room][panes]; entry `count` is being made */
     int gesture;  /* id; edits of one gesture share a branch; 0: none */
     Command edit; /* edit that began the branch */

@@ -65,17 +65,11 @@ typedef enum RecordingTable {
 
 enum { FRAMES_MOST = 1000000 }; /* frames have numbers of six digits */
 
-/* Frames of an earlier run that are still in the folder. */
-typedef struct OldFrames {
-    unsigned char *at; /* [FRAMES_MOST] 1: the frame of this step is an old one;
-                          or NULL */
-    long count, first, last; /* number of old frames, and their steps */
-} OldFrames;
-
 typedef struct Recording {
     const char *folder; /* folder of the frames, or NULL */
     long frames;        /* number of frames written */
-    OldFrames old;      /* counted by recording_close */
+    unsigned char *old; /* [FRAMES_MOST] 1: the folder still has the frame of
+                           this step from an earlier run; NULL: no folder */
     Film film;
     int panes; /* number of panes at the start */
     Table table[RECORDING_TABLES];
@@ -109,6 +103,7 @@ Status recording_iteration(Recording *recording, const NewtonRecord *record,
 /* Closes all files.  If one of them fails, or has failed, none gets its name.
  */
 Status recording_close(Recording *recording, Keep keep);
+void recording_free(Recording *recording);
 
 /* Writes a picture as a PNG file, whole or not at all (output.h).
  *   message  as of output_open

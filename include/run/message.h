@@ -16,9 +16,6 @@
  * out, size at least 12; may be the text itself */
 void copy_one_line(const char *text, char *line, size_t size);
 
-/* Whether a text is UTF-8 without control characters. */
-bool is_one_line(const char *text);
-
 /* Appends to a text, as far as it fits.
  *   text  [size] in/out */
 void append(char *text, size_t size, const char *format, ...)

@@ -1,5 +1,4 @@
-/* keepsakes.c - saves pictures, films and scripts of a session under free
- * names.
+/* keepsakes.c - saves pictures, films and scripts of a session under new names.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,9 +9,9 @@
 #include "play/playing.h"
 #include "run/scene.h"
 
-enum { NOTE_LINE = 100 }; /* letters of a command line that a note has */
+enum { NOTE_LINE = 100 }; /* longest command line of a note, bytes */
 
-/* Finds a free name: elasto_SCENE_000012.png, ..._2.png, ... */
+/* Finds a name that no file has: elasto_SCENE_000012.png, ..._2.png, ... */
 static void free_name(const Player *player, const char *end, char *name,
                       size_t size)
 {
@@ -26,7 +25,6 @@ static void free_name(const Player *player, const char *end, char *name,
     }
 }
 
-/* Saves the frame in the present folder. */
 Status obey_shot(Player *player, const Command *command)
 {
     char name[80];
@@ -47,7 +45,6 @@ Status obey_shot(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Begins a film of all frames, or ends it. */
 Status obey_film(Player *player, const Command *command)
 {
     char name[80], message[OUTPUT_MESSAGE] = "";
@@ -60,8 +57,7 @@ Status obey_film(Player *player, const Command *command)
     Status status =
         ends ? film_close(film, KEEP_WHOLE) : film_open(name, message, film);
     film->output.message = player->recording.message;
-    player->screen.drawn =
-        -1; /* the present frame is the first, or drawn again */
+    player->screen.drawn = -1; /* the film has the present frame, too */
     if (status)
         player_note(player, "no film: %s", message);
     else if (ends)
@@ -87,34 +83,31 @@ int player_next_argument(const Player *player, int i)
             return i;
         if (row->kind != OPTION_SWITCH && words[i][length] == '\0' &&
             words[i + 1])
-            i++; /* skips its value */
+            i++; /* the value */
     }
     return 0;
 }
 
-/* Writes a word for a shell: as it is, in quotes, or with control characters as
- * bash, zsh and ksh write them. */
+/* Writes a word for a shell, in quotes if it needs them. */
 static void put_word(FILE *file, const char *word)
 {
     static const char plain[] = "%+,-./0123456789:=@_"
                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                 "abcdefghijklmnopqrstuvwxyz";
     bool bare = word[0] && word[strspn(word, plain)] == '\0';
-    bool clean = is_one_line(word);
-    fputs(bare ? " " : clean ? " '" : " $'", file);
+    fputs(bare ? " " : " '", file);
     for (; *word; word++)
-        if (clean && *word == '\'')
+        if (*word == '\'')
             fputs("'\\''", file);
-        else if (clean || strchr(plain, *word))
-            fputc(*word, file);
         else
-            fprintf(file, "\\%03o", (unsigned)(unsigned char)*word);
+            fputc(*word, file);
     fputs(bare ? "" : "'", file);
 }
 
 /* Returns the command line that leads to the present step, to be freed, or NULL
  * if memory is missing.
- *   script  in, name of the script of its commands; NULL: there were none */
+ *   script  in, name of the script of the session; NULL: no commands were given
+ */
 static char *make_line(const Player *player, const char *script)
 {
     char *line = NULL;
@@ -129,14 +122,16 @@ static char *make_line(const Player *player, const char *script)
         fprintf(file, " --script %s", script);
     else
         fprintf(file, " --steps %ld", player->past.step);
-    if (fclose(file) == 0)
-        return line;
-    free(line);
-    return NULL;
+    if (fclose(file)) {
+        free(line);
+        return NULL;
+    }
+    one_line(line, line, size + 1);
+    return line;
 }
 
-/* Writes the journal as a script, which begins with the command line that plays
- * it and ends with a pause. */
+/* Saves the journal as a script, with a pause at its end.
+ *   line  in, command line that plays the script */
 static Status write_journal(Player *player, const char *name, const char *line)
 {
     const Command pause = {.kind = COMMAND_PAUSE};
@@ -151,8 +146,8 @@ static Status write_journal(Player *player, const char *name, const char *line)
     return status;
 }
 
-/* Reports the hash of the state and the command line that leads to it; after
- * commands, saves the script of that line. */
+/* Reports the hash of the state and the command line that leads to it, and
+ * saves the script of this line if there were commands. */
 Status obey_hash(Player *player, const Command *command)
 {
     char name[80], hash[64];

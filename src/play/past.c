@@ -28,13 +28,21 @@ long past_newest(const Past *past)
     return present_branch(past)->first + present_branch(past)->count - 1;
 }
 
-/* Returns the entry of a step as a branch has it: its own, or that of the
- * branches below if the step is before it; behind the last step the entry that
- * is being made.  NULL: no such step. */
+/* Returns the pane of the branch below that a pane continues; a pane that was
+ * added continues the last one. */
+static int pane_below(const Branch *branch, int pane)
+{
+    int last = branch[-1].panes - 1;
+    return pane < last ? pane : last;
+}
+
+/* Returns the entry of a step in a branch, or for steps before the branch in a
+ * branch below; after the last step the entry that is being made.  NULL: there
+ * is no such step. */
 static Entry *branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first && !branch->fresh; branch--)
-        pane = branch->source[pane];
+        pane = pane_below(branch, pane);
     long i = step - branch->first;
     return i < 0 || i >= branch->room
                ? NULL
@@ -60,7 +68,7 @@ const Control *past_start(const Past *past, int pane)
 {
     const Branch *branch = present_branch(past);
     for (; !branch->fresh; branch--)
-        pane = branch->source[pane];
+        pane = pane_below(branch, pane);
     return branch->entry[pane].control;
 }
 
@@ -188,7 +196,7 @@ static StoredState find_stored(const Past *past, int pane, long step)
     while (!branch->fresh &&
            (step < branch->first ||
             (step == branch->first && !branch->entry[pane].state))) {
-        pane = branch->source[pane];
+        pane = pane_below(branch, pane);
         branch--;
     }
     long i = step - branch->first;
@@ -285,16 +293,14 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
         if (branch->fresh || p >= branch->panes ||
             past->machine[p].step > branch->first)
             machine_leave_step(past, p);
-    for (int p = 0; p < branch->panes && !branch->fresh; p++) {
-        int below = branch[-1].panes, source = p < below ? p : below - 1;
+    for (int p = 0; p < branch->panes && !branch->fresh; p++)
         for (int i = 0; i < branch->given; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
-            *to = *branch_entry(branch - 1, source, branch->first + i);
+            *to = *branch_entry(branch - 1, pane_below(branch, p),
+                                branch->first + i);
             control_retain(to->control);
             to->state = NULL;
         }
-        branch->source[p] = source;
-    }
     if (past->branches > 0)
         branch[-1].shown = past->step;
     past->now = past->branches++;
@@ -519,7 +525,7 @@ static Status machine_fail(Past *past, int pane, Status status)
         machine->failed = machine->known = true;
         machine->outcome.status = status;
     }
-    /* Other runs of the simulation may already have made their step. */
+    /* Some runs of the simulation may already have made the next step. */
     machine->has_state = false;
     past->aim = past->step;
     return status;
@@ -616,7 +622,7 @@ static Status machine_work(Past *past, int pane)
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* Begins a new step in all panes; it ends with the longest time step. */
+/* Begins a new step in all panes, which ends after the longest time step. */
 static Status begin_new_step(Past *past)
 {
     double longest = -1;

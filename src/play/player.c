@@ -272,7 +272,7 @@ Status player_finish(Player *player, Status status)
 void player_free(Player *player)
 {
     close_view(player);
-    recording_close(&player->recording, KEEP_NOTHING);
+    recording_free(&player->recording);
     past_free(&player->past);
     player_forget_step(player);
     sheet_close(player);

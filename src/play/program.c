@@ -222,16 +222,21 @@ static void print_summary(FILE *file, const Player *player)
 /* Reports frames of an earlier, longer run that are still in the folder. */
 static void print_old_frames(const Recording *recording)
 {
-    char folder[256], last[32] = "";
-    const OldFrames *old = &recording->old;
-    bool several = old->count > 1;
+    char folder[256], range[48] = "";
+    long count = 0, first = 0, last = 0;
+    for (long step = 0; recording->old && step < FRAMES_MOST; step++)
+        if (recording->old[step]) {
+            first = count++ == 0 ? step : first;
+            last = step;
+        }
+    bool several = count > 1;
     copy_one_line(recording->folder, folder, sizeof folder);
     if (several)
-        snprintf(last, sizeof last, " ... frame_%06ld.png", old->last);
-    if (old->count > 0)
+        snprintf(range, sizeof range, " ... frame_%06ld.png", last);
+    if (count > 0)
         fprintf(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s\n",
-                folder, old->count, several ? "frames" : "frame",
-                several ? "stay" : "stays", old->first, last);
+                folder, count, several ? "frames" : "frame",
+                several ? "stay" : "stays", first, range);
 }
 
 /* ---- the end ------------------------------------------------------------- */

@@ -147,29 +147,16 @@ static void find_old_frames(Recording *recording)
 {
     DIR *folder = opendir(recording->folder);
     struct dirent *file;
-    recording->old.at = calloc(FRAMES_MOST, 1);
-    while (folder && recording->old.at && (file = readdir(folder))) {
+    recording->old = calloc(FRAMES_MOST, 1);
+    while (folder && recording->old && (file = readdir(folder))) {
         int end = 0, step = 0;
         if (sscanf(file->d_name, "frame_%6d.png%n", &step, &end) == 1 &&
             end == (int)strlen("frame_000000.png") && !file->d_name[end] &&
             step >= 0)
-            recording->old.at[step] = 1;
+            recording->old[step] = 1;
     }
     if (folder)
         closedir(folder);
-}
-
-/* Counts the old frames that were not replaced. */
-static void count_old_frames(OldFrames *old)
-{
-    for (long step = 0; old->at && step < FRAMES_MOST; step++)
-        if (old->at[step]) {
-            if (old->count++ == 0)
-                old->first = step;
-            old->last = step;
-        }
-    free(old->at);
-    old->at = NULL;
 }
 
 /* ---- all together -------------------------------------------------------- */
@@ -226,8 +213,8 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
     recording->frames++;
-    if (recording->old.at && step < FRAMES_MOST)
-        recording->old.at[step] = 0;
+    if (recording->old && step < FRAMES_MOST)
+        recording->old[step] = 0;
     return png_file_write(name, recording->message, canvas);
 }
 
@@ -277,7 +264,6 @@ Status recording_iteration(Recording *recording, const NewtonRecord *record,
 Status recording_close(Recording *recording, Keep keep)
 {
     bool failed = recording->message[0];
-    count_old_frames(&recording->old);
     for (int t = 0; t < RECORDING_TABLES; t++) {
         FILE *file = recording->table[t].output.file;
         if (file)
@@ -291,4 +277,10 @@ Status recording_close(Recording *recording, Keep keep)
         failed = output_close(&recording->table[t].output, keep) || failed;
     }
     return failed ? STATUS_FILE_FAILED : STATUS_OK;
+}
+
+void recording_free(Recording *recording)
+{
+    recording_close(recording, KEEP_NOTHING);
+    free(recording->old);
 }

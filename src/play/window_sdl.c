@@ -1,4 +1,5 @@
-/* window_sdl.c - the window on a computer; SDL only shows the finished picture.
+/* window_sdl.c - the window on a computer: SDL shows finished pictures and
+ * reads the inputs.
  */
 #include <SDL.h>
 #include <ctype.h>
@@ -8,17 +9,19 @@
 
 #include "play/view.h"
 
-enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800 };
-
-/* Points of a window's frame, both sides together, if the system does not say.
- */
-enum { FRAME_WIDTH = 10, FRAME_HEIGHT = 40 };
+/* Usual size of the window, and room for its borders, points. */
+enum {
+    WINDOW_WIDTH = 1280,
+    WINDOW_HEIGHT = 800,
+    BORDER_WIDTH = 10,
+    BORDER_HEIGHT = 40
+};
 
 static SDL_Window *window;
-static bool tab; /* Tab is down, without another key so far */
 
 /* Tab and mouse at the time of the event that is read; SDL only knows the
  * present. */
+static bool tab_alone; /* Tab is down, and no other key was pressed since */
 static bool tab_held;
 static SDL_Point mouse;
 
@@ -29,10 +32,8 @@ const char *window_failure(void)
 
 /* ---- opening and closing ------------------------------------------------- */
 
-/* Starts SDL's video.  Returns false if no screen shows it; SDL's error says
- * why. Without XDG_RUNTIME_DIR Wayland's library prints an error, so it is left
- * out.
- */
+/* Starts SDL's video without Wayland if XDG_RUNTIME_DIR is missing, since its
+ * library would print an error.  Returns false if there is no screen. */
 static bool open_video(void)
 {
 #ifdef __linux__
@@ -57,29 +58,8 @@ bool window_is_full(void)
     return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
-/* Computes the usual size, or what fits on the screen with its frame. */
-static void usual_size(const SDL_Rect *area, const int frame[2], int size[2])
-{
-    size[0] = SDL_max(SDL_min(WINDOW_WIDTH, area->w - frame[0]), 1);
-    size[1] = SDL_max(SDL_min(WINDOW_HEIGHT, area->h - frame[1]), 1);
-}
-
-/* Shrinks a window that is larger than the screen with its frame. */
-static void fit_frame(const SDL_Rect *area, const int now[2])
-{
-    int top = 0, left = 0, low = 0, right = 0, fits[2];
-    if (SDL_GetWindowBordersSize(window, &top, &left, &low, &right))
-        return;
-    usual_size(area, (const int[]){left + right, top + low}, fits);
-    if (fits[0] >= now[0] && fits[1] >= now[1])
-        return;
-    SDL_SetWindowSize(window, SDL_min(fits[0], now[0]),
-                      SDL_min(fits[1], now[1]));
-    SDL_SetWindowPosition(window, area->x + left, area->y + top);
-}
-
-/* On X11 without acceleration a frame of 900 x 900 pixels takes 6 ms, not 14 as
- * with OpenGL computed by the processor (measured). */
+/* Without acceleration X11 shows a frame of 900 x 900 pixels in 6 ms, with
+ * OpenGL computed by the processor in 14 ms (measured). */
 bool window_open(const char *title, const int size[2], bool full)
 {
     SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
@@ -92,16 +72,14 @@ bool window_open(const char *title, const int size[2], bool full)
     if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0)
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     SDL_GetDisplayUsableBounds(0, &area);
-    int usual[2];
-    usual_size(&area, (const int[]){FRAME_WIDTH, FRAME_HEIGHT}, usual);
+    int width = SDL_min(WINDOW_WIDTH, area.w - BORDER_WIDTH);
+    int height = SDL_min(WINDOW_HEIGHT, area.h - BORDER_HEIGHT);
     window = SDL_CreateWindow(
         title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-        size[0] > 0 ? size[0] : usual[0], size[1] > 0 ? size[1] : usual[1],
+        size[0] > 0 ? size[0] : width, size[1] > 0 ? size[1] : height,
         SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!window || !SDL_GetWindowSurface(window))
         return false;
-    if (size[0] <= 0 && size[1] <= 0)
-        fit_frame(&area, usual);
     if (full)
         window_set_full(true);
     SDL_StartTextInput();
@@ -130,8 +108,8 @@ void window_size(int size[2])
     size[1] = surface ? surface->h : 1;
 }
 
-/* Pixels per point in each direction; 1 if not known. */
-static void window_scale(double scale[2])
+/* Finds the pixels per point in each direction. */
+static void find_scale(double scale[2])
 {
     int size[2], points[2] = {0, 0};
     window_size(size);
@@ -144,7 +122,7 @@ double window_letter(void)
 {
     double scale[2] = {1, 1};
     if (window)
-        window_scale(scale);
+        find_scale(scale);
     return 9 * scale[0];
 }
 
@@ -168,28 +146,28 @@ Status window_show(const Canvas *canvas)
 
 /* ---- keys ---------------------------------------------------------------- */
 
-/* Names a key with "Ctrl+", "Shift+", "Tab+" in front.  Signs and digits come
- * as texts, independent of the keyboard; Tab counts when it comes up again,
- * since Tab+M is another key. */
+/* Reads a key with "Ctrl+", "Shift+", "Tab+" before its name.  Signs and digits
+ * come as texts, whatever the keyboard; Tab is a key when it is released,
+ * unless it was a part of Tab+M. */
 static void read_key(const SDL_KeyboardEvent *event, Input *input)
 {
     SDL_Keycode key = event->keysym.sym;
     SDL_Scancode place = event->keysym.scancode;
-    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* another alphabet */
+    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* not Latin */
         place >= SDL_SCANCODE_A && place <= SDL_SCANCODE_Z)
         key = SDLK_a + (SDL_Keycode)(place - SDL_SCANCODE_A);
     SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
     bool letter = key >= SDLK_a && key <= SDLK_z;
     bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
     bool down = event->state == SDL_PRESSED, is_tab = key == SDLK_TAB;
-    bool is_command = is_tab ? tab && !down : down;
+    bool is_command = is_tab ? tab_alone && !down : down;
     if (is_tab)
         tab_held = down;
     if ((mod & (KMOD_ALT | KMOD_GUI)) || (typed && !(mod & KMOD_CTRL)) ||
         (place >= SDL_SCANCODE_LCTRL && place <= SDL_SCANCODE_RGUI))
         return;
     if (down || is_tab)
-        tab = down && is_tab;
+        tab_alone = down && is_tab;
     if (!is_command)
         return;
     input->kind = INPUT_KEY;
@@ -201,9 +179,9 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
 
 /* ---- mouse and window ---------------------------------------------------- */
 
-/* Translates an event of the window.  A drag ends when the window loses the
- * keys, since the release of the button may go elsewhere. */
-static InputKind change_of_window(const SDL_WindowEvent *event)
+/* Translates an event of the window.  When the window loses the keys a drag
+ * ends, since another window may get the release of the button. */
+static InputKind read_window_event(const SDL_WindowEvent *event)
 {
     switch (event->event) {
     case SDL_WINDOWEVENT_CLOSE:
@@ -222,7 +200,7 @@ static InputKind change_of_window(const SDL_WindowEvent *event)
     }
 }
 
-/* Translates an event, with the place of the mouse. */
+/* Translates an event, and adds the position of the mouse. */
 static Input read_event(const SDL_Event *event)
 {
     Input input = {.kind = INPUT_NONE};
@@ -246,7 +224,7 @@ static Input read_event(const SDL_Event *event)
         }
         break;
     case SDL_WINDOWEVENT:
-        input.kind = change_of_window(&event->window);
+        input.kind = read_window_event(&event->window);
         break;
     case SDL_MOUSEMOTION:
         input.kind = INPUT_MOVE;
@@ -270,13 +248,12 @@ static Input read_event(const SDL_Event *event)
     default:
         break;
     }
-    window_scale(scale);
+    find_scale(scale);
     input.x = mouse.x * scale[0];
     input.y = mouse.y * scale[1];
     return input;
 }
 
-/* Skips all but the last of several movements in a row. */
 Input window_input(void)
 {
     SDL_Event event, next;
@@ -290,9 +267,8 @@ Input window_input(void)
     return input;
 }
 
-/* SDL_WaitEventTimeout is not used: on X it wakes itself by an event of a
- * second connection, and such an event after the window is closed ends the
- * program. */
+/* SDL_WaitEventTimeout would end the program after the window is closed: on X
+ * it sends itself an event of a second connection. */
 void window_wait(int milliseconds)
 {
     enum { PAUSE = 8 }; /* ms */

@@ -1,6 +1,6 @@
-/* window_web.c - the window and films in a page: the paper's pixels go into its
- * canvas; mouse, touch and keys come from it into a line of inputs.
- * src/web/page.js has the object Page.
+/* window_web.c - the window in a web page: shows the paper in the page's
+ * canvas, and queues the inputs of mouse, touch and keys.  A page makes no
+ * films. src/web/page.js has the object Page.
  */
 #include <emscripten.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "play/recording.h"
 #include "play/view.h"
 
-/* ---- what the page does -------------------------------------------------- */
+/* ---- calls of the page --------------------------------------------------- */
 
 /* clang-format off */
 EM_JS(void, window_size, (int *size), {
@@ -32,7 +32,7 @@ bool window_open(const char *title, const int size[2], bool full)
     return true;
 }
 
-/* The title is that of the document. */
+/* The document has a title of its own. */
 void window_set_title(const char *title)
 {
     (void)title;
@@ -42,7 +42,7 @@ void window_close(void)
 {
 }
 
-/* The browser's own keys fill the screen. */
+/* The browser has keys for the full screen. */
 void window_set_full(bool full)
 {
     (void)full;
@@ -58,8 +58,9 @@ const char *window_failure(void)
     return "";
 }
 
-/* As a canvas wants them: red first, nothing shines through. */
-static Status show(const Canvas *canvas, int card)
+/* Shows pixels in a canvas, as red, green, blue and alpha.
+ *   card  index of the card whose canvas it is; -1: the stage */
+static Status show_pixels(const Canvas *canvas, int card)
 {
     static uint32_t *rgba; /* [room] */
     static size_t room;
@@ -82,23 +83,23 @@ static Status show(const Canvas *canvas, int card)
 
 Status window_show(const Canvas *canvas)
 {
-    return show(canvas, -1);
+    return show_pixels(canvas, -1);
 }
 
 void window_show_card(const Canvas *canvas, int card)
 {
-    show(canvas, card);
+    show_pixels(canvas, card);
 }
 
 /* ---- inputs -------------------------------------------------------------- */
 
 enum { INPUTS = 256 };
 
-/* The inputs that were not read yet; only the page's loop uses them. */
+/* Queue of the inputs that were not read yet. */
 static Input inputs[INPUTS];
 static int first_input, input_count;
 
-/* Keeps only the last of several movements in a row. */
+/* Appends an input; a movement replaces a movement before it. */
 static void put_input(const Input *input)
 {
     int last = (first_input + input_count - 1) % INPUTS;
@@ -116,7 +117,7 @@ EMSCRIPTEN_KEEPALIVE void web_key(const char *key, int repeats)
     put_input(&input);
 }
 
-/*   kind  of InputKind, any but keys */
+/* Queues an input of any InputKind but INPUT_KEY. */
 EMSCRIPTEN_KEEPALIVE void web_mouse(int kind, double x, double y, int button,
                                     int clicks, double amount)
 {
@@ -136,7 +137,7 @@ Input window_input(void)
     return input;
 }
 
-/* Does not wait: the page does, and no input arrives while C runs. */
+/* The page waits itself; no input arrives while C runs. */
 void window_wait(int milliseconds)
 {
     (void)milliseconds;

@@ -48,14 +48,6 @@ static int count_bytes(const char *text)
     return letter < least[size] || is_control(letter) ? 0 : size;
 }
 
-bool is_one_line(const char *text)
-{
-    int bytes = 1;
-    while (*text && (bytes = count_bytes(text)) > 0)
-        text += bytes;
-    return bytes > 0;
-}
-
 void copy_one_line(const char *text, char *line, size_t size)
 {
     if (!text)
