@@ -1,8 +1,8 @@
 /* command.h - the commands of keys, mouse, wheel and scripts.
  *
- * The table command_rows has a row for each command: its word and arguments in
- * scripts, its keys, and what it does.  The window obeys the same commands as a
- * script, so a session can be saved as a script and played again.
+ * The table command_rows has a row for each command, with its word and
+ * arguments in scripts, its keys and an explanation.  The window obeys the same
+ * commands as a script, so a session can be saved as a script and played again.
  */
 #ifndef ELASTO_COMMAND_H
 #define ELASTO_COMMAND_H

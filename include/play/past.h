@@ -1,4 +1,4 @@
-/* past.h - the past: all steps and edits of up to six runs side by side.
+/* past.h - the past has all steps and edits of up to six runs side by side.
  *
  * A step is a pure function: state and control of entry k give the state of
  * entry k+1.  Therefore states can be dropped and made again with the same
@@ -56,7 +56,7 @@ typedef struct Outcome {
     double extent; /* m, largest coordinate of run 0 */
 } Outcome;
 
-/* A step of a pane. */
+/* A step of a pane that was made. */
 typedef struct Entry {
     const Control *control; /* control of the next step; NULL: this step is not
                                made yet */
@@ -164,7 +164,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
  *   from,to  panes from ... to - 1 are edited
  *   again    past_iterate makes the shown step, which is not step 0, once more
  *            with the edit
- *   gesture  id; edits of one gesture share a branch; 0: none
+ *   gesture  id, or 0; edits of one gesture share a branch
  * Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture);
@@ -203,7 +203,7 @@ const Entry *past_entry(const Past *past, int pane, long step);
 /* The control that follows the shown step. */
 const Control *past_control(const Past *past, int pane);
 
-/* The control at step 0 of the run. */
+/* The control with which the run was started. */
 const Control *past_start(const Past *past, int pane);
 
 /* Whether the shown state was set by a start or a drag, not made by a step. */

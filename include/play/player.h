@@ -23,7 +23,7 @@
 
 /* ---- the command line ---------------------------------------------------- */
 
-/* What the command line asks for. */
+/* The command line, and the session that it begins. */
 typedef struct Given {
     Options options[OPTIONS_MAX_PANES]; /* options of each pane */
     char *const *words; /* words of the command line, ended by NULL; or NULL */
@@ -59,7 +59,7 @@ typedef enum AfterWork {
     AFTER_COMPARE /* compare the outcomes before and after an edit */
 } AfterWork;
 
-/* The view of the present step in a pane. */
+/* How a pane shows the present step. */
 typedef struct Side {
     int place;             /* index in the step's trace; -1: the whole step */
     double *ghost;         /* [2n] m, positions before an edit, or NULL */
@@ -139,7 +139,7 @@ typedef struct Screen {
     Paper paper;
     int size[2];  /* pixels of the paper; 0: the size of the window */
     bool changed; /* the frame must be drawn again */
-    long drawn;   /* step of the last frame; -1: none, or not up to date */
+    long drawn;   /* step of the last frame; -1: this frame is out of date */
     const struct Scene *scene; /* scene that camera and cards are set for */
     const LecturePage *page;   /* page that camera and cards are set for */
     Column column;

@@ -9,8 +9,8 @@
 
 #include "picture/frame_content.h"
 
-/* Memory for the iterates of one step, bytes.  Of further rounds only Newton's
- * records are stored. */
+/* Memory for the iterates of one step, bytes.  Further rounds only have
+ * Newton's record. */
 #define STEP_TRACE_BYTES ((size_t)64 << 20)
 
 /* E along p is drawn up to 3/2 of the first trial of the line search.  If E is
@@ -28,7 +28,7 @@ typedef struct Records {
 /* Reserves memory for so many records.  Returns false if memory is missing. */
 bool records_fit(Records *records, int count);
 
-/* One Newton iteration. */
+/* A Newton iteration and its line search. */
 typedef struct Round {
     double *x, *p, *u; /* [size] m, x^i, p^i, x^i - x_n; NULL: not stored */
     double first;      /* alpha, first trial of the line search */
@@ -40,7 +40,7 @@ typedef struct Round {
     double *value;     /* [ROUND_VALUES] J s^2, samples of E along p */
 } Round;
 
-/* A place in the walk through a step. */
+/* A place is where the walk through a step can stop. */
 typedef struct TracePlace {
     int round;  /* index of the round */
     Line line;  /* line of Algorithm 3 */
@@ -63,8 +63,8 @@ typedef struct StepTrace {
 } StepTrace;
 
 /* Begins the trace of a step.
- *   all   E along p is sampled in each round, for a walk through the step
- *   last  E along p is sampled in the last round, for a card */
+ *   all   in, whether E along p is sampled in each round, for a walk
+ *   last  in, whether E along p is sampled in the last round, for a card */
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 
@@ -95,8 +95,8 @@ int step_trace_walk(const StepTrace *trace, int fine, int place, int way);
  * round that of the last place of the step. */
 int step_trace_find(const StepTrace *trace, int round, Line line);
 
-/* Returns the index of the place where E was highest, if E exploded: it rose by
- * ten times the change of E in the whole step; else -1. */
+/* Returns the index of the place where E was highest, if E exploded, that is
+ * rose by ten times the change in the whole step; else -1. */
 int step_trace_peak(const StepTrace *trace);
 
 /* Fills what a picture shows at a place; place -1: after the step.  Pointers of

@@ -1,4 +1,4 @@
-/* view.h - the window: of the computer (window_sdl.c) or in a web page
+/* view.h - the window, on a computer (window_sdl.c) or in a web page
  * (window_web.c).
  */
 #ifndef ELASTO_VIEW_H
@@ -23,7 +23,7 @@ typedef enum InputKind {
 
 enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
 
-/* An event of keyboard, mouse or window. */
+/* An event that keyboard, mouse or window sends. */
 typedef struct Input {
     InputKind kind;
     char key[32]; /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */

@@ -1,4 +1,6 @@
-/* bodies.c - pins, pulls, pushes, places and drags bodies. */
+/* bodies.c - pins, pulls and places nodes; pushes and moves obstacles and
+ * handles.
+ */
 #include "play/playing.h"
 #include "run/scene.h"
 #include "scenes/small_scenes.h"
@@ -9,7 +11,6 @@ static Status edit_all_panes(Player *player, const Command *change)
     return player_edit(player, change, 0, past_panes(&player->past), false);
 }
 
-/* Pins a node, or frees it. */
 Status obey_pin(Player *player, const Command *command)
 {
     long node = command->number;
@@ -24,9 +25,10 @@ Status obey_pin(Player *player, const Command *command)
     return status;
 }
 
-/* Grabs a node, a ground or a ball where it is. */
-static Status grab(Player *player, CommandKind kind, long number,
-                   const double at[2])
+/* Takes hold of a node or an obstacle at its place.
+ *   kind  in, COMMAND_GRAB or COMMAND_PUSH */
+static Status take_hold(Player *player, CommandKind kind, long number,
+                        const double at[2])
 {
     const Command change = {
         .kind = kind, .number = number, .x = at[0], .y = at[1]};
@@ -44,8 +46,8 @@ Status obey_grab(Player *player, const Command *command)
     const Simulation *simulation = player_simulation(player);
     if (!simulation_is_draggable(simulation))
         return player_refuse(player, "nothing to take hold of here");
-    return grab(player, COMMAND_GRAB, command->number,
-                simulation->run[0].x + 2 * command->number);
+    return take_hold(player, COMMAND_GRAB, command->number,
+                     simulation->run[0].x + 2 * command->number);
 }
 
 Status obey_push(Player *player, const Command *command)
@@ -55,10 +57,9 @@ Status obey_push(Player *player, const Command *command)
     if (!simulation_is_draggable(simulation))
         return player_refuse(player, "nothing to push here");
     simulation_find_obstacle(simulation, 0, (int)command->number, at);
-    return grab(player, COMMAND_PUSH, command->number, at);
+    return take_hold(player, COMMAND_PUSH, command->number, at);
 }
 
-/* Puts a node somewhere. */
 Status obey_place(Player *player, const Command *command)
 {
     if (!simulation_is_draggable(player_simulation(player)))
@@ -74,7 +75,7 @@ Status obey_place(Player *player, const Command *command)
     return edit_all_panes(player, command);
 }
 
-/* Moves a ground or a ball where the bodies leave room. */
+/* Moves a ground or a ball to a place where all panes have room. */
 Status obey_obstacle(Player *player, const Command *command)
 {
     Options moved = *player_settings(player);
@@ -88,7 +89,6 @@ Status obey_obstacle(Player *player, const Command *command)
     return status ? status : edit_all_panes(player, command);
 }
 
-/* Moves the hand, or releases what it holds. */
 Status obey_drag(Player *player, const Command *command)
 {
     if (!control_holds(past_control(&player->past, player->active)))
@@ -98,8 +98,8 @@ Status obey_drag(Player *player, const Command *command)
     return edit_all_panes(player, command);
 }
 
-/* Drags a point of the scene or flips a switch; a dragged start begins the
- * minimisation again at step 0. */
+/* Moves a handle of the scene or flips a switch; a start that is moved begins
+ * the minimisation again at step 0. */
 Status obey_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;
@@ -117,6 +117,6 @@ Status obey_handle(Player *player, const Command *command)
     if (!status)
         status = edit_all_panes(player, command);
     if (past->now > now)
-        past->branch[now].shown = step; /* undo leads back to it */
+        past->branch[now].shown = step; /* undo shows this step again */
     return status;
 }

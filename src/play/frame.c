@@ -1,4 +1,4 @@
-/* frame.c - fills the contents of a frame from the player and draws them. */
+/* frame.c - fills the contents of a frame, and draws it on the paper. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,13 +9,13 @@
 #include "play/playing.h"
 #include "run/scene.h"
 
-static const double LONG_WORK = 0.3;  /* s, after which work is reported */
+static const double LONG_WORK = 0.3;  /* s, longer work is reported */
 static const double SMALL_LETTER = 9; /* pixels, without a window */
 
 /* ---- the list of keys ---------------------------------------------------- */
 
-/* Replaces the name of a key by its sign, "Right" by an arrow. */
-static void pretty_key(char key[VALUE_SIZE])
+/* Replaces the name of a key by its sign: "Right" by an arrow. */
+static void shorten_key(char key[VALUE_SIZE])
 {
     static const char *const names[][2] = {
         {"Right", "\u2192"},         {"Left", "\u2190"},   {"Up", "\u2191"},
@@ -47,13 +47,13 @@ static void fill_help(FrameContent *content)
         const CommandRow *command = &command_rows[kind];
         if (!command->label)
             continue;
-        if (command->label[0]) /* "": the key stands in the row above */
+        if (command->label[0]) /* "": the keys are in the row above */
             snprintf((row++)->text, SENTENCE_SIZE, "%s", command->label);
         for (const char *at = command->keys; *at; at += *at == '|') {
             char key[VALUE_SIZE], *keys = row[-1].key;
             int length = (int)strcspn(at, "|");
             snprintf(key, sizeof key, "%.*s", length, at);
-            pretty_key(key);
+            shorten_key(key);
             append(keys, VALUE_SIZE, "%s%s", keys[0] ? ", " : "", key);
             at += length;
         }
@@ -64,7 +64,7 @@ static void fill_help(FrameContent *content)
 /* ---- the row of numbers -------------------------------------------------- */
 
 /* Fills the row of numbers, and the sentence about the number under the mouse
- * or the one that is lit. */
+ * or the selected one. */
 static void fill_settings(const Player *player, Frame *frame)
 {
     FrameContent *content = &frame->content;
@@ -104,7 +104,7 @@ static void fill_settings(const Player *player, Frame *frame)
             (Setting){"", "+ more", 0, false, false};
 }
 
-/* Lists all numbers of the scene, and why some have no meaning now. */
+/* Lists all numbers of the scene, and why some have no effect now. */
 static void fill_options(const Player *player, FrameContent *content)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
@@ -126,9 +126,9 @@ static void fill_options(const Player *player, FrameContent *content)
 
 /* ---- the chips ----------------------------------------------------------- */
 
-/* Adds the chip of a command: its first key, and one of the words in its row
- * for what the key does now. */
-static void add_chip(Frame *frame, CommandKind kind, int word, bool lit)
+/* Adds the chip of a command, with its first key and one of its labels.
+ *   state  in, index of the label in CommandRow.chip */
+static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
 {
     int i = frame->content.chips.count;
     const CommandRow *row = &command_rows[kind];
@@ -136,17 +136,17 @@ static void add_chip(Frame *frame, CommandKind kind, int word, bool lit)
     if (i >= LAYOUT_CHIPS)
         return;
     char *key = frame->chip_key[i], *text = frame->chip_label[i];
-    for (; word > 0; word--)
+    for (; state > 0; state--)
         label = strchr(label, '|') + 1;
     snprintf(text, VALUE_SIZE, "%.*s", (int)strcspn(label, "|"), label);
     snprintf(key, VALUE_SIZE, "%.*s", (int)strcspn(row->keys, "|"), row->keys);
-    pretty_key(key);
+    shorten_key(key);
     frame->chip[i] = kind;
     frame->content.chips.item[frame->content.chips.count++] =
         (Chip){key, text, lit};
 }
 
-/* Adds chips of the keys that matter now. */
+/* Adds the chips of the keys that are useful now. */
 static void fill_chips(const Player *player, Frame *frame)
 {
     const Simulation *simulation = player_simulation(player);
@@ -222,7 +222,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
         append(label, LABEL_SIZE, " (drawn: %ld)", seen);
 }
 
-/* Fills one picture on the stage. */
+/* Fills the picture of a pane. */
 static void fill_pane(const Player *player, int p, Frame *frame)
 {
     const Machine *machine = &player->past.machine[p];
@@ -245,7 +245,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
 }
 
 /* Returns the bar of a step in the time line. */
-static StepBar bar_of(const void *shown, long step)
+static StepBar find_bar(const void *shown, long step)
 {
     const Player *player = shown;
     const Outcome *outcome =
@@ -253,14 +253,14 @@ static StepBar bar_of(const void *shown, long step)
     return (StepBar){outcome->updates, status_is_unconverged(outcome->status)};
 }
 
-/* Writes "step 12 of 40   t = 0.24 s   2 steps a frame", the state of the run,
- * and how to stop a long step. */
+/* Writes the text of the time line, "step 12 of 40   t = 0.24 s", the state of
+ * the run, and how to stop a long step. */
 static void fill_time(const Player *player, FrameContent *content)
 {
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->step_name;
     char *text = content->time_line.text;
-    double time = 0, longest = -1; /* s; the longest h says the time */
+    double time = 0, longest = -1; /* s, time of the pane with the longest h */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->machine[p].simulation;
         bool goes = past_end_step(past, p, past->step) < 0;
@@ -270,7 +270,7 @@ static void fill_time(const Player *player, FrameContent *content)
     }
     content->time_line.paused = player_is_stopped(player);
     if (player_settings(player)->next ==
-            NEXT_SPRING && /* each step writes a spring */
+            NEXT_SPRING && /* each step fills in a spring */
         past->step < player_simulation(player)->system.springs) {
         snprintf(text, SENTENCE_SIZE, "spring %ld", past->step);
         return;
@@ -296,7 +296,6 @@ static void fill_time(const Player *player, FrameContent *content)
              player_machine(player)->outcome.updates);
 }
 
-/* Fills the contents of the next frame. */
 static void fill_frame(const Player *player, Frame *frame)
 {
     const Past *past = &player->past;
@@ -322,7 +321,7 @@ static void fill_frame(const Player *player, Frame *frame)
     if (control_holds(control) && player->side[active].place < 0)
         content->hand = control;
     content->time_line.steps = past->keeps ? past_newest(past) : 0;
-    content->time_line.bar = bar_of;
+    content->time_line.bar = find_bar;
     content->time_line.past = player;
     content->time_line.step = past->step;
     content->strip.is_warning = player->warning;
@@ -352,8 +351,9 @@ static void fill_frame(const Player *player, Frame *frame)
     frame_describe(content);
 }
 
-/* Finds what lies now under a mouse that rests on a body. */
-static void look_again(Player *player)
+/* Finds what is now under the mouse, if a body was there that may have moved.
+ */
+static void update_hover(Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Mouse *mouse = &player->hands.mouse;
@@ -372,7 +372,7 @@ static void look_again(Player *player)
 void player_fill(Player *player)
 {
     fill_frame(player, &player->screen.frame);
-    look_again(player);
+    update_hover(player);
 }
 
 /* ---- the paper ----------------------------------------------------------- */
@@ -380,7 +380,7 @@ void player_fill(Player *player)
 Paper *player_paper(Player *player)
 {
     static bool is_warned; /* stderr has the warning about the font */
-    const char *font = getenv("ELASTO_FONT"); /* "": no words */
+    const char *font = getenv("ELASTO_FONT"); /* "": without words */
     Paper *paper = &player->screen.paper;
     const Canvas *canvas = &paper->canvas;
     int size[2] = {player->screen.size[0], player->screen.size[1]};

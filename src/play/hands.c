@@ -1,5 +1,5 @@
-/* hands.c - makes commands of keyboard and mouse, such as a script could have,
- * from what layout and pictures have under the mouse.
+/* hands.c - turns inputs of keyboard and mouse into commands, as scripts have
+ * them.
  */
 #include <math.h>
 #include <stdio.h>
@@ -12,18 +12,18 @@
 #include "run/scene.h"
 
 enum {
-    CLICK_ROOM = 4,  /* pixels that a click may move */
-    PACE_PIXELS = 24 /* pixels of a drag that changes a number by a pace */
+    CLICK_ROOM = 4,  /* pixels that the mouse may move in a click */
+    PACE_PIXELS = 24 /* pixels of a drag for each pace of a number */
 };
 
-static const double WHEEL_ZOOM = 1.15; /* factor of a notch */
+static const double WHEEL_ZOOM = 1.15; /* factor for each notch */
 
-/* What the mouse points at. */
+/* The things under the mouse. */
 typedef struct Under {
     Layout layout; /* layout of the last frame */
     Hit hit;       /* part of the window */
     int pane;
-    double at[2]; /* m, in the world of that pane */
+    double at[2]; /* m, point in the world of this pane */
     Pick pick;    /* part of the scene */
 } Under;
 
@@ -41,7 +41,7 @@ static Under find_under_mouse(Player *player)
     int pane = held->on                       ? held->pane
                : under.hit.zone == ZONE_STAGE ? under.hit.index
                                               : under.pane;
-    if (pane < past_panes(&player->past)) /* the pane may be closed */
+    if (pane < past_panes(&player->past)) /* a held pane may be closed */
         under.pane = pane;
     held->away = false;
     Camera camera = camera_of_pane(content, &under.layout, under.pane);
@@ -51,38 +51,38 @@ static Under find_under_mouse(Player *player)
     return under;
 }
 
-/* Obeys a command that joins the present gesture. */
-static Status ask_at(Player *player, CommandKind kind, long number,
-                     const double at[2])
+/* Obeys a command with a place, as a part of the present gesture. */
+static Status order_at(Player *player, CommandKind kind, long number,
+                       const double at[2])
 {
     const Command command = {
         .kind = kind, .number = number, .x = at[0], .y = at[1], .joins = true};
     return player_obey(player, &command);
 }
 
-static Status ask(Player *player, CommandKind kind, long number)
+static Status order(Player *player, CommandKind kind, long number)
 {
-    return ask_at(player, kind, number, (const double[2]){0, 0});
+    return order_at(player, kind, number, (const double[2]){0, 0});
 }
 
-static Status ask_set(Player *player, const OptionRow *row, double value)
+static Status order_set(Player *player, const OptionRow *row, double value)
 {
     const Command command = command_of_set(row, value);
     return player_obey(player, &command);
 }
 
 /* Raises a number by some paces. */
-static Status change_pace(Player *player, const OptionRow *row, int paces)
+static Status raise_number(Player *player, const OptionRow *row, int paces)
 {
     double value;
     Status status = player_find_paced(player, row, paces, &value);
-    return status ? status : ask_set(player, row, value);
+    return status ? status : order_set(player, row, value);
 }
 
 /* ---- the keyboard -------------------------------------------------------- */
 
-/* The part of the window that the keys go to. */
-static Keyboard keyboard_now(const Player *player)
+/* Returns the part of the window that gets the keys now. */
+static Keyboard find_keyboard(const Player *player)
 {
     bool number = player->hands.selected;
     bool list = player_has_list(player);
@@ -95,8 +95,9 @@ static Keyboard keyboard_now(const Player *player)
                                                             : AT_RUN;
 }
 
-/* Opens a page or adds a number by its line in the list. */
-static Status open_line(Player *player, const char *line)
+/* Opens the page, or adds the number, that a line of the open list has.
+ *   line  in, its number or the page's name */
+static Status choose_line(Player *player, const char *line)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
     Command page = {.kind = COMMAND_PAGE, .joins = true};
@@ -109,18 +110,18 @@ static Status open_line(Player *player, const char *line)
     if (*end || number < 1 ||
         number > player_visible_options(player, true, all))
         return player_refuse(player, "there is no such number in the list");
-    return ask(player, COMMAND_ADD, all[number - 1] - option_rows);
+    return order(player, COMMAND_ADD, all[number - 1] - option_rows);
 }
 
-/* Opens the typed page, checks the answer or sets the number; the field stays
- * open if its text cannot be read. */
+/* Uses the typed text: opens the page, adds or sets the number, or checks the
+ * answer.  The field stays open if its text cannot be read. */
 static Status enter_typed(Player *player)
 {
     const OptionRow *row = player->hands.selected;
     Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
     if (!row && player_has_list(player)) {
-        status = open_line(player, player->hands.typed);
+        status = choose_line(player, player->hands.typed);
         player->hands.typing = player->hands.typing && status;
         return status;
     }
@@ -140,8 +141,8 @@ static Status enter_typed(Player *player)
 
 /* ---- the stage ----------------------------------------------------------- */
 
-/* Sets the dragged number from the distance to the start of the drag; a dragged
- * edge sets the stretch in hundredths. */
+/* Sets the dragged number by the distance to the start of the drag; a dragged
+ * edge of the square sets the stretch, in hundredths. */
 static Status drag_number(Player *player, const Under *under)
 {
     const Mouse *mouse = &player->hands.mouse;
@@ -154,19 +155,19 @@ static Status drag_number(Player *player, const Under *under)
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
-        return change_pace(player, row, 1); /* is refused */
+        return raise_number(player, row, 1); /* refused with a reason */
     if (row->display.increment > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
-        paces += 1e-9; /* a value between the round ones */
+        paces += 1e-9; /* between values that are rounded to paces */
     if (!edge)
         wanted = option_turn_wheel(row, &mouse->options, paces);
     return now.number[row->slot] == wanted ? STATUS_OK
-                                           : ask_set(player, row, wanted);
+                                           : order_set(player, row, wanted);
 }
 
-/* Opens the square with the numbers of a cell of the map, by commands that a
- * script can repeat. */
+/* Opens the square with the numbers of a cell of the envelope, by commands that
+ * a script can repeat. */
 static Status open_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;
@@ -180,7 +181,8 @@ static Status open_cell(Player *player, long cell)
         {"stiffness", envelope_stiffness((int)(cell / ENVELOPE_COLUMNS))}};
     Status status = player_obey_lines(player, "scene square");
     for (size_t i = 0; i < sizeof number / sizeof *number && !status; i++)
-        status = ask_set(player, option_find(number[i].name), number[i].value);
+        status =
+            order_set(player, option_find(number[i].name), number[i].value);
     if (!status)
         status = player_obey_lines(player, "pause;restart");
     player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
@@ -188,19 +190,19 @@ static Status open_cell(Player *player, long cell)
     return status;
 }
 
-/* Whether a drag places bodies; else it pulls and pushes them. */
-static bool is_paused(const Player *player)
+/* Whether drags place nodes and obstacles; else they pull and push them. */
+static bool drags_place(const Player *player)
 {
     return player->time.mode == MODE_PAUSE || player->time.mode == MODE_END;
 }
 
-/* Begins to drag what is under the mouse, or clicks it. */
+/* Begins a drag of the thing under the mouse, or obeys a click on it. */
 static Status take_under_mouse(Player *player, const Under *under)
 {
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_settings(player)->page;
     double point[2];
-    bool paused = is_paused(player);
+    bool places = drags_place(player);
     mouse->index = under->pick.index;
     player->screen.view.held = frame_hold_bounds(&player->screen.frame.content,
                                                  &under->layout, under->pane);
@@ -220,28 +222,28 @@ static Status take_under_mouse(Player *player, const Under *under)
         mouse->drag = COMMAND_HANDLE;
         return STATUS_OK;
     case PICK_SWITCH:
-        return ask(player, COMMAND_FLIP, under->pick.index);
+        return order(player, COMMAND_FLIP, under->pick.index);
     case PICK_CELL:
         return open_cell(player, under->pick.index);
     case PICK_PLACE:
         if (page_wants_click(page) && !player_simulation(player)->done)
-            return ask_at(player, COMMAND_PREDICT, 0, under->pick.point);
+            return order_at(player, COMMAND_PREDICT, 0, under->pick.point);
         mouse->drag = COMMAND_START;
-        return ask_at(player, COMMAND_START, mouse->index, under->pick.point);
+        return order_at(player, COMMAND_START, mouse->index, under->pick.point);
     default:
-        if (under->pick.kind != PICK_NODE) /* a spring beside the node */
+        if (under->pick.kind != PICK_NODE) /* a spring near the node */
             player->screen.view.hover.kind = PICK_NONE;
         mouse->index = under->pick.near;
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
-                      : paused         ? COMMAND_PLACE
+                      : places         ? COMMAND_PLACE
                                        : COMMAND_GRAB;
         return STATUS_OK;
     }
 }
 
-/* Adds a ball: 1/8 of the square, at least 0.7 of a cell so that it does not
- * fit between two nodes, and smaller where a node is near. */
-static Status put_ball(Player *player, const double at[2])
+/* Adds a ball with a radius of 1/8 of the square, but at least 0.7 cells, too
+ * much to fit between two nodes, and smaller near a node. */
+static Status add_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_simulation(player);
     Command command = command_of_set(option_find("ball"), 0);
@@ -260,17 +262,18 @@ static Status put_ball(Player *player, const double at[2])
     return status;
 }
 
-/* Moves a ground or a ball with the mouse: pushes it while time goes on; places
- * it in a pause, as far on the way as all panes have room. */
+/* Moves a ground or a ball with the mouse: pushes it while time goes on; in a
+ * pause places it, as far on the way to `at` as all panes have room. */
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
     int number = player->hands.mouse.index;
     double part = 1, from[2];
-    if (player->hands.holds || !is_paused(player)) {
-        Status status =
-            player->hands.holds ? STATUS_OK : ask(player, COMMAND_PUSH, number);
-        return status ? status : ask_at(player, COMMAND_DRAG, 0, at);
+    if (player->hands.holds || !drags_place(player)) {
+        Status status = player->hands.holds
+                            ? STATUS_OK
+                            : order(player, COMMAND_PUSH, number);
+        return status ? status : order_at(player, COMMAND_DRAG, 0, at);
     }
     for (int p = 0; p < past_panes(past); p++) {
         const Options *options = &past_control(past, p)->options;
@@ -282,11 +285,11 @@ static Status drag_obstacle(Player *player, const double at[2])
         return player_refuse(player, "no room: the square is in its way");
     const double to[2] = {from[0] + part * (at[0] - from[0]),
                           from[1] + part * (at[1] - from[1])};
-    return ask_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
+    return order_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
 }
 
-/* Moves what is dragged with the mouse. */
-static Status drag_held(Player *player)
+/* Goes on with the drag after a movement of the mouse. */
+static Status go_on_dragging(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
@@ -295,15 +298,15 @@ static Status drag_held(Player *player)
     Status status = STATUS_OK;
     mouse->moved = mouse->moved || math_hypot(dx, dy) > CLICK_ROOM;
     switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
-    case COMMAND_GRAB: /* a pin is freed for the drag */
+    case COMMAND_GRAB: /* a pinned node is freed for the drag */
         if (!player->hands.holds) {
             mouse->pins = simulation->system.pinned[mouse->index];
             if (mouse->pins)
-                status = ask(player, COMMAND_PIN, mouse->index);
+                status = order(player, COMMAND_PIN, mouse->index);
             if (!status)
-                status = ask(player, COMMAND_GRAB, mouse->index);
+                status = order(player, COMMAND_GRAB, mouse->index);
         }
-        return status ? status : ask_at(player, COMMAND_DRAG, 0, under.at);
+        return status ? status : order_at(player, COMMAND_DRAG, 0, under.at);
     case COMMAND_OBSTACLE:
         under.at[0] += mouse->grip[0];
         under.at[1] += mouse->grip[1];
@@ -313,13 +316,13 @@ static Status drag_held(Player *player)
     case COMMAND_HANDLE:
         under.at[0] += mouse->grip[0];
         under.at[1] += mouse->grip[1];
-        return ask_at(player, mouse->drag, mouse->index, under.at);
+        return order_at(player, mouse->drag, mouse->index, under.at);
     case COMMAND_SET:
         return drag_number(player, &under);
     case COMMAND_GOTO:
-        return ask(player, COMMAND_GOTO,
-                   frame_find_step(&player->screen.frame.content, &under.layout,
-                                   mouse->x));
+        return order(player, COMMAND_GOTO,
+                     frame_find_step(&player->screen.frame.content,
+                                     &under.layout, mouse->x));
     case COMMAND_PAN:
         lens_move(&player->screen.view.lens, under.layout.pane[under.pane], dx,
                   dy);
@@ -334,7 +337,8 @@ static Status drag_held(Player *player)
 
 /* ---- events -------------------------------------------------------------- */
 
-/* Notes what is under the mouse for the next frame; shows a cell of the map. */
+/* Notes what is under the mouse for the next frame; shows a cell of the
+ * envelope at once. */
 static Status hover(Player *player)
 {
     View *view = &player->screen.view;
@@ -354,27 +358,28 @@ static Status hover(Player *player)
     if (!same || !idle)
         player->screen.changed = true;
     return pick.kind == PICK_CELL && !same
-               ? ask(player, COMMAND_CELL, pick.index)
+               ? order(player, COMMAND_CELL, pick.index)
                : STATUS_OK;
 }
 
-static Status number_pressed(Player *player, int index, int clicks)
+/* Selects a number of the row; a double click gives it its default. */
+static Status press_number(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->hands.mouse;
-    if (index >= player->screen.frame.numbers) /* the plus behind them */
-        return ask(player, COMMAND_OPTIONS, 0);
+    if (index >= player->screen.frame.numbers) /* "+ more" */
+        return order(player, COMMAND_OPTIONS, 0);
     player->hands.selected = player->screen.frame.number[index];
     player->screen.changed = true;
     if (clicks == 2)
-        return ask(player, COMMAND_DEFAULT,
-                   player->hands.selected - option_rows);
+        return order(player, COMMAND_DEFAULT,
+                     player->hands.selected - option_rows);
     mouse->drag = COMMAND_SET;
     mouse->index = index;
     mouse->options = player_numbers(player);
     return STATUS_OK;
 }
 
-static Status left_pressed(Player *player, const Under *under, int clicks)
+static Status press_left(Player *player, const Under *under, int clicks)
 {
     char line[16];
     int index = under->hit.index;
@@ -386,44 +391,44 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     player_deselect(player);
     switch (under->hit.zone) {
     case ZONE_CHIP:
-        return ask(player, player->screen.frame.chip[index], 0);
+        return order(player, player->screen.frame.chip[index], 0);
     case ZONE_CARD_CLOSE:
-        return ask(player, COMMAND_CARD, index);
+        return order(player, COMMAND_CARD, index);
     case ZONE_CARD:
-        return ask(player, COMMAND_ENLARGE, index);
+        return order(player, COMMAND_ENLARGE, index);
     case ZONE_TIME:
         player->hands.mouse.drag = COMMAND_GOTO;
         player->hands.mouse.moved = true; /* a click goes there, too */
-        return drag_held(player);
+        return go_on_dragging(player);
     case ZONE_SETTING:
-        return number_pressed(player, index, clicks);
+        return press_number(player, index, clicks);
     case ZONE_PAGE_CLOSE:
-        return ask(player, COMMAND_ESCAPE, 0);
+        return order(player, COMMAND_ESCAPE, 0);
     case ZONE_PAGE: /* a line of a list */
         index = frame_find_row(&player->screen.frame.content, &under->layout,
                                player->hands.mouse.x, player->hands.mouse.y);
-        if (keyboard_now(player) != AT_LIST || index < 0)
+        if (find_keyboard(player) != AT_LIST || index < 0)
             return STATUS_OK;
         key = player->screen.frame.content.list.row[index].key;
         snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
-        return key[0] ? open_line(player, line) : STATUS_OK;
+        return key[0] ? choose_line(player, line) : STATUS_OK;
     case ZONE_CELL:
         player->screen.view.chosen = index;
-        return ask(player, COMMAND_OPEN, 0);
+        return order(player, COMMAND_OPEN, 0);
     case ZONE_STAGE:
         if (under->pane != player->active)
-            status = ask(player, COMMAND_PANE, under->pane);
+            status = order(player, COMMAND_PANE, under->pane);
         if (status || clicks < 2 || !ground)
             return status ? status : take_under_mouse(player, under);
         return body && under->pick.near < 0 && under->pick.kind == PICK_NONE
-                   ? put_ball(player, under->at)
-                   : ask(player, COMMAND_FIT, 0);
+                   ? add_ball(player, under->at)
+                   : order(player, COMMAND_FIT, 0);
     default:
         return STATUS_OK;
     }
 }
 
-static Status pressed(Player *player, const Input *input)
+static Status press_button(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
     Under under = find_under_mouse(player);
@@ -437,22 +442,22 @@ static Status pressed(Player *player, const Input *input)
     mouse->moved = false;
     player->note[0] = '\0';
     if (input->button == BUTTON_LEFT)
-        return left_pressed(player, &under, input->clicks);
+        return press_left(player, &under, input->clicks);
     if (!stage)
         return STATUS_OK;
     if (input->button == BUTTON_RIGHT && near < 0 && nodes)
         return player_refuse(player, "no node is here: a right click on one "
                                      "pins it, or sets it free");
     if (input->button == BUTTON_RIGHT)
-        return ask(player, COMMAND_PIN, near < 0 ? 0 : near);
+        return order(player, COMMAND_PIN, near < 0 ? 0 : near);
     mouse->drag = COMMAND_PAN;
     mouse->moved = true;
     return STATUS_OK;
 }
 
-/* Ends a drag.  A click on a choice takes the next value; a click on a node
- * says what drags and right clicks do. */
-static Status release(Player *player)
+/* Ends a drag or a click.  A click on a choice in the row takes the next value;
+ * a click on a node explains drags and right clicks. */
+static Status release_button(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
@@ -475,22 +480,23 @@ static Status release(Player *player)
         return player_obey_queue(player, false);
     }
     if (drag == COMMAND_SET && mouse->moved)
-        player_deselect(player); /* a drag sets it, a click waits for keys */
+        player_deselect(player); /* after a click it waits for keys */
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
-        return change_pace(player, player->hands.selected, 1);
+        return raise_number(player, player->hands.selected, 1);
     return STATUS_OK;
 }
 
-static Status wheeled(Player *player, double amount)
+static Status turn_wheel(Player *player, double amount)
 {
     Under under = find_under_mouse(player);
     if (under.hit.zone == ZONE_SETTING &&
         under.hit.index < player->screen.frame.numbers)
-        return change_pace(player, player->screen.frame.number[under.hit.index],
-                           amount > 0 ? 1 : -1);
+        return raise_number(player,
+                            player->screen.frame.number[under.hit.index],
+                            amount > 0 ? 1 : -1);
     if (under.hit.zone == ZONE_TIME)
-        return ask(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
+        return order(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
     if (under.hit.zone != ZONE_STAGE)
         return STATUS_OK;
     lens_zoom(&player->screen.view.lens, under.layout.pane[under.hit.index],
@@ -500,8 +506,8 @@ static Status wheeled(Player *player, double amount)
     return STATUS_OK;
 }
 
-/* Does what the mouse asks for. */
-static Status mouse_used(Player *player, const Input *input)
+/* Obeys an input of the mouse. */
+static Status use_mouse(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
     bool rests =
@@ -510,17 +516,17 @@ static Status mouse_used(Player *player, const Input *input)
     mouse->y = input->y;
     mouse->placed = true;
     if (input->kind == INPUT_PRESS)
-        return pressed(player, input);
+        return press_button(player, input);
     if (input->kind == INPUT_RELEASE)
-        return release(player);
+        return release_button(player);
     if (input->kind == INPUT_WHEEL)
-        return wheeled(player, input->amount);
+        return turn_wheel(player, input->amount);
     if (mouse->drag != COMMAND_NONE)
-        return drag_held(player);
+        return go_on_dragging(player);
     return rests ? STATUS_OK : hover(player);
 }
 
-/* A drag is one gesture, and so are turns of the wheel in a row. */
+/* A drag is one gesture, and so are successive turns of the wheel. */
 Status player_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
@@ -530,7 +536,7 @@ Status player_input(Player *player, const Input *input)
     Status status = STATUS_OK;
     player->orders.gesture = mouse->gesture;
     if (press && mouse->drag != COMMAND_NONE)
-        status = release(player); /* another button was down */
+        status = release_button(player); /* two buttons are down */
     if (!status)
         status = player_obey_queue(player, press && player->hands.holds);
     if (status)
@@ -544,14 +550,14 @@ Status player_input(Player *player, const Input *input)
     switch (input->kind) {
     case INPUT_KEY:
         command =
-            command_from_key(input->key, input->repeats, keyboard_now(player));
+            command_from_key(input->key, input->repeats, find_keyboard(player));
         command.joins = true;
         if (command.kind)
             status = player_obey(player, &command);
         return !status && command.kind == COMMAND_ENTER ? enter_typed(player)
                                                         : status;
     case INPUT_CLOSE:
-        return ask(player, COMMAND_QUIT, 0);
+        return order(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:
         player->screen.view.hover = (Pick){.kind = PICK_NONE};
         player->screen.view.over = (Hit){.zone = ZONE_NONE};
@@ -563,6 +569,6 @@ Status player_input(Player *player, const Input *input)
     case INPUT_NONE:
         return STATUS_OK;
     default:
-        return mouse_used(player, input);
+        return use_mouse(player, input);
     }
 }

@@ -1,4 +1,4 @@
-/* numbers.c - the row of numbers: selects, types, steps and sets them. */
+/* numbers.c - the row of numbers: adds, selects, types and sets numbers. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -76,7 +76,7 @@ Status obey_add(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Selects the next number, after the last one none. */
+/* Selects the next number of the row, or none after the last one. */
 Status obey_select(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
@@ -88,7 +88,7 @@ Status obey_select(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Types a letter or takes one back; the first letter opens the field. */
+/* Types or deletes a letter; the first letter opens the field. */
 Status obey_type(Player *player, const Command *command)
 {
     char *typed = player->hands.typed;
@@ -139,8 +139,8 @@ static Status put_value(Player *player, int pane, const Command *command,
                                      options, MESSAGE(player->message));
 }
 
-/* Sets an option, or begins again with it where the run fixes it: in the active
- * pane if the panes differ in it or a page opens, else in all panes. */
+/* Sets an option in all panes, or only in the active one if the panes differ in
+ * it or a page opens.  Begins new runs if the option needs a new start. */
 Status obey_set(Player *player, const Command *command)
 {
     const OptionRow *row = row_of(command);
@@ -188,8 +188,9 @@ Status player_find_paced(Player *player, const OptionRow *row, int paces,
     return STATUS_OK;
 }
 
-/* Raises or lowers the selected number, or the first one, by one step of the
- * wheel. */
+/* Raises or lowers the selected number, or the first one, by a turn of the
+ * wheel.
+ */
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
@@ -222,7 +223,8 @@ Status obey_default(Player *player, const Command *command)
     return status;
 }
 
-/* Switches a method off, or on again as on the command line. */
+/* Switches line search or projection off, or on again as on the command line.
+ */
 Status obey_switch(Player *player, const Command *command)
 {
     bool search = command->kind == COMMAND_SEARCH;

@@ -196,8 +196,8 @@ static void begin_command(Player *player, const Command *command)
         player->note[0] = '\0';
 }
 
-/* Whether a command needs nothing now but the end of the step that is being
- * made: "next" leads there anyway, and a drag goes into the queue. */
+/* Whether a command only waits for the step that is being made: "next" leads to
+ * this step anyway, and a drag goes into the queue. */
 static bool waits_for_step(Player *player, const Command *command)
 {
     bool drags = player->hands.mouse.drag || command->kind == COMMAND_DRAG;

@@ -4,8 +4,8 @@
 #include "play/playing.h"
 #include "run/scene.h"
 
-/* Returns the next method for a pane: key M reaches it, all terms allow it, and
- * no pane has it.  NULL: refused. */
+/* Returns the next method for a pane that key M can choose, all terms allow and
+ * no pane has.  NULL: refused, there is none. */
 static const IntegratorMethod *find_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.machine[pane].simulation;
@@ -39,8 +39,8 @@ Status obey_method(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Adds a pane with the run of the last one and the next method; a page that
- * opens sets itself what differs. */
+/* Adds a pane with the run of the last one and the next method, unless a page
+ * opens, whose commands then set what differs. */
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);
@@ -66,7 +66,6 @@ Status obey_add_pane(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Closes the last pane. */
 Status obey_end_pane(Player *player, const Command *command)
 {
     if (past_panes(&player->past) < 2)

@@ -37,8 +37,8 @@ static int pane_below(const Branch *branch, int pane)
 }
 
 /* Returns the entry of a step in a branch, or for steps before the branch in a
- * branch below; after the last step the entry that is being made.  NULL: there
- * is no such step. */
+ * branch below; after the last step the entry that is being made.  NULL: no
+ * such step. */
 static Entry *branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first && !branch->fresh; branch--)

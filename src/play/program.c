@@ -294,8 +294,7 @@ static Status check_files(const Options *options, Message message)
     return STATUS_OK;
 }
 
-/* Reports springs and walls that --state does not restore: they are as at the
- * start of a run. */
+/* Warns that --state leaves springs and walls as they are at a start. */
 static void print_forgotten(const Options *options)
 {
     const Scene *scene = options->scene;

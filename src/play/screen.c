@@ -1,4 +1,4 @@
-/* screen.c - what only the screen shows: speed, camera, cards, lists. */
+/* screen.c - commands for the screen: speed, camera, cards, lists; the end. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "play/playing.h"
 #include "run/scene.h"
 
-/* Whether the session has something to lose: changes, or a run of a minute. */
+/* Whether the session has edits, or a run of a minute, that could be lost. */
 static bool has_work(const Player *player)
 {
     static const double LONG = 60; /* s */
@@ -18,7 +18,6 @@ static bool has_work(const Player *player)
                              clock_now() - player->given.started > LONG);
 }
 
-/* Changes the speed or the active pane; switches something on or off. */
 Status obey_screen(Player *player, const Command *command)
 {
     switch (command->kind) {
@@ -53,7 +52,7 @@ Status obey_screen(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Shows a list or a page's code in the column, or the cards again. */
+/* Shows a list or the page's code in the column, or the cards again. */
 Status obey_column(Player *player, const Command *command)
 {
     Column column = command->kind == COMMAND_KEYS      ? COLUMN_KEYS
@@ -71,7 +70,7 @@ Status obey_column(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Ends the program; the key asks first if the session has something to lose. */
+/* Ends the program; the key must be pressed twice if there is work to lose. */
 Status obey_quit(Player *player, const Command *command)
 {
     bool key = command->text[0] != '\0', asked = player->orders.leaving;
@@ -83,8 +82,8 @@ Status obey_quit(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Closes what is open; if nothing is, a second Escape ends the program, unless
- * the session has something to lose. */
+/* Closes the topmost open thing.  If nothing is open, a second Escape ends the
+ * program, unless there is work to lose. */
 Status obey_escape(Player *player, const Command *command)
 {
     bool asked = player->orders.leaving == COMMAND_ESCAPE;
@@ -112,7 +111,7 @@ Status obey_escape(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Zooms at a point, m, moves the picture by a distance, m, or fits it again. */
+/* Zooms around a point, m, moves the picture by a distance, m, or fits it. */
 Status obey_camera(Player *player, const Command *command)
 {
     const Paper *paper = player_paper(player);
@@ -138,7 +137,7 @@ Status obey_camera(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Closes or opens a card; enlarges an open one, or gives it its size back. */
+/* Closes or opens a card; enlarges an open card, or gives it its size back. */
 Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
@@ -151,9 +150,9 @@ Status obey_card(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Moves the choice on the sheet: Left and Right by one cell; Up to the last
- * cell of a row above that starts at the same x or further left, Down to the
- * first cell of a row below that starts at the same x or further right. */
+/* Chooses another cell of the sheet: with Left and Right the next one in the
+ * row; with Up the last cell before that lies higher and not further right,
+ * with Down the first cell behind that lies lower and not further left. */
 Status obey_choose(Player *player, const Command *command)
 {
     const FrameContent *content = &player->screen.frame.content;

@@ -1,4 +1,4 @@
-/* sheet.c - the sheet: all scenes at once, as small pictures that go on. */
+/* sheet.c - the sheet: live small pictures of all scenes. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -8,19 +8,20 @@
 #include "scenes/scenes.h"
 
 enum {
-    LIFE = 240, /* frames until a scene begins again */
-    SLOW = 24   /* frames between two steps in scenes without time */
+    CELL_LIFE = 240, /* frames until the scene of a cell begins again */
+    CELL_PAUSE = 24  /* frames between two steps in scenes without time */
 };
 
-static const double LIVING = 0.008; /* s of a frame for all steps */
+static const double STEP_TIME =
+    0.008; /* s, longest time of a frame for steps */
 
-/* The first cell shows the pages of the tour, one after the other; then comes a
- * cell for each scene. */
+/* The first cell shows the pages of the tour in turn, each other cell a scene.
+ */
 typedef struct Sheet {
     int cells;
-    int next;              /* cell that gets the next step */
-    int page;              /* index of the page in the first cell */
-    int age[LAYOUT_CELLS]; /* frames; 0: the cell has no simulation yet */
+    int next; /* index of the cell that gets the next step */
+    int page; /* index of the page that the first cell shows next */
+    int age[LAYOUT_CELLS]; /* frames since the cell began for the first time */
     Simulation simulation[LAYOUT_CELLS];
 } Sheet;
 
@@ -33,7 +34,7 @@ void sheet_close(Player *player)
     player->screen.sheet = NULL;
 }
 
-/* Opens the sheet with the present scene chosen, or the tour; or closes it. */
+/* Closes the sheet, or opens it with the present scene or the tour chosen. */
 Status obey_sheet(Player *player, const Command *command)
 {
     const Options *options = player_settings(player);
@@ -79,15 +80,16 @@ void sheet_advance(Player *player)
     double begin = clock_now();
     if (!sheet)
         return;
-    for (int i = 0; i < sheet->cells && clock_now() - begin < LIVING; i++) {
+    for (int i = 0; i < sheet->cells && clock_now() - begin < STEP_TIME; i++) {
         int cell = sheet->next, age = sheet->age[cell]++;
         Simulation *simulation = &sheet->simulation[cell];
         Status status = simulation->status;
-        if (age % LIFE == 0)
+        if (age % CELL_LIFE == 0)
             begin_cell(sheet, cell);
         else if (simulation->scene && !simulation->done &&
                  (!status || status_is_unconverged(status)) &&
-                 ((simulation->scene->needs & NEEDS_TIME) || age % SLOW == 0))
+                 ((simulation->scene->needs & NEEDS_TIME) ||
+                  age % CELL_PAUSE == 0))
             simulation_step(simulation);
         sheet->next = (cell + 1) % sheet->cells;
     }
@@ -115,9 +117,9 @@ void sheet_fill(const Player *player, FrameContent *content)
     snprintf(content->strip.state, VALUE_SIZE, "digits: a page of the tour");
 }
 
-/* Opens the chosen cell by a command line, so that scripts can repeat it.  If
- * that cell is the tour and a page of the tour is already shown behind the
- * sheet, only closes the sheet. */
+/* Closes the sheet and opens the scene or page of the chosen cell by a command,
+ * which scripts can repeat.  If the chosen cell is the tour and a page is open
+ * already, only closes the sheet. */
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";

@@ -1,5 +1,5 @@
-/* start.c - begins new runs at step 0: the same run again, another start point,
- * scene or page of the lecture; answers of pages; cells of the envelope.
+/* start.c - begins new runs at step 0: of the present scene, another one, or a
+ * page of the lecture; answers of pages; cells of the envelope.
  */
 #include <math.h>
 #include <stdarg.h>

@@ -189,7 +189,7 @@ void step_trace_add(StepTrace *trace, const Newton *newton,
     trace->records.count++;
     free(trace->end);
     trace->end = copy_array(trace, newton->at.x);
-    if (trace->x_tilde) /* of several stages the first one has it */
+    if (trace->x_tilde) /* only the first stage stores x_tilde */
         return;
     trace->x_tilde = copy_array(trace, newton->u_tilde);
     for (int i = 0; i < trace->size && trace->x_tilde; i++)
