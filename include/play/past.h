@@ -21,7 +21,7 @@
  * To show a step, the machine of each pane loads the nearest stored state up to
  * that step, and makes the steps from there once more (past_iterate).
  *
- * All panes have one time and one count of steps: a step is one time step of
+ * The panes share their time and count of steps.  A step is one time step of
  * the pane with the longest one, and as many of the others as fit into it.  A
  * pane that cannot make its part ends; the others go on.
  */

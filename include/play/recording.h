@@ -1,19 +1,22 @@
 /* recording.h - the files that a run writes: frames, films, tables.
  *
  * Frames are FOLDER/frame_000000.png, ..., numbered by their steps; frames of
- * an earlier run that this one does not reach stay there. Tables (output.h)
- * begin at step 0: states    step,time,node,x,y,vx,vy of each node at each
- * step; nodes of run 1 are numbered after those of run 0 log       a row for
- * each Newton iteration (newton.h) energies  the energies of each run at each
- * step (simulation.h); runs of all panes are numbered from 0 springs
- * step,time,spring,i,j,whole,rest,strain,plastic,flowed of each spring at each
- * step: its nodes as in `states`; 1 unless it is broken; rest length, m;
- * Green's strain |d|^2/rest^2 - 1; ep and kappa of plasticity.h With several
- * panes states, log and springs have a column with the number of the pane, from
- * 1, and count the steps of all panes together.  If a user goes back and
- * changes a step, its new rows follow the old ones: the last rows of a step
- * count.  A number that is changed after a step also changes the energies of
- * this step.
+ * an earlier run that this one does not reach stay there.
+ * Tables (output.h) begin at step 0:
+ *   states    step,time,node,x,y,vx,vy of each node at each step; nodes of
+ *             run 1 are numbered after those of run 0
+ *   log       a row for each Newton iteration (newton.h)
+ *   energies  the energies of each run at each step (simulation.h); runs of
+ *             all panes are numbered from 0
+ *   springs   step,time,spring,i,j,whole,rest,strain,plastic,flowed of each
+ *             spring at each step: i, j are nodes as in `states`, `whole` is 1
+ *             unless the spring is broken, `rest` its rest length, m, `strain`
+ *             |d|^2/rest^2 - 1; the others are ep and kappa of plasticity.h
+ * With several panes states, log and springs have a column with the number of
+ * the pane, from 1, and count the steps of all panes together.  If a user goes
+ * back and changes a step, its new rows follow the old ones: the last rows of a
+ * step count.  A number that is changed after a step also changes the energies
+ * of this step.
  *
  * The program ffmpeg makes films of frames from a pipe; the end of the name
  * chooses the format: .mp4, .webm, .gif or .apng.  A film has all frames that

@@ -62,9 +62,8 @@ typedef struct StepTrace {
     int places;        /* number of places; 0 if memory is missing */
 } StepTrace;
 
-/* Begins the trace of a step.
- *   all   in, whether E along p is sampled in each round, for a walk
- *   last  in, whether E along p is sampled in the last round, for a card */
+/* Begins the trace of a step.  E along p is sampled in each round for a walk
+ * (`all`), in the last round for a card (`last`), or not. */
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 

@@ -1,5 +1,5 @@
-/* view.h - the window, on a computer (window_sdl.c) or in a web page
- * (window_web.c).
+/* view.h - shows the window, on a computer (window_sdl.c) or in a web page
+ * (window_web.c), and reads its inputs.
  */
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H
@@ -62,9 +62,8 @@ void window_set_full(bool full);
 /* Whether the window fills the screen. */
 bool window_is_full(void);
 
-/* Returns the next input, or INPUT_NONE; of several movements in a row the
- * last.
- */
+/* Returns the next input, or INPUT_NONE.  A movement before another movement is
+ * skipped. */
 Input window_input(void);
 
 /* Waits for an input, at most for this time. */

@@ -1,5 +1,5 @@
-/* start.c - begins new runs at step 0: of the present scene, another one, or a
- * page of the lecture; answers of pages; cells of the envelope.
+/* start.c - begins new runs of scenes and of pages of the lecture at step 0;
+ * answers of pages; cells of the envelope.
  */
 #include <math.h>
 #include <stdarg.h>
