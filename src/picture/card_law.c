@@ -242,7 +242,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, law->name, is_there && !still);
     values_add_words(
         values, "its way",
-        flowed_one_way(&now, ends[0], ends[1]) ? "; violet: its way" : "");
+        flowed_one_way(&now, ends[0], ends[1]) ? "; its path is violet" : "");
     if (law->value == gap_value) {
         const System *system = now.at.system;
         values_add(values, "c",

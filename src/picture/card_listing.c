@@ -18,8 +18,7 @@ ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
     bool reached =
         trace && (trace->line == LINE_NONE || trace->line >= row->line);
     bool struck = text_has_line(values, row->struck_if);
-    return (ShownRow){.lit = row->lit_if ? text_has_line(values, row->lit_if)
-                                         : trace && trace->line == row->line,
+    return (ShownRow){.lit = trace && trace->line == row->line,
                       .struck = struck,
                       .text = text_first_line(values, row->text),
                       .value = text_first_line(
@@ -78,17 +77,25 @@ static int put_rows(const FrameContent *content, const ListingRow *row,
     return count;
 }
 
+/* Height of a row in ems; an audience reads the rows of a page from far away.
+ */
+static double row_pitch(const FrameContent *content)
+{
+    return content->lecture.page ? PAGE_PITCH : PITCH;
+}
+
 /* Height in ems, with title and margin. */
 double listing_needs(const FrameContent *content, double wide, double em)
 {
     (void)wide, (void)em;
-    return PITCH * put_rows(content, rows_listing, NULL, (Box){0}) + 2.6;
+    return row_pitch(content) *
+               put_rows(content, rows_listing, NULL, (Box){0}) +
+           2.6;
 }
 
 void card_write_rows(const Plot *card, const ListingRow *row)
 {
-    double pitch =
-        card->em * (card->content->lecture.page ? PAGE_PITCH : PITCH);
+    double pitch = card->em * row_pitch(card->content);
     int count = put_rows(card->content, row, NULL, (Box){0});
     Box line = card->box;
     line.height = (int)fmin(lround(pitch), line.height / (double)count);

@@ -45,8 +45,10 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
     return box.y + (box.y > y ? (int)(GAP * text_line(size * paper->em)) : 0);
 }
 
-/* Returns how high it is, in pixels. */
-static int put_page(Paper *paper, Box inside, double size,
+/* Draws the texts of a page one below the other, or only measures them.
+ *   brief  leaves out the first text
+ * Returns their height in pixels. */
+static int put_page(Paper *paper, Box inside, double size, bool brief,
                     const FrameContent *content, bool draw)
 {
     const LecturePage *page = content->lecture.page;
@@ -58,7 +60,7 @@ static int put_page(Paper *paper, Box inside, double size,
                     .hides_answer; /* before a guess nothing that would tell */
     bool judged = content->lecture.verdict && !asks;
     const Words words[] = {
-        {NULL, page->text, COLOUR_TEXT, 1},
+        {NULL, brief ? NULL : page->text, COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA},
         {judged ? "Ask" : NULL, judged ? page->ask : NULL, COLOUR_X, 1},
         {judged ? "You" : NULL, judged ? content->lecture.verdict : NULL,
@@ -72,21 +74,21 @@ static int put_page(Paper *paper, Box inside, double size,
     return y - (int)(GAP * text_line(size * paper->em)) - inside.y;
 }
 
-double page_letters(Paper *paper, Box inside, const FrameContent *content)
-{
-    double size = LETTERS;
-    while (size > SMALLEST &&
-           put_page(paper, inside, size, content, false) > inside.height)
-        size -= 0.05;
-    return size;
-}
-
-/* The same letters on every page; smaller ones where they do not fit. */
+/* All pages have letters of one size.  Where they do not fit, first the letters
+ * get smaller; then an answer leaves out the text, which was read before it. */
 void page_draw(const Plot *card)
 {
-    put_page(card->paper, card->box,
-             page_letters(card->paper, card->box, card->content), card->content,
-             true);
+    Paper *paper = card->paper;
+    const FrameContent *content = card->content;
+    double size = LETTERS;
+    bool brief = false, asks = content->lecture.hides_answer;
+    while ((size > SMALLEST || !(brief || asks)) &&
+           put_page(paper, card->box, size, brief, content, false) >
+               card->box.height) {
+        brief = brief || size <= SMALLEST;
+        size = size > SMALLEST ? size - 0.05 : LETTERS;
+    }
+    put_page(paper, card->box, size, brief, content, true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
@@ -108,5 +110,5 @@ double page_needs(const FrameContent *content, double wide, double em)
     Paper paper = {.text = content->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* title and margin */
-    return put_page(&paper, box, LETTERS, content, false) / em + around;
+    return put_page(&paper, box, LETTERS, false, content, false) / em + around;
 }

@@ -17,11 +17,9 @@ static int count_added_updates(const Trace *trace)
     return before ? trace->iteration : trace->updates;
 }
 
-/* Draws E and its parts along the line from x_tilde to x.  Returns E at x, J
- * s^2.
- */
-static double draw_energy_parts(const Plot *card, const System *system,
-                                const Trace *trace, const double *x)
+/* Draws E and its parts along the line from x_tilde to x. */
+static void draw_energy_parts(const Plot *card, const System *system,
+                              const Trace *trace, const double *x)
 {
     enum { POINTS = 39, AIM = 6, NOW = 26 }; /* t is 0 at AIM, 1 at NOW */
     static const struct {
@@ -37,7 +35,7 @@ static double draw_energy_parts(const Plot *card, const System *system,
     size_t count = 2 * (size_t)system->nodes;
     double *at = malloc(count * sizeof *at);
     if (!at)
-        return NAN;
+        return;
     for (int i = 0; i < POINTS; i++) {
         t[i] = 0.05 * (i - AIM);
         for (size_t c = 0; c < count; c++)
@@ -66,32 +64,40 @@ static double draw_energy_parts(const Plot *card, const System *system,
                    (double[2]){t[i], parts[k].label_height * part[k][i]},
                    parts[k].colour, "%s", parts[k].name);
     }
-    return E[NOW];
 }
 
-/* Draws E after each update of the step. */
-static void draw_values(const Plot *card, const Trace *trace, double now)
+/* Draws E before each update, less E at x, on a logarithmic axis: the sum of
+ * the changes from this update on. */
+static void draw_excess(const Plot *card, const Trace *trace)
 {
     int made = count_added_updates(trace);
-    double start = now;
-    for (int i = 0; i < made; i++)
-        start -= trace->record[i].change;
+    double excess = 0, low = INFINITY, high = 0;
+    for (int i = made - 1; i >= 0; i--) {
+        excess -= trace->record[i].change;
+        low = excess > 0 ? fmin(low, excess) : low;
+        high = fmax(high, excess);
+    }
+    if (!(high > 0 && isfinite(high))) {
+        card_write_hint(card, text_undrawn);
+        return;
+    }
     Plot plot = plot_create(
-        card, (Axis){-0.4, fmax(made, 3) + 0.7, false, true, "update"},
-        (Axis){0, 1.3 * start, false, false, "E, J s\u00b2"});
+        card, (Axis){0.5, fmax(made, 3) + 0.7, false, true, "update"},
+        (Axis){pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
+               false, "E({x}^{i}) \u2212 E({x}), J s\u00b2"});
     for (int words = 0; words < 2; words++) { /* labels avoid all curves */
-        double at[2] = {0, start}, before[2];
-        for (int i = 0; i <= made; i++) {
-            memcpy(before, at, sizeof at);
+        double at[2] = {made + 1, 0}, after[2];
+        for (int i = made; i > 0; i--) {
+            memcpy(after, at, sizeof at);
             at[0] = i;
-            at[1] += i > 0 ? trace->record[i - 1].change : 0;
-            if (words) {
+            at[1] -= trace->record[i - 1].change;
+            if (words)
                 plot_label(&plot, 1, at, COLOUR_X, "%s",
-                           format_digits(at[1], 4).text);
-                continue;
-            }
-            plot_line(&plot, before, at, 1.6, COLOUR_X);
-            plot_disc(&plot, at, 4.5, COLOUR_X);
+                           format_number(at[1]).text);
+            else if (at[1] > 0)
+                plot_disc(&plot, at, 4.5, COLOUR_X);
+            if (!words && at[1] > 0 && after[1] > 0)
+                plot_line(&plot, at, after, 1.6, COLOUR_X);
         }
     }
 }
@@ -110,10 +116,9 @@ void values_draw(const Plot *card)
     int width = (int)((wide ? 0.52 : 1) * card->box.width);
     left.box = box_cut_off(&right.box, EDGE_LEFT, width);
     box_cut_off(&right.box, EDGE_LEFT, paper_pixels(card->paper, 1));
-    double E = draw_energy_parts(&left, &card->simulation->system, trace,
-                                 pane_x(pane));
+    draw_energy_parts(&left, &card->simulation->system, trace, pane_x(pane));
     if (wide)
-        draw_values(&right, trace, E);
+        draw_excess(&right, trace);
 }
 
 /* Draws a row of the table with the columns that are known at this line; row 0
@@ -148,11 +153,23 @@ static void draw_update(const Plot *card, double y, int row,
                     "%s", row ? cell[c] : heads[c]);
 }
 
-/* Draws the table of the updates so far, the present one as far as known. */
+static const double UPDATE_PITCH = 1.45; /* ems, height of a row of the table */
+
+/* Height in ems of a table of the updates so far, six at least, with its
+ * header, the title and margins. */
+double updates_needs(const FrameContent *content, double wide, double em)
+{
+    (void)wide, (void)em;
+    const Trace *trace = active_pane(content)->trace;
+    return UPDATE_PITCH * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
+}
+
+/* Draws the table of the newest updates that fit, the present one as far as
+ * known. */
 void updates_draw(const Plot *card)
 {
     const Trace *trace = card->pane->trace;
-    double pitch = 1.45 * card->em, y = card->box.y + 0.2 * card->em;
+    double pitch = UPDATE_PITCH * card->em, y = card->box.y + 0.2 * card->em;
     if (!trace) {
         card_write_hint(card, text_undrawn);
         return;
@@ -160,8 +177,10 @@ void updates_draw(const Plot *card)
     int made = count_added_updates(trace);
     bool now = trace->line >= LINE_PROJECT && trace->line < LINE_UPDATE &&
                trace->projected >= 0;
+    int rows = made + now, room = (int)(card->box.height / pitch - 1);
+    int first = rows > room ? rows - room : 0;
     draw_update(card, y, 0, NULL, LINE_NONE);
-    for (int i = 0; i < made + now; i++)
-        draw_update(card, y + (i + 1) * pitch, i + 1, &trace->record[i],
+    for (int i = first; i < rows; i++)
+        draw_update(card, y + (i - first + 1) * pitch, i + 1, &trace->record[i],
                     i < made ? LINE_END : trace->line);
 }

@@ -66,7 +66,7 @@ function end_row()
 
 BEGIN {
     texts["title"] texts["legend"] texts["words"]
-    texts["text"] texts["value"] texts["struck_if"] texts["lit_if"]
+    texts["text"] texts["value"] texts["struck_if"]
     values["min_height"] values["needed_height"] values["weight"] values["default_bounds"]
     values["draw"] values["bounds"] values["add_values"] values["pick"]
     values["hover"] values["sample"]

@@ -15,8 +15,6 @@ typedef struct ListingRow {
     Line line;            /* place of the row in Algorithm 3 */
     bool indented;
     const char *struck_if; /* strikes the row out if a line is known, or NULL */
-    const char *lit_if;    /* lights the row if a line is known; NULL: lights it
-                              if the run is at `line` */
     const char *text;
     const char *value; /* right of the text once the run has reached the row */
 } ListingRow;
@@ -31,7 +29,7 @@ typedef struct ShownRow {
 /* Tables and texts generated from cards.txt, as far as sources use them. */
 extern const Picture pictures[PICTURE_COUNT];
 extern const Card card_law, card_listing;
-extern const ListingRow rows_listing[], rows_search[];
+extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
     text_matrix[], text_eigenvalues[], text_update[], text_trials[],
     text_undrawn[], text_newest[], text_node[], text_spring[];
@@ -58,11 +56,7 @@ extern CardDraw page_draw, prints_draw, line_draw, residual_draw, values_draw,
     updates_draw, energies_draw, budget_draw, radius_draw, relief_draw,
     matrix_draw, update_draw, law_draw, hessian_pattern_draw, profile_draw,
     table_draw;
-extern CardNeeds page_needs, listing_needs, energies_needs;
-
-/* Finds the size of the letters of a page's text, ems: a fixed size, or smaller
- * if the text is too long for the box. */
-double page_letters(Paper *paper, Box inside, const FrameContent *content);
+extern CardNeeds page_needs, listing_needs, energies_needs, updates_needs;
 
 /* Writes the claim of a page that a test checks at the bottom of the box.
  * Returns the box above the claim. */

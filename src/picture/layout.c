@@ -188,16 +188,14 @@ typedef struct CardRow {
     double weight;   /* share of the height left over */
 } CardRow;
 
-/* Whether a card stands below the picture, on a page that has a star.  If code
- * is open, only the star itself may be there. */
+/* Whether the card is the star of the page and stands below the picture. */
 static bool is_below(const FrameContent *content, int card)
 {
     const Picture *picture = active_picture(content);
     const char *star = active_pane(content)->simulation->options.star;
     return star && picture->cards[card]->below_picture &&
            !((content->cards.hidden | content->cards.closed) >> card & 1) &&
-           (card == picture_card(picture, star) ||
-            content->column == COLUMN_CARDS);
+           card == picture_card(picture, star);
 }
 
 /* Finds the rows of all visible cards.  If `pairs`, two cards of half width
@@ -361,12 +359,15 @@ static void place_star(const FrameContent *content, Layout *layout)
         (content->cards.large >= 0 && content->cards.large != star))
         return;
     Box *stage = &layout->pane[0], place = layout->card[star];
-    for (int i = 0; i < layout->cards; i++) {
-        double needs = BELOW_FACTOR * picture->cards[i]->min_height + 2 * GAP;
-        if (is_below(content, i))
-            put_below(layout, i, fmin(needs * layout->em, 0.6 * stage->height));
+    if (is_below(content, star)) {
+        double wide = stage->width / layout->em;
+        double needs = fmax(needed_height(content, star, wide, layout->em),
+                            BELOW_FACTOR * picture->cards[star]->min_height);
+        put_below(layout, star,
+                  fmin((needs + 2 * GAP) * layout->em, 0.6 * stage->height));
+        return;
     }
-    if (is_below(content, star) || (place.width < 1 && !layout->page))
+    if (place.width < 1 && !layout->page)
         return;
     if (place.height < bar)
         place =

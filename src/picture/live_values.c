@@ -145,11 +145,6 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     values_add(values, "tolerance", trace->tolerance);
     values_add_flag(values, "walking", trace->line != LINE_NONE);
     values_add_flag(values, "updated", trace->updates > 0);
-    double risen = 0; /* change of E by the updates of this step so far */
-    for (int i = 0; i < trace->updates; i++)
-        risen += trace->record[i].change;
-    bool rose = risen > 0 && simulation->scene->needs & NEEDS_TIME;
-    values_add(values, "risen", rose ? risen : NAN);
     values_add(values, "nth", trace->iteration + 1);
     values_add_words(values, "way", trace->slope > 0 ? "uphill" : "downhill");
     values_add_flag(values, "uphill", trace->slope > 0);

@@ -186,8 +186,8 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
                  2, "");
         point = half;
     }
-    if (shown->implicit)
-        snprintf(cell[7], CELL, "(any h)");
+    if (shown->implicit) /* not tried by the race */
+        snprintf(cell[7], CELL, shown->damps ? "(any h)" : "(if linear)");
     else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
         snprintf(cell[7], CELL, "none");
     put_cell(cell[7], CELL, "",
@@ -208,7 +208,7 @@ void table_draw(const Plot *card)
                                                 "\u00f7 6.4",
                                                 "\u00f7 6.4",
                                                 "\u00d7 8.9\u00b710^{\u22128}",
-                                                "stable h\u2007",
+                                                "(if linear)",
                                                 "0.0055 ms"};
     static const int order[2][COLUMNS] = {{0, 6, 7, 1, 2, 3, 4, 5, 8},
                                           {0, 2, 3, 4, 5, 1, 6, 7, 8}};

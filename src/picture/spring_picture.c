@@ -157,6 +157,8 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "projected across",
                project_eigenvalue(projection, across));
     values_add(values, "negative", fmin(fmin(along, across), 0));
+    values_add(values, "qx", d[0] / (sqrt(2) * now.length));
+    values_add(values, "qy", d[1] / (sqrt(2) * now.length));
     for (int i = 0; i < 2; i++) { /* before and after projection */
         spring_hessian(d, l2, k, i == 0 ? PROJECTION_NONE : projection, H);
         values_add_matrix(values, names[i], H, 1e-12 * k);

@@ -284,6 +284,11 @@ static void draw_mouse(const SquarePen *pen)
                   COLOUR_TEXT);
     if (over && lit >= 0 && lit < system->springs)
         square_spring(pen, lit, 4.5, writes ? COLOUR_PROJECT : COLOUR_TEXT);
+    for (int k = 0; k < 2 && writes; k++) {
+        int node = system->e[2 * lit + k];
+        plot_label(stage, 1, pen->x + 2 * (size_t)node, COLOUR_PROJECT, "%d",
+                   node);
+    }
     if (hand && hand->push >= 0 && pen->contact)
         draw_push(pen, hand);
     if (!hand || hand->hand < 0)

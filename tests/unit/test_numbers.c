@@ -28,10 +28,8 @@ static void check_number(const char *line, const char *name, double said,
 static void check_trace(const char *line, const Pane *pane)
 {
     const Trace *trace = pane->trace;
-    double risen = 0, change = NAN,
+    double change = NAN,
            first = trace->first_alpha > 0 ? trace->first_alpha : 1;
-    for (int i = 0; i < trace->updates; i++)
-        risen += trace->record[i].change;
     if (trace->difference && trace->trials > 0)
         change = trace->difference(trace->difference_data,
                                    trace_step_length(trace, trace->trials));
@@ -40,7 +38,6 @@ static void check_trace(const char *line, const Pane *pane)
         double value;
     } rows[] = {{"nth", trace->iteration + 1},
                 {"length", first * pow(2, 1 - fmax(trace->trials, 1))},
-                {"risen", risen},
                 {"projected", trace->projected},
                 {"residual", trace->residual},
                 {"p size", trace->residual * trace->h},
