@@ -10,8 +10,8 @@
 #include <stdbool.h>
 
 /* Each row: the constant without its prefix, the name in logs, and a sentence
- * for messages, without full stop.  The rows from ITERATION_LIMIT to DIVERGED
- * are those of status_is_unconverged. */
+ * for messages, without full stop.  status_is_unconverged is true from
+ * ITERATION_LIMIT to DIVERGED, status_is_failure below DIVERGED. */
 #define STATUSES(F)                                                            \
     F(OK, ok, "converged")                                                     \
     F(RUNNING, running, "not at the end yet")                                  \
@@ -38,14 +38,17 @@
 #define STATUS_CONSTANT(name, lower, text) STATUS_##name,
 typedef enum Status { STATUSES(STATUS_CONSTANT) STATUS_COUNT } Status;
 
-/* The sentence for messages. */
+/* Returns the sentence for messages. */
 const char *status_text(Status status);
 
-/* The name in logs. */
+/* Returns the name in logs. */
 const char *status_name(Status status);
 
 /* Whether a step ended in a finite state that is not the minimiser.  E did not
  * rise, except for DIVERGED.  The run continues and reports the status. */
 bool status_is_unconverged(Status status);
+
+/* Whether a finished call has failed: neither OK nor unconverged. */
+bool status_is_failure(Status status);
 
 #endif

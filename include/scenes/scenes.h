@@ -5,11 +5,12 @@
 
 #include "run/scene.h"
 
-/* The scenes; a NULL name ends the table.  The first row is the default, the
- * last ones are those that open by name only. */
+/* The scenes; a NULL name ends the table.  The first row is the default; the
+ * last rows are scenes that open by name only. */
 extern const Scene scenes[];
 
-/* The scene with this name, or with this number from 1; NULL: no such scene. */
+/* Returns the scene with this name, or with this number from 1; NULL: there is
+ * no such scene. */
 const Scene *scene_find(const char *text);
 
 #endif

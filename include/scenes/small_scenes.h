@@ -1,5 +1,5 @@
-/* small_scenes.h - the lecture's small scenes, with one mass, one
- * unknown, one spring, or many runs of the square.
+/* small_scenes.h - the lecture's small scenes, with one mass, one unknown, one
+ * spring, or many runs of the square.
  *
  * circle, arrows: a mass of 1 kg with a = -omega2 x.
  * overshoot: f(x) = ln(e^x + e^-x), whose minimum is at 0.
@@ -14,16 +14,16 @@
  *   is a point, its run time and its error.
  * envelope: the square for every time step and stiffness.
  *
- * Their data is in run/exhibit.h.
+ * run/exhibit.h has the data of these scenes.
  */
 #ifndef ELASTO_SMALL_SCENES_H
 #define ELASTO_SMALL_SCENES_H
 
 #include "run/simulation.h"
 
-/* Notes the guess that the next step leads to (x, y), m: on the dial the end of
- * the longest step.  Does nothing where a scene has no single point or has
- * ended. */
+/* Stores a user's guess that the next step, or the longest step of the dial,
+ * leads to (x, y), m.  Does nothing in scenes without a single point, and after
+ * the end of a scene. */
 void scene_predict(Simulation *simulation, double x, double y);
 
 /* ---- one mass, one spring ------------------------------------------------ */
@@ -41,7 +41,7 @@ Status create_arrows(Simulation *simulation);
 /* Node 0 is free, node 1 is pinned at the origin. */
 Status create_spring(Simulation *simulation);
 
-/* A step of arrows, with omega2 = 1/s^2.
+/* A step of the scene arrows, with omega2 = 1/s^2.
  *   forward     x' = x + h v     v' = v + h a(x)
  *   symplectic  v' = v + h a(x)  x' = x + h v'
  *   backward    v' = v + h a(x') x' = x + h v' */
@@ -59,7 +59,7 @@ bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step);
 /* Exact solution x(t), m, out; t seconds since the start or the last drag. */
 void mass_find_exact(const Simulation *simulation, double t, double x[2]);
 
-/* A spring with its free end at d from the other end. */
+/* Length, energies and forces of a spring from its pinned end to d. */
 typedef struct SpringValues {
     double length;      /* |d|, m */
     double strain;      /* |d|^2/l2 - 1 */
@@ -68,33 +68,33 @@ typedef struct SpringValues {
     double along;       /* eigenvalue of the Hessian along d, J/m^2 */
     double across;      /* eigenvalue across d, J/m^2 */
     double root_energy; /* P_root, J */
-    double root_along, root_across; /* eigenvalues of P_root, J/m^2; across it
+    double root_along, root_across; /* eigenvalues of P_root, J/m^2; root_across
                                        is -infinity at d = 0 */
 } SpringValues;
 
-/* d [2] m; l2 m^2; k J/m^2 */
+/* Evaluates a spring; d [2] m, l2 m^2, k J/m^2. */
 SpringValues spring_evaluate(const double d[2], double l2, double k);
 
 /* ---- descents: a minimisation by Newton's method, update by update ------- */
 
-/* One unknown: node 0 is at x.  Two unknowns: node 0 is free, nodes 1 and 2 are
- * pinned. */
+/* In overshoot and tangent the unknown is x of node 0.  In landscape node 0 is
+ * free, and nodes 1 and 2 are pinned. */
 Status create_overshoot(Simulation *simulation);
 Status create_tangent(Simulation *simulation);
 Status create_landscape(Simulation *simulation);
 
-/* Makes one Newton update (Algorithm 1), with projection (Algorithm 3, line 3)
- * and line search (Algorithm 2) as in the options.  The loop tests |g| in one
- * unknown and without projection and line search, else |p|/h. */
+/* Makes one Newton update (Algorithm 1), with the projection (Algorithm 3, line
+ * 3) and line search (Algorithm 2) of the options.  The loop tests |g| in one
+ * unknown, and also without projection and line search; else |p|/h. */
 Status step_descent(Simulation *simulation);
 
-/* Computes the direction at the present iterate with the present methods. */
+/* Computes the direction at the present iterate with the present options. */
 void descent_find_direction(Simulation *simulation);
 
 /* Begins the search again at the present iterate. */
 void descent_restart(Simulation *simulation);
 
-/* E or f at (x, y), of the parts that are switched on. */
+/* Returns E or f at (x, y), of the parts that are switched on. */
 LocalModel descent_at(const Simulation *simulation, Projection projection,
                       double x, double y);
 
@@ -105,12 +105,12 @@ LocalModel descent_at(const Simulation *simulation, Projection projection,
 double descent_direction(const Simulation *simulation, Projection projection,
                          const double *x, double p[2]);
 
-/* How many eigenvalues of the Hessian, not projected, are not positive: 0 as at
- * a minimum, where Newton's direction is downhill without projection, 1 as at a
- * saddle, 2 as at a maximum.  In one unknown 0 or 2. */
+/* Returns how many eigenvalues of the Hessian, not projected, are not positive:
+ * 0 as at a minimum, where Newton's direction is downhill without projection; 1
+ * as at a saddle; 2 as at a maximum.  In one unknown 0 or 2. */
 int descent_hessian_index(const Simulation *simulation, double x, double y);
 
-/* Value of some parts of E, J s^2.
+/* Returns the value of some parts of E at (x, y), J s^2.
  *   parts  enum LandscapePart */
 double landscape_part_value(const Simulation *simulation, unsigned parts,
                             double x, double y);
@@ -123,13 +123,13 @@ void dial_restart(Simulation *simulation);
 
 /* ---- run time against error ---------------------------------------------- */
 
-/* Computes the motion of run 0 up to rounding; run 1 is then at its end.
+/* Computes the motion of run 0 up to rounding and puts its end into run 1.
  * Springs must be the only term.  Returns OK, NOT_FINITE if the motion is too
  * fast or explodes, OUT_OF_MEMORY. */
 Status race_reference(Simulation *simulation, double time);
 
 /* Measures run time and error of a method from run 0 to run 1.
- *   run    in/out, at its end; the caller frees it
+ *   run    in/out, run of the method, in its last step; the caller frees it
  *   point  out
  * Returns OK, or the failure that ended the run. */
 Status race_measure(Simulation *simulation, const IntegratorMethod *method,
@@ -139,31 +139,33 @@ Status race_measure(Simulation *simulation, const IntegratorMethod *method,
 /* Run 0 is the start; run 1 is the reference, at its end. */
 Status create_race(Simulation *simulation);
 
-/* Makes one more run.  The methods take turns, each from its longest time step
+/* Makes the next run.  The methods take turns, each from its longest time step
  * to its shortest. */
 Status step_race(Simulation *simulation);
 
-/* Longest time step so far with which a method was stable, s; NaN: none. */
+/* Returns the longest time step so far with which a method was stable, s; NaN:
+ * there is none. */
 double race_find_stable_h(const Race *race, int method);
 
-/* The method of column i, 0 ... RACE_METHODS - 1. */
+/* Returns method i of the race, 0 ... RACE_METHODS - 1. */
 const IntegratorMethod *race_method(int i);
 
 /* ---- how far the solver can be trusted ----------------------------------- */
 
-/* Time step of a column, s. */
+/* Returns the time step of a column, s. */
 double envelope_timestep(int column);
 
-/* Stiffness of a row, J/m^2. */
+/* Returns the stiffness of a row, J/m^2. */
 double envelope_stiffness(int row);
 
-/* Run 0 is the run of the cell that is shown, at first that of the options. */
+/* Run 0 is the run of the shown cell; at the start the cell with the numbers of
+ * the options is shown. */
 Status create_envelope(Simulation *simulation);
 
 /* Runs the cells of the next row, from the softest springs to the stiffest. */
 Status step_envelope(Simulation *simulation);
 
-/* Runs a cell and shows it as run 0.  Returns OK, also if its steps did not
+/* Makes the run of a cell as run 0.  Returns OK, also if steps did not
  * converge, or OUT_OF_MEMORY. */
 Status envelope_run_cell(Simulation *simulation, int column, int row);
 

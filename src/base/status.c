@@ -20,3 +20,8 @@ bool status_is_unconverged(Status status)
 {
     return status >= STATUS_ITERATION_LIMIT && status <= STATUS_DIVERGED;
 }
+
+bool status_is_failure(Status status)
+{
+    return status > STATUS_DIVERGED;
+}

@@ -84,7 +84,7 @@ static Status finish_step(Simulation *simulation, Status status)
 {
     Prediction *guess = &simulation->prediction;
     simulation->status = status;
-    if (status && !status_is_unconverged(status))
+    if (status_is_failure(status))
         return status;
     simulation->steps++;
     if (simulation->steps > guess->step + 1) /* about an earlier step */
@@ -145,7 +145,7 @@ Status simulation_advance(Simulation *simulation)
         if (status == STATUS_RUNNING)
             return status;
         simulation->worst = status ? status : simulation->worst;
-        if (status && !status_is_unconverged(status))
+        if (status_is_failure(status))
             break;
         book_gain(simulation);
         simulation->stepping++;

@@ -5,15 +5,15 @@
 
 /* ---- slope ------------------------------------------------------------- */
 
-/* Each run has a block that is lower than the one before, and its own friction.
- */
+/* Each run has a block that is lower than the previous one, and a friction of
+ * its own. */
 Status create_slope(Simulation *simulation)
 {
-    static const double part[SIMULATION_MAX_RUNS] = {0.5, 0.9, 1.1};
+    static const double factor[SIMULATION_MAX_RUNS] = {0.5, 0.9, 1.1};
     Status status = STATUS_OK;
     simulation->runs = SIMULATION_MAX_RUNS;
     for (int run = 0; run < SIMULATION_MAX_RUNS && !status; run++) {
-        simulation->variant[run].friction_factor = part[run];
+        simulation->variant[run].friction_factor = factor[run];
         simulation->variant[run].lift =
             1.3 * simulation->options.side / 0.5 * (1 - run);
         status = body_create(simulation, run);
@@ -24,7 +24,7 @@ Status create_slope(Simulation *simulation)
 /* ---- squeeze ----------------------------------------------------------- */
 
 /* The ceiling starts as far above the square as the floor is below, presses the
- * square by 0.55 of its height, and goes back at twice the speed. */
+ * square by 0.55 of the height, and goes back at twice the speed. */
 Obstacle ceiling_of_squeeze(const Options *options)
 {
     double down = 0.55 / 0.4, back = down + 0.7;
@@ -55,7 +55,8 @@ Status create_squeeze(Simulation *simulation)
 
 /* Cuts the springs across a vertical line at x between two heights, in the rest
  * positions, if springs can break. */
-static void cut(Simulation *simulation, double x, double low, double high)
+static void cut_springs(Simulation *simulation, double x, double low,
+                        double high)
 {
     System *system = &simulation->system;
     for (int s = 0; s < system->springs && simulation->options.tear > 0; s++) {
@@ -83,8 +84,8 @@ Status create_tear(Simulation *simulation)
             system->pin_v[2 * i] = copysign(0.2 * mesh->side, rest[0]);
     }
     if (!status)
-        cut(simulation, 0.5 * mesh->spacing, -0.12 * mesh->side,
-            0.12 * mesh->side);
+        cut_springs(simulation, 0.5 * mesh->spacing, -0.12 * mesh->side,
+                    0.12 * mesh->side);
     return status;
 }
 
@@ -110,8 +111,8 @@ Status create_bend(Simulation *simulation)
         return status;
     double a = mesh->spacing, half = 0.5 * mesh->rows * a;
     simulation->system.m[mesh->nodes] = 60;
-    if (!simulation->options.state) /* a table has the velocity, too */
+    if (!simulation->options.state) /* else the table has the velocity */
         simulation->run[0].v[2 * mesh->nodes + 1] = -3;
-    cut(simulation, 0.5 * a, -2 * half, -half + 0.6 * a);
+    cut_springs(simulation, 0.5 * a, -2 * half, -half + 0.6 * a);
     return STATUS_OK;
 }

@@ -1,5 +1,5 @@
-/* contact_scenes.h - scenes of the square with moving walls, moving pins or cut
- * springs, for which there is no option.
+/* contact_scenes.h - scenes of the square that no options describe: several
+ * blocks, moving walls, moving pins, cut springs.
  */
 #ifndef ELASTO_CONTACT_SCENES_H
 #define ELASTO_CONTACT_SCENES_H
@@ -7,7 +7,7 @@
 #include "run/body.h"
 
 /* Three blocks on slopes, with 0.5, 0.9 and 1.1 times the friction of the
- * options, which just holds a block. */
+ * options.  With the friction of the options a block just stays at rest. */
 Status create_slope(Simulation *simulation);
 
 /* A ceiling comes down on the square and goes up again. */

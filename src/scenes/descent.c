@@ -18,19 +18,21 @@ static const double LINE_TARGET = 2;           /* m, x_tilde */
 static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
 static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
 
-/* x_tilde of the free node, m, which inertia alone would reach. */
+/* m, x_tilde of the free node, the minimiser of the inertia energy. */
 static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
 
-/* Time steps of the dial, s: from 1e-3 to 10, ten for each factor of 10. */
+/* s, time steps of the dial: from 1e-3 to 10, ten for each factor of 10. */
 static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 
-/* DIAL_NEAR, m: a shorter p changes E by less than rounding and needs no line
- * search.  DIAL_BESIDE, m: smallest distance of a start from the pins' line. */
-static const double DIAL_NEAR = 1e-6, DIAL_BESIDE = 1e-9;
+static const double DIAL_SHORT_P = 1e-6;  /* m; a shorter p changes E by less
+                                             than rounding, and there is no line
+                                             search */
+static const double DIAL_OFF_LINE = 1e-9; /* m, smallest distance of a start
+                                             from the line through the pins */
 
-enum { DIAL_UPDATES = 100 };
+enum { DIAL_MAX_UPDATES = 100 };
 
-/* ---- what is minimised --------------------------------------------------- */
+/* ---- the functions ------------------------------------------------------- */
 
 /* ln(e^x + e^-x), written as |x| + ln(1 + e^(-2|x|)), which cannot overflow.
  * The derivatives are tanh and 1/cosh^2. */
@@ -43,6 +45,7 @@ static LocalModel log_two_cosh(const Simulation *simulation, double x)
     return (LocalModel){.value = f, .g = {g}, .H = {H}};
 }
 
+/* E of the scene tangent at x. */
 static LocalModel line_energy(const Simulation *simulation, double x)
 {
     double m = POINT_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
@@ -56,8 +59,8 @@ static LocalModel line_energy(const Simulation *simulation, double x)
     return (LocalModel){.value = E, .g = {g}, .H = {H}};
 }
 
-/* Value and derivatives of parts of E for a time step h, in landscape and dial,
- * or of the function of one unknown. */
+/* Returns value and derivatives of parts of E for a time step h, in landscape
+ * and dial, or of the function of one unknown. parts  enum LandscapePart */
 static LocalModel landscape_at(const Simulation *simulation, unsigned parts,
                                double h, Projection projection,
                                const double at[2])
@@ -67,11 +70,11 @@ static LocalModel landscape_at(const Simulation *simulation, unsigned parts,
     const System *system = &simulation->system;
     const double *pins = simulation->run[0].x, *o = simulation->exhibit.target;
     double m = system->m[0], w = h * h, P = 0;
-    const double away[2] = {at[0] - o[0], at[1] - o[1]};
+    const double u[2] = {at[0] - o[0], at[1] - o[1]};
     LocalModel E = {.value = 0};
     if (parts & PART_INERTIA)
-        E = (LocalModel){0.5 * m * (away[0] * away[0] + away[1] * away[1]),
-                         {m * away[0], m * away[1]},
+        E = (LocalModel){0.5 * m * (u[0] * u[0] + u[1] * u[1]),
+                         {m * u[0], m * u[1]},
                          {m, 0, m},
                          0};
     for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
@@ -118,7 +121,7 @@ int descent_hessian_index(const Simulation *simulation, double x, double y)
 
 /* ---- Newton -------------------------------------------------------------- */
 
-/* Newton's direction in one unknown leads to the zero of the tangent of g. */
+/* Returns Newton's direction in one unknown, to the zero of g's tangent. */
 static double tangent_direction(double g, double H)
 {
     return -g / H;
@@ -148,7 +151,7 @@ double descent_direction(const Simulation *simulation, Projection projection,
     return newton_direction(&E, simulation->descent.scalar, p);
 }
 
-/* The line along which E is searched: x + alpha p. */
+/* The line x + alpha p of a line search. */
 typedef struct SearchLine {
     const Simulation *simulation;
     unsigned parts; /* enum LandscapePart */
@@ -157,7 +160,7 @@ typedef struct SearchLine {
     double value; /* E(x) */
 } SearchLine;
 
-/* E(x + alpha p) - E(x), for line_search_backtrack. */
+/* Returns E(x + alpha p) - E(x), for line_search_backtrack. */
 static double descent_difference(const void *function, double alpha)
 {
     const SearchLine *line = function;
@@ -168,9 +171,11 @@ static double descent_difference(const void *function, double alpha)
     return E.value - line->value;
 }
 
-/* E and its derivatives at the iterate, with the projection of the options; on
- * demand means: if the Hessian is not positive definite. */
-static LocalModel local_at_iterate(const Simulation *simulation)
+/* Returns E and its derivatives at the iterate, with the projection of the
+ * options.  Projection on demand clamps a Hessian that is not positive
+ * definite.
+ */
+static LocalModel find_model(const Simulation *simulation)
 {
     const double *at = simulation->descent.point;
     Projection projection = (Projection)simulation->options.projection;
@@ -181,12 +186,11 @@ static LocalModel local_at_iterate(const Simulation *simulation)
     return descent_at(simulation, projection, at[0], at[1]);
 }
 
-/* Updates the data of the search at a new iterate: E, p, slope, and the number
- * that the loop tests.  If status is RUNNING the loop's test is made: the
- * result is OK if the search has converged, or DIVERGED if E is above that of
- * the start, as may happen without a line search.  After a failure p stays
- * visible. */
-static Status show_iterate(Simulation *simulation, Status status)
+/* Computes E, p, slope and residual at a new iterate.  If the status is RUNNING
+ * the loop's test is made.  Returns OK if the search has converged; DIVERGED if
+ * E then is above E at the start, as may happen without a line search.  After a
+ * failure p stays visible. */
+static Status evaluate_iterate(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];
     Descent *descent = &simulation->descent;
@@ -196,15 +200,15 @@ static Status show_iterate(Simulation *simulation, Status status)
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
-    LocalModel E = local_at_iterate(simulation);
+    LocalModel E = find_model(simulation);
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->by_gradient
                             ? math_hypot(E.g[0], E.g[1])
                             : (fabs(p[0]) + fabs(p[1])) / run->h;
-    double most = descent->start_value + 1e-12 * fabs(descent->start_value);
+    double start = descent->start_value, limit = start + 1e-12 * fabs(start);
     bool passed = descent->residual <= simulation->options.tolerance;
     if (status == STATUS_RUNNING && passed)
-        status = descent->value > most ? STATUS_DIVERGED : STATUS_OK;
+        status = descent->value > limit ? STATUS_DIVERGED : STATUS_OK;
     else if (status == STATUS_RUNNING && !isfinite(descent->slope))
         status = descent->scalar ? STATUS_DIVERGED : STATUS_SINGULAR;
     simulation->done = status != STATUS_RUNNING;
@@ -213,7 +217,7 @@ static Status show_iterate(Simulation *simulation, Status status)
     return status;
 }
 
-/* Chooses what the loop tests: |g| in Algorithm 1, else |p|/h. */
+/* Chooses the number that the loop tests: |g| in Algorithm 1, else |p|/h. */
 static void choose_test(Simulation *simulation)
 {
     const Options *options = &simulation->options;
@@ -229,8 +233,8 @@ void descent_find_direction(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     choose_test(simulation);
-    descent->start_value = INFINITY; /* known only after show_iterate */
-    Status status = show_iterate(simulation, STATUS_RUNNING);
+    descent->start_value = INFINITY; /* not known yet */
+    Status status = evaluate_iterate(simulation, STATUS_RUNNING);
     simulation->status = simulation->done ? status : STATUS_OK;
     if (!descent->scalar)
         descent->start_value = descent->value;
@@ -246,7 +250,7 @@ Status step_descent(Simulation *simulation)
                            .alpha = 1,
                            .slope = descent->slope,
                            .factorised = true,
-                           .projected = local_at_iterate(simulation).projected,
+                           .projected = find_model(simulation).projected,
                            .from = {descent->point[0], descent->point[1]}};
     const double *p = descent->direction;
     double *x = simulation->run[0].x;
@@ -272,7 +276,7 @@ Status step_descent(Simulation *simulation)
     record.change = descent_difference(&line, record.alpha);
     for (int i = 0; i < 2; i++)
         x[i] += record.alpha * p[i];
-    record.status = show_iterate(simulation, status);
+    record.status = evaluate_iterate(simulation, status);
     memcpy(record.to, x, sizeof record.to);
     if (descent->count < DESCENT_MAX)
         descent->record[descent->count++] = record;
@@ -310,8 +314,7 @@ static Status begin_descent(Simulation *simulation)
     if (status)
         return status;
     descent_find_direction(simulation);
-    return status_is_unconverged(simulation->status) ? STATUS_OK
-                                                     : simulation->status;
+    return STATUS_OK;
 }
 
 Status create_overshoot(Simulation *simulation)
@@ -327,8 +330,8 @@ Status create_tangent(Simulation *simulation)
     return begin_descent(simulation);
 }
 
-/* The springs are too long to lie flat between the pins; like a buckling column
- * node 0 moves up or down. */
+/* The springs are too long to lie flat between the pins; as in a buckling
+ * column node 0 moves up or down. */
 Status create_landscape(Simulation *simulation)
 {
     memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
@@ -340,16 +343,15 @@ Status create_landscape(Simulation *simulation)
 /* ---- the dial ------------------------------------------------------------ */
 
 /* Finds the minimiser for a time step h, up to rounding, by Algorithm 3 for two
- * unknowns.  The line of the pins may have a saddle, where the gradient is 0,
- * too, so the search begins beside that line.
- *   point  [2] m, in/out */
-static void dial_minimise(const Simulation *simulation, double h,
-                          double point[2])
+ * unknowns.  The gradient is 0 also at a saddle on the line through the pins,
+ * so the search begins beside this line. point  [2] m, in/out */
+static void minimise(const Simulation *simulation, double h, double point[2])
 {
     double p[2], length = INFINITY;
-    if (fabs(point[1]) < DIAL_BESIDE)
-        point[1] = copysign(DIAL_BESIDE, point[1]);
-    for (int update = 0; update < DIAL_UPDATES && length > 1e-14; update++) {
+    if (fabs(point[1]) < DIAL_OFF_LINE)
+        point[1] = copysign(DIAL_OFF_LINE, point[1]);
+    for (int update = 0; update < DIAL_MAX_UPDATES && length > 1e-14;
+         update++) {
         LocalModel E =
             landscape_at(simulation, PART_BOTH, h, PROJECTION_CLAMP, point);
         const SearchLine line = {simulation, PART_BOTH, h, point, p, E.value};
@@ -357,15 +359,15 @@ static void dial_minimise(const Simulation *simulation, double h,
         int trials;
         newton_direction(&E, false, p);
         length = math_hypot(p[0], p[1]);
-        if (length > DIAL_NEAR)
+        if (length > DIAL_SHORT_P)
             line_search_backtrack(descent_difference, &line, &alpha, &trials);
         for (int i = 0; i < 2; i++)
             point[i] += alpha * p[i];
     }
 }
 
-/* Each search begins at the minimiser before, so that the curve is continuous.
- * Node 0 is put to the minimiser of the present h. */
+/* Each search begins at the previous minimiser, so that the curve is
+ * continuous. Node 0 moves to the minimiser of the present h. */
 void dial_restart(Simulation *simulation)
 {
     DialCurve *dial = &simulation->exhibit.dial;
@@ -374,12 +376,12 @@ void dial_restart(Simulation *simulation)
     memcpy(simulation->descent.point, point, sizeof point);
     for (int i = 0; i < DIAL_POINTS; i++) {
         dial->h[i] = DIAL_FIRST * pow(10, i / DIAL_PER_TEN);
-        dial_minimise(simulation, dial->h[i], point);
+        minimise(simulation, dial->h[i], point);
         memcpy(dial->point[i], point, sizeof point);
         if (dial->h[i] <= h)
             memcpy(simulation->descent.point, point, sizeof point);
     }
-    dial_minimise(simulation, h, simulation->descent.point);
+    minimise(simulation, h, simulation->descent.point);
     memcpy(simulation->run[0].x, simulation->descent.point, sizeof point);
     simulation->descent.value =
         landscape_part_value(simulation, PART_BOTH, simulation->run[0].x[0],

@@ -13,13 +13,13 @@ static const double SPRING_MASS = 1;                  /* kg */
 static const double SPRING_STIFFNESS = 100;           /* J/m^2 */
 static const double SPRING_LENGTH = 1;                /* m, at rest */
 
-Status create_small_system(System *system, int held, double mass, double length,
+Status create_small_system(System *system, int pins, double mass, double length,
                            double stiffness)
 {
-    Status status = system_create(1 + held, held, system);
-    for (int i = 0; i <= held && !status; i++)
+    Status status = system_create(1 + pins, pins, system);
+    for (int i = 0; i <= pins && !status; i++)
         system->m[i] = mass;
-    for (int s = 0; s < held && !status; s++) {
+    for (int s = 0; s < pins && !status; s++) {
         system->pinned[s + 1] = 1;
         system->e[2 * s + 1] = s + 1;
         system->l2[s] = length * length;
@@ -28,7 +28,8 @@ Status create_small_system(System *system, int held, double mass, double length,
     return status;
 }
 
-/* Creates runs of a mass with a = -omega2 x, which starts at x with v. */
+/* Creates runs of a mass with a = -omega2 x that starts at x with velocity v.
+ */
 static Status create_orbit(Simulation *simulation, double omega2,
                            const double x[2], const double v[2])
 {
@@ -89,10 +90,10 @@ bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step)
 
 void mass_find_exact(const Simulation *simulation, double t, double x[2])
 {
-    const double *began = simulation->exhibit.start, omega = sqrt(MASS_OMEGA2);
+    const double *start = simulation->exhibit.start, omega = sqrt(MASS_OMEGA2);
     for (int i = 0; i < 2; i++)
         x[i] =
-            began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
+            start[i] * cos(omega * t) + start[i + 2] * sin(omega * t) / omega;
 }
 
 SpringValues spring_evaluate(const double d[2], double l2, double k)

@@ -1,4 +1,4 @@
-/* scene.c - the table of scenes, and guesses where their next step leads. */
+/* scene.c - the table of scenes, and a user's guess about the next step. */
 #include "scenes/scenes.h"
 
 #include "run/body.h"
@@ -166,21 +166,20 @@ const Scene *scene_find(const char *text)
 
 void scene_predict(Simulation *simulation, double x, double y)
 {
-    const DialCurve *curve = &simulation->exhibit.dial;
+    const Scene *scene = simulation->scene;
     const double *p = simulation->descent.direction;
-    double at[2], end[2];
+    double at[2];
     int count = simulation_point(simulation, at);
+    const double iterate[2] = {at[0] + p[0], at[1] + p[1]}, *end = iterate;
     MassStep step;
     if (simulation->done || count == 0)
         return;
-    bool time = simulation->scene->needs & NEEDS_TIME;
-    bool dial = simulation->scene->step == step_dial;
-    if (time)
+    if (scene->step == step_dial)
+        end = simulation->exhibit.dial.point[DIAL_POINTS - 1];
+    if (scene->needs & NEEDS_TIME) {
         mass_find_next_step(simulation, 0, &step);
-    for (int k = 0; k < 2; k++)
-        end[k] = time   ? step.new_x[k]
-                 : dial ? curve->point[DIAL_POINTS - 1][k]
-                        : at[k] + p[k];
+        end = step.new_x;
+    }
     simulation->prediction = (Prediction){
         .made = true,
         .step = simulation->steps,

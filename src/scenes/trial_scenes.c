@@ -12,20 +12,18 @@
 /* Makes steps of a method with these options, from the state of another run.
  *   run  out; free it in any case
  * Returns the last status that is not OK, or the failure that ended the run. */
-static Status trial_run(const Options *options, const IntegratorMethod *method,
-                        System *system, const TimeIntegrator *from, long steps,
-                        TimeIntegrator *run)
+static Status make_trial_run(const Options *options,
+                             const IntegratorMethod *method, System *system,
+                             const TimeIntegrator *from, long steps,
+                             TimeIntegrator *run)
 {
     NewtonSettings settings = {0};
     options_fill_newton_settings(options, &settings);
     Status worst = time_integrator_create(method, system, &settings, from->x,
                                           from->v, run);
-    bool goes_on = worst == STATUS_OK;
-    for (long i = 0; i < steps && goes_on; i++) {
+    for (long i = 0; i < steps && !status_is_failure(worst); i++) {
         Status status = time_integrator_step(run);
-        if (status)
-            worst = status;
-        goes_on = !status || status_is_unconverged(status);
+        worst = status ? status : worst;
     }
     return worst;
 }
@@ -42,11 +40,11 @@ const IntegratorMethod *race_method(int i)
     return integrator_method(names[i]);
 }
 
-/* Upper bound of the angular frequencies, 1/s.  The curvature of a spring's
- * energy is largest along the spring; a compressed spring counts as one at
- * rest.  A node has at most eight springs, so by Gershgorin omega^2 is below
- * twice eight times the largest curvature over m. */
-static double frequency_bound(const System *system, const double *x)
+/* Returns an upper bound of the angular frequencies, 1/s.  The curvature of a
+ * spring's energy is largest along the spring; a compressed spring counts as a
+ * spring at rest.  A node has at most eight springs, so by Gershgorin omega^2
+ * is below twice eight times the largest curvature over m. */
+static double find_frequency_bound(const System *system, const double *x)
 {
     double most = 0;
     for (int s = 0; s < system->springs; s++) {
@@ -65,8 +63,8 @@ static double frequency_bound(const System *system, const double *x)
  * the value sum over j of w_j times result j at 0, with w_j = product over i of
  * n_j^2 / (n_j^2 - n_i^2).
  *   from, to  scratch, [2 size] */
-static Status cross_exactly(TimeIntegrator *run, double H, double *from,
-                            double *to)
+static Status advance_exactly(TimeIntegrator *run, double H, double *from,
+                              double *to)
 {
     enum { COLUMNS = 6 };
     size_t both = 2 * run->size, bytes = both * sizeof *to;
@@ -91,25 +89,25 @@ static Status cross_exactly(TimeIntegrator *run, double H, double *from,
 
 Status race_reference(Simulation *simulation, double time)
 {
-    const double most = 1 << 14; /* intervals; more would take too long */
+    const double max_intervals = 1 << 14; /* more would take too long */
     const TimeIntegrator *start = &simulation->run[0];
     TimeIntegrator *run = &simulation->run[1];
     NewtonSettings settings = {0};
-    double bound = frequency_bound(&simulation->system, start->x);
+    double bound = find_frequency_bound(&simulation->system, start->x);
     double intervals = floor(1 + time * bound);
     options_fill_newton_settings(&simulation->options, &settings);
     Status status =
         time_integrator_create(integrator_method("verlet"), &simulation->system,
                                &settings, start->x, start->v, run);
-    if (!status && !(intervals <= most))
+    if (!status && !(intervals <= max_intervals))
         status = STATUS_NOT_FINITE;
-    double *room = malloc(4 * start->size * sizeof *room);
-    if (!room)
+    double *scratch = malloc(4 * start->size * sizeof *scratch);
+    if (!scratch)
         return STATUS_OUT_OF_MEMORY;
     for (int k = 0; k < intervals && !status; k++)
-        status =
-            cross_exactly(run, time / intervals, room, room + 2 * start->size);
-    free(room);
+        status = advance_exactly(run, time / intervals, scratch,
+                                 scratch + 2 * start->size);
+    free(scratch);
     return status;
 }
 
@@ -126,15 +124,15 @@ Status create_race(Simulation *simulation)
     return status;
 }
 
-/* Computes the energy of a run, J. */
-static double energy_of(const TimeIntegrator *run)
+/* Returns the energy of a run, J. */
+static double find_energy(const TimeIntegrator *run)
 {
     return system_potential(run->system, run->x) +
            system_kinetic(run->system, run->v);
 }
 
 /* Whether the energy of a run stays bounded.  Implicit methods count as stable,
- * forward Euler as unstable, since it adds energy with any time step. */
+ * forward Euler as unstable: forward Euler adds energy with any time step. */
 static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
 {
     if (strcmp(run->method->name, "forward-euler") == 0)
@@ -143,24 +141,19 @@ static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
         if (time_integrator_step(run))
             return false;
     return run->method->implicit ||
-           energy_of(run) <= RACE_MAX_ENERGY * energy_of(&simulation->run[0]);
+           find_energy(run) <=
+               RACE_MAX_ENERGY * find_energy(&simulation->run[0]);
 }
 
-/* Energy of a run after a second, over that of the start; NaN: the run failed.
- */
-static double energy_later(const Simulation *simulation, TimeIntegrator *run)
+/* Returns the energy of a run after a second, over the energy at the start;
+ * NaN: the run failed. */
+static double find_energy_ratio(const Simulation *simulation,
+                                TimeIntegrator *run)
 {
-    while (run->clock.now + 0.5 * run->h < 1) {
-        Status status = time_integrator_step(run);
-        if (status && !status_is_unconverged(status))
+    while (run->clock.now + 0.5 * run->h < 1)
+        if (status_is_failure(time_integrator_step(run)))
             return NAN;
-    }
-    return energy_of(run) / energy_of(&simulation->run[0]);
-}
-
-static bool step_has_failed(Status status)
-{
-    return status && !status_is_unconverged(status);
+    return find_energy(run) / find_energy(&simulation->run[0]);
 }
 
 /* Measures the processor time of a run.  The run is repeated until a clock that
@@ -170,21 +163,21 @@ static Status measure_run(Simulation *simulation,
                           const IntegratorMethod *method, double h, long steps,
                           TimeIntegrator *run, double *seconds)
 {
-    const double enough = 1e-3; /* s, of a measurement */
-    const double all = 0.01;    /* s, of all measurements */
-    double end = clock_processor() + all;
+    const double shortest = 1e-3;          /* s, of a measurement */
+    double end = clock_processor() + 0.01; /* s, of all measurements */
     Options options = simulation->options;
     Status status = STATUS_OK;
     options.timestep = h;
     *seconds = INFINITY;
     for (int i = 0;
-         (i < 2 || clock_processor() < end) && !step_has_failed(status); i++) {
+         (i < 2 || clock_processor() < end) && !status_is_failure(status);
+         i++) {
         double start = clock_processor(), taken = 0;
         int runs = 0;
-        while (!step_has_failed(status) && taken < enough) {
+        while (!status_is_failure(status) && taken < shortest) {
             time_integrator_free(run);
-            status = trial_run(&options, method, &simulation->system,
-                               &simulation->run[0], steps, run);
+            status = make_trial_run(&options, method, &simulation->system,
+                                    &simulation->run[0], steps, run);
             taken = clock_processor() - start;
             runs++;
         }
@@ -205,7 +198,7 @@ Status race_measure(Simulation *simulation, const IntegratorMethod *method,
     Status status =
         measure_run(simulation, method, point->h, steps, run, &point->seconds);
     point->converged = status == STATUS_OK;
-    if (step_has_failed(status))
+    if (status_is_failure(status))
         return status;
     point->error = 0;
     for (size_t i = 0; i < run->size; i += 2)
@@ -240,7 +233,7 @@ Status step_race(Simulation *simulation)
         race_measure(simulation, method, RACE_TIME, steps, &run, point);
     if (!status) {
         if (race->count / RACE_METHODS == RACE_SHOWN_ROW)
-            point->energy_after_second = energy_later(simulation, &run);
+            point->energy_after_second = find_energy_ratio(simulation, &run);
         point->stable = is_stable(simulation, &run);
     }
     time_integrator_free(&run);
@@ -263,8 +256,8 @@ double envelope_stiffness(int row)
     return pow(10, row - 6);
 }
 
-/* Index of the column or row with the nearest logarithm. */
-static int nearest(double value, double first, double per_ten, int count)
+/* Returns the index of the column or row with the nearest logarithm. */
+static int find_nearest(double value, double first, double per_ten, int count)
 {
     double place = round((log10(value) - first) * per_ten);
     return (int)fmin(fmax(place, 0), count - 1);
@@ -280,8 +273,8 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
         simulation->system.k[s] = envelope_stiffness(row);
     time_integrator_free(run);
     Status worst =
-        trial_run(&options, &integrator_methods[0], &simulation->system,
-                  &simulation->run[1], ENVELOPE_STEPS, run);
+        make_trial_run(&options, &integrator_methods[0], &simulation->system,
+                       &simulation->run[1], ENVELOPE_STEPS, run);
     if (worst == STATUS_OUT_OF_MEMORY)
         return worst;
     int updates = (int)run->newton->counters.iterations;
@@ -292,7 +285,7 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
     return STATUS_OK;
 }
 
-/* Run 1 keeps the start of all runs. */
+/* Run 1 is the start of all runs. */
 Status create_envelope(Simulation *simulation)
 {
     const Options *options = &simulation->options;
@@ -302,11 +295,12 @@ Status create_envelope(Simulation *simulation)
     if (status)
         return status;
     return envelope_run_cell(
-        simulation, nearest(options->timestep, -9, 2, ENVELOPE_COLUMNS),
-        nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
+        simulation, find_nearest(options->timestep, -9, 2, ENVELOPE_COLUMNS),
+        find_nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
 }
 
-/* After the row the cell that was shown before is shown again. */
+/* The runs of the row replace run 0, so the run of the shown cell is made
+ * again. */
 Status step_envelope(Simulation *simulation)
 {
     const EnvelopeMap *map = &simulation->exhibit.map;
