@@ -20,18 +20,16 @@
 Status options_parse(int argc, char **argv, int pane, Options *options,
                      Message message);
 
-/* Reads a line such as "drop --segments 8", without files and pins. */
+/* Reads a line such as "drop --segments 8", which names no files and no nodes.
+ */
 Status options_of_line(const char *line, Options *options, Message message);
 
-/* Sets an option, named without dashes, to a value as on the command line.
- * Options that the scene cannot use are refused, with a message as above. */
-Status options_set(Options *options, const char *name, const char *value,
-                   Message message);
-
-/* Sets an option that has one number, or one name by its index, with the same
- * checks as options_set.  NaN is refused as an empty text would be. */
-Status options_put(Options *options, const OptionRow *row, double value,
-                   Message message);
+/* Sets an option that has a value.  An option that the scene cannot use, or
+ * that does not fit the others, is refused with a message as above. text   in,
+ * as on the command line; "": the value is used value  number, or index of a
+ * name; NaN: refused as an empty text */
+Status options_set(Options *options, const OptionRow *row, const char *text,
+                   double value, Message message);
 
 /* Writes the text of --help, 80 columns wide. */
 void options_help(FILE *help);

@@ -102,34 +102,23 @@ static Status apply_numbers(const Line *line, const Word *word)
     return STATUS_OK;
 }
 
-/* Returns the end of a file's name if it stands for another format than CSV,
- * else NULL. */
-static const char *find_other_format(const char *name)
-{
-    static const char *const ends[] = {
-        ".npz", ".npy",  ".json", ".xml", ".vtk",     ".gz",  ".zip",
-        ".xls", ".xlsx", ".ods",  ".h5",  ".parquet", ".mat", ".png"};
-    const char *end = strrchr(name, '.');
-    for (size_t i = 0; end && i < sizeof ends / sizeof *ends; i++)
-        if (strcasecmp(end, ends[i]) == 0)
-            return ends[i];
-    return NULL;
-}
-
-/* Stores the name of a file, or of nodes. */
+/* Stores the name of a file, or of nodes.  A table is CSV; names of other
+ * formats are refused. */
 static Status apply_text(const Line *line, const Word *word)
 {
+    static const char *const formats[] = {".npz", ".json", ".vtk",  ".gz",
+                                          ".zip", ".xlsx", ".hdf5", ".h5"};
     const OptionRow *row = word->row;
-    const char *text = word->text;
-    const char *other = row->is_table ? find_other_format(text) : NULL;
+    const char *text = word->text, *end = strrchr(text, '.');
     if (!text[0])
         return refuse(line->message, "--%s: the value is empty: --%s %s",
                       row->name, row->name, row->placeholder);
-    if (other)
-        return refuse(line->message,
-                      "--%s: '%.60s': tables are CSV, but %s is another "
-                      "format; use .csv",
-                      row->name, text, other);
+    for (size_t i = 0; end && i < sizeof formats / sizeof *formats; i++)
+        if (row->is_table && strcasecmp(end, formats[i]) == 0)
+            return refuse(line->message,
+                          "--%s: '%.60s': tables are CSV, but %s is another "
+                          "format; use .csv",
+                          row->name, text, formats[i]);
     memcpy((char *)line->options + row->offset, &text, sizeof text);
     return STATUS_OK;
 }
@@ -195,35 +184,22 @@ static Status check_change(const Options *options, const OptionRow *row,
     return status || !is_start ? status : body_check(options, message);
 }
 
-Status options_set(Options *options, const char *name, const char *value,
-                   Message message)
+Status options_set(Options *options, const OptionRow *row, const char *text,
+                   double value, Message message)
 {
     const Line line = {.options = options, .message = message};
-    const Word word = {.row = option_find(name), .text = value};
-    if (!word.row || word.row->kind == OPTION_SWITCH)
-        return refuse(message, "there is no option '%.60s' that has a value",
-                      name);
-    if (check_scene(options, word.row, message) || apply(&line, &word))
-        return STATUS_INVALID_INPUT;
-    return check_change(options, word.row, message);
-}
-
-Status options_put(Options *options, const OptionRow *row, double value,
-                   Message message)
-{
-    const Line line = {.options = options, .message = message};
-    char text[32] = "";
-    if (row->kind == OPTION_NAME) /* -1, the scene's own choice: the first */
-        value = fmax(value, 0);
+    char number[32] = "";
     if (check_scene(options, row, message))
         return STATUS_INVALID_INPUT;
-    if (row->count > 1 || !option_allows(row, value)) {
-        if (!isnan(value))
-            option_write(row, value, text, sizeof text);
-        return refuse_value(&line, &(Word){row, text, NULL, ""}, row->count);
+    if (!text[0] && row->count <= 1 && option_allows(row, value)) {
+        options->number[row->slot] = value;
+        return check_change(options, row, message);
     }
-    options->number[row->slot] = value;
-    return check_change(options, row, message);
+    if (!text[0] && !isnan(value))
+        option_write(row, value, number, sizeof number);
+    const Word word = {row, text[0] ? text : number, NULL, ""};
+    return apply(&line, &word) ? STATUS_INVALID_INPUT
+                               : check_change(options, row, message);
 }
 
 /* ---- words -------------------------------------------------------------- */

@@ -124,11 +124,8 @@ static Status put_value(Player *player, int pane, const Command *command,
                         Options *options)
 {
     const OptionRow *row = &option_rows[command->number];
-    Status status =
-        command->text[0]
-            ? options_set(options, row->name, command->text,
-                          MESSAGE(player->message))
-            : options_put(options, row, command->x, MESSAGE(player->message));
+    Status status = options_set(options, row, command->text, command->x,
+                                MESSAGE(player->message));
     if (!status && row->slot == OPTION_SLOT(integrator) &&
         integrator_method_refuses(options_method(options),
                                   &player_simulation(player)->system))
@@ -146,7 +143,8 @@ Status obey_set(Player *player, const Command *command)
     const OptionRow *row = row_of(command);
     const Simulation *simulation = player_simulation(player);
     Options options[OPTIONS_MAX_PANES];
-    if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE)
+    if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE ||
+        row->kind == OPTION_SWITCH)
         return player_refuse(player, "there is no option '%s' with a value",
                              row ? row->name : command->text);
     const char *idle = player_idle_reason(player, row);

@@ -817,11 +817,9 @@ static const Control *edited_control(const Control *from, const Command *edit,
     Control *control = control_copy(from);
     if (!control)
         return NULL;
-    if (edit->kind == COMMAND_SET && edit->text[0])
-        options_set(&control->options, option_rows[edit->number].name,
-                    edit->text, MESSAGE(message));
-    else if (edit->kind == COMMAND_SET)
-        control->options.number[option_rows[edit->number].slot] = edit->x;
+    if (edit->kind == COMMAND_SET)
+        options_set(&control->options, &option_rows[edit->number], edit->text,
+                    edit->x, MESSAGE(message));
     if (edit->kind == COMMAND_OBSTACLE) {
         double *at = options_obstacle_at(&control->options, (int)edit->number);
         at[0] = edit->x;

@@ -15,18 +15,13 @@ static bool is_continuation(char byte)
     return ((unsigned char)byte & 0xC0) == 0x80;
 }
 
-/* Whether a character moves the cursor, ends a line, has no width, or changes
- * the direction of writing, and so could hide a part of a message. */
+/* Whether a character moves the cursor, ends a line, or changes the direction of
+ * writing (from U+2028 on), and so could hide a part of a message. */
 static bool is_control(long letter)
 {
-    static const long hidden[][2] = {
-        {0, 0x1F},        {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},
-        {0x200B, 0x200F}, {0x2028, 0x202E}, {0x2060, 0x206F}, {0xFEFF, 0xFEFF},
-    };
-    for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++)
-        if (letter >= hidden[i][0] && letter <= hidden[i][1])
-            return true;
-    return false;
+    return letter < 0x20 || (letter >= 0x7F && letter < 0xA0) ||
+           (letter >= 0x2028 && letter <= 0x202E) ||
+           (letter >= 0x2066 && letter <= 0x2069);
 }
 
 /* Returns how many bytes the first character of a text has; 0: the text does

@@ -24,7 +24,8 @@ static Status set_option(Options *options, const char *name, const char *value,
                          char *message)
 {
     *options = parse_good("square");
-    return options_set(options, name, value, (Message){message, 512});
+    return options_set(options, option_find(name), value, NAN,
+                       (Message){message, 512});
 }
 
 static void check_refused(const char *option, const char *value,
@@ -75,8 +76,9 @@ TEST(numbers_have_ranges)
     CHECK(numbers > 15);
     char message[512];
     Options solid = parse_good("return"); /* a start that makes no sense */
-    CHECK_STATUS(options_set(&solid, "stretch", "0", MESSAGE(message)),
-                 STATUS_INVALID_INPUT);
+    CHECK_STATUS(
+        options_set(&solid, option_find("stretch"), "0", 0, MESSAGE(message)),
+        STATUS_INVALID_INPUT);
     CHECK(strstr(message, "would be turned over") != NULL);
 }
 
