@@ -35,33 +35,43 @@ int picture_card(const Picture *picture, const char *name)
     return -1;
 }
 
-void frame_create(const Simulation *simulation, FrameContent *content)
+/* Finds the cards that the page, or else the scene, hides or closes at first.
+ *   hidden, closed  out, bit c: card c */
+static void find_cards(const Simulation *simulation, unsigned *hidden,
+                       unsigned *closed)
 {
     const Picture *picture = picture_of(simulation->scene);
+    const LecturePage *page = simulation->options.page;
+    for (int c = 0; c < picture->count; c++) {
+        /* strstr is safe: no card's name is part of another's. */
+        const Card *card = picture->cards[c];
+        bool has = page ? strstr(page->cards, card->name) != NULL
+                        : !card->only_in_lecture;
+        *hidden |= (unsigned)!has << c;
+        *closed |= (unsigned)(card->starts_closed && !page) << c;
+    }
+}
+
+void frame_create(const Simulation *simulation, FrameContent *content)
+{
     static const View whole = {.lens = {1, {0, 0}}};
-    CardSets *cards = &content->cards;
     *content = (FrameContent){
         .panes = 1, .view = &whole, .settings.selected = -1, .cards.large = -1};
     content->pane[0].simulation = simulation;
-    for (int c = 0; c < picture->count; c++) {
-        cards->closed |= (unsigned)picture->cards[c]->starts_closed << c;
-        cards->hidden |= (unsigned)picture->cards[c]->only_in_lecture << c;
-    }
+    find_cards(simulation, &content->cards.hidden, &content->cards.closed);
 }
 
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
 {
     const Picture *picture = picture_of(simulation->scene);
-    const LecturePage *page = simulation->options.page;
-    for (int c = 0; c < picture->count; c++) {
-        const Card *card = picture->cards[c];
-        bool there = page ? strstr(page->cards, card->name) != NULL
-                          : !card->only_in_lecture;
-        bool closed = (card->starts_closed && !page) != (toggled >> c & 1);
-        if (card->needs_line_energy && there && !closed)
-            return true;
-    }
-    return false;
+    unsigned hidden = 0, closed = 0;
+    bool needs = false;
+    find_cards(simulation, &hidden, &closed);
+    closed ^= toggled;
+    for (int c = 0; c < picture->count; c++)
+        needs = needs || (picture->cards[c]->needs_line_energy &&
+                          !((hidden | closed) >> c & 1));
+    return needs;
 }
 
 /* Returns the box of a pane without the room that words need on a page. */

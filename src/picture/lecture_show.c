@@ -66,16 +66,9 @@ void frame_add_lecture(Column column, const LecturePage *left,
         return;
     content->lecture.page = page;
     content->strip.topic = page->topic;
-    content->cards.hidden = content->cards.covered = 0;
-    for (int c = 0; c < picture->count; c++) {
-        /* strstr is safe: no card's name is part of another's. */
-        const char *name = picture->cards[c]->name;
-        bool open = strstr(page->cards, name);
+    content->cards.covered = 0;
+    for (int c = 0; c < picture->count; c++)
         if (content->lecture.hides_answer && page->veils &&
-            strstr(page->veils, name))
+            strstr(page->veils, picture->cards[c]->name))
             content->cards.covered |= 1u << c;
-        content->cards.hidden |= open ? 0 : 1u << c;
-        if (open && picture->cards[c]->starts_closed)
-            content->cards.closed &= ~(1u << c);
-    }
 }
