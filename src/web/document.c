@@ -299,18 +299,17 @@ static void put_event(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Trace *trace = active_pane(content)->update;
+    const Outcome *outcome = &player->past.machine[player->active].outcome;
     const char *turn = player_simulation(player)->scene->step_name;
-    double change = 0;
     put(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
     if (trace && trace->line != LINE_NONE) {
         put(to, ": %s", content->strip.sentence);
-    } else if (trace && trace->updates > 0) {
-        for (int i = 0; i < trace->updates; i++)
-            change += trace->record[i].change;
-        put(to, ": %d update%s, %s %s by %s", trace->updates,
-            trace->updates > 1 ? "s" : "",
-            active_pane(content)->trace ? "E" : "f",
-            change > 0 ? "rose" : "fell", format_number(fabs(change)).text);
+    } else if (outcome->updates > 0) {
+        put(to, ": %d update%s, %s %s by %s", outcome->updates,
+            outcome->updates > 1 ? "s" : "",
+            player_simulation(player)->scene->step ? "f" : "E",
+            outcome->change > 0 ? "rose" : "fell",
+            format_number(fabs(outcome->change)).text);
     }
     put(to, "\n");
 }
