@@ -28,7 +28,7 @@ typedef struct Sparse {
     double *value; /* [entries+1] the last one collects dropped entries */
 } Sparse;
 
-/* Allocates room for `capacity` triplets.  Returns OK, TOO_LARGE or
+/* Allocates memory for `capacity` triplets.  Returns OK, TOO_LARGE or
  * OUT_OF_MEMORY. */
 Status triplets_create(int size, long long capacity, Triplets *triplets);
 void triplets_free(Triplets *triplets);

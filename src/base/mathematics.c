@@ -1,5 +1,4 @@
-/* mathematics.c - logarithm, hypotenuse and their like, with the same bits
- * in every C library.
+/* mathematics.c - hypot, log and log1p with the same bits in every C library.
  */
 #include "base/mathematics.h"
 
@@ -17,8 +16,8 @@ double math_hypot(double x, double y)
 }
 
 /* x = 2^k (1 + f) with |f| at most about 0.41.  With s = f / (2 + f)
- * log(1 + f) = 2 s + 2 s^3/3 + 2 s^5/5 + ..., here written as f less what is
- * small, so that the sum's rounding is small, too (Tang 1990, and fdlibm). */
+ * log(1 + f) = 2 s + 2 s^3/3 + 2 s^5/5 + ..., computed as f minus small terms,
+ * so that rounding errors are small, too (Tang 1990, and fdlibm). */
 double math_log(double x)
 {
     static const double high = 0x1.62e42feep-1, low = 0x1.a39ef35793c76p-33;

@@ -1,4 +1,6 @@
-/* bench.c - elasto-bench measures run time against error, and time a step. */
+/* bench.c - elasto-bench measures run time against error, and the time of a
+ * step.
+ */
 #include "bench/bench.h"
 
 #include <SDL_version.h>
@@ -24,7 +26,8 @@ static double median(double *values, int count)
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
-/* Prints a claim of the README, the measured number, and whether it is met. */
+/* Prints a claim of the README, the measured number, and whether the number
+ * meets the claim. */
 static void print_claim(const char *what, double measured, double at_most)
 {
     printf("# claim: %s: %.3g, at most %g: %s\n", what, measured, at_most,
@@ -43,8 +46,8 @@ static Options slides_options(int segments)
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* A motion for error against run time.  Every method simulates the same time in
- * 8, 16, 32, ... steps, until a run takes too long or is accurate enough. */
+/* A motion for the table `work`.  Every method simulates the same time in 8,
+ * 16, 32, ... steps, until a run takes too long or is accurate enough. */
 typedef struct Motion {
     const char *name;
     double stiffness; /* J/m^2 */
@@ -54,7 +57,7 @@ typedef struct Motion {
     int segments[4];  /* sizes of the square, then 0 */
 } Motion;
 
-/* A stiffness 10^4 times larger makes vibrations 100 times as fast.  The last
+/* A stiffness 10^4 times as large makes vibrations 100 times as fast.  The last
  * motion suits implicit methods: stiff springs that hardly vibrate, in a square
  * that turns slowly. */
 static const Motion motions[] = {
@@ -66,20 +69,20 @@ enum { MOTIONS = sizeof motions / sizeof *motions };
 
 enum { FIRST_STEPS = 8, TARGETS = 5 };
 
-/* m, errors for which the fastest methods are printed */
+/* m, errors of the rows that name the fastest methods */
 static const double targets[TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
-/* m, error that is expected of the first run */
+/* m, expected error of the first run */
 static const double first_error = 1e-2;
 
 /* The fastest run with an error below a target. */
 typedef struct Best {
-    const char *name; /* method; NULL: no run is that accurate */
+    const char *name; /* method; NULL: no run is so accurate */
     double ms;        /* run time */
 } Best;
 
-/* Makes the simulation: run 0 is the start, run 1 the exact end of the motion.
- */
+/* Creates a simulation whose run 0 is the start of the motion and whose run 1
+ * is its exact end. */
 static Status create_motion(const Motion *motion, int segments,
                             Simulation *simulation)
 {
@@ -98,13 +101,14 @@ static Status create_motion(const Motion *motion, int segments,
     return race_reference(simulation, motion->time);
 }
 
-/* Measures a method with 8, 16, 32, ... steps.  Ends after a run that takes too
- * long or is accurate enough.
+/* Measures a method with 8, 16, 32, ... steps, up to a run that takes too long
+ * or is accurate enough.
  *
  * Tolerance: the last direction p of a step changes velocities by at most the
- * tolerance, and over all steps positions by steps * tolerance * time / 2. This
- * may equal the expected error of the method, since a step applies the last p,
- * and the error left is a hundredth of p or less. */
+ * tolerance, so all steps change positions by at most steps * tolerance * time
+ * /
+ * 2.  This bound may equal the expected error of the method: a step applies the
+ * last p, and the remaining error is a hundredth of p or less. */
 static Status measure_method(bool quick, const Motion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method, Best best[TARGETS])
@@ -187,8 +191,8 @@ static Status measure_work(bool quick)
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* The last bits decide which fold a buckling step takes.  Every run is
- * therefore made from nine starts, whose stretches differ by 1e-9. */
+/* The last bits decide which fold a buckling step takes.  Every program
+ * therefore runs from nine starts, whose stretches differ by 1e-9. */
 enum { STARTS = 9, STEPS = 10, SOLVERS = 3 };
 
 typedef enum Program { LECTURE, NEWTON, MULTIGRID } Program;
@@ -198,15 +202,15 @@ static const struct {
     int largest; /* largest number of segments that is measured */
 } programs[SOLVERS] = {{"lecture.c", 32}, {"newton", 64}, {"multigrid", 512}};
 
-/* s; no further start of one size begins after this time */
-static const double enough = 60;
+/* s, after which no further start of the same size begins */
+static const double time_limit = 60;
 
 /* Results of one program on one square, for each start. */
 typedef struct Runs {
     double ms[STARTS];             /* processor time a step */
-    double newton_updates[STARTS]; /* Newton updates a step */
+    double newton_updates[STARTS]; /* updates a step */
     double energy[STARTS]; /* energy at the end, % of that at the start */
-    long unconverged;      /* steps that did not converge, of all starts */
+    long unconverged;      /* steps of all starts that did not converge */
 } Runs;
 
 /* Runs a program from one start and stores its results. */
@@ -250,7 +254,8 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
     int count = 0;
     double began = clock_now();
     Status status = STATUS_OK;
-    for (; count < starts && clock_now() - began < enough && !status; count++)
+    for (; count < starts && clock_now() - began < time_limit && !status;
+         count++)
         for (int m = 0; m < SOLVERS && !status; m++)
             if (segments <= programs[m].largest)
                 status =

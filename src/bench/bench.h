@@ -5,8 +5,8 @@
 #include "lesson/command_line.h"
 #include "run/simulation.h"
 
-/* step_forward of src/lecture.c.
- *   system  in; only springs and masses count
+/* Makes a step by step_forward of src/lecture.c.
+ *   system  in; only springs and masses are used
  *   h       s, time step
  *   tol     m/s, tolerance
  *   x, v    [2n] m, m/s, in/out

@@ -1,5 +1,5 @@
-/* lecture_step.c - a step of lecture.c, unchanged; where lecture.c ends the
- * program, the step returns. */
+/* lecture_step.c - a step of lecture.c, which is included without a change.  A
+ * call of exit in lecture.c becomes a jump out of the step. */
 #include <SDL.h>
 #include <cholmod.h>
 #include <setjmp.h>

@@ -36,15 +36,15 @@ enum {
     TASK_explicit_euler
 };
 
-/* A function of lecture.c with a frequent mistake, from mistakes.txt. */
+/* A function of lecture.c with a frequent mistake, a row of mistakes.txt. */
 typedef struct Mistake {
-    int task;
+    int task; /* number of the function */
     Function *function;
-    const char *words;
+    const char *words; /* sentence for the student; NULL ends the table */
 } Mistake;
 
-/* lecture.c jumps here where it calls exit.  The headers that declare exit are
- * included above. */
+/* A call of exit in lecture.c becomes a jump to this place.  The headers that
+ * declare exit are included above. */
 static jmp_buf program_ended;
 
 #define exit(code) longjmp(program_ended, (code) + 1)
@@ -56,18 +56,18 @@ int main(int argc, char **argv);
 #undef exit
 
 enum {
-    TEXT = 400, /* bytes of a sentence */
-    MOST = 400, /* numbers of a result */
-    NODES = 9,  /* largest number of nodes of a case */
-    SIDE = 2 * NODES
+    MAX_TEXT = 400,    /* bytes of a sentence */
+    MAX_NUMBERS = 400, /* numbers of a result */
+    MAX_NODES = 9,     /* nodes of the largest case */
+    UNKNOWNS = 2 * MAX_NODES
 };
 
 /* Memory that the process of a check shares with its parent. */
 typedef struct SharedMemory {
-    char doing[TEXT];    /* name of the case for messages, or "" */
-    char sentence[TEXT]; /* description of the fault, or "" */
-    bool finished;       /* whether the check came to its end */
-    bool must_end;       /* whether the function must now call FAIL */
+    char case_name[MAX_TEXT]; /* name of the case for messages, or "" */
+    char fault[MAX_TEXT];     /* description of the fault, or "" */
+    bool finished;            /* the check came to its end */
+    bool must_fail;           /* lecture.c calls FAIL in this case */
 } SharedMemory;
 static SharedMemory *shared;
 
@@ -76,21 +76,22 @@ static void report(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(shared->sentence, TEXT, format, arguments);
+    vsnprintf(shared->fault, MAX_TEXT, format, arguments);
     va_end(arguments);
 }
 
 /* ---- small cases -------------------------------------------------- */
 
-static unsigned long long draws; /* state of the random numbers */
+static unsigned long long random_state;
 
 /* Returns the next random number from -1 to 1. */
 static double draw_number(void)
 {
-    draws = draws * 6364136223846793005u + 1442695040888963407u;
-    return (double)(draws >> 33) / (1u << 30) - 1;
+    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(random_state >> 33) / (1u << 30) - 1;
 }
 
+/* Returns n random points, with coordinates from -size to size. */
 static Vec2 *draw_points(int n, double size)
 {
     Vec2 *x = allocate(n, sizeof(Vec2));
@@ -107,30 +108,30 @@ typedef struct Task {
     const char *name;
     Function *truth;
     Kind kind;
-    const char *trials[5]; /* name of each case for messages, then NULL */
-    int steps;             /* calls of step_forward, the first with a table */
-    unsigned needs;        /* bits of the tasks whose functions it calls */
+    const char *case_names[5]; /* name of each case for messages, then NULL */
+    int steps;      /* calls of step_forward, the first with a table */
+    unsigned needs; /* bits of the tasks whose functions are called */
 } Task;
 
 /* The arguments of the functions in a case. */
 typedef struct Case {
     Solid solid;
     Vec2 *x_tilde, *p;
-    Vec2 x[NODES], x_new[NODES]; /* x is a copy of solid.x */
-    Vec2 *g, g_before[NODES];    /* gradient before and after the call */
-    double block[4][4];          /* argument of make_psd */
-    int row[40 * SIDE], column[40 * SIDE];
-    double value[40 * SIDE];
+    Vec2 x[MAX_NODES], x_new[MAX_NODES]; /* x is a copy of solid.x */
+    Vec2 *g, g_before[MAX_NODES]; /* gradient before and after the call */
+    double block[4][4];           /* argument of make_psd */
+    int row[40 * UNKNOWNS], column[40 * UNKNOWNS];
+    double value[40 * UNKNOWNS];
     cholmod_triplet H; /* with the arrays row, column and value */
     double h, tol;
 } Case;
 
-/* Makes a square or a single short spring, out of shape.  Each node and each
- * spring has different numbers. */
-static void random_solid(int trial, Solid *solid)
+/* Makes a square, or in case 1 a single short spring, out of shape.  Each node
+ * and each spring has different numbers. */
+static void draw_solid(int case_number, Solid *solid)
 {
-    *solid = square(1.2, trial == 2 ? 1 : 2, 300, 2e3);
-    if (trial == 1) {
+    *solid = square(1.2, case_number == 2 ? 1 : 2, 300, 2e3);
+    if (case_number == 1) {
         solid->nodes = 2;
         solid->springs = 1;
         solid->e[0] = (Spring){0, 1, 0.7, 1500};
@@ -146,65 +147,69 @@ static void random_solid(int trial, Solid *solid)
     }
 }
 
-/* Makes the start of a step, of the lecture or with alpha < 1. */
-static void random_start(int trial, Case *c)
+/* Makes the start of a step: as in the lecture, or in case 1 with alpha < 1. */
+static void draw_start(int case_number, Case *c)
 {
     c->solid = square(1, 2, 1000, 1e5);
-    c->h = trial ? 0.05 : 0.004;
-    c->tol = trial ? 1e-4 : 1e-2;
+    c->h = case_number ? 0.05 : 0.004;
+    c->tol = case_number ? 1e-4 : 1e-2;
     for (int i = 0; i < c->solid.nodes; i++) {
-        c->solid.x[i].x *= trial ? 0.4 : 1.4;
-        c->solid.x[i].y += trial ? 0.05 * draw_number() : 0;
+        c->solid.x[i].x *= case_number ? 0.4 : 1.4;
+        c->solid.x[i].y += case_number ? 0.05 * draw_number() : 0;
         c->solid.v[i] = draw_points(1, 1)[0];
     }
 }
 
 /* Makes a line search along Newton's direction, along a direction that is far
  * too long, along p = 0, and from E = 0, where every step raises E. */
-static void draw_search_case(int trial, Case *c)
+static void draw_search_case(int case_number, Case *c)
 {
     static const double length[] = {1, 50, 0, 0};
     search_dir(&c->solid, c->solid.x, c->x_tilde, c->h, c->p);
     for (int i = 0; i < c->solid.nodes; i++)
-        c->p[i] = mul(length[trial], c->p[i]);
-    if (trial == 3) { /* node 4 is in the middle, at 0 */
+        c->p[i] = mul(length[case_number], c->p[i]);
+    if (case_number == 3) { /* node 4 is in the middle, at 0 */
         c->solid = square(1.2, 2, 300, 2e3);
-        memcpy(c->x_tilde, c->solid.x, NODES * sizeof(Vec2));
+        memcpy(c->x_tilde, c->solid.x, MAX_NODES * sizeof(Vec2));
         c->p[4] = (Vec2){0, 1};
     }
 }
 
-static void draw_case(const Task *task, int trial, Case *c)
+/* Makes the arguments of a task's function. */
+static void draw_case(const Task *task, int case_number, Case *c)
 {
     static const double shift[] = {0, -300, 1000, 0}, scale[] = {1, 1e-3, 1, 0};
     bool searches = task->number == TASK_line_search;
     for (int r = 0; r < 4 && task->number == TASK_make_psd; r++)
         for (int k = 0; k <= r; k++)
             c->block[r][k] = c->block[k][r] =
-                scale[trial] * (300 * draw_number() + (r == k) * shift[trial]);
+                scale[case_number] *
+                (300 * draw_number() + (r == k) * shift[case_number]);
     c->h = 0.02;
     if (task->number == TASK_step_forward)
-        random_start(trial, c);
+        draw_start(case_number, c);
     else
-        random_solid(searches ? 0 : trial, &c->solid);
-    c->x_tilde = draw_points(NODES, 0.7);
-    c->p = draw_points(NODES, 1);
+        draw_solid(searches ? 0 : case_number, &c->solid);
+    c->x_tilde = draw_points(MAX_NODES, 0.7);
+    c->p = draw_points(MAX_NODES, 1);
     c->p[1] = (Vec2){-1.5, -1.2}; /* largest |p_x| + |p_y|, both below 0 */
-    c->g = draw_points(NODES, 900);
+    c->g = draw_points(MAX_NODES, 900);
     memcpy(c->g_before, c->g, sizeof c->g_before);
     if (searches)
-        draw_search_case(trial, c);
+        draw_search_case(case_number, c);
     memcpy(c->x, c->solid.x, (size_t)c->solid.nodes * sizeof *c->x);
     c->H = (cholmod_triplet){.nrow = 2 * (size_t)c->solid.nodes,
                              .ncol = 2 * (size_t)c->solid.nodes,
-                             .nzmax = 40 * SIDE,
+                             .nzmax = 40 * UNKNOWNS,
                              .i = c->row,
                              .j = c->column,
                              .x = c->value,
                              .stype = 1};
 }
 
-/* Writes the matrix that a function has added to H, in rows of SIDE numbers. */
+/* Stores the matrix that a function has added to H, in rows of UNKNOWNS
+ * numbers.
+ */
 static void store_matrix(const Case *c, double *result)
 {
     int n = (int)c->H.nrow;
@@ -216,19 +221,19 @@ static void store_matrix(const Case *c, double *result)
                    row, column, n);
             return;
         }
-        result[row * SIDE + column] += c->value[t];
+        result[row * UNKNOWNS + column] += c->value[t];
         if (row != column)
-            result[column * SIDE + row] += c->value[t];
+            result[column * UNKNOWNS + row] += c->value[t];
     }
 }
 
-/* Writes to result what a function has changed in its case. */
+/* Stores the numbers that a function has changed in its case. */
 static void store_result(const Task *task, const Case *c, FILE *table,
                          double *result)
 {
     size_t bytes = (size_t)c->solid.nodes * sizeof(Vec2);
     for (int r = 0; r < 4 && task->number == TASK_make_psd; r++)
-        memcpy(result + r * SIDE, c->block[r], sizeof c->block[r]);
+        memcpy(result + r * UNKNOWNS, c->block[r], sizeof c->block[r]);
     if (task->number != TASK_make_psd && task->kind == MATRIX)
         store_matrix(c, result);
     for (int i = 0; i < 2 * c->solid.nodes && task->kind == POINTS; i++)
@@ -240,25 +245,25 @@ static void store_result(const Task *task, const Case *c, FILE *table,
     if (task->kind != STATE)
         return;
     memcpy(result, c->solid.x, bytes);
-    memcpy(result + SIDE, c->solid.v, bytes);
+    memcpy(result + UNKNOWNS, c->solid.v, bytes);
     rewind(table);
-    for (double *to = result + 2 * SIDE; to + 4 <= result + MOST; to += 4)
+    for (double *to = result + 2 * UNKNOWNS; to + 4 <= result + MAX_NUMBERS;
+         to += 4)
         if (fscanf(table, "%lf,%lf,%lf,%lf", to, to + 1, to + 2, to + 3) != 4)
             break;
 }
 
-/* Calls a function with a case and adds its numbers to result, which holds
- * zeros.
- */
-static void call_function(const Task *task, int trial, Function *function,
+/* Calls a function with a case.
+ *   result  [MAX_NUMBERS] in/out, zeros, then the numbers of the function */
+static void call_function(const Task *task, int case_number, Function *function,
                           double *result)
 {
 #define AS(name) ((__typeof__(&name))function)
     static Case c;
     FILE *table = tmpfile();
     c = (Case){.h = 0};
-    draw_case(task, trial, &c);
-    strcpy(shared->doing, task->trials[trial]);
+    draw_case(task, case_number, &c);
+    strcpy(shared->case_name, task->case_names[case_number]);
     Solid *solid = &c.solid;
     if (task->number == TASK_inertia_val)
         *result = AS(inertia_val)(solid, solid->x, c.x_tilde);
@@ -280,13 +285,13 @@ static void call_function(const Task *task, int trial, Function *function,
     else if (task->number == TASK_residual)
         *result = AS(residual)(solid, c.p, 0.03);
     else if (task->number == TASK_explicit_euler)
-        AS(explicit_euler)(solid, 0.01, trial == 1);
+        AS(explicit_euler)(solid, 0.01, case_number == 1);
     for (int step = 1; step <= task->steps; step++) {
         if (step > 1)
-            strcpy(shared->doing, "with table = NULL: ");
+            strcpy(shared->case_name, "with table = NULL: ");
         AS(step_forward)(solid, c.h, c.tol, step, step > 1 ? NULL : table);
     }
-    strcpy(shared->doing, task->trials[trial]);
+    strcpy(shared->case_name, task->case_names[case_number]);
     store_result(task, &c, table, result);
     fclose(table);
 }
@@ -332,51 +337,64 @@ enum { CHECKS = sizeof tasks / sizeof *tasks };
 static const char *name_number(Kind kind, int i)
 {
     static char text[60];
-    bool v = kind == STATE && i >= SIDE;
+    bool v = kind == STATE && i >= UNKNOWNS;
     if (kind == NUMBER)
         return "the result";
     if (kind == SEARCH && i-- == 0)
         return "alpha";
     if (kind == MATRIX)
-        snprintf(text, sizeof text, "the number in row %d, column %d", i / SIDE,
-                 i % SIDE);
-    else if (i >= 2 * SIDE)
+        snprintf(text, sizeof text, "the number in row %d, column %d",
+                 i / UNKNOWNS, i % UNKNOWNS);
+    else if (i >= 2 * UNKNOWNS)
         snprintf(text, sizeof text, "number %d in line %d of table", i % 4 + 1,
-                 (i - 2 * SIDE) / 4 + 1);
+                 (i - 2 * UNKNOWNS) / 4 + 1);
     else
         snprintf(text, sizeof text, "%s%s of node %d", v ? "v_" : "",
-                 i % 2 ? "y" : "x", i % SIDE / 2);
+                 i % 2 ? "y" : "x", i % UNKNOWNS / 2);
     return text;
 }
 
-/* Returns the first number that differs by more than rounding; MOST: none does.
- */
+/* Returns the index of the first number that differs by more than rounding;
+ * MAX_NUMBERS: there is no difference. */
 static int find_difference(const double *a, const double *b)
 {
-    double size = 0;
+    double largest = 0;
     int i = 0;
-    for (int k = 0; k < MOST; k++)
-        size = fmax(size, fabs(b[k]));
-    while (i < MOST && fabs(a[i] - b[i]) <= 1e-9 * size)
+    for (int k = 0; k < MAX_NUMBERS; k++)
+        largest = fmax(largest, fabs(b[k]));
+    while (i < MAX_NUMBERS && fabs(a[i] - b[i]) <= 1e-9 * largest)
         i++;
     return i;
 }
 
 /* Runs a function in a case.  Returns false if it ended the program. */
-static bool run_function(const Task *task, int trial, Function *function,
+static bool run_function(const Task *task, int case_number, Function *function,
                          double *result)
 {
-    draws = 15362 + (unsigned)trial;
-    memset(result, 0, MOST * sizeof *result);
+    random_state = 15362 + (unsigned)case_number;
+    memset(result, 0, MAX_NUMBERS * sizeof *result);
     if (setjmp(program_ended))
         return false;
-    call_function(task, trial, function, result);
+    call_function(task, case_number, function, result);
     return true;
 }
 
-/* Reports the fault in the student's numbers, if there is one. */
-static void explain_difference(const Task *task, int trial, const double *yours,
-                               const double *truth)
+/* Returns the sentence of the mistake with the student's numbers, or NULL. */
+static const char *find_mistake(const Task *task, int case_number,
+                                const double *yours)
+{
+    double other[MAX_NUMBERS];
+    for (const Mistake *mistake = mistakes; mistake->words; mistake++)
+        if (mistake->task == task->number &&
+            run_function(task, case_number, mistake->function, other) &&
+            find_difference(yours, other) == MAX_NUMBERS)
+            return mistake->words;
+    return NULL;
+}
+
+/* Returns a sentence if the student's numbers are multiples of the right ones,
+ * or NULL. */
+static const char *find_multiple(const double *yours, const double *truth)
 {
     static const struct {
         double factor;
@@ -385,62 +403,62 @@ static void explain_difference(const Task *task, int trial, const double *yours,
         {0, "all numbers are 0: is it written yet? (In C 1/2 is 0, not 0.5.)"},
         {-1, "the sign is wrong"},
         {2, "the result is twice as large as it should be"},
-        {4, "the result is four times as large as it should be"},
-        {0.5, "the result is half of what it should be"},
-        {0.25, "the result is a quarter of what it should be"},
-        {1, NULL}};
-    double other[MOST];
-    int off = find_difference(yours, truth), m = 0;
-    const Mistake *mistake = mistakes;
-    for (int i = 0; i < MOST; i++)
+        {0.5, "the result is half of what it should be"}};
+    double other[MAX_NUMBERS];
+    for (size_t m = 0; m < sizeof multiples / sizeof *multiples; m++) {
+        for (int i = 0; i < MAX_NUMBERS; i++)
+            other[i] = multiples[m].factor * truth[i];
+        if (find_difference(yours, other) == MAX_NUMBERS)
+            return multiples[m].words;
+    }
+    return NULL;
+}
+
+/* Reports the fault in the student's numbers, if there is one. */
+static void explain_difference(const Task *task, int case_number,
+                               const double *yours, const double *truth)
+{
+    int first = find_difference(yours, truth);
+    for (int i = 0; i < MAX_NUMBERS; i++)
         if (!(fabs(yours[i]) < 1e100)) {
-            report(
-                "%s is %g: is a variable used before it has a value, or does "
-                "something divide by zero?",
-                name_number(task->kind, i), yours[i]);
+            report("%s is %g: is a variable used before it has a value, or "
+                   "does something divide by zero?",
+                   name_number(task->kind, i), yours[i]);
             return;
         }
-    if (off == MOST)
+    if (first == MAX_NUMBERS)
         return;
-    while (mistake->words &&
-           (mistake->task != task->number ||
-            !run_function(task, trial, mistake->function, other) ||
-            find_difference(yours, other) < MOST))
-        mistake++;
-    for (bool found = false; !found && multiples[m].words; m += !found) {
-        for (int i = 0; i < MOST; i++)
-            other[i] = multiples[m].factor * truth[i];
-        found = find_difference(yours, other) == MOST;
-    }
-    if (mistake->words || multiples[m].words)
-        report("%s", mistake->words ? mistake->words : multiples[m].words);
+    const char *words = find_mistake(task, case_number, yours);
+    words = words ? words : find_multiple(yours, truth);
+    if (words)
+        report("%s", words);
     else
-        report("%s is %.9g, and should be %.9g", name_number(task->kind, off),
-               yours[off], truth[off]);
+        report("%s is %.9g, and should be %.9g", name_number(task->kind, first),
+               yours[first], truth[first]);
 }
 
 /* Runs the cases of a task up to the first fault.
- *   errors  file for the standard error of the student's function */
+ *   errors  file descriptor for the standard error of the student's function */
 static void check_task(const Task *task, int errors)
 {
-    double yours[MOST], truth[MOST];
+    double yours[MAX_NUMBERS], truth[MAX_NUMBERS];
     int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);
-    for (int t = 0; task->trials[t] && !*shared->sentence; t++) {
+    for (int t = 0; task->case_names[t] && !*shared->fault; t++) {
         dup2(nowhere, STDERR_FILENO);
-        shared->must_end = !run_function(task, t, task->truth, truth);
+        shared->must_fail = !run_function(task, t, task->truth, truth);
         dup2(errors, STDERR_FILENO);
         run_function(task, t, student[task->number], yours);
-        if (shared->must_end)
+        if (shared->must_fail)
             report("the search goes on: call FAIL(1, ...) after 64 halvings");
-        if (!*shared->sentence)
+        if (!*shared->fault)
             explain_difference(task, t, yours, truth);
     }
 }
 
-/* Reports what the process wrote to its standard error: the first fault that a
- * sanitizer found, with the line in the student's file, or the message of FAIL.
- */
+/* Reports the message that the process wrote to its standard error: the first
+ * fault of a sanitizer, with the line in the student's file, or the message of
+ * FAIL. */
 static void read_reason(FILE *errors)
 {
     char line[1000], reason[200] = "", *at;
@@ -488,7 +506,7 @@ static void run_check(const Task *task)
     waitpid(child, &status, 0);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         report("the function does not end");
-    else if (shared->must_end && !*shared->sentence && WIFEXITED(status) &&
+    else if (shared->must_fail && !*shared->fault && WIFEXITED(status) &&
              WEXITSTATUS(status) == 1)
         shared->finished = true;
     else if (status != 0 || !shared->finished)
@@ -500,7 +518,7 @@ int main(int argc, char **argv)
 {
     unsigned failed = 0;
     int right = 0;
-    char first[3 * TEXT] = "";
+    char first[3 * MAX_TEXT] = "";
     FILE *out = fdopen(3, "w");
     if (argc < 2 || !out)
         FAIL(2, "check.sh runs this\n");
@@ -511,20 +529,21 @@ int main(int argc, char **argv)
     for (int t = 0; t < CHECKS; t++) {
         unsigned missing = tasks[t].needs & failed;
         if (missing) { /* the lowest bit is the first task */
-            shared->doing[0] = '\0';
+            shared->case_name[0] = '\0';
             report("not checked: it calls %s, which is not right",
                    tasks[__builtin_ctz(missing)].name);
         } else
             run_check(&tasks[t]);
-        bool bad = *shared->sentence != '\0';
+        bool bad = *shared->fault != '\0';
         failed |= (unsigned)bad << t;
         right += !bad;
         if (bad && !*first)
             snprintf(first, sizeof first, "%s: %s%s", tasks[t].name,
-                     shared->doing, shared->sentence);
+                     shared->case_name, shared->fault);
         if (argc == 2)
             fprintf(out, "%-14s  %s%s\n", tasks[t].name,
-                    bad ? shared->doing : "", bad ? shared->sentence : "right");
+                    bad ? shared->case_name : "",
+                    bad ? shared->fault : "right");
         fflush(out);
     }
     if (argc == 2)
