@@ -26,7 +26,7 @@
 #include <sys/stat.h>
 _Static_assert(!__FINITE_MATH_ONLY__, "no -ffast-math: NaN must be seen");
 
-/* n of these lie in memory like one vector of 2n numbers: x, y, x, y, ... */
+/* An array of n Vec2 is one vector of 2n numbers in memory: x, y, x, y, ... */
 /* clang-format off */
 typedef struct Vec2 { double x, y; } Vec2;
 static Vec2 add(Vec2 a, Vec2 b) { return (Vec2){a.x + b.x, a.y + b.y}; }
@@ -36,10 +36,10 @@ static double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 static double distance(Vec2 a, Vec2 b) { return hypot(a.x - b.x, a.y - b.y); }
 /* clang-format on */
 
-/* Ends with one line.  code 2: an argument is wrong; 1: something failed. */
+/* Prints a line and ends.  code 2: an argument is wrong; 1: another failure. */
 #define FAIL(code, ...) exit((fprintf(stderr, "lecture: " __VA_ARGS__), (code)))
 
-/* Memory for count elements, all zero. */
+/* Returns memory for count elements, all zero. */
 static void *allocate(int count, size_t size)
 {
     void *memory = calloc((size_t)count, size);
@@ -50,7 +50,7 @@ static void *allocate(int count, size_t size)
 
 /* ==== Mass-spring representation of solids (square_mesh.py) =============== */
 typedef struct Spring {
-    int i, j;     /* the two nodes that it connects */
+    int i, j;     /* the nodes at its ends */
     double l2, k; /* m^2, squared rest length; J/m^2, stiffness */
 } Spring;
 
@@ -74,7 +74,7 @@ static void add_spring(Solid *solid, int i, int j, double k)
  *   | / \ | / \ |
  *   1-----4-----7    Every cell has two crossing diagonals.  Without them it
  *   | \ / | \ / |    could shear into a rhombus and no spring would notice.
- *   | / \ | / \ |    Where they cross there is no node.
+ *   | / \ | / \ |    There is no node at their crossing.
  *   0-----3-----6
  *   side_len m; rho kg/m^2, density: all nodes get the same mass; k J/m^2 */
 static Solid square(double side_len, int n_seg, double rho, double k)
@@ -147,8 +147,8 @@ static void inertia_hess(const Solid *solid, cholmod_triplet *H)
 }
 
 /* ==== Projection to positive semi-definite (utils.py: make_PSD) =========== */
-/* LAPACK's, which numpy's eigh calls, too: A = Q L Q^T.  Eigenvectors replace A
- * (in C's order of numbers its rows), l gets the eigenvalues. */
+/* A = Q L Q^T by LAPACK, as in numpy's eigh.  The eigenvectors replace A, in
+ * C's order of numbers as its rows; l gets the eigenvalues. */
 void dsyev_(const char *vectors, const char *triangle, const int *n, double *A,
             const int *lda, double *l, double *work, const int *size,
             int *info);
@@ -170,7 +170,7 @@ static void make_psd(double hess[4][4])
 
 /* ==== Mass-spring elasticity (MassSpringEnergy.py) ======================== */
 /* P = sum of l^2 k/2 (|d|^2/l^2 - 1)^2, d = x_i - x_j.  Why not (|d| - l)^2, as
- * at school?  This is a polynomial in x: no root, smooth also at |d| = 0. */
+ * at school?  P is a polynomial in x: no root, smooth also at |d| = 0. */
 static double spring_val(const Solid *solid, const Vec2 *x)
 {
     double sum = 0;
@@ -292,8 +292,8 @@ static void search_dir(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
 
 /* ==== Backtracking line search (Algorithm 2) ============================== */
 /* alpha = 1, 1/2, 1/4, ... until E does not rise; x_new = x + alpha p.  Why
- * does that end?  p leads downhill.  The slide has no limit: this loop needs
- * one where numbers overflow, or rounding hides what is left to gain. */
+ * does the search end?  p leads downhill.  Unlike the slide, this loop has a
+ * limit, since numbers may overflow, or rounding may hide a small decrease. */
 static double line_search(const Solid *solid, const Vec2 *x, const Vec2 *p,
                           const Vec2 *x_tilde, double h, Vec2 *x_new)
 {
@@ -308,8 +308,8 @@ static double line_search(const Solid *solid, const Vec2 *x, const Vec2 *p,
 }
 
 /* ==== Projected Newton for implicit Euler (Algorithm 3) =================== */
-/* max over nodes of |p_x| + |p_y|, over h: by how much the next update would
- * change a velocity, m/s.  Thus tol has one meaning for each h and each mesh.
+/* max over nodes of |p_x| + |p_y|, over h: the change of a velocity by the next
+ * update, m/s.  Therefore tol has one meaning for each h and each mesh.
  * (numpy's norm(p, inf) of an array of shape (n, 2) is the largest row sum.) */
 static double residual(const Solid *solid, const Vec2 *p, double h)
 {
@@ -320,8 +320,8 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 }
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
- * The loop never ends if tol is below the rounding errors of p.  elasto adds the
- * last p, too: ten to 1e11 times more accurate.  table: updates, or NULL. */
+ * The loop never ends if tol is below the rounding errors of p.  elasto also
+ * adds the last p: ten to 1e11 times as accurate.  table: updates, or NULL. */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
 {
@@ -351,10 +351,10 @@ static void step_forward(Solid *solid, double h, double tol, int step,
 }
 
 /* ==== Forward and symplectic Euler ======================================== */
-/* No equation to solve.  Forward Euler moves x with the old v: each step adds
- * energy until the square explodes.  Symplectic Euler moves x with the new v:
- * the energy stays near the true one, as long as h is small: 0.01/n_seg s for
- * main's start; 0.025/n_seg s explodes. */
+/* There is no equation to solve.  Forward Euler moves x with the old v, and
+ * each step adds energy until the square explodes.  Symplectic Euler moves x
+ * with the new v: the energy stays near the true one if h is small.  From
+ * main's start h = 0.01/n_seg s is small enough, 0.025/n_seg s explodes. */
 static void explicit_euler(Solid *solid, double h, bool symplectic)
 {
     Vec2 *x = solid->x, *v = solid->v, *g = allocate(solid->nodes, sizeof *g);
@@ -379,7 +379,7 @@ typedef struct Screen {
     bool paused;
 } Screen;
 
-/* From metres, y upwards, to pixels, y downwards. */
+/* Converts metres, y upwards, to pixels, y downwards. */
 static Vec2 screen_projection(const Screen *screen, Vec2 x)
 {
     return (Vec2){PIXELS / 2 + screen->scale * x.x,
@@ -424,7 +424,7 @@ static void draw(const Screen *screen, const Solid *solid)
     SDL_RenderPresent(screen->renderer);
 }
 
-/* A window; a picture in memory where SDL has no display or a dummy one. */
+/* Opens a window, or a picture in memory if SDL has no display. */
 static Screen open_screen(const Solid *solid)
 {
     double size = fmax(fabs(solid->x[0].x), fabs(solid->x[0].y));
@@ -454,8 +454,8 @@ static Screen open_screen(const Solid *solid)
     return screen;
 }
 
-/* Space, R, Esc, and the mouse, which holds the nearest node: the held node is
- * so heavy that the springs do not move it.  Returns false to quit. */
+/* Handles Space, R, Esc and the mouse, which holds the nearest node: the held
+ * node is so heavy that springs do not move it.  Returns false to quit. */
 static bool handle(Screen *screen, Solid *solid, const SDL_Event *event)
 {
     SDL_Keycode key = event->type == SDL_KEYDOWN ? event->key.keysym.sym : 0;
@@ -522,7 +522,7 @@ typedef struct Parameter {
 #define DEFAULTS                                                               \
     "side_len=1 rho=1000 k=1e5 initial_stretch=1.4 n_seg=4 h=0.004 tol=0.01 "  \
     "method=0 steps=N states=FILE"
-/* NAME=VALUE, or h=1/60; p ends with NULL. */
+/* Reads NAME=VALUE, also h=1/60; NULL ends p. */
 static void read_argument(const char *text, Parameter *const *p)
 {
     char name[20] = "";
