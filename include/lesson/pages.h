@@ -1,8 +1,8 @@
 /* pages.h - the lecture, a page a row of a table, in the slides' order.
  *
  * A page is a scene with settings and what there is to say about it.  The
- * table is made of src/lesson/pages.txt.  To add one: write it there, and its
- * claim's test in tests/unit/test_pages.c, which reminds of it.
+ * table is made of src/lesson/pages.txt.  To add one: write it there, and a
+ * session for its claim in tests/data/claims.txt; a test reminds of it.
  */
 #ifndef ELASTO_PAGES_H
 #define ELASTO_PAGES_H

@@ -31,13 +31,13 @@ my %near = (
     base => 'base|terms|tables', model => 'terms|laws|mesh|reference|tables',
     solve => 'newton|multigrid|reference|widths|terms|stress',
     step => 'laws|reference|pure|player', lecture => 'lecture|reference',
-    run => 'scenes|options|mesh|past|tables|numbers',
-    scenes => 'scenes|options|numbers|tables', lesson => 'pages|session|scenes',
-    picture => 'layout|show|picture|numbers|session',
+    run => 'scenes|options|mesh|past|tables|session',
+    scenes => 'scenes|options|session|tables', lesson => 'pages|session|scenes',
+    picture => 'layout|show|picture|session',
     play => 'past|player|session|film|scripts');
 # From the quickest to the slowest.
 my @names = ((map { "test_$_" } qw(layout memory mesh widths base options reference scenes past
-                                   picture player numbers multigrid document pure terms show
+                                   picture player multigrid document pure terms show
                                    film newton laws stress pages session)),
              (map { "check_$_.sh" } qw(log homework lines pages lecture faults scripts tables files window)));
 for my $suite (map { m{/(?:(test_\w+)\.c|(check_\w+\.sh))$} ? $1 // $2 : () }

@@ -1,5 +1,5 @@
 /* Newton's method: every way in which it can end, and that it says which, by
- * formulas that share nothing with it.  (Each update: test_numbers, stress.)
+ * formulas that share nothing with it.  (Each update: stress.)
  */
 #include "test.h"
 #include "stress.h"

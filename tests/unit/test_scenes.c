@@ -1,5 +1,5 @@
 /* The table of scenes, and the small ones among them, held to formulas written
- * here once more (what pages say of them is for test_pages); those of contact,
+ * here once more (what pages say of them: claims.txt); those of contact,
  * inelasticity and fracture from outside: rows of options, starts that are
  * refused, what is held fast, and what changes while they run.
  */

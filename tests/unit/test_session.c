@@ -2,6 +2,9 @@
  * see, as text.  One driver puts each line in as the Input that a window would
  * send. */
 #include "attended.h"
+#include "oracle.h"
+#include "model/fracture.h"
+#include "picture/live_values.h"
 #include "picture/text.h"
 
 #include <ctype.h>
@@ -502,6 +505,228 @@ static void look(const char *line)
         fail_msg("not '%s', but:\n%s", line, facts);
 }
 
+/* ---- numbers ------------------------------------------------------------- */
+
+/* Newton's records of a descent, or of the last step of a square; returns how
+ * many there are. */
+static int find_records(const Simulation *simulation, const NewtonRecord **row)
+{
+    const Records *made =
+        &player.past.machine[player.screen.frame.show.active].records;
+    bool descends = simulation->scene->step == step_descent;
+    *row = descends ? simulation->descent.record : made->row;
+    return descends ? simulation->descent.count : made->count;
+}
+
+static double count_records(const Simulation *simulation)
+{
+    const NewtonRecord *row;
+    return find_records(simulation, &row);
+}
+
+/* Updates in which E does not fall. */
+static double count_rises(const Simulation *simulation)
+{
+    const NewtonRecord *row;
+    int rises = 0;
+    for (int i = find_records(simulation, &row) - 1; i >= 0; i--)
+        rises += !(row[i].change < 0 && row[i].slope < 0);
+    return rises;
+}
+
+/* J s^2, by which E is above its start where it is highest. */
+static double find_highest_rise(const Simulation *simulation)
+{
+    const NewtonRecord *row;
+    double E = 0, highest = 0;
+    int count = find_records(simulation, &row);
+    for (int i = 0; i < count; i++)
+        highest = fmax(highest, E += row[i].change);
+    return highest;
+}
+
+static double add_masses(const Simulation *simulation)
+{
+    double sum = 0;
+    for (int i = 0; i < simulation->system.nodes; i++)
+        sum += simulation->system.m[i];
+    return sum;
+}
+
+/* m, height of the lowest and of the highest node of the first body */
+static double find_lowest(const Simulation *simulation)
+{
+    double low = INFINITY;
+    for (int i = 0; i < simulation->system.nodes; i++)
+        low = fmin(low, simulation->run[0].x[2 * i + 1]);
+    return low;
+}
+
+static double find_top(const Simulation *simulation)
+{
+    double high = -INFINITY;
+    for (int i = 0; i < simulation->mesh.nodes / simulation->mesh.bodies; i++)
+        high = fmax(high, simulation->run[0].x[2 * i + 1]);
+    return high;
+}
+
+/* m, how far the farthest node is from its place at rest */
+static double find_way_from_rest(const Simulation *simulation)
+{
+    const double *x = simulation->run[0].x, *rest = rest_of(simulation);
+    double most = 0;
+    for (int i = 0; i < 2 * simulation->mesh.nodes; i += 2)
+        most = fmax(most, hypot(x[i] - rest[i], x[i + 1] - rest[i + 1]));
+    return most;
+}
+
+/* m/s, velocity of the centre of mass upwards */
+static double find_mean_vy(const Simulation *simulation)
+{
+    double sum = 0;
+    for (int i = 0; i < simulation->system.nodes; i++)
+        sum += simulation->system.m[i] * simulation->run[0].v[2 * i + 1];
+    return sum / add_masses(simulation);
+}
+
+/* Triangles turned over; of a square of springs each cell has four. */
+static double count_turned(const Simulation *simulation)
+{
+    int turned = 0, node[3], side[3];
+    const double *x = simulation->run[0].x;
+    for (int t = 0; t < 4 * simulation->mesh.cells; t++) {
+        square_mesh_get_triangle(&simulation->mesh, t, node, side);
+        const double *a = x + 2 * node[0], *b = x + 2 * node[1];
+        const double *c = x + 2 * node[2];
+        turned += !(
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
+    }
+    return turned;
+}
+
+static double count_broken(const Simulation *simulation)
+{
+    int broken = 0;
+    for (int s = 0; s < simulation->system.springs; s++)
+        broken += spring_is_broken(&simulation->system, s);
+    return broken;
+}
+
+static double count_crossings(const Simulation *simulation)
+{
+    return (double)exact_crossings(&simulation->system, simulation->run[0].x);
+}
+
+static double find_flattest(const Simulation *simulation)
+{
+    return smallest_cell(&simulation->system, simulation->run[0].x);
+}
+
+static double find_gap(const Simulation *simulation)
+{
+    return smallest_gap(&simulation->system, simulation->run[0].x);
+}
+
+/* Cells of the map in which steps make no update. */
+static double count_idle_cells(const Simulation *simulation)
+{
+    int idle = 0;
+    for (int i = 0; i < ENVELOPE_ROWS; i++)
+        for (int k = 0; k < ENVELOPE_COLUMNS; k++)
+            idle += simulation->exhibit.map.cell[i][k].updates == 0;
+    return idle;
+}
+
+static const struct {
+    const char *name;
+    double (*find)(const Simulation *simulation);
+} numbers[] = {{"records", count_records},
+               {"rises", count_rises},
+               {"highest rise", find_highest_rise},
+               {"all masses", add_masses},
+               {"lowest", find_lowest},
+               {"top", find_top},
+               {"way from rest", find_way_from_rest},
+               {"mean vy", find_mean_vy},
+               {"turned", count_turned},
+               {"broken", count_broken},
+               {"crossings", count_crossings},
+               {"flattest", find_flattest},
+               {"gap", find_gap},
+               {"idle cells", count_idle_cells}};
+
+/* A number by its name: of the table above, of a node, of a record, of the
+ * ledger, or one that texts know; NaN: there is none. */
+static double find_number(const char *name)
+{
+    static const char *const fields[] = {"alpha", "residual", "projected",
+                                         "change", "to"};
+    const Pane *pane = show_pane(&player.screen.frame.show);
+    const Simulation *simulation = pane->simulation;
+    const NewtonRecord *row;
+    char field[16];
+    int i = 0, k = 0;
+    for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
+        if (strcmp(numbers[n].name, name) == 0)
+            return numbers[n].find(simulation);
+    if (strcmp(name, "unconverged") == 0)
+        return (double)simulation->unconverged;
+    if (sscanf(name, "radius %d", &i) == 1)
+        return hypot(simulation->run[i].x[0], simulation->run[i].x[1]);
+    if (sscanf(name, "x %d", &i) == 1)
+        return pane_x(pane)[2 * i];
+    if (sscanf(name, "y %d", &i) == 1)
+        return pane_x(pane)[2 * i + 1];
+    if (sscanf(name, "update %d %15s", &i, field) == 2) {
+        CHECK(i >= 1 && i <= find_records(simulation, &row));
+        row += i - 1;
+        while (strcmp(fields[k], field) != 0)
+            k++;
+        return (double[]){row->alpha, row->residual, row->projected,
+                          row->change, row->to[0]}[k];
+    }
+    const Energies ledger = simulation_energies(simulation, 0);
+    for (i = 0; i < ledger.rows; i++)
+        if (strcmp(ledger.row[i].name, name) == 0)
+            return ledger.row[i].value;
+    return values_find_number(&pane->values, name);
+}
+
+/* Whether a number has these digits ("0.966", "6.0e-5"), or is within this
+ * bound ("<8", ">0.1"). */
+static bool has_digits(double number, const char *digits)
+{
+    double wanted = strtod(digits + strspn(digits, "<>"), NULL);
+    const char *point = strchr(digits, '.'), *e = strchr(digits, 'e');
+    int decimals = point ? (int)strspn(point + 1, "0123456789") : 0;
+    if (digits[0] == '<' || digits[0] == '>')
+        return digits[0] == '<' ? number < wanted : number > wanted;
+    return fabs(number - wanted) <=
+           0.5000001 * pow(10, (e ? atoi(e + 1) : 0) - decimals);
+}
+
+/* "NAME NUMBER" */
+static void check_value(const char *line)
+{
+    char name[64];
+    const char *digits = strrchr(line, ' ') + 1;
+    snprintf(name, sizeof name, "%.*s", (int)(digits - line) - 1, line);
+    player_fill(&player);
+    double number = find_number(name);
+    if (!has_digits(number, digits))
+        fail_msg("%s is %.12g at step %ld, not %s", name, number,
+                 player.past.step, digits);
+}
+
+/* "STEPS NAME NUMBER": it holds after each of the steps. */
+static void keep_value(const char *line)
+{
+    for (long left = atol(line); left > 0; left--) {
+        tell(player_step(&player));
+        check_value(strchr(line, ' ') + 1);
+    }
+}
+
 static void session_line(const char *line)
 {
     char verb[16] = "", rest[128] = "";
@@ -525,6 +750,10 @@ static void session_line(const char *line)
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
             tell(player_step(&player));
+    else if (strcmp(verb, "value") == 0)
+        check_value(rest);
+    else if (strcmp(verb, "keeps") == 0)
+        keep_value(rest);
     else if (strcmp(verb, "half") == 0)
         begin_step();
     else if (strcmp(verb, "whole") == 0)
@@ -547,7 +776,7 @@ static void session_line(const char *line)
 
 /* ---- sessions ----------------------------------------------------------- */
 
-enum { SESSIONS = 192, LINES = 4096 };
+enum { SESSIONS = 256, LINES = 6144 };
 
 typedef struct Session {
     const char *name, **line;
@@ -555,33 +784,36 @@ typedef struct Session {
 
 static Session sessions[SESSIONS + 1]; /* up to one without a name */
 static const char *lines[LINES];       /* of all of them, NULL behind each */
-static char session_text[1 << 17];
+static char session_text[1 << 18];
 
-/* Returns how many there are. */
-static int read_sessions(void)
+/* Sessions and lines so far. */
+static int session_count, line_count;
+
+static void read_sessions(const char *name)
 {
-    int count = 0, used = 0;
-    FILE *file = fopen("tests/data/sessions.txt", "r");
+    static size_t used;
+    FILE *file = fopen(name, "r");
     assert_non_null(file);
-    size_t size = fread(session_text, 1, sizeof session_text, file);
-    assert_true(size < sizeof session_text);
+    char *text = session_text + used;
+    used += fread(text, 1, sizeof session_text - used, file);
+    assert_true(++used < sizeof session_text);
     fclose(file);
-    for (char *row = strtok(session_text, "\n"); row; row = strtok(NULL, "\n"))
+    for (char *row = strtok(text, "\n"); row; row = strtok(NULL, "\n"))
         if (row[0] == '=') {
-            used++;
-            assert_true(count < SESSIONS);
-            sessions[count++] = (Session){row + 2, lines + used};
+            assert_true(session_count < SESSIONS);
+            sessions[session_count++] =
+                (Session){row + 2, lines + ++line_count};
         } else if (row[0] != '#') {
-            while ((lines[used] = next_part(&row)))
-                assert_true(++used + 2 < LINES);
+            while ((lines[line_count] = next_part(&row)))
+                assert_true(++line_count + 2 < LINES);
         }
-    return count;
+    line_count++;
 }
 
 static const Session *session_called(const char *name)
 {
     const Session *session = sessions;
-    while (strcmp(session->name, name) != 0)
+    while (session->name && strcmp(session->name, name) != 0)
         session++;
     return session;
 }
@@ -811,27 +1043,30 @@ static void random_hands_are_written_down(void **unused)
     present = NULL;
 }
 
-/* Each page of the lecture has a session that does what its Try says. */
-static void each_try_is_tried(void **unused)
+/* Each page of the lecture has a session that does what its Try says, and one
+ * that holds its claim. */
+static void each_page_is_tried_and_held(void **unused)
 {
     (void)unused;
-    for (const LecturePage *page = lecture_pages; page->name; page++) {
-        const Session *session = sessions;
-        while (session->name && (strncmp(session->name, "try ", 4) != 0 ||
-                                 strcmp(session->name + 4, page->name) != 0))
-            session++;
-        if (!session->name)
-            fail_msg("no session 'try %s'", page->name);
-    }
+    for (const LecturePage *page = lecture_pages; page->name; page++)
+        for (int claim = 0; claim < 2; claim++) {
+            char name[32];
+            snprintf(name, sizeof name, "%s %s", claim ? "claim" : "try",
+                     page->name);
+            if (!session_called(name)->name)
+                fail_msg("no session '%s'", name);
+        }
 }
 
 int main(void)
 {
     struct CMUnitTest tests[SESSIONS + SCENES + 3];
     char before[4096];
-    int count = 0, all = read_sessions();
+    int count = 0;
+    read_sessions("tests/data/sessions.txt");
+    read_sessions("tests/data/claims.txt");
     assert_true(getcwd(before, sizeof before) && mkdtemp(folder));
-    for (int i = 0; i < all; i++)
+    for (int i = 0; i < session_count; i++)
         if (strcmp(sessions[i].name, "hand") &&
             strcmp(sessions[i].name, "acts"))
             tests[count++] =
@@ -847,7 +1082,7 @@ int main(void)
         random_keys_stay_in_their_field, end_session);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
         random_hands_are_written_down, end_session);
-    tests[count++] = (struct CMUnitTest)cmocka_unit_test(each_try_is_tried);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(each_page_is_tried_and_held);
     assert_int_equal(chdir(folder), 0);
     int failed =
         _cmocka_run_group_tests("sessions", tests, (size_t)count, NULL, NULL);
