@@ -1082,7 +1082,8 @@ int main(void)
         random_keys_stay_in_their_field, end_session);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
         random_hands_are_written_down, end_session);
-    tests[count++] = (struct CMUnitTest)cmocka_unit_test(each_page_is_tried_and_held);
+    tests[count++] =
+        (struct CMUnitTest)cmocka_unit_test(each_page_is_tried_and_held);
     assert_int_equal(chdir(folder), 0);
     int failed =
         _cmocka_run_group_tests("sessions", tests, (size_t)count, NULL, NULL);

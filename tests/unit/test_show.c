@@ -193,14 +193,9 @@ static const struct {
     int projected, trials;
     bool accepted;
 } states[] = {
-    {"square", 0, STAGE, COLOUR_X, 1000, 0, 0, 0, 0, 0},
-    {"square", 0, STAGE, COLOUR_RULE, 500, 0, 0, 0, 0, 0},
     {"square", 1, STAGE, COLOUR_TEXT, 0, 0, 0, 0, 0, 0},
     {"square", 1, STAGE, COLOUR_TEXT, 40, PICK_NODE, 0, 0, 0, 0},
     {"square", 1, STAGE, COLOUR_NOTE, 1000, PICK_NODE, 0, 0, 0, 0},
-    {"drop", 75, STAGE, COLOUR_SOLID, 1000, 0, 0, 0, 0, 0},
-    {"drop", 75, STAGE, COLOUR_FORCE, 100, 0, 0, 0, 0, 0},
-    {"drop", 0, STAGE, COLOUR_FORCE, 0, 0, 0, 0, 0, 0},
     {CLAMPED, 0, LISTING, COLOUR_LIT, 1000, 0, LINE_START, 3, 0, 0},
     {CLAMPED, 0, CURVE, COLOUR_P, 50, 0, LINE_START, 3, 0, 0},
     {CLAMPED, 0, STAGE, COLOUR_PROJECT, 500, 0, LINE_PROJECT, 3, 0, 0},
@@ -343,37 +338,6 @@ TEST(what_flies_far_is_drawn_or_reported)
     }
 }
 
-/* A square that drifts off is followed, once the view has grown a single time;
- * so is one that has something to meet, when it is far from there. */
-TEST(the_view_follows_what_drifts)
-{
-    static const char *const lines[] = {
-        "square --stretch 1 --velocity 3,1 --timestep 0.02",
-        "square --stretch 1 --velocity 3,1 --timestep 0.02 --ball 0,-5,1"};
-    stand_up("square --stretch 1", 0);
-    Camera was = camera_of_pane(&content, &layout, 0);
-    for (int i = 0; i < 2; i++) {
-        stand_up(lines[i], 100);
-        Camera is = camera_of_pane(&content, &layout, 0);
-        CHECK(pane_x(&content.pane[0])[0] > 5);
-        CHECK_NEAR(1.5 * is.scale[0], was.scale[0], 1e-12 * was.scale[0]);
-    }
-}
-
-/* Whether so much around a point, m, is in the pane. */
-static bool is_seen(const Camera *camera, const double at[2], double around)
-{
-    for (int k = 0; k < 4; k++) {
-        const double corner[2] = {at[0] + (k & 1 ? around : -around),
-                                  at[1] + (k & 2 ? around : -around)};
-        double pixel[2];
-        camera_pixel(camera, corner, pixel);
-        if (!box_contains(layout.pane[0], pixel[0], pixel[1]))
-            return false;
-    }
-    return true;
-}
-
 /* From step to step the camera moves by a small part of the stage, except where
  * the view grows or shrinks by a factor of 1.5, once each way. */
 TEST(the_camera_does_not_jump)
@@ -402,43 +366,6 @@ TEST(the_camera_does_not_jump)
             was = is;
         }
         CHECK_AT_MOST(jumps, 2);
-    }
-}
-
-/* Wherever bodies are thrown, all their nodes are in the picture, and no body
- * is but a dot; so are balls and grounds in reach. */
-TEST(the_picture_loses_nothing)
-{
-    static const struct {
-        const char *line;
-        int steps, balls; /* balls that are in reach then */
-        double ground;    /* m, one is seen at this height; 0: none is */
-    } cases[] = {
-        {"hang --ball 0.2,-0.8,0.12 --ball -1.5,0.3,0.2", 0, 2, 0},
-        {"square --stretch 1 --ground 0,1,0,-0.9", 0, 0, -0.9},
-        {"return --stretch 1 --velocity 8,5 --gravity 9.81", 300, 0, 0},
-        {"drop --velocity 0,6", 80, 0, -0.5},
-        {"stack --body 0,-0.76,0,0,9 --body 0.2,-0.22,12", 40, 0, -1},
-        {"slope --friction 0.1", 150, 0, 0},
-        {"dent --velocity 9,-2", 150, 1, -1.15},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        stand_up(cases[i].line, cases[i].steps);
-        Camera camera = camera_of_pane(&content, &layout, 0);
-        const Options *options = &simulation.options;
-        double side = camera.scale[0] * simulation.mesh.side;
-        for (int r = 0; r < simulation.runs; r++)
-            for (int k = 0; k < simulation.system.nodes; k++)
-                CHECK(is_seen(&camera, simulation.run[r].x + 2 * k, 0));
-        CHECK(side > 0.03 * layout.pane[0].width);
-        for (int k = 0; k < cases[i].balls; k++)
-            CHECK(is_seen(&camera, options->ball[k], options->ball[k][2]));
-        double middle[2];
-        const Box *box = &layout.pane[0];
-        camera_world(&camera, box->x + box->width / 2, box->y, middle);
-        if (cases[i].ground != 0)
-            CHECK(is_seen(&camera,
-                          (const double[2]){middle[0], cases[i].ground}, 0));
     }
 }
 
@@ -527,31 +454,6 @@ static bool is_drawn(const char *text)
     return false;
 }
 
-/* ---- contact ------------------------------------------------------------- */
-
-/* Two of the slopes let the body slide, the third holds it; arrows of forces
- * end at their nodes, so that they come out of the slope. */
-TEST(contacts_are_drawn_sliding_or_holding)
-{
-    stand_up("slope", 60);
-    draw(); /* the paper has the size of its letters */
-    Plot stage = stage_create(&paper, &content, &layout, 0);
-    for (int r = 0; r < 3; r++) {
-        const SquarePen pen = square_pen_create(&stage, r);
-        double lowest = 0, at[2];
-        for (ElementIterator to = square_contacts(&pen); elements_next(&to);) {
-            ContactForce touch = square_contact_force(&pen, &to.element);
-            CHECK(touch.has_friction && touch.slides == (r < 2));
-            plot_pixel(&stage, pen.x + 2 * touch.node, at);
-            lowest = fmax(lowest, at[1]);
-        }
-        canvas_clear(&paper.canvas, COLOUR_WHITE);
-        square_contact_forces(&pen, 1);
-        Box below = {0, (int)lowest + 6, 900, 60};
-        CHECK(lowest > 0 && count_colour(below, COLOUR_FORCE) > 10);
-    }
-}
-
 /* Numbers of a text have the digits that it asks for; in a formula those with a
  * sign or a power of ten stand in parentheses, and 1/4 is one.  A line with
  * what is not known is left out; what stands behind "@" is said for each run.
@@ -587,48 +489,6 @@ TEST(texts_say_what_is_known)
 }
 
 /* ---- cards --------------------------------------------------------------- */
-
-/* What a later explosion would hide: the energies of a step before it keep
- * their numbers, and the axis is theirs; an axis that runs over many powers of
- * ten is a logarithmic one. */
-TEST(energies_before_an_explosion_are_seen)
-{
-    double last, least = INFINITY;
-    Energy later[HISTORY_SERIES];
-    stand_up("square", 6);
-    double now = simulation_time(&simulation);
-    double total = history.value[0][history.count - 1];
-    double before = energies_axis(&content, &last).high;
-    for (int s = 0; s < history.series; s++)
-        later[s] = (Energy){history.name[s], 1e298};
-    history_add(&history, now + 0.1, history.series, later);
-    CHECK(energies_value_at(&simulation, &history, 0, now) == total);
-    Axis axis = energies_axis(&content, &last);
-    CHECK(!axis.log && axis.high <= before && axis.high >= total &&
-          total > 1e3);
-    CHECK(energies_value_at(&simulation, &history, 0, now + 0.1) == 1e298);
-    CHECK(isnan(energies_value_at(&simulation, &history, 0, -1)));
-    for (int i = 1; i < 9; i++) { /* whatever its size is */
-        char line[40];
-        snprintf(line, sizeof line, "square --stretch 1.%d", i);
-        stand_up(line, 0);
-        CHECK_AT_MOST(history.value[0][0], energies_axis(&content, &last).high);
-    }
-    stand_up("square --timestep 0.008 --integrator symplectic-euler", 11);
-    now = simulation_time(&simulation); /* x is finite, E is not */
-    CHECK(isinf(energies_value_at(&simulation, &history, 0, now)));
-    CHECK(isfinite(energies_value_at(&simulation, &history, 0, 0.9 * now)));
-    stand_up("arrows", 80);
-    axis = energies_axis(&content, &last);
-    now = simulation_time(&simulation);
-    CHECK(axis.log && axis.low > 0);
-    for (int r = 0; r < 3; r++) {
-        double energy = energies_value_at(&simulation, &history, r, now);
-        least = fmin(least, energy);
-        CHECK(energy <= axis.high && energy >= axis.low);
-    }
-    CHECK(least > 0 && least < 1e-6);
-}
 
 /* On the map of inertia, |x - x_tilde|^2 / 2, the names of contours are where
  * it has their value, along the ray of the picture; at x it pulls towards
@@ -668,27 +528,6 @@ TEST(maps_have_levels_and_pulls)
                        COLOUR_X_TILDE) > 3);
 }
 
-/* A component of the gradient of E at x, by a central difference. */
-static double slope_of(int k, const double *x)
-{
-    const double d = 1e-5, a[2] = {x[0] + d * !k, x[1] + d * k};
-    const double b[2] = {x[0] - d * !k, x[1] - d * k};
-    return (landscape_part_value(&simulation, PART_BOTH, a[0], a[1]) -
-            landscape_part_value(&simulation, PART_BOTH, b[0], b[1])) /
-           (2 * d);
-}
-
-/* Its derivatives. */
-static void slopes_of(int k, const double *x, double out[2])
-{
-    const double d = 1e-3;
-    for (int i = 0; i < 2; i++) {
-        const double a[2] = {x[0] + d * !i, x[1] + d * i};
-        const double b[2] = {x[0] - d * !i, x[1] - d * i};
-        out[i] = (slope_of(k, a) - slope_of(k, b)) / (2 * d);
-    }
-}
-
 /* The list of iterates marks the digits that they have in common with the root.
  * 2 pixels: a text is measured in whole ones, as a sum of letters. */
 TEST(right_digits_are_marked)
@@ -717,192 +556,6 @@ TEST(right_digits_are_marked)
             CHECK_NEAR(lit[k],
                        paper_width(&paper, FACE_REGULAR, 0.95, roots[k - 1]),
                        2);
-    }
-}
-
-/* On the page of Newton in n dimensions what is green and purple is where a
- * component of g is 0, or where its linear model at the iterate is; to 3
- * pixels, half of the curves' width and what is left of rounding them. */
-TEST(curves_are_where_the_gradient_is_0)
-{
-    static const Colour colours[2] = {0xff009e73u, 0xffb0559au};
-    stand_up("landscape --projection none --line-search none --start 0.6,0.9",
-             0);
-    content.lecture.page = lecture_find("newton");
-    lecture_enter(content.lecture.page, &simulation.options);
-    draw_without_words();
-    Plot stage = stage_create(&paper, &content, &layout, 0);
-    const double *x = simulation.descent.point;
-    for (int k = 0; k < 2; k++) {
-        int count[2] = {0, 0};
-        double at_x[2], g = slope_of(k, x);
-        slopes_of(k, x, at_x);
-        for (int i = 0; i < 1280 * 800; i++) {
-            double at[2], here[2];
-            if (paper.canvas.pixels[i] != colours[k])
-                continue;
-            camera_world(&stage.camera, i % 1280 + 0.5, i / 1280 + 0.5, at);
-            slopes_of(k, at, here);
-            double curve = fabs(slope_of(k, at)) / hypot(here[0], here[1]);
-            double line =
-                fabs(g + at_x[0] * (at[0] - x[0]) + at_x[1] * (at[1] - x[1])) /
-                hypot(at_x[0], at_x[1]);
-            CHECK_AT_MOST(fmin(curve, line) * stage.camera.scale[0], 3);
-            count[line < curve]++;
-        }
-        CHECK(count[0] > 200 && count[1] > 50);
-    }
-}
-
-/* The half plane that has a colour is that of directions along which E falls.
- */
-TEST(the_downhill_side_has_a_colour)
-{
-    stand_up("landscape --projection none --start 0.1,-0.35", 0);
-    simulation.options.layers = LAYER_DOWNHILL;
-    draw_without_words();
-    size_t size = sizeof(Colour) * 1280 * 800;
-    Colour *with = malloc(size);
-    assert_non_null(with);
-    memcpy(with, paper.canvas.pixels, size);
-    simulation.options.layers = 0;
-    draw_without_words();
-    Plot stage = stage_create(&paper, &content, &layout, 0);
-    const double *x = simulation.descent.point;
-    const double g[2] = {slope_of(0, x), slope_of(1, x)};
-    int falls = 0, coloured = 0;
-    for (int i = 0; i < 1280 * 800; i++) {
-        double at[2];
-        if (!box_contains(box_inset(layout.pane[0], 50), i % 1280, i / 1280.0))
-            continue;
-        camera_world(&stage.camera, i % 1280 + 0.5, i / 1280 + 0.5, at);
-        double far = (g[0] * (at[0] - x[0]) + g[1] * (at[1] - x[1])) /
-                     hypot(g[0], g[1]) * stage.camera.scale[0];
-        bool differs = with[i] != paper.canvas.pixels[i];
-        falls += far < 0;
-        coloured += differs;
-        CHECK(!differs || far < 8); /* the arrow begins there */
-    }
-    free(with);
-    CHECK(falls > 50000 && coloured > 0.95 * falls);
-}
-
-/* Valleys of the relief's lower outline, which goes down and up again by more
- * than so many pixels.  The lower left corner has arrows. */
-static int outline_valleys(const Plot *card, int rise)
-{
-    int valleys = 0, best = 0;
-    bool down = true;
-    for (int x = card->box.width / 5; x < card->box.width; x++) {
-        int y = card->box.height - 1;
-        while (y > 0 && pixel(x, y) == COLOUR_WHITE)
-            y--;
-        if (y == 0)
-            continue;
-        if (down ? y > best : y < best)
-            best = y;
-        if (abs(y - best) > rise) {
-            valleys += down;
-            down = !down;
-            best = y;
-        }
-    }
-    return valleys;
-}
-
-/* The surface is a bowl with a short h and has two valleys with a long one; it
- * is yellow where E is not convex.  The iterate is on it, and its direction,
- * red where that points uphill.  Far numbers do no harm. */
-TEST(the_relief_has_two_valleys)
-{
-    static const struct {
-        const char *h;
-        int valleys;
-    } rows[] = {{"0.03", 1}, {"0.067", 1}, {"0.2", 2}, {"1", 2}, {"10", 2}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char line[96] =
-            "landscape --start 0.1,-0.35 --projection none --timestep ";
-        strcat(line, rows[i].h);
-        stand_up(line, 0);
-        content.lecture.page = lecture_find("parts");
-        lecture_enter(content.lecture.page, &simulation.options);
-        draw_without_words();
-        Plot card = blank_card(1000, 750);
-        relief_draw(&card);
-        CHECK(outline_valleys(&card, 6) == rows[i].valleys);
-        int yellow = 0, bright = 0;
-        for (int k = 0; k < 1280 * 750; k++) {
-            Colour colour = paper.canvas.pixels[k];
-            yellow += (int)(colour >> 16 & 255) - (int)(colour & 255) > 40;
-            bright += (colour & 255) > 240 && colour != COLOUR_WHITE;
-        }
-        CHECK(bright > 15000); /* no wall hides the flat of the valleys */
-        CHECK((yellow > 20000) == (i > 1));
-        CHECK(count_colour(card.box, COLOUR_TEXT) > 30);
-        CHECK((count_colour(card.box, COLOUR_WARNING) > 30) == (i > 1));
-        simulation.exhibit.target[0] = 1e300;
-        relief_draw(&card);
-    }
-}
-
-/* Of the pixels of a colour in a box the least and the largest distance from a
- * place. */
-static void distances(Box box, Colour colour, const double from[2],
-                      double least_most[2])
-{
-    least_most[0] = INFINITY;
-    least_most[1] = 0;
-    for (int y = box.y; y < box.y + box.height; y++)
-        for (int x = box.x; x < box.x + box.width; x++) {
-            double away = hypot(x + 0.5 - from[0], y + 0.5 - from[1]);
-            if (pixel(x, y) != colour)
-                continue;
-            least_most[0] = fmin(least_most[0], away);
-            least_most[1] = fmax(least_most[1], away);
-        }
-}
-
-/* The eigenvalues against the unit circle: those of forward Euler are outside,
- * of backward Euler inside, of symplectic Euler on it, and one of them outside
- * beyond h omega = 2.  Their ways begin at 1, where backward Euler's is
- * farthest from 0.  Lines and discs cover whole pixels. */
-TEST(eigenvalues_are_outside_on_or_inside)
-{
-    static const char *const lines[] = {"circle --timestep 0.05",
-                                        "circle --timestep 0.3",
-                                        "circle --timestep 0.33"};
-    for (int i = 0; i < 3; i++) {
-        stand_up(lines[i], 0);
-        draw_without_words();
-        Plot card = blank_card(1000, 700);
-        matrix_draw(&card);
-        const Box plane = {300, 0, 700, 700};
-        const double t = simulation.run[0].h * 2 * acos(-1);
-        const double middle[2] = {650, 350};
-        double far[3][2];
-        for (int r = 0; r < 3; r++)
-            distances(plane, colour_of_name(simulation.run[r].method->name),
-                      middle, far[r]);
-        double disc = 5 * paper.unit, size = hypot(1, t);
-        double one = (far[0][1] - disc) / size;
-        double two = t > 2 ? 0.5 * t * t - 1 + sqrt(0.25 * t * t - 1) * t : 1;
-        CHECK_NEAR(far[1][1], one * two + disc, 2.5);
-        CHECK(t > 2 || far[1][0] > one - disc - 2.5);
-        CHECK_NEAR(far[2][0], one / size - disc, 2.5);
-    }
-}
-
-/* The step of twice the radius is marked on forward Euler's curve, if all steps
- * of it, also those after the one that is shown, are as long. */
-TEST(doubling_is_marked)
-{
-    static const char *const lines[] = {"circle", "circle",
-                                        "circle --integrator backward-euler"};
-    for (int i = 0; i < 3; i++) {
-        stand_up(lines[i], 3);
-        content.time_line.steps = i == 1 ? 2 : 3;
-        draw_without_words();
-        CHECK((count_colour(layout.card[1], COLOUR_TEXT) > 0) == (i == 0));
     }
 }
 
