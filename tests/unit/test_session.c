@@ -421,7 +421,7 @@ static bool pane_has_all(const FrameContent *content, const Layout *layout,
             return false;
         far = fmax(far, hypot(at[0] - first[0], at[1] - first[1]));
     }
-    return far > 0.05 * box->width;
+    return far > 0.03 * box->width;
 }
 
 /* Adds the facts of panes, numbers, chips and cards. */
@@ -512,7 +512,7 @@ static void look(const char *line)
 static int find_records(const Simulation *simulation, const NewtonRecord **row)
 {
     const Records *made =
-        &player.past.machine[player.screen.frame.show.active].records;
+        &player.past.machine[player.screen.frame.content.active].records;
     bool descends = simulation->scene->step == step_descent;
     *row = descends ? simulation->descent.record : made->row;
     return descends ? simulation->descent.count : made->count;
@@ -661,7 +661,7 @@ static double find_number(const char *name)
 {
     static const char *const fields[] = {"alpha", "residual", "projected",
                                          "change", "to"};
-    const Pane *pane = show_pane(&player.screen.frame.show);
+    const Pane *pane = active_pane(&player.screen.frame.content);
     const Simulation *simulation = pane->simulation;
     const NewtonRecord *row;
     char field[16];
