@@ -534,14 +534,22 @@ static double count_rises(const Simulation *simulation)
     return rises;
 }
 
-/* J s^2, by which E is above its start where it is highest. */
-static double find_highest_rise(const Simulation *simulation)
+/* J s^2, how far E has risen after the first updates, and at most. */
+static double find_rise(const Simulation *simulation, int updates)
 {
     const NewtonRecord *row;
-    double E = 0, highest = 0;
+    double E = 0;
     int count = find_records(simulation, &row);
-    for (int i = 0; i < count; i++)
-        highest = fmax(highest, E += row[i].change);
+    for (int i = 0; i < updates && i < count; i++)
+        E += row[i].change;
+    return E;
+}
+
+static double find_highest_rise(const Simulation *simulation)
+{
+    double highest = 0;
+    for (int i = (int)count_records(simulation); i > 0; i--)
+        highest = fmax(highest, find_rise(simulation, i));
     return highest;
 }
 
@@ -659,8 +667,8 @@ static const struct {
  * ledger, or one that texts know; NaN: there is none. */
 static double find_number(const char *name)
 {
-    static const char *const fields[] = {"alpha", "residual", "projected",
-                                         "change", "to"};
+    static const char *const fields[] = {"alpha",  "residual", "projected",
+                                         "change", "slope",    "to"};
     const Pane *pane = active_pane(&player.screen.frame.content);
     const Simulation *simulation = pane->simulation;
     const NewtonRecord *row;
@@ -671,6 +679,8 @@ static double find_number(const char *name)
             return numbers[n].find(simulation);
     if (strcmp(name, "unconverged") == 0)
         return (double)simulation->unconverged;
+    if (sscanf(name, "rise %d", &i) == 1)
+        return find_rise(simulation, i);
     if (sscanf(name, "radius %d", &i) == 1)
         return hypot(simulation->run[i].x[0], simulation->run[i].x[1]);
     if (sscanf(name, "x %d", &i) == 1)
@@ -682,8 +692,8 @@ static double find_number(const char *name)
         row += i - 1;
         while (strcmp(fields[k], field) != 0)
             k++;
-        return (double[]){row->alpha, row->residual, row->projected,
-                          row->change, row->to[0]}[k];
+        return (double[]){row->alpha,  row->residual, row->projected,
+                          row->change, row->slope,    row->to[0]}[k];
     }
     const Energies ledger = simulation_energies(simulation, 0);
     for (i = 0; i < ledger.rows; i++)
