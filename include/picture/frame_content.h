@@ -33,8 +33,8 @@ typedef enum Line {
     LINE_COUNT
 } Line;
 
-/* A minimisation up to the line that the run is at: that of the present step or
- * of a descent.  The present update is known from line 3 on. */
+/* The minimisation of a step, or a descent, up to the line that the run is at.
+ * The present update is known from line 3 on. */
 typedef struct Trace {
     Line line;
     double h, tolerance;         /* s, m/s, settings of the step */
@@ -66,7 +66,7 @@ typedef struct LiveValue {
     bool point; /* is a point, written as "(1, 0.5)" */
 } LiveValue;
 
-/* All values of a pane. */
+/* The values of a pane. */
 typedef struct LiveValues {
     int count;
     int run; /* run whose values are being added; 0: values of all runs */
@@ -103,7 +103,7 @@ typedef struct DescentTrace {
     double value;         /* E at the start, J s^2 */
 } DescentTrace;
 
-/* A simulation on the stage. */
+/* A simulation that the stage shows. */
 typedef struct Pane {
     const Simulation *simulation;
     const double *x;         /* [2n] m, drawn positions; NULL: those of run 0 */
@@ -135,8 +135,8 @@ typedef enum PickKind {
 typedef struct Pick {
     PickKind kind;
     int pane, index;
-    int near;        /* nearest node within 3/4 of a spring; -1: none */
-    double point[2]; /* m, position of the mouse in the world */
+    int nearest_node; /* nearest node within 3/4 of a spring; -1: none */
+    double point[2];  /* m, position of the mouse in the world */
 } Pick;
 
 /* Bounds of a pane while something in it is dragged: the view stands still, so
@@ -162,7 +162,7 @@ typedef struct View {
 /* Words of the strip above the stage. */
 typedef struct Strip {
     const char *topic;            /* "Algorithm 3: projected Newton" */
-    char sentence[SENTENCE_SIZE]; /* what happens in the present state */
+    char sentence[SENTENCE_SIZE]; /* sentence about the present state */
     char method[SENTENCE_SIZE];   /* "backward Euler" */
     char state[VALUE_SIZE];       /* "paused", "at rest"; "": running */
     char message[SENTENCE_SIZE];  /* shown instead of the sentence; or "" */
@@ -195,8 +195,8 @@ typedef struct TimeLine {
     long step;   /* the step on the stage, 0 ... steps */
     bool paused; /* time stands still */
     /* Returns the bar of a step 1 ... steps.  NULL: no bars are drawn. */
-    StepBar (*bar)(const void *past, long step);
-    const void *past;         /* first argument of bar */
+    StepBar (*bar)(const void *bar_data, long step);
+    const void *bar_data;     /* first argument of bar */
     char text[SENTENCE_SIZE]; /* "step 12   t = 0.24 s   2 steps a frame" */
 } TimeLine;
 
@@ -248,7 +248,7 @@ typedef struct SheetCell {
     const Simulation *simulation; /* NULL: not made yet */
 } SheetCell;
 
-/* The overview of all scenes; no cells: it is closed. */
+/* The overview of all scenes; without cells the overview is closed. */
 typedef struct SheetContent {
     int cells;
     SheetCell cell[LAYOUT_CELLS];
@@ -269,10 +269,11 @@ typedef struct FrameContent {
     int active; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_PANES];
     const View *view;
-    const struct Control *hand; /* what pulls in the active pane, or NULL */
-    bool strain;                /* springs are coloured by strain */
-    bool bare;                  /* the picture of the slide and nothing else */
-    bool document;     /* the stage alone: a web page beside it has the rest */
+    const struct Control
+        *hand;         /* hand that pulls in the active pane, or NULL */
+    bool shows_strain; /* springs are coloured by strain */
+    bool bare;         /* the picture of the slide and nothing else */
+    bool in_document;  /* the stage alone: a web page beside it has the rest */
     struct Text *text; /* measures a page's words; NULL: widths are guessed */
     double min_em;     /* pixels; 0: the usual minimum */
     Strip strip;

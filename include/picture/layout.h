@@ -39,7 +39,7 @@ typedef struct Layout {
     double em;         /* pixels, size of the texts */
     Box strip, stage, column, settings_row, time_line, chip_row;
     int panes, cards, settings, chips;
-    bool page;              /* the column has code or a list, not cards */
+    bool has_list;          /* the column has code or a list, not cards */
     Box pane[LAYOUT_PANES]; /* inside the stage */
     Box card[LAYOUT_CARDS]; /* inside the column, or on the stage */
     Box setting[LAYOUT_SETTINGS];
@@ -57,8 +57,8 @@ typedef enum Zone {
     ZONE_STAGE,      /* Hit.index: number of the pane */
     ZONE_CARD,       /* Hit.index: number of the card */
     ZONE_CARD_CLOSE, /* the cross of a card; Hit.index: number of the card */
-    ZONE_PAGE,       /* code or a list */
-    ZONE_PAGE_CLOSE, /* the cross of the code or list */
+    ZONE_LIST,       /* code or a list */
+    ZONE_LIST_CLOSE, /* the cross of the code or list */
     ZONE_SETTING,    /* Hit.index: number of the setting */
     ZONE_TIME,
     ZONE_CHIP, /* Hit.index: number of the chip */

@@ -24,34 +24,33 @@ void paper_free(Paper *paper);
 /* Converts ems to whole pixels. */
 int paper_pixels(const Paper *paper, double ems);
 
-/* Draws one line of markup, formatted as by printf; y is its upper edge.
- * Returns its width in pixels. */
+/* Draws a line of markup, formatted as by printf; y is the upper edge.  Returns
+ * the width in pixels. */
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 
-/* Replaces the last words by an ellipsis until the line has at most this width
- * in pixels.
- *   words  [room] in/out, markup */
-void paper_shorten(Paper *paper, Face face, double size, int width, char *words,
+/* Replaces the last words of a line by an ellipsis if the line is wider than
+ * this in pixels. words  [room] in/out, markup */
+void paper_shorten(Paper *paper, double size, int width, char *words,
                    size_t room);
 
-/* Draws a line in the middle of a box's height.  A line that is wider than the
- * box shrinks to at least 0.6 of the size.  Returns its width. */
+/* Draws a line in the middle of a box's height.  A line wider than the box
+ * shrinks to at least 0.6 of the size.  Returns the width in pixels. */
 int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
               Align align, const char *markup);
 
-/* Draws a line on a translucent white ground, so that the line is legible on a
- * picture.  Returns its width. */
+/* Draws a line on a translucent white ground, legible on a picture.  Returns
+ * the width in pixels. */
 int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *markup);
 
-/* Width of a line in pixels. */
+/* Returns the width of a line in pixels. */
 int paper_width(Paper *paper, Face face, double size, const char *markup);
 
 /* Draws a paragraph in the width of the box, broken at blanks outside of
- * braces.  The last line ends with an ellipsis if text is left.  Returns the
- * height in pixels.
- *   lines  the most lines to draw; 0: only measures the whole paragraph */
+ * braces. If text is left, the last line ends with an ellipsis.  Returns the
+ * height in pixels. lines  the most lines to draw; 0: only measures the whole
+ * paragraph */
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup);
 

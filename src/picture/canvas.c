@@ -1,6 +1,6 @@
 /* canvas.c - anti-aliased shapes on a picture in memory.
  *
- * Lines take max_double of a frame's time and are computed in fixed point. */
+ * Lines take most of a frame's time and are computed in fixed point. */
 #include "picture/canvas.h"
 #include "base/mathematics.h"
 
@@ -16,9 +16,9 @@ enum { FARTHEST = 1 << 29 }; /* pixels, coordinates are clamped to this */
  */
 enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
-/* Blends two colours: below + (above - below) amount / 256.  One multiplication
- * serves red and blue; the mask removes borrowed bits. */
-static inline uint32_t mix(uint32_t below, uint32_t above, uint32_t amount)
+/* Blends two colours: below + (above - below) amount / 256.  Red and blue share
+ * a multiplication; the mask removes borrowed bits. */
+static inline uint32_t blend(uint32_t below, uint32_t above, uint32_t amount)
 {
     uint32_t red_blue = below & 0xff00ff, green = below & 0x00ff00;
     red_blue += ((above & 0xff00ff) - red_blue) * amount >> 8;
@@ -27,7 +27,7 @@ static inline uint32_t mix(uint32_t below, uint32_t above, uint32_t amount)
 }
 
 /* Converts the colour's alpha 0 ... 255 to 0 ... 256. */
-static inline uint32_t opacity(Colour colour)
+static inline uint32_t opacity_of(Colour colour)
 {
     uint32_t alpha = colour >> 24;
     return alpha + (alpha >> 7);
@@ -35,7 +35,7 @@ static inline uint32_t opacity(Colour colour)
 
 Colour colour_mix(Colour one, Colour other, double part)
 {
-    return mix(one, other, (uint32_t)(256 * part));
+    return blend(one, other, (uint32_t)(256 * part));
 }
 
 Status canvas_create(int width, int height, Canvas *canvas)
@@ -65,7 +65,7 @@ void canvas_free(Canvas *canvas)
 
 /* Sets row [count] to a colour.  The four bytes of white and of the greys are
  * equal, and memset is faster. */
-static void fill(uint32_t *row, size_t count, uint32_t colour)
+static void fill_pixels(uint32_t *row, size_t count, uint32_t colour)
 {
     if (colour == (colour & 0xff) * 0x01010101u)
         memset(row, (int)(colour & 0xff), count * sizeof *row);
@@ -76,12 +76,11 @@ static void fill(uint32_t *row, size_t count, uint32_t colour)
 
 void canvas_clear(Canvas *canvas, Colour colour)
 {
-    fill(canvas->pixels, (size_t)canvas->width * (size_t)canvas->height,
-         colour | 0xff000000u);
+    fill_pixels(canvas->pixels, (size_t)canvas->width * (size_t)canvas->height,
+                colour | 0xff000000u);
 }
 
-/* Faster than fmin and fmax, which are calls.  NaN gives the second argument.
- */
+/* Returns the minimum, the second argument if one is NaN; faster than fmin. */
 static inline double min_double(double a, double b)
 {
     return a < b ? a : b;
@@ -92,8 +91,8 @@ static inline double max_double(double a, double b)
     return a > b ? a : b;
 }
 
-/* The whole pixels that a rectangle touches inside `clip`.  The clip's corner
- * is not negative, so that conversion to int rounds down. */
+/* Returns the pixels that a rectangle touches inside of `clip`, whose corner
+ * must be >= 0. */
 static Box touched_pixels(Box clip, double left, double top, double right,
                           double bottom)
 {
@@ -158,24 +157,24 @@ static uint32_t *canvas_row(const Canvas *canvas, int y)
 }
 
 /* Mixes the colour into pixels left ... right - 1 of a row. */
-static void mix_span(uint32_t *row, int left, int right, Colour colour,
-                     uint32_t amount)
+static void blend_span(uint32_t *row, int left, int right, Colour colour,
+                       uint32_t amount)
 {
     if (amount == 0 || left >= right)
         return;
     if (amount == 256)
-        fill(row + left, (size_t)(right - left), 0xff000000u | colour);
+        fill_pixels(row + left, (size_t)(right - left), 0xff000000u | colour);
     else
         for (int i = left; i < right; i++)
-            row[i] = mix(row[i], colour, amount);
+            row[i] = blend(row[i], colour, amount);
 }
 
 void canvas_fill(Canvas *canvas, Box box, Colour colour)
 {
     Box seen = box_intersection(canvas->clip, box);
     for (int j = seen.y; j < seen.y + seen.height; j++)
-        mix_span(canvas_row(canvas, j), seen.x, seen.x + seen.width, colour,
-                 opacity(colour));
+        blend_span(canvas_row(canvas, j), seen.x, seen.x + seen.width, colour,
+                   opacity_of(colour));
 }
 
 void canvas_framed_box(Canvas *canvas, Box box, Colour fill, Colour border)
@@ -195,8 +194,8 @@ bool box_clip_line(const Box *box, double margin, double line[4])
         line[1] <= bottom && line[3] <= bottom)
         return true; /* the usual case, and much faster */
     double dx = line[2] - line[0], dy = line[3] - line[1], t0 = 0, t1 = 1;
-    const double p[4] = {-dx, dx, -dy,
-                         dy}; /* a point is inside where p t <= q */
+    /* A point of the line is inside if p t <= q. */
+    const double p[4] = {-dx, dx, -dy, dy};
     const double q[4] = {line[0] - left, right - line[0], line[1] - top,
                          bottom - line[1]};
     for (int k = 0; k < 4; k++) {
@@ -214,23 +213,25 @@ bool box_clip_line(const Box *box, double margin, double line[4])
     return t0 <= t1;
 }
 
-/* Blends the colour into the pixels between low and high > low, in fixed point.
- * `across` is the distance of neighbours in pixels[]. */
-static inline void mix_column(uint32_t *column, ptrdiff_t across, int low,
-                              int high, Colour colour, uint32_t amount)
+/* Blends the colour into the pixels between low and high > low.
+ *   column     first pixel
+ *   across     distance of neighbours in pixels[]
+ *   low, high  fixed point */
+static inline void blend_column(uint32_t *column, ptrdiff_t across, int low,
+                                int high, Colour colour, uint32_t amount)
 {
     int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
     uint32_t *p = column + row * across;
     if (row == last) {
-        *p = mix(*p, colour, (uint32_t)(high - low) * amount >> FIXED_BITS);
+        *p = blend(*p, colour, (uint32_t)(high - low) * amount >> FIXED_BITS);
         return;
     }
     uint32_t part = (uint32_t)(FIXED_ONE - (low & (FIXED_ONE - 1)));
-    *p = mix(*p, colour, part * amount >> FIXED_BITS);
+    *p = blend(*p, colour, part * amount >> FIXED_BITS);
     for (p += across; ++row < last; p += across)
-        *p = mix(*p, colour, amount);
+        *p = blend(*p, colour, amount);
     part = (uint32_t)(high - last * FIXED_ONE);
-    *p = mix(*p, colour, part * amount >> FIXED_BITS);
+    *p = blend(*p, colour, part * amount >> FIXED_BITS);
 }
 
 static inline int min_int(int a, int b)
@@ -243,8 +244,8 @@ static inline int max_int(int a, int b)
     return a > b ? a : b;
 }
 
-/* The loop runs over the columns or rows of pixels, whichever the line crosses
- * more of.  Axis k is along the line, axis j across it. */
+/* Loops over the columns or rows of pixels, of which the line crosses more.
+ * Axis k is along the line, axis j across. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
 {
@@ -256,8 +257,8 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     const double d[2] = {line[2] - line[0], line[3] - line[1]};
     const int first[2] = {clip->x, clip->y};
     const int behind[2] = {clip->x + clip->width, clip->y + clip->height};
-    const ptrdiff_t next[2] = {
-        1, canvas->width}; /* distance of neighbours in pixels[] */
+    /* Distance of neighbours in pixels[]. */
+    const ptrdiff_t next[2] = {1, canvas->width};
     int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1, j = 1 - k,
         back = d[k] > 0 ? 0 : 2;
     if (d[k] == 0)
@@ -271,7 +272,8 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     int middle =
         (int)((line[back + j] + (begin + 0.5 - from) * slope) * FIXED_ONE);
     int step = (int)(slope * FIXED_ONE);
-    uint32_t full = opacity(colour), *column = canvas->pixels + begin * next[k];
+    uint32_t full = opacity_of(colour),
+             *column = canvas->pixels + begin * next[k];
     for (int i = begin; i < end; i++, middle += step, column += next[k]) {
         int low = max_int(middle - reach, first[j] * FIXED_ONE);
         int high = min_int(middle + reach, behind[j] * FIXED_ONE);
@@ -282,7 +284,7 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
             amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
         }
         if (low < high)
-            mix_column(column, next[j], low, high, colour, amount);
+            blend_column(column, next[j], low, high, colour, amount);
     }
 }
 
@@ -343,14 +345,14 @@ static inline void clip_to_half_plane(double a, double per_a, double b,
 }
 
 /* Fills each row from edge to edge.  With smooth edges the coverage of a pixel
- * is its distance to the nearest edge. */
+ * is the distance to the nearest edge. */
 void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                      Colour colour)
 {
     double edge[3][4]; /* a, b, c, 1/a; a x + b y + c is the distance inside */
     double turn = (c[2] - c[0]) * (c[5] - c[1]) - (c[3] - c[1]) * (c[4] - c[0]);
     double reach = smooth ? 1 : 0;
-    uint32_t full = opacity(colour);
+    uint32_t full = opacity_of(colour);
     if (!(fabs(turn) > 1e-12) || !(fabs(turn) < 1e15))
         return;
     Box box = touched_pixels(canvas->clip,
@@ -379,13 +381,14 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                                first[k] + 0.5 * reach + 1e-9, &left, &right);
         }
         if (!smooth)
-            mix_span(row, left, right, colour, full);
+            blend_span(row, left, right, colour, full);
         for (int i = left; smooth && i < right; i++) {
-            double inside = 0.5; /* from here on the whole pixel is covered */
+            double inside = 0.5; /* pixels; 1/2: all of the pixel is covered */
             for (int k = 0; k < 3; k++)
                 inside = min_double(inside, edge[k][0] * i + first[k]);
-            row[i] = mix(row[i], colour,
-                         (uint32_t)(max_double(inside + 0.5, 0) * full + 0.5));
+            row[i] =
+                blend(row[i], colour,
+                      (uint32_t)(max_double(inside + 0.5, 0) * full + 0.5));
         }
     }
 }
@@ -402,7 +405,7 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
         !(radius < 1e6))
         return;
     Box box = touched_pixels(canvas->clip, x - far, y - far, x + far, y + far);
-    uint32_t full = opacity(colour);
+    uint32_t full = opacity_of(colour);
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
         double dy = j + 0.5 - y;
@@ -412,7 +415,7 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
                 continue;
             double d = sqrt(d2), part = min_double(far - d, 1);
             part = disc ? part : min_double(part, d - near);
-            row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
+            row[i] = blend(row[i], colour, (uint32_t)(part * full + 0.5));
         }
     }
 }
@@ -426,7 +429,7 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
 void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
                     const uint8_t *mask, Colour colour)
 {
-    uint32_t full = opacity(colour);
+    uint32_t full = opacity_of(colour);
     Box box = touched_pixels(canvas->clip, x, y, x + width, y + height);
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
@@ -436,7 +439,7 @@ void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
             if (amount == 0)
                 continue;
             amount += amount >> 7;
-            row[i] = mix(row[i], colour, amount * full >> 8);
+            row[i] = blend(row[i], colour, amount * full >> 8);
         }
     }
 }

@@ -92,7 +92,7 @@ static Curves find_curves(const FrameContent *content)
 
 /* Returns the index of the last point of the history up to this time; -1: none.
  */
-static int point_at(const History *history, double time)
+static int find_point(const History *history, double time)
 {
     int at = -1;
     while (at + 1 < history->count &&
@@ -104,7 +104,7 @@ static int point_at(const History *history, double time)
 double energies_value_at(const Simulation *simulation, const History *history,
                          int series, double time)
 {
-    int point = point_at(history, time), last = history->count - 1;
+    int point = find_point(history, time), last = history->count - 1;
     bool runs = series_are_runs(simulation);
     double now = simulation_time(simulation), size = 0, first = 0;
     if (point < 0)
@@ -120,7 +120,8 @@ double energies_value_at(const Simulation *simulation, const History *history,
     return fabs(value) < 1e-15 * fmin(size, first) ? 0 : value;
 }
 
-double energies_needs(const FrameContent *content, double wide, double em)
+double energies_needed_height(const FrameContent *content, double wide,
+                              double em)
 {
     (void)wide;
     (void)em;
@@ -131,14 +132,13 @@ double energies_needs(const FrameContent *content, double wide, double em)
 }
 
 /* Returns the energy below which all is rounding, J. */
-static double energy_rounding(const Simulation *simulation)
+static double find_energy_rounding(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     return ROUNDING * fmax(options->stiffness, options->young) * options->side *
            options->side;
 }
 
-/* An axis that stands still is easier to read. */
 Axis energies_axis(const FrameContent *content, double *last)
 {
     const Simulation *simulation = active_pane(content)->simulation;
@@ -149,7 +149,7 @@ Axis energies_axis(const FrameContent *content, double *last)
     for (const Curve *curve = all.curve; curve < all.curve + all.count;
          curve++) {
         const History *history = curve->history;
-        int point = point_at(history, all.now);
+        int point = find_point(history, all.now);
         for (int i = 0; i < history->count; i++) {
             double value = history->value[curve->series][i];
             lowest = fmin(lowest, value);
@@ -166,7 +166,7 @@ Axis energies_axis(const FrameContent *content, double *last)
         low = lowest;
         high = highest;
     }
-    double rounding = energy_rounding(simulation);
+    double rounding = find_energy_rounding(simulation);
     high = high > rounding ? fmin(high, 1e300) : 1;
     low = fmax(low, -1e300);
     if (!(first > rounding)) /* the body is at rest under gravity */
@@ -208,7 +208,7 @@ void energies_draw(const Plot *card)
         char name[SENTENCE_SIZE], sum[60];
         snprintf(name, sizeof name, "%s", one->name ? one->name : "");
         snprintf(sum, sizeof sum, " %s J", format_number(value).text);
-        paper_shorten(card->paper, FACE_REGULAR, size,
+        paper_shorten(card->paper, size,
                       card->box.width -
                           paper_width(card->paper, FACE_REGULAR, size, sum),
                       name, sizeof name);
@@ -227,7 +227,7 @@ void energies_draw(const Plot *card)
 
 /* Draws a bar of the energy at the start with the work since then, and bars of
  * its parts, each of which begins at the end of the last one. */
-void budget_draw(const Plot *card)
+void energy_budget_draw(const Plot *card)
 {
     static const double NAME = 7, VALUE = 5.2; /* ems */
     Paper *paper = card->paper;

@@ -102,7 +102,7 @@ void hessian_pattern_draw(const Plot *card)
     if (side > inside.height - line - below)
         side = inside.height - line - below;
     int springs =
-        writes ? newest_spring(card->simulation) + 1 : system->springs;
+        writes ? find_newest_spring(card->simulation) + 1 : system->springs;
     if (side < 4 * line || system->nodes > side) {
         card_write_hint(card, side < 4 * line ? "enlarge it"
                                               : "too many nodes to draw");

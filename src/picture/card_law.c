@@ -37,7 +37,7 @@ typedef struct Law {
     double axis_low, axis_high; /* ends of the axis, in units of `reach` */
 } Law;
 
-static double gap_value(const void *data, double d)
+static double gap_energy(const void *data, double d)
 {
     LawPoint there = *(const LawPoint *)data;
     there.element.s = d;
@@ -46,7 +46,7 @@ static double gap_value(const void *data, double d)
 
 /* Returns the energy per area of the triangle, after it is stretched along its
  * shortest direction to the area ratio J. */
-static double triangle_value(const void *data, double J)
+static double triangle_energy(const void *data, double J)
 {
     LawPoint there = *(const LawPoint *)data;
     double *f = there.element.v, factor = J / there.element.s - 1;
@@ -59,7 +59,7 @@ static double triangle_value(const void *data, double J)
         f[i] += part * n[0];
         f[i + 1] += part * n[1];
     }
-    return gap_value(&there, J) / neo_hookean_of(there.at.system)->area;
+    return gap_energy(&there, J) / neo_hookean_of(there.at.system)->area;
 }
 
 static double friction_force_at(const void *now, double v)
@@ -67,7 +67,7 @@ static double friction_force_at(const void *now, double v)
     return friction_slope(v, ((const LawPoint *)now)->reach);
 }
 
-static double spring_value(const void *data, double s)
+static double spring_force(const void *data, double s)
 {
     const LawPoint *now = data;
     return flow_law_slope(now->spring, s - now->spring.ep);
@@ -75,7 +75,7 @@ static double spring_value(const void *data, double s)
 
 /* Returns force over strain, both relative to the spring's strength; the force
  * of a broken spring is 0. */
-static double break_value(const void *now, double part)
+static double break_force(const void *now, double part)
 {
     (void)now;
     return part > 1 ? 0 : part;
@@ -83,18 +83,18 @@ static double break_value(const void *now, double part)
 
 static const Law laws[] = {
     {"barrier", "gap \u03b4 in m", "W in J", &contact_energy, &contact_energy,
-     gap_value, 0, 1.2},
+     gap_energy, 0, 1.2},
     {"rub", "slip in m/s", "f/(\u03bc f_{N})", &self_friction_energy,
      &self_contact_energy, friction_force_at, 0, 2},
     {"triangle", "det F", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
-     &neo_hookean_energy, triangle_value, 0, 1.5},
-    {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, spring_value, -1,
+     &neo_hookean_energy, triangle_energy, 0, 1.5},
+    {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, spring_force, -1,
      1},
-    {"break", "s/s_{c}", "f/(2k|d| s_{c})", &fracture, NULL, break_value, 0,
+    {"break", "s/s_{c}", "f/(2k|d| s_{c})", &fracture, NULL, break_force, 0,
      1.3},
 };
 
-static void find_spring(LawPoint *now, int s)
+static void fill_spring_point(LawPoint *now, int s)
 {
     const System *system = now->at.system;
     const Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -115,7 +115,7 @@ static void find_spring(LawPoint *now, int s)
  * a spring at one of its nodes broke before. */
 static double law_value_at(const Law *law, const LawPoint *now)
 {
-    return law->value == break_value ? now->x : law->value(now, now->x);
+    return law->value == break_force ? now->x : law->value(now, now->x);
 }
 
 /* Finds the law that the scene draws, and the point of the run's most loaded
@@ -145,7 +145,7 @@ static const Law *find_law(const Simulation *simulation, int run,
         most->reach = ((const Friction *)term->data)->slip_speed;
     LawPoint now = *most;
     for (int s = 0; s < system->springs && !law->source; s++) {
-        find_spring(&now, s);
+        fill_spring_point(&now, s);
         *most = now.load > most->load ? now : *most;
     }
     if (!law->source)
@@ -177,7 +177,7 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap)
     LawPoint now;
     const Law *law = find_law(simulation, 0, &now);
     if (!law || simulation->runs > 1 || isnan(now.x) ||
-        (law->value != gap_value && law->value != friction_force_at))
+        (law->value != gap_energy && law->value != friction_force_at))
         return false;
     bool self = law->source == &self_contact_energy;
     gap->d_hat = now.d_hat;
@@ -234,7 +234,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     if (!law || simulation->runs > 1)
         return;
     bool is_there = !isnan(now.x), self = law->source == &self_contact_energy;
-    bool still = law->value == spring_value && now.spring.ep == 0;
+    bool still = law->value == spring_force && now.spring.ep == 0;
     values_add_flag(values, "law", true);
     values_add_flag(values, "unflowed", still);
     values_add_flag(values, "bodies apart", self);
@@ -243,7 +243,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     values_add_words(
         values, "its way",
         flowed_one_way(&now, ends[0], ends[1]) ? "; its path is violet" : "");
-    if (law->value == gap_value) {
+    if (law->value == gap_energy) {
         const System *system = now.at.system;
         values_add(values, "c",
                    self ? self_contact_of(system)->c
@@ -254,7 +254,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     }
     values_add(values, "law x", now.x);
     values_add(values, "law y", is_there ? law_value_at(law, &now) : NAN);
-    values_add(values, "s_p", law->value == spring_value ? now.spring.ep : NAN);
+    values_add(values, "s_p", law->value == spring_force ? now.spring.ep : NAN);
     Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
         values_add(values, energies.row[i].name, energies.row[i].value);
@@ -322,12 +322,12 @@ void law_draw(const Plot *card)
     plot_graph(&plot, law->value, now, 2.4, COLOUR_X);
     LawPoint other = *now; /* a small dot for each spring, on its own law */
     for (int s = 0; s < other.at.system->springs && !law->source; s++) {
-        find_spring(&other, s);
+        fill_spring_point(&other, s);
         if (other.load > -INFINITY)
             plot_disc(&plot, (double[2]){other.x, law_value_at(law, &other)}, 2,
                       COLOUR_GHOST);
     }
-    if (law->value == gap_value && !isnan(x))
+    if (law->value == gap_energy && !isnan(x))
         plot_line(&plot, (double[2]){low, y + (x - low) * gap_force(now)},
                   (double[2]){high, y + (x - high) * gap_force(now)}, 1.4,
                   COLOUR_FORCE);

@@ -21,7 +21,7 @@ typedef struct LineCurves {
     double low, high;          /* ends of the axis */
 } LineCurves;
 
-static double exact_value(const Trace *trace, double alpha)
+static double line_energy_at(const Trace *trace, double alpha)
 {
     double value = trace->difference(trace->difference_data, alpha);
     return isfinite(value) ? value : NAN;
@@ -39,9 +39,9 @@ static void fill_curves(const Trace *trace, const Trace *other,
     for (int i = 0; i < LINE_POINTS; i++) {
         double alpha = end * i / (LINE_POINTS - 1);
         curves->alpha[i] = alpha;
-        curves->exact[i] = exact_value(trace, alpha);
+        curves->exact[i] = line_energy_at(trace, alpha);
         curves->model[i] = trace->slope * (alpha - 0.5 * alpha * alpha);
-        curves->other[i] = other ? exact_value(other, alpha) : NAN;
+        curves->other[i] = other ? line_energy_at(other, alpha) : NAN;
         low = fmin(low, fmin(curves->exact[i], curves->model[i]));
         low = fmin(low, curves->other[i]);
         if (!isnan(curves->exact[i]))
@@ -83,7 +83,7 @@ static void draw_trial(const Plot *plot, double alpha, double value,
 
 /* Writes the words above the plot, in a room of fixed height.  A page about
  * projection also shows E along the projected p until a step is made. */
-void line_draw(const Plot *card)
+void line_energy_draw(const Plot *card)
 {
     const Pane *pane = card->pane;
     const Trace *trace = pane->update;
@@ -123,13 +123,14 @@ void line_draw(const Plot *card)
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
     plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
     double first = trace_step_length(trace, 1);
-    double full = exact_value(trace, first);
+    double full = line_energy_at(trace, first);
     bool star = card->simulation->options.star;
     if (trace->trials == 0 && star && full > plot.y.high)
         draw_trial(&plot, first, full, false);
     for (int t = 0; t < trace->trials; t++) {
         double at = trace_step_length(trace, t + 1);
         bool last = t == trace->trials - 1;
-        draw_trial(&plot, at, exact_value(trace, at), last && trace->accepted);
+        draw_trial(&plot, at, line_energy_at(trace, at),
+                   last && trace->accepted);
     }
 }

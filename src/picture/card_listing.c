@@ -85,7 +85,8 @@ static double row_pitch(const FrameContent *content)
 }
 
 /* Height in ems, with title and margin. */
-double listing_needs(const FrameContent *content, double wide, double em)
+double listing_needed_height(const FrameContent *content, double wide,
+                             double em)
 {
     (void)wide, (void)em;
     return row_pitch(content) *

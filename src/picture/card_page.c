@@ -105,7 +105,7 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
 }
 
 /* Returns the height, ems, that a page's words need at this width. */
-double page_needs(const FrameContent *content, double wide, double em)
+double page_needed_height(const FrameContent *content, double wide, double em)
 {
     Paper paper = {.text = content->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};

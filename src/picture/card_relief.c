@@ -37,7 +37,7 @@ typedef struct Corner {
     bool convex;
 } Corner;
 
-static double rim_value(const Simulation *simulation)
+static double find_rim(const Simulation *simulation)
 {
     const double *target = simulation->exhibit.target;
     unsigned parts = simulation->exhibit.switches;
@@ -67,7 +67,7 @@ static Point project_corner(const Relief *relief, const Corner *corner)
 }
 
 /* Returns the point of an edge where E has this value. */
-static Corner edge_crossing(const Corner *a, const Corner *b, double E)
+static Corner find_edge_crossing(const Corner *a, const Corner *b, double E)
 {
     double t = (E - a->E) / (b->E - a->E);
     return (Corner){a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), E,
@@ -82,14 +82,14 @@ static bool find_contour(const Corner corner[3], double E, Corner end[2])
     for (int k = 0; k < 3 && ends < 2; k++) {
         const Corner *a = &corner[k], *b = &corner[(k + 1) % 3];
         if ((a->E < E) != (b->E < E))
-            end[ends++] = edge_crossing(a, b, E);
+            end[ends++] = find_edge_crossing(a, b, E);
     }
     return ends == 2;
 }
 
 /* Colour of a triangle: brightness by its slope to the light, yellow where E is
  * not convex. */
-static Colour relief_colour(const Relief *relief, const Corner corner[3])
+static Colour colour_of_face(const Relief *relief, const Corner corner[3])
 {
     const Corner *o = &corner[0], *a = &corner[1], *b = &corner[2];
     double scale = HEIGHT / relief->rim;
@@ -120,7 +120,7 @@ static void draw_face(const Relief *relief, const Corner corner[3])
         if (a->E <= relief->rim)
             inside[count++] = *a;
         if ((a->E <= relief->rim) != (b->E <= relief->rim))
-            inside[count++] = edge_crossing(a, b, relief->rim);
+            inside[count++] = find_edge_crossing(a, b, relief->rim);
     }
     for (int k = 0; k < count; k++)
         at[k] = project_corner(relief, &inside[k]);
@@ -130,7 +130,7 @@ static void draw_face(const Relief *relief, const Corner corner[3])
     const double *const face[] = {at[0].at, at[1].at, at[2].at,
                                   at[count > 3 ? 3 : 2].at};
     if (above)
-        plot_quad(plot, face, relief_colour(relief, corner));
+        plot_quad(plot, face, colour_of_face(relief, corner));
     for (int k = 1; k < LEVELS && k * relief->level < relief->rim; k++)
         if (above && find_contour(corner, k * relief->level, end))
             plot_line(plot, project_corner(relief, &end[0]).at,
@@ -245,7 +245,7 @@ static void draw_relief_axes(const Relief *relief)
 void relief_draw(const Plot *card)
 {
     static const double bounds[4] = {-1.95, -0.75, 2.05, 2.2}; /* m */
-    Relief relief = {card->simulation, *card, rim_value(card->simulation), 0};
+    Relief relief = {card->simulation, *card, find_rim(card->simulation), 0};
     relief.level = plot_round_up(relief.rim / LEVELS);
     relief.plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     draw_surface(&relief);

@@ -103,7 +103,7 @@ static void draw_excess(const Plot *card, const Trace *trace)
 }
 
 /* Draws E along the line and, in a wide card, E after each update. */
-void values_draw(const Plot *card)
+void step_energy_draw(const Plot *card)
 {
     const Pane *pane = card->pane;
     const Trace *trace = pane->trace;
@@ -123,8 +123,8 @@ void values_draw(const Plot *card)
 
 /* Draws a row of the table with the columns that are known at this line; row 0
  * is the header. */
-static void draw_update(const Plot *card, double y, int row,
-                        const NewtonRecord *update, Line line)
+static void draw_update_row(const Plot *card, double y, int row,
+                            const NewtonRecord *update, Line line)
 {
     static const char *const heads[] = {"", "projected",
                                         "\u2016{p}\u2016_{\u221e}/h, m/s",
@@ -157,7 +157,8 @@ static const double UPDATE_PITCH = 1.45; /* ems, height of a row of the table */
 
 /* Height in ems of a table of the updates so far, six at least, with its
  * header, the title and margins. */
-double updates_needs(const FrameContent *content, double wide, double em)
+double updates_needed_height(const FrameContent *content, double wide,
+                             double em)
 {
     (void)wide, (void)em;
     const Trace *trace = active_pane(content)->trace;
@@ -179,8 +180,8 @@ void updates_draw(const Plot *card)
                trace->projected >= 0;
     int rows = made + now, room = (int)(card->box.height / pitch - 1);
     int first = rows > room ? rows - room : 0;
-    draw_update(card, y, 0, NULL, LINE_NONE);
+    draw_update_row(card, y, 0, NULL, LINE_NONE);
     for (int i = first; i < rows; i++)
-        draw_update(card, y + (i - first + 1) * pitch, i + 1, &trace->record[i],
-                    i < made ? LINE_END : trace->line);
+        draw_update_row(card, y + (i - first + 1) * pitch, i + 1,
+                        &trace->record[i], i < made ? LINE_END : trace->line);
 }

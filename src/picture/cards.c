@@ -98,8 +98,8 @@ static void draw_list(Paper *paper, Box inside, const List *list)
         Box room = {(int)x + before, (int)y, (int)(wide - before - 0.5 * em),
                     (int)fmax(grid.line, 1.3 * size * em)};
         snprintf(text, sizeof text, "%s", row->text);
-        paper_shorten(paper, FACE_REGULAR, smallest * size,
-                      (int)(wide - key - 0.6 * em), text, sizeof text);
+        paper_shorten(paper, smallest * size, (int)(wide - key - 0.6 * em),
+                      text, sizeof text);
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
                     row->key);
         paper_fit(paper, row->head ? FACE_BOLD : FACE_REGULAR, size,
@@ -221,7 +221,7 @@ static void draw_column(Paper *paper, const Layout *layout,
 void cards_draw(Paper *paper, const Layout *layout, const FrameContent *content)
 {
     const Picture *picture = active_picture(content);
-    if (layout->page)
+    if (layout->has_list)
         draw_column(paper, layout, content);
     for (int i = 0; i < layout->cards; i++) {
         Box box = layout->card[i];

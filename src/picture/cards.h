@@ -52,11 +52,12 @@ extern StageAddValues square_add_values, circle_add_values, scalar_add_values,
     race_add_values, envelope_add_values;
 extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
 extern StageSample square_sample, mass_sample;
-extern CardDraw page_draw, prints_draw, line_draw, residual_draw, values_draw,
-    updates_draw, energies_draw, budget_draw, radius_draw, relief_draw,
-    matrix_draw, update_draw, law_draw, hessian_pattern_draw, profile_draw,
-    table_draw;
-extern CardNeeds page_needs, listing_needs, energies_needs, updates_needs;
+extern CardDraw page_draw, prints_draw, line_energy_draw, residual_draw,
+    step_energy_draw, updates_draw, energies_draw, energy_budget_draw,
+    radius_draw, relief_draw, step_matrix_draw, tangent_numbers_draw, law_draw,
+    hessian_pattern_draw, spring_profile_draw, race_table_draw;
+extern CardNeeds page_needed_height, listing_needed_height,
+    energies_needed_height, updates_needed_height;
 
 /* Writes the claim of a page that a test checks at the bottom of the box.
  * Returns the box above the claim. */
@@ -106,7 +107,7 @@ const char *lecture_lit_code(const FrameContent *content);
 
 /* Returns the index of the spring that the present step adds to the Hessian, on
  * a page where each step adds one. */
-int newest_spring(const Simulation *simulation);
+int find_newest_spring(const Simulation *simulation);
 
 /* Returns the box inside a card, below the title; em in pixels. */
 Box card_inner_box(Box card, double em);

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Linear in RGB on both sides of the grey of rest. */
 Colour colour_of_strain(double strain, double range, Colour below, Colour above)
 {
     double part = fabs(strain) / range;
@@ -12,16 +11,17 @@ Colour colour_of_strain(double strain, double range, Colour below, Colour above)
                       fmin(fmax(part, 0), 1));
 }
 
-/* Vermilion, green, blue, purple, brown, sky blue. */
 Colour colour_of_run(int run)
 {
+    /* Vermilion, green, blue, purple, brown, sky blue. */
     static const Colour colours[] = {0xffd55e00u, 0xff009e73u, 0xff0072b2u,
                                      0xffb0559au, 0xff7a5c2eu, 0xff56b4e9u};
     return colours[run < 0 ? 0 : run % 6];
 }
 
-/* Colours by name.  The first TERMS names are letters of formulas and energies;
- * words and methods follow. */
+/* Colours by name: TERMS letters of formulas and energies, then words and
+ * methods.
+ */
 enum { TERMS = 21 };
 static const struct {
     const char *name;

@@ -1,6 +1,5 @@
 /* envelope_picture.c - the map of time steps and stiffnesses for which the
- * square converges.
- */
+ * square converges. */
 #include <math.h>
 
 #include "picture/cards.h"
@@ -29,7 +28,7 @@ static Colour envelope_colour(const EnvelopeCell *cell)
     return envelope_shade(shade);
 }
 
-/* Box of a cell, without a line to its neighbours. */
+/* Returns the box of a cell, with a gap of a pixel to the next cells. */
 static Box envelope_box(const Plot *stage, int column, int row)
 {
     double x = log10(envelope_timestep(column));
@@ -43,8 +42,8 @@ static Box envelope_box(const Plot *stage, int column, int row)
                  pixel_from(ceil(p[1])) - top - 1};
 }
 
-/* Draws the line where elasticity is this many times as stiff as inertia: h^2 k
- * = ratio m. */
+/* Draws the line h^2 k = ratio m, where elasticity is `ratio` times as stiff as
+ * inertia. */
 static void draw_ratio(const Plot *plot, double ratio)
 {
     double m = plot->simulation->system.m[0];
@@ -58,7 +57,7 @@ static void draw_ratio(const Plot *plot, double ratio)
     plot_label(plot, 1, ends[1], COLOUR_TEXT, "%s", format_number(ratio).text);
 }
 
-/* Draws the cells over the lines of the axes; the chosen one has a dark border.
+/* Draws the cells over the lines of the axes, the selected one with a border.
  */
 void envelope_draw(Plot *stage)
 {
@@ -81,7 +80,7 @@ void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     double column = round(2 * (pick->point[0] + 9));
     double row = round(pick->point[1] + 6);
-    (void)stage, (void)x, (void)y; /* the point suffices */
+    (void)stage, (void)x, (void)y;
     if (column >= 0 && column < ENVELOPE_COLUMNS && row >= 0 &&
         row < ENVELOPE_ROWS) {
         pick->kind = PICK_CELL;
@@ -97,8 +96,7 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
     double h = envelope_timestep(map->column), m = simulation->system.m[0];
     int known = 0, converged = 0;
-    bool only_rounding =
-        true; /* whether rounding alone stops all runs that do not converge */
+    bool only_rounding = true; /* only rounding stops runs from converging */
     for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
         int row = i / ENVELOPE_COLUMNS, column = i % ENVELOPE_COLUMNS;
         const EnvelopeCell *one = &map->cell[row][column];

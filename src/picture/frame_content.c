@@ -186,7 +186,7 @@ void stage_draw_handles(const Plot *stage)
     }
 }
 
-static Box switch_box(const Plot *stage, int i)
+static Box box_of_switch(const Plot *stage, int i)
 {
     const Box *box = &stage->box;
     int wide = (int)(SWITCH_WIDTH * stage->em);
@@ -202,7 +202,8 @@ static void draw_switches(const Plot *stage)
     Switch switches[SCENE_MAX_SWITCHES];
     int count = exhibit_list_switches(stage->simulation, switches);
     for (int i = 0; i < count && stage->has_text; i++) {
-        Box box = switch_box(stage, i), mark = box_inset(box, box.height / 4);
+        Box box = box_of_switch(stage, i),
+            mark = box_inset(box, box.height / 4);
         bool on = switches[i].on;
         canvas_framed_box(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
                           COLOUR_BORDER);
@@ -244,9 +245,9 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
                 double y)
 {
     Hit hit = layout_hit(layout, x, y);
-    Pick pick = {.kind = PICK_NONE, .near = -1, .pane = hit.index};
+    Pick pick = {.kind = PICK_NONE, .nearest_node = -1, .pane = hit.index};
     if (hit.zone != ZONE_STAGE || hit.index >= content->panes)
-        return (Pick){.kind = PICK_NONE, .near = -1};
+        return (Pick){.kind = PICK_NONE, .nearest_node = -1};
     Plot stage = stage_create(NULL, content, layout, hit.index);
     const Picture *picture = picture_of(stage.simulation->scene);
     double at[SCENE_MAX_HANDLES][2];
@@ -258,7 +259,7 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
                         ? exhibit_list_switches(stage.simulation, switches)
                         : 0;
         for (pick.index = 0; pick.index < count; pick.index++)
-            if (box_contains(switch_box(&stage, pick.index), x, y)) {
+            if (box_contains(box_of_switch(&stage, pick.index), x, y)) {
                 pick.kind = PICK_SWITCH;
                 return pick;
             }
@@ -416,7 +417,7 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
         FrameContent content;
         frame_create(cell->simulation, &content);
         content.bare = true;
-        content.strain = cell->simulation->scene->strain_colour_max > 0;
+        content.shows_strain = cell->simulation->scene->strain_colour_max > 0;
         draw_pane(paper, &layout, &content, 0);
     }
     paper_fit(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
@@ -462,13 +463,13 @@ void frame_draw(Paper *paper, const FrameContent *content)
     }
     if (content->bare && !sheet)
         return;
-    if (!sheet && !content->document) {
+    if (!sheet && !content->in_document) {
         if (content->column != COLUMN_CARDS)
             canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
         cards_draw(paper, &layout, content);
     }
     if (!sheet)
         highlight_draw(paper, content);
-    if (!content->document)
+    if (!content->in_document)
         window_rows_draw(paper, &layout, content);
 }

@@ -1,9 +1,8 @@
-/* highlight.c - the term at the mouse, or of the line that is walked, lights
- * up.
+/* highlight.c - highlights a term of the formulas in the whole frame.
  *
- * A term of the formulas has a colour of its own, and so has what it is in the
- * picture: letters, arrows, curves, words of legends.  So everything of one
- * colour is one term, and it is found where it was drawn, by its pixels.
+ * A term has the same colour everywhere: in letters, arrows, curves and
+ * legends. So the term under the mouse, and all its places, are found by their
+ * pixels.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -14,25 +13,24 @@
 
 static const double HIGHLIGHT_RADIUS = 4; /* units of the paper */
 static const double MOUSE_REACH = 0.5;    /* ems, reach of the mouse */
-static const double MIN_COVERAGE =
-    0.5; /* least coverage of a pixel that counts */
+static const double MIN_COVERAGE = 0.5;   /* least coverage of a pixel */
 
-static int channel(Colour colour, int k)
+static int colour_channel(Colour colour, int k)
 {
     return (int)(colour >> 8 * k & 255);
 }
 
-/* Whether the pixel is this colour mixed with white, with enough coverage. */
+/* Whether the pixel is a mixture of this colour and some white. */
 static bool has_colour(Colour pixel, Colour colour)
 {
     double ink = 0, off = 0;
     for (int k = 0; k < 3; k++)
-        if (channel(colour, k) < 128)
-            ink = fmax(ink, (255.0 - channel(pixel, k)) /
-                                (255.0 - channel(colour, k)));
+        if (colour_channel(colour, k) < 128)
+            ink = fmax(ink, (255.0 - colour_channel(pixel, k)) /
+                                (255.0 - colour_channel(colour, k)));
     for (int k = 0; k < 3; k++)
-        off = fmax(off, fabs(255 - ink * (255 - channel(colour, k)) -
-                             channel(pixel, k)));
+        off = fmax(off, fabs(255 - ink * (255 - colour_channel(colour, k)) -
+                             colour_channel(pixel, k)));
     return ink > MIN_COVERAGE && off < 16;
 }
 
@@ -61,19 +59,20 @@ static void highlight_colour(Canvas *canvas, Colour colour, int radius)
                       (int)(i / canvas->width), radius);
     for (size_t i = 0; i < count && map; i++) {
         Colour pixel = canvas->pixels[i], lit = 0xff000000u;
-        if (!map[i] || channel(pixel, 1) < 128)
+        if (!map[i] || colour_channel(pixel, 1) < 128)
             continue; /* dark pixels stay */
         for (int k = 0; k < 3; k++)
-            lit |=
-                (Colour)(channel(pixel, k) * channel(COLOUR_HIGHLIGHT, k) / 255)
-                << 8 * k;
+            lit |= (Colour)(colour_channel(pixel, k) *
+                            colour_channel(COLOUR_HIGHLIGHT, k) / 255)
+                   << 8 * k;
         canvas->pixels[i] = lit;
     }
     free(map);
 }
 
-/* Colour of the nearest term within so many pixels; 0: none. */
-static Colour term_near(const Canvas *canvas, const double at[2], int reach)
+/* Returns the colour of the nearest term within `reach` pixels; 0: none. */
+static Colour find_term_near(const Canvas *canvas, const double at[2],
+                             int reach)
 {
     const Box whole = {0, 0, canvas->width, canvas->height};
     int x = (int)at[0], y = (int)at[1], least = reach * reach + 1;
@@ -101,17 +100,18 @@ void highlight_draw(Paper *paper, const FrameContent *content)
                                                [LINE_SOLVE] = COLOUR_P,
                                                [LINE_SEARCH] = COLOUR_ALPHA};
     const Trace *trace = active_pane(content)->trace;
+    const Hit *mouse = &content->view->over;
+    bool stage = mouse->zone == ZONE_STAGE;
     Colour colour = 0;
     if (!content->lecture.page)
         return;
-    if (content->view->over.zone == ZONE_CARD ||
-        content->view->over.zone == ZONE_STAGE)
-        colour = term_near(&paper->canvas, content->view->over.at,
-                           (int)(MOUSE_REACH * paper->em));
+    if (mouse->zone == ZONE_CARD || stage)
+        colour = find_term_near(&paper->canvas, mouse->at,
+                                (int)(MOUSE_REACH * paper->em));
     bool plain = content->view->hover.kind == PICK_SWITCH &&
                  !exhibit_has_kinds(active_pane(content)->simulation);
-    if (plain || (colour == COLOUR_X && content->view->over.zone == ZONE_STAGE))
-        colour = 0; /* all of the square; a switch without a term */
+    if (plain || (colour == COLOUR_X && stage))
+        colour = 0; /* a switch without a term, or the whole square */
     if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->line];
     if (colour)

@@ -1,12 +1,12 @@
-/* landscape_picture.c - maps of E over the position of one free node: Newton's
- * path (landscape), and the path of the minimiser over h (dial). */
+/* landscape_picture.c - maps of E over the position of one free node: with
+ * Newton's path (landscape), or with the minimiser for every h (dial). */
 #include <math.h>
 #include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* J s^2; the bottom of both valleys is below 1 */
+/* Levels of the contours, J s^2; the bottom of both valleys is below 1. */
 static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
@@ -16,8 +16,8 @@ static const Colour curve_colour[2] = {0xff009e73u, 0xffb0559au};
 
 /* ---- the map ------------------------------------------------------------ */
 
-/* Difference to the nearest contour; `value` is divided by level_factor. */
-static double contour_distance(double value)
+/* Returns the difference of a value to the level of the nearest contour. */
+static double distance_to_contour(double value)
 {
     double nearest = INFINITY;
     for (int k = 0; k < MAP_LEVELS; k++)
@@ -25,7 +25,8 @@ static double contour_distance(double value)
     return nearest;
 }
 
-/* Elasticity grows with h^2; for long steps the levels grow likewise. */
+/* Returns the factor by which E is divided for the contours: elasticity grows
+ * with h^2 in long steps. */
 static double level_factor(const Simulation *simulation)
 {
     double h = simulation->run[0].h / 0.2;
@@ -33,27 +34,34 @@ static double level_factor(const Simulation *simulation)
     return elastic && h > 1 ? h * h : 1;
 }
 
+/* Returns E before projection at x. */
+static LocalModel energy_at(const Simulation *simulation, const double *x)
+{
+    return descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
+}
+
 bool landscape_is_convex(const LocalModel *E)
 {
     return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
 
-/* Draws contours in two by two pixels, where the function is nearly linear: its
- * value, and its slopes to the right and up per pixel.  The distance to a
- * contour in pixels is the difference to its level over the slope.
- *   zero  true: the level is 0; else the levels of the map */
+/* Draws contours in two by two pixels (i, j), in which the function is nearly
+ * linear.  The distance to a contour in pixels is the difference to the
+ * contour's level over the slope.
+ *   right, up  slopes per pixel
+ *   zero       draws the contour of 0 instead of the map's levels */
 static void draw_contours(const Plot *plot, int i, int j, double value,
                           double right, double up, bool zero, Colour colour)
 {
     double width = fmax(1, (zero ? 1.8 : 0.6) * plot->paper->unit);
     double reach = 0.5 + 0.5 * width;
     double slope = sqrt(right * right + up * up);
-    double away = zero ? fabs(value) : contour_distance(value);
+    double away = zero ? fabs(value) : distance_to_contour(value);
     if (away > (reach + 1) * slope)
         return;
     for (int k = 0; k < 4; k++) {
         double at = value + (k % 2 - 0.5) * right - (k / 2 - 0.5) * up;
-        away = zero ? fabs(at) : contour_distance(at);
+        away = zero ? fabs(at) : distance_to_contour(at);
         double part = fmin(fmax(reach - away / slope, 0), 1);
         canvas_fill(&plot->paper->canvas, (Box){i + k % 2, j + k / 2, 1, 1},
                     (Colour)(255 * part) << 24 | (colour & 0xffffff));
@@ -61,13 +69,13 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
 }
 
 /* Whether the answer of the page is shown and this layer is on. */
-static bool has_layer(const Plot *plot, Layer layer)
+static bool shows_layer(const Plot *plot, Layer layer)
 {
     return plot->revealed && plot->simulation->options.layers & layer;
 }
 
-/* Draws the region where E is not convex, contours of the parts that are
- * switched on, and the curves g1 = 0 and g2 = 0. */
+/* Draws the region where E is not convex, contours of E, and the curves g1 = 0
+ * and g2 = 0. */
 static void draw_contour_map(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
@@ -85,14 +93,14 @@ static void draw_contour_map(const Plot *plot)
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             draw_contours(plot, i, j, E.value / e, E.g[0] * metre / e,
                           E.g[1] * metre / e, false, COLOUR_GREY);
-            for (int k = 0; k < 2 && has_layer(plot, LAYER_CURVES); k++)
+            for (int k = 0; k < 2 && shows_layer(plot, LAYER_CURVES); k++)
                 draw_contours(plot, i, j, E.g[k], E.H[k] * metre,
                               E.H[k + 1] * metre, true, curve_colour[k]);
         }
     canvas_set_clip(canvas, before);
 }
 
-/* Writes the levels of contours, J s^2, along a ray from x_tilde. */
+/* Writes the contours' levels, J s^2, along a ray from x_tilde. */
 static void name_levels(const Plot *plot)
 {
     static const double ray[2] = {0.62, -0.78}, pace = 0.005; /* m */
@@ -102,8 +110,7 @@ static void name_levels(const Plot *plot)
     const Box inside = box_inset(plot->box, (int)plot->em);
     for (double gone = 0; gone < 3; gone += pace) {
         const Point x = point_along(simulation->exhibit.target, gone, ray);
-        double value =
-            descent_at(simulation, PROJECTION_NONE, x.at[0], x.at[1]).value / e;
+        double value = energy_at(simulation, x.at).value / e;
         plot_pixel(plot, x.at, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
@@ -138,7 +145,8 @@ static Plot draw_map(const Plot *stage)
     return plot;
 }
 
-/* ---- what moves on it --------------------------------------------------- */
+/* ---- Newton's path --------------------------------------------------------
+ */
 
 /* Finds and marks the minima and the saddle by Newton's method. */
 static void mark_stationary_points(const Plot *plot)
@@ -161,8 +169,9 @@ static void mark_stationary_points(const Plot *plot)
     }
 }
 
-/* Draws the direction p of the run.  If both parts of E are on, also the other
- * variant (projected or not), with its slope; uphill in red. */
+/* Draws the direction p of the run; red if uphill.
+ *   both  if both parts of E are on, also draws the other variant (projected or
+ *         not), with its slope */
 static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
@@ -194,52 +203,49 @@ static void draw_directions(const Plot *plot, bool both)
                    format_digits(slope, 2).text);
 }
 
-/* A length beyond the diagonal of the view, m. */
-static double view_size(const Plot *plot)
+/* Returns a length beyond the diagonal of the view, m. */
+static double length_beyond_view(const Plot *plot)
 {
     return 4 * (plot->box.width + plot->box.height) / plot->camera.scale[0];
 }
 
-/* Draws the direction of -grad E. */
-static void draw_steepest(const Plot *plot)
+/* Draws the direction of -grad E; E at the iterate. */
+static void draw_steepest(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.point;
-    LocalModel E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
-    double far = 6 * plot->em / plot->camera.scale[0] / vector_length(E.g);
-    plot_arrow(plot, x, E.g, -far, 2.2, COLOUR_TEXT);
-    plot_label(plot, 1, point_along(x, -far, E.g).at, COLOUR_TEXT,
+    double far = 6 * plot->em / plot->camera.scale[0] / vector_length(E->g);
+    plot_arrow(plot, x, E->g, -far, 2.2, COLOUR_TEXT);
+    plot_label(plot, 1, point_along(x, -far, E->g).at, COLOUR_TEXT,
                "\u2212\u2207E");
 }
 
 /* Draws the forces of the parts that are on, and their sum; 1 m of arrow is 1
  * kg m. */
-static void draw_forces(const Plot *plot)
+static void draw_forces(const Plot *plot, const LocalModel *E)
 {
     const Simulation *simulation = plot->simulation;
     const double *x = simulation->descent.point, *m = simulation->system.m;
     const double *target = simulation->exhibit.target;
     unsigned parts = simulation->exhibit.switches;
-    LocalModel E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
     double inertia[2], springs[2];
     for (int c = 0; c < 2; c++) {
         inertia[c] = parts & PART_INERTIA ? m[0] * (target[c] - x[c]) : 0;
-        springs[c] = -E.g[c] - inertia[c];
+        springs[c] = -E->g[c] - inertia[c];
     }
     plot_arrow(plot, x, inertia, 1, 2.6, COLOUR_X_TILDE);
     plot_arrow(plot, x, springs, 1, 2.6, COLOUR_FORCE);
     if (parts == PART_BOTH)
-        plot_arrow(plot, x, E.g, -1, 2.2, COLOUR_TEXT);
+        plot_arrow(plot, x, E->g, -1, 2.2, COLOUR_TEXT);
 }
 
-/* Value of parts of E at x; rounding becomes 0. */
-static double part_value(const Simulation *simulation, unsigned parts,
-                         const double *x)
+/* Returns the value of parts of E at x; rounding becomes 0. */
+static double energy_of_parts(const Simulation *simulation, unsigned parts,
+                              const double *x)
 {
     double value = landscape_part_value(simulation, parts, x[0], x[1]);
     return value < 1e-30 ? 0 : value;
 }
 
-/* Adds the name of what the map shows. */
 static void add_part_name(unsigned parts, LiveValues *values)
 {
     values_add_words(values, "part",
@@ -248,8 +254,8 @@ static void add_part_name(unsigned parts, LiveValues *values)
                                              : "elasticity");
 }
 
-/* How many updates Algorithm 1 makes from its start, and what its last line
- * has found: the velocity on the way from there. */
+/* Adds the number of updates that Algorithm 1 makes from its start, and at the
+ * end the velocity that its last line computes. */
 static void add_algorithm1(const Simulation *simulation, LiveValues *values)
 {
     const Descent *descent = &simulation->descent;
@@ -258,11 +264,10 @@ static void add_algorithm1(const Simulation *simulation, LiveValues *values)
         descent->count > 0 ? descent->record[0].from : descent->point;
     int updates = 0;
     memcpy(x, start, sizeof x);
-    while (
-        updates < DESCENT_MAX &&
-        vector_length(descent_at(simulation, PROJECTION_NONE, x[0], x[1]).g) >
-            simulation->options.tolerance &&
-        descent_direction(simulation, PROJECTION_NONE, x, p) != 0) {
+    while (updates < DESCENT_MAX &&
+           vector_length(energy_at(simulation, x).g) >
+               simulation->options.tolerance &&
+           descent_direction(simulation, PROJECTION_NONE, x, p) != 0) {
         for (int k = 0; k < 2; k++)
             x[k] += p[k];
         updates++;
@@ -282,7 +287,7 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     unsigned parts = simulation->exhibit.switches;
     double h = simulation->run[0].h;
     const double *x = descent->point;
-    LocalModel E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
+    LocalModel E = energy_at(simulation, x);
     values_add_point(values, "place", x);
     values_add_point(values, "x tilde", simulation->exhibit.target);
     for (int k = 0; k < 2; k++) /* rounding becomes 0 */
@@ -301,10 +306,10 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, landscape_is_convex(&E) ? "convex" : "shaded",
                     true);
     values_add_flag(values, "moves", descent->slope != 0);
-    values_add(values, "E", part_value(simulation, parts, x));
-    values_add(values, "bowl", part_value(simulation, PART_INERTIA, x));
+    values_add(values, "E", energy_of_parts(simulation, parts, x));
+    values_add(values, "bowl", energy_of_parts(simulation, PART_INERTIA, x));
     values_add(values, "elastic part",
-               part_value(simulation, PART_ELASTICITY, x));
+               energy_of_parts(simulation, PART_ELASTICITY, x));
     values_add_matrix(values, raw, E.H, 0);
     add_part_name(parts, values);
     values_add(values, "h", parts == PART_INERTIA ? NAN : h);
@@ -327,16 +332,14 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
 }
 
 /* Draws three contours of the quadratic model around its minimum x + p, one
- * through the iterate.  The model has them where H is positive definite. */
-static void draw_model_ellipses(const Plot *plot)
+ * through the iterate, if H is positive definite. */
+static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
 {
-    const Simulation *simulation = plot->simulation;
     static const double levels[] = {1, 0.6, 0.25};
-    const Descent *descent = &simulation->descent;
+    const Descent *descent = &plot->simulation->descent;
     const double *x = descent->point, *p = descent->direction;
-    LocalModel E = descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
-    double low = E.H[0], lift = E.H[1] / E.H[0];
-    double rest = E.H[2] - lift * E.H[1]; /* H = L D L^T */
+    double low = E->H[0], lift = E->H[1] / E->H[0];
+    double rest = E->H[2] - lift * E->H[1]; /* H = L D L^T */
     double q = p[0] + lift * p[1];
     double height = low * q * q + rest * p[1] * p[1];
     if (!(low > 0 && rest > 0))
@@ -349,16 +352,15 @@ static void draw_model_ellipses(const Plot *plot)
 }
 
 /* Draws dashed lines where the linearised components of the gradient are 0;
- * they meet in x + p. */
-static void draw_linearised_zeros(const Plot *plot)
+ * both lines pass through x + p. */
+static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.point;
-    LocalModel E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
     for (int k = 0; k < 2; k++) {
-        const double *slope = E.H + k, across[2] = {-slope[1], slope[0]};
+        const double *slope = E->H + k, across[2] = {-slope[1], slope[0]};
         double square = slope[0] * slope[0] + slope[1] * slope[1];
-        double far = view_size(plot) / sqrt(square);
-        const Point foot = point_along(x, -E.g[k] / square, slope);
+        double far = length_beyond_view(plot) / sqrt(square);
+        const Point foot = point_along(x, -E->g[k] / square, slope);
         plot_dashes(plot, point_along(foot.at, -far, across).at,
                     point_along(foot.at, far, across).at, 1.6, NULL,
                     curve_colour[k]);
@@ -366,16 +368,15 @@ static void draw_linearised_zeros(const Plot *plot)
 }
 
 /* Draws the half plane g . p < 0 of the directions that point downhill. */
-static void draw_downhill(const Plot *plot)
+static void draw_downhill(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.point;
-    LocalModel E = descent_at(plot->simulation, PROJECTION_NONE, x[0], x[1]);
-    const double across[2] = {-E.g[1], E.g[0]};
-    double far = view_size(plot) / vector_length(E.g);
+    const double across[2] = {-E->g[1], E->g[0]};
+    double far = length_beyond_view(plot) / vector_length(E->g);
     const Point a = point_along(x, far, across),
-                b = point_along(x, -far, across);
-    const Point c = point_along(b.at, -far, E.g),
-                d = point_along(a.at, -far, E.g);
+                b = point_along(x, -far, across),
+                c = point_along(b.at, -far, E->g),
+                d = point_along(a.at, -far, E->g);
     const double *const corner[4] = {a.at, b.at, c.at, d.at};
     Box before = canvas_set_clip(&plot->paper->canvas, plot->box);
     plot_quad(plot, corner, COLOUR_DOWNHILL);
@@ -383,18 +384,19 @@ static void draw_downhill(const Plot *plot)
     canvas_set_clip(&plot->paper->canvas, before);
 }
 
-/* Draws all layers.  Of each update the whole direction p is thin and alpha p
- * thick; uphill in red. */
+/* Draws all layers.  Each update has a thin arrow for p and a thick line for
+ * alpha p; red if uphill. */
 void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const FrameContent *content = stage->content;
+    const LectureContent *lecture = &stage->content->lecture;
     bool revealed = stage->revealed;
     const Descent *descent = &simulation->descent;
+    const LocalModel E = energy_at(simulation, descent->point);
     Plot plot = draw_map(stage);
     bool halves = simulation->options.layers & LAYER_DOWNHILL;
     if (halves)
-        draw_downhill(&plot);
+        draw_downhill(&plot, &E);
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->from, *to = record->to;
@@ -406,17 +408,17 @@ void landscape_draw(Plot *stage)
         plot_disc(&plot, from, 5, COLOUR_X);
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
-    bool both = !content->lecture.page || (raw && halves);
+    bool both = !lecture->page || (raw && halves);
     if (revealed && raw && !simulation->done)
-        draw_model_ellipses(&plot);
-    if (has_layer(&plot, LAYER_CURVES) && !simulation->done)
-        draw_linearised_zeros(&plot);
-    if (has_layer(stage, LAYER_FORCES))
-        draw_forces(&plot);
-    else if (!content->lecture.hides_answer)
+        draw_model_ellipses(&plot, &E);
+    if (shows_layer(&plot, LAYER_CURVES) && !simulation->done)
+        draw_linearised_zeros(&plot, &E);
+    if (shows_layer(stage, LAYER_FORCES))
+        draw_forces(&plot, &E);
+    else if (!lecture->hides_answer)
         draw_directions(&plot, plot.has_text && both);
     if (halves)
-        draw_steepest(&plot);
+        draw_steepest(&plot, &E);
     if (revealed && plot.has_text &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
@@ -448,13 +450,13 @@ void dial_draw(Plot *stage)
 void dial_add_values(const Simulation *simulation, LiveValues *values)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
-    double elastic = part_value(simulation, PART_ELASTICITY, x);
+    double elastic = energy_of_parts(simulation, PART_ELASTICITY, x);
     add_part_name(simulation->exhibit.switches, values);
     values_add(values, "h", h);
     values_add_point(values, "minimiser", x);
     values_add(values, "distance",
                point_distance(simulation->exhibit.target, x));
-    values_add(values, "inertia", part_value(simulation, PART_INERTIA, x));
+    values_add(values, "inertia", energy_of_parts(simulation, PART_INERTIA, x));
     values_add(values, "elasticity", elastic);
     values_add(values, "P", elastic / (h * h));
 }

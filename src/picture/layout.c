@@ -34,7 +34,7 @@ enum { MOST_ROWS = 30 };
 static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
                     MIN_EM = 9;
 
-static int em_pixels(const Layout *layout, double ems)
+static int layout_pixels(const Layout *layout, double ems)
 {
     return (int)floor(ems * layout->em + 0.5);
 }
@@ -81,17 +81,17 @@ static int count_letters(const char *text)
 static void place_settings(const SettingsRow *row, Layout *layout, bool low,
                            Box *rest)
 {
-    int width[LAYOUT_SETTINGS] = {0}, left = em_pixels(layout, GAP + 0.5);
+    int width[LAYOUT_SETTINGS] = {0}, left = layout_pixels(layout, GAP + 0.5);
     for (int i = 0; i < row->count; i++) {
         const Setting *setting = &row->item[i];
         int value = count_letters(setting->value);
         value = value > setting->letters ? value : setting->letters;
         value += count_letters(setting->name) + 1;
-        width[i] = em_pixels(layout, value * LETTER + 0.6);
+        width[i] = layout_pixels(layout, value * LETTER + 0.6);
     }
-    Box room = {left, em_pixels(layout, 0.2),
-                layout->width - em_pixels(layout, GAP) - left,
-                em_pixels(layout, ROW - 0.4)};
+    Box room = {left, layout_pixels(layout, 0.2),
+                layout->width - layout_pixels(layout, GAP) - left,
+                layout_pixels(layout, ROW - 0.4)};
     Box *box = layout->setting;
     if (low) {
         room = box_cut_off(&layout->time_line, EDGE_RIGHT,
@@ -101,13 +101,13 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
         room.width -= 2 * left;
     }
     layout->settings =
-        place_row(room, low ? 1 : 3, em_pixels(layout, SETTING_GAP), row->count,
-                  width, box);
+        place_row(room, low ? 1 : 3, layout_pixels(layout, SETTING_GAP),
+                  row->count, width, box);
     if (low)
         return;
     int more = (box[layout->settings - 1].y - room.y) / room.height;
     layout->settings_row = box_cut_off(
-        rest, EDGE_BOTTOM, em_pixels(layout, ROW + more * (ROW - 0.4)));
+        rest, EDGE_BOTTOM, layout_pixels(layout, ROW + more * (ROW - 0.4)));
     for (int i = 0; i < layout->settings; i++)
         box[i].y += layout->settings_row.y;
 }
@@ -116,16 +116,17 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
  * keys. */
 static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
 {
-    int gap = em_pixels(layout, 0.6), last = chips->count - 1;
+    int gap = layout_pixels(layout, 0.6), last = chips->count - 1;
     int width[LAYOUT_CHIPS];
-    Box room = box_inset(layout->chip_row, em_pixels(layout, 0.35)), *box;
+    Box room = box_inset(layout->chip_row, layout_pixels(layout, 0.35)), *box;
     for (int i = 0; i <= last; i++) {
         double letters = BOLD * count_letters(chips->item[i].key) +
                          count_letters(chips->item[i].label) +
                          (lecture ? 2 : 1);
-        width[i] = em_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
+        width[i] =
+            layout_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
     }
-    room.x = em_pixels(layout, GAP);
+    room.x = layout_pixels(layout, GAP);
     room.width = layout->width - 2 * room.x - width[last] - gap;
     int fit = place_row(room, 1, gap, last, width, layout->chip);
     box = &layout->chip[last];
@@ -145,26 +146,26 @@ static Box place_zones(const FrameContent *content, Layout *layout)
     bool roomy = high >= 40, lecture = content->lecture.page;
     if (content->bare || high < 16)
         return rest;
-    layout->strip =
-        box_cut_off(&rest, EDGE_TOP, em_pixels(layout, roomy ? STRIP : 2.2));
+    layout->strip = box_cut_off(&rest, EDGE_TOP,
+                                layout_pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
-        layout->chip_row = box_cut_off(&rest, EDGE_BOTTOM,
-                                       em_pixels(layout, roomy ? LAST : 2.5));
+        layout->chip_row = box_cut_off(
+            &rest, EDGE_BOTTOM, layout_pixels(layout, roomy ? LAST : 2.5));
     if (layout->chip_row.width > 0 && content->chips.count > 0)
         place_chips(&content->chips, lecture, layout);
     if (content->sheet.cells > 0)
         return rest;
-    layout->time_line =
-        box_cut_off(&rest, EDGE_BOTTOM, em_pixels(layout, roomy ? TIME : 2));
+    layout->time_line = box_cut_off(&rest, EDGE_BOTTOM,
+                                    layout_pixels(layout, roomy ? TIME : 2));
     if (content->settings.count > 0 && (roomy || lecture))
         place_settings(&content->settings, layout, !roomy, &rest);
     *bars = layout->time_line;
-    bars->x += em_pixels(layout, GAP);
-    bars->width -= 2 * em_pixels(layout, GAP);
+    bars->x += layout_pixels(layout, GAP);
+    bars->width -= 2 * layout_pixels(layout, GAP);
     if (roomy) {
-        bars->height = em_pixels(layout, BARS);
-        bars->y +=
-            layout->time_line.height - bars->height - em_pixels(layout, 0.5);
+        bars->height = layout_pixels(layout, BARS);
+        bars->y += layout->time_line.height - bars->height -
+                   layout_pixels(layout, 0.5);
     }
     if (bars->width < 1)
         bars->width = 1;
@@ -183,13 +184,13 @@ static double needed_height(const FrameContent *content, int card, double wide,
 /* A row of the column, with one card or two. */
 typedef struct CardRow {
     int card, cards; /* index of the first card, number of cards */
-    bool bar;        /* is closed: only the title is seen */
+    bool closed;     /* only the title is seen */
     double least;    /* ems, minimum height */
     double weight;   /* share of the height left over */
 } CardRow;
 
 /* Whether the card is the star of the page and stands below the picture. */
-static bool is_below(const FrameContent *content, int card)
+static bool card_is_below(const FrameContent *content, int card)
 {
     const Picture *picture = active_picture(content);
     const char *star = active_pane(content)->simulation->options.star;
@@ -213,7 +214,7 @@ static int find_rows(const FrameContent *content, double wide, double em,
         bool bar = sets->closed >> i & 1 || (large && i != sets->large);
         bool half = card->half_width ||
                     (card->half_width_on_page && content->lecture.page);
-        if (sets->hidden >> i & 1 || is_below(content, i))
+        if (sets->hidden >> i & 1 || card_is_below(content, i))
             continue;
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].cards = 2;
@@ -233,20 +234,21 @@ static int find_rows(const FrameContent *content, double wide, double em,
 static void place_cards(const FrameContent *content, Layout *layout)
 {
     CardRow rows[LAYOUT_CARDS];
-    int gap = em_pixels(layout, GAP * 0.75), bar = em_pixels(layout, TITLE_BAR);
-    Box rest = box_inset(layout->column, em_pixels(layout, GAP));
+    int gap = layout_pixels(layout, GAP * 0.75),
+        bar = layout_pixels(layout, TITLE_BAR);
+    Box rest = box_inset(layout->column, layout_pixels(layout, GAP));
     bool pairs = layout->column.width >= MIN_PAIR * layout->em;
     double wide = card_inner_box(rest, layout->em).width / layout->em;
     int count = find_rows(content, wide, layout->em, pairs, rows), open = 0;
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
     double weights = 1e-9, ems = gap / layout->em;
     for (int i = 0; i < count; i++) {
-        open += !rows[i].bar;
-        bars += ems + (rows[i].bar ? TITLE_BAR : 0);
-        least += rows[i].bar ? 0 : rows[i].least;
+        open += !rows[i].closed;
+        bars += ems + (rows[i].closed ? TITLE_BAR : 0);
+        least += rows[i].closed ? 0 : rows[i].least;
     }
     for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
-        if (!rows[i].bar && bars + least > FOLDS * room) {
+        if (!rows[i].closed && bars + least > FOLDS * room) {
             least -= rows[i].least;
             bars += TITLE_BAR;
             rows[i] = (CardRow){rows[i].card, 1, true, TITLE_BAR, 0};
@@ -259,9 +261,9 @@ static void place_cards(const FrameContent *content, Layout *layout)
         const CardRow *row = &rows[i];
         double high = row->least * (least > room ? room / least : 1) +
                       row->weight * fmax(room - least, 0) / weights;
-        int height = em_pixels(layout, high);
+        int height = layout_pixels(layout, high);
         Box box = box_cut_off(&rest, EDGE_TOP,
-                              row->bar || height < bar ? bar : height);
+                              row->closed || height < bar ? bar : height);
         box_cut_off(&rest, EDGE_TOP, gap);
         for (int k = 0; k < row->cards; k++)
             layout->card[row->card + k] = box_column(box, k, row->cards, gap);
@@ -271,7 +273,7 @@ static void place_cards(const FrameContent *content, Layout *layout)
 /* Places the panes in the number of columns that gives the largest panes. */
 static void place_panes(int count, Layout *layout)
 {
-    int columns = 1, gap = em_pixels(layout, 0.15);
+    int columns = 1, gap = layout_pixels(layout, 0.15);
     double best = 0;
     for (int c = 1; c <= count; c++) { /* compares the squares in a pane */
         int rows = (count + c - 1) / c;
@@ -299,7 +301,7 @@ static void place_panes(int count, Layout *layout)
 static int place_cells(const FrameContent *content, Layout *layout, int columns,
                        int side)
 {
-    int gap = em_pixels(layout, GAP), name = em_pixels(layout, NAME),
+    int gap = layout_pixels(layout, GAP), name = layout_pixels(layout, NAME),
         column = 0;
     int left = (layout->stage.width - columns * (side + gap) + gap) / 2, y = 0;
     for (int i = 0; i < content->sheet.cells; i++) {
@@ -308,7 +310,7 @@ static int place_cells(const FrameContent *content, Layout *layout, int columns,
             y += side + name;
             column = 0;
         }
-        y += heads ? em_pixels(layout, HEADING) : 0;
+        y += heads ? layout_pixels(layout, HEADING) : 0;
         layout->cell[i] = (Box){layout->stage.x + left + column * (side + gap),
                                 layout->stage.y + y, side, side + name};
         column++;
@@ -321,7 +323,7 @@ static int place_cells(const FrameContent *content, Layout *layout, int columns,
  */
 static void place_sheet(const FrameContent *content, Layout *layout)
 {
-    int gap = em_pixels(layout, GAP), best = 0, wide = 1;
+    int gap = layout_pixels(layout, GAP), best = 0, wide = 1;
     for (int columns = 1; columns <= content->sheet.cells; columns++) {
         int least = place_cells(content, layout, columns, 0);
         int rows = place_cells(content, layout, columns, 1) - least;
@@ -338,10 +340,10 @@ static void place_sheet(const FrameContent *content, Layout *layout)
 }
 
 /* Places a card below the panes, in `high` pixels of the stage. */
-static void put_below(Layout *layout, int card, double high)
+static void place_below(Layout *layout, int card, double high)
 {
     Box box = box_cut_off(&layout->stage, EDGE_BOTTOM, (int)high);
-    layout->card[card] = box_inset(box, em_pixels(layout, GAP));
+    layout->card[card] = box_inset(box, layout_pixels(layout, GAP));
     place_panes(layout->panes, layout);
 }
 
@@ -359,20 +361,20 @@ static void place_star(const FrameContent *content, Layout *layout)
         (content->cards.large >= 0 && content->cards.large != star))
         return;
     Box *stage = &layout->pane[0], place = layout->card[star];
-    if (is_below(content, star)) {
+    if (card_is_below(content, star)) {
         double wide = stage->width / layout->em;
         double needs = fmax(needed_height(content, star, wide, layout->em),
                             BELOW_FACTOR * picture->cards[star]->min_height);
-        put_below(layout, star,
-                  fmin((needs + 2 * GAP) * layout->em, 0.6 * stage->height));
+        place_below(layout, star,
+                    fmin((needs + 2 * GAP) * layout->em, 0.6 * stage->height));
         return;
     }
-    if (place.width < 1 && !layout->page)
+    if (place.width < 1 && !layout->has_list)
         return;
     if (place.height < bar)
         place =
             box_cut_off(stage, EDGE_BOTTOM, (int)(STAR_REST * stage->height));
-    layout->card[star] = box_inset(*stage, em_pixels(layout, GAP));
+    layout->card[star] = box_inset(*stage, layout_pixels(layout, GAP));
     *stage = place;
 }
 
@@ -384,24 +386,24 @@ static void place_folded(const FrameContent *content, Layout *layout)
 {
     const Simulation *simulation = active_pane(content)->simulation;
     const Options *options = &simulation->options;
-    int bar = em_pixels(layout, TITLE_BAR), folded = 1;
+    int bar = layout_pixels(layout, TITLE_BAR), folded = 1;
     unsigned shut = content->cards.closed | content->cards.hidden;
     while (folded < layout->cards &&
            (shut >> folded & 1 ||
-            (layout->card[folded].height != bar && !layout->page)))
+            (layout->card[folded].height != bar && !layout->has_list)))
         folded++;
     bool big = options->big;
     if (!content->lecture.page || options->star || content->cards.large >= 0 ||
         folded >= layout->cards ||
-        (!big && ((options->law && !layout->page) || layout->panes != 1 ||
-                  simulation->scene->switch_labels[layout->page])))
+        (!big && ((options->law && !layout->has_list) || layout->panes != 1 ||
+                  simulation->scene->switch_labels[layout->has_list])))
         return;
     const Box *stage = &layout->stage;
     double em = layout->em;
     double needs = needed_height(content, folded, stage->width / em, em);
-    double room = layout->page ? stage->height - 0.8 * stage->width : 0;
-    put_below(layout, folded,
-              fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height));
+    double room = layout->has_list ? stage->height - 0.8 * stage->width : 0;
+    place_below(layout, folded,
+                fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height));
 }
 
 /* On a page an em has at least a 55th of the height, in large type a 35th, as
@@ -418,13 +420,13 @@ Layout layout_create(const FrameContent *content, int width, int height)
         least = fmax(content->min_em, big ? fmin(height / 35.0, width / 54.0)
                                           : fmin(height / 55.0, width / 64.0));
     layout.em = fmax(size, least);
-    layout.stage = content->document ? (Box){0, 0, width, height}
-                                     : place_zones(content, &layout);
+    layout.stage = content->in_document ? (Box){0, 0, width, height}
+                                        : place_zones(content, &layout);
     if (content->sheet.cells > 0) {
         place_sheet(content, &layout);
         return layout;
     }
-    if (content->document) {
+    if (content->in_document) {
         place_panes(content->panes, &layout);
         return layout;
     }
@@ -439,7 +441,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
                 fmin(fmax(code_needed_width(content->lecture.page), ems), most);
         else if (page && content->list.rows > MOST_ROWS)
             ems = most;
-        int column = em_pixels(&layout, ems);
+        int column = layout_pixels(&layout, ems);
         layout.column = layout.stage;
         layout.column.width = column;
         layout.column.x += layout.stage.width - column;
@@ -451,7 +453,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
     } else if (!content->bare && page) { /* code or list cover the stage */
         layout.column = layout.stage;
     }
-    layout.page = page && layout.column.width > 0;
+    layout.has_list = page && layout.column.width > 0;
     place_panes(content->panes, &layout);
     place_star(content, &layout);
     place_folded(content, &layout);
@@ -461,8 +463,8 @@ Layout layout_create(const FrameContent *content, int width, int height)
 Box layout_close_box(const Layout *layout, int card)
 {
     Box box = card >= 0 ? layout->card[card]
-                        : box_inset(layout->column, em_pixels(layout, GAP));
-    int side = em_pixels(layout, TITLE_BAR);
+                        : box_inset(layout->column, layout_pixels(layout, GAP));
+    int side = layout_pixels(layout, TITLE_BAR);
     return (Box){box.x + box.width - side, box.y, side,
                  box.height < side ? box.height : side};
 }
@@ -476,7 +478,7 @@ Hit layout_hit(const Layout *layout, double x, double y)
         int count;
     } lists[] = {
         {ZONE_STRIP, &l->strip, 1},     {ZONE_STAGE, l->pane, l->panes},
-        {ZONE_TIME, &l->time_line, 1},  {ZONE_PAGE, &l->column, l->page},
+        {ZONE_TIME, &l->time_line, 1},  {ZONE_LIST, &l->column, l->has_list},
         {ZONE_CARD, l->card, l->cards}, {ZONE_SETTING, l->setting, l->settings},
         {ZONE_CHIP, l->chip, l->chips}, {ZONE_CELL, l->cell, l->cells}};
     Hit hit = {ZONE_NONE, 0, {x, y}};
@@ -487,9 +489,9 @@ Hit layout_hit(const Layout *layout, double x, double y)
     if (hit.zone == ZONE_CARD &&
         box_contains(layout_close_box(layout, hit.index), x, y))
         hit.zone = ZONE_CARD_CLOSE;
-    if (hit.zone == ZONE_PAGE &&
+    if (hit.zone == ZONE_LIST &&
         box_contains(layout_close_box(layout, -1), x, y))
-        hit.zone = ZONE_PAGE_CLOSE;
+        hit.zone = ZONE_LIST_CLOSE;
     return hit;
 }
 

@@ -1,5 +1,6 @@
-/* live_values.c - collects the live values of a frame and fills texts with
- * them. */
+/* live_values.c - collects the live values of a frame, and fills them into
+ * texts.
+ */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,8 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* ---- what is known ------------------------------------------------------- */
+/* ---- values ----------------------------------------------------------------
+ */
 
 static LiveValue *add_value(LiveValues *values, const char *name)
 {
@@ -52,9 +54,25 @@ void values_add_matrix(LiveValues *values, const char *const names[3],
         values_add(values, names[k], fabs(H[k]) < none ? 0 : H[k]);
 }
 
+/* Adds the values of the lecture and of the window. */
+static void add_window_values(const FrameContent *content, LiveValues *values)
+{
+    const LectureContent *lecture = &content->lecture;
+    values_add(values, "page",
+               lecture->page ? (double)(lecture->page - lecture_pages + 1)
+                             : NAN);
+    values_add(values, "pages", lecture_count());
+    values_add(values, "panes", content->panes > 1 ? content->panes : NAN);
+    values_add_flag(values, "paused", content->time_line.paused);
+    values_add_flag(values, lecture->hides_answer ? "asked" : "told", true);
+    values_add_flag(values, "guessed", lecture->guesses > 0);
+    values_add(values, "guesses", lecture->guesses);
+    values_add(values, "right", lecture->right);
+    values_add_flag(values, content->view->held.on ? "held" : "free", true);
+}
+
 /* Adds scene, methods and settings. */
-static void add_settings(const FrameContent *content,
-                         const Simulation *simulation, LiveValues *values)
+static void add_settings(const Simulation *simulation, LiveValues *values)
 {
     const Scene *scene = simulation->scene;
     const Options *options = &simulation->options;
@@ -65,17 +83,10 @@ static void add_settings(const FrameContent *content,
     bool explicit = time && method && !method->implicit;
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
-    values_add_words(values, "scene",
-                     content->lecture.page ? NULL : scene->sentence);
-    values_add(values, "page",
-               content->lecture.page
-                   ? (double)(content->lecture.page - lecture_pages + 1)
-                   : NAN);
-    values_add(values, "pages", lecture_count());
-    bool settles = scene->needs_dissipation && !content->lecture.page;
+    values_add_words(values, "scene", options->page ? NULL : scene->sentence);
+    bool settles = scene->needs_dissipation && !options->page;
     values_add_flag(values, "grows", settles && forward);
     values_add_flag(values, "keeps", settles && method && !method->damps);
-    values_add(values, "panes", content->panes > 1 ? content->panes : NAN);
     values_add_flag(values, "searches", scene->step == step_descent);
     values_add(values, "runs", simulation->runs);
     values_add_flag(values, "mixed",
@@ -101,13 +112,6 @@ static void add_settings(const FrameContent *content,
     values_add(values, "springs", simulation->system.springs);
     values_add_flag(values, "of a solid", neo_hookean_of(&simulation->system));
     values_add_flag(values, "done", simulation->done);
-    values_add_flag(values, "paused", content->time_line.paused);
-    values_add_flag(values, content->lecture.hides_answer ? "asked" : "told",
-                    true);
-    values_add_flag(values, "guessed", content->lecture.guesses > 0);
-    values_add(values, "guesses", content->lecture.guesses);
-    values_add(values, "right", content->lecture.right);
-    values_add_flag(values, content->view->held.on ? "held" : "free", true);
     if (simulation->done && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* the gradient is 0 */
         const double *x = descent->point;
@@ -117,8 +121,9 @@ static void add_settings(const FrameContent *content,
     }
 }
 
-/* Adds how a step converged other than by its residual: the next direction is
- * known to be negligible, or rounding hides what the last one would gain. */
+/* Adds the reason why a step converged with a large residual: the next
+ * direction is known to be negligible, or the last one gains less than
+ * rounding. */
 static void add_step_end(const Trace *trace, LiveValues *values)
 {
     const NewtonRecord *last = trace->record + trace->updates - 1;
@@ -176,7 +181,8 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     }
 }
 
-/* f(x + alpha p) - f(x), or the same for E in the landscape. */
+/* Returns f(x + alpha p) - f(x), or the same difference of E in the landscape.
+ */
 static double energy_difference(const void *function, double alpha)
 {
     const DescentTrace *space = function;
@@ -186,10 +192,9 @@ static double energy_difference(const void *function, double alpha)
     return there.value - space->value;
 }
 
-/* Makes the trace of a descent's last update, or of the first one that is to
- * come.  Its residual is that of the present iterate, which at the end passes
- * the test. */
-static const Trace *descent_trace(const Simulation *simulation,
+/* Makes the trace of a descent's last update, or before the first update of
+ * that one.  The residual is that of the present iterate. */
+static const Trace *trace_descent(const Simulation *simulation,
                                   DescentTrace *space)
 {
     const Descent *descent = &simulation->descent;
@@ -243,11 +248,12 @@ void frame_fill_values(FrameContent *content)
         Line line = now->trace ? now->trace->line : LINE_NONE;
         now->update = now->trace;
         if (!now->trace && simulation->scene->step == step_descent)
-            now->update = descent_trace(simulation, &now->descent);
+            now->update = trace_descent(simulation, &now->descent);
         values->count = values->run = 0;
         for (int run = 0; run <= VALUES_RUNS; run++)
             values->colour[run] = COLOUR_TEXT;
-        add_settings(content, simulation, values);
+        add_window_values(content, values);
+        add_settings(simulation, values);
         if ((!line || now->trace->given_up) && now->trouble &&
             now->trouble != STATUS_INTERRUPTED) {
             values_add_words(values, status_name(now->trouble), "");
@@ -258,15 +264,13 @@ void frame_fill_values(FrameContent *content)
         if (now->update)
             add_trace(simulation, now->update, values);
         if (picture->add_values && (i == content->active || picture->legend))
-            picture->add_values(
-                simulation,
-                values); /* other panes need them for their legends */
+            picture->add_values(simulation, values);
     }
 }
 
 /* ---- texts --------------------------------------------------------------- */
 
-/* Finds the value with this name, which ends at a colon or brace. */
+/* Finds the value of a run by its name, which ends at a colon or brace. */
 static const LiveValue *find_value(const LiveValues *values, int run,
                                    const char *name)
 {
@@ -293,7 +297,7 @@ double frame_find_number(FrameContent *content, const char *name)
     return values_find_number(&active_pane(content)->values, name);
 }
 
-/* Writes a value in the format that stands behind its colon. */
+/* Writes a value in a format, the characters after the colon of a text. */
 static void format_value(const LiveValue *one, const char *format, char *out,
                          size_t size)
 {
@@ -316,7 +320,7 @@ static void format_value(const LiveValue *one, const char *format, char *out,
         snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
 }
 
-/* Fills the values into a line of `length` bytes.  Returns false if one is
+/* Fills the values into a line of `length` bytes.  Returns false if a value is
  * unknown. */
 static bool fill_line(TextLine *line, const char *text, size_t length)
 {
@@ -398,8 +402,8 @@ bool text_has_line(const LiveValues *values, const char *text)
 
 /* Draws a line at the upper edge of the box, or only measures it; long lines
  * wrap.  Returns the height in pixels. */
-static int put_line(Paper *paper, Box box, double size, const TextLine *line,
-                    bool draw)
+static int draw_text_line(Paper *paper, Box box, double size,
+                          const TextLine *line, bool draw)
 {
     const double air = 0.2, empty = 0.6; /* ems */
     int high = paper_paragraph(paper, line->face, size, line->colour, box,
@@ -413,19 +417,18 @@ void card_write_text(const Plot *card, const LiveValues *values,
     Paper *paper = card->paper;
     Box box = card->box;
     double height = 0, size = 1;
-    if (card->content->lecture
-            .page) /* an audience reads the page from far away */
+    if (card->content->lecture.page) /* is read from far away */
         size = box.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {
         int width = paper_width(paper, line.face, 1, line.words);
-        height += put_line(paper, box, 1, &line, false);
+        height += draw_text_line(paper, box, 1, &line, false);
         if (width > 0)
             size = fmin(size, (double)box.width / width);
     }
     size = fmax(fmin(size, box.height / height), paper->min_letter);
     for (TextLine line = begin; text_next_line(&line);)
-        box.y += put_line(paper, box, size, &line, true);
+        box.y += draw_text_line(paper, box, size, &line, true);
 }
 
 int card_flow_words(const Plot *card, int at[2], double size, double gap,
@@ -443,28 +446,27 @@ int card_flow_words(const Plot *card, int at[2], double size, double gap,
     return at[1] + paper_pixels(paper, 1.5 * size);
 }
 
-/* ---- what the strip says --------------------------------------------------
+/* ---- the strip -------------------------------------------------------------
  */
 
-/* Fills an empty text with the first known line; out [size]. */
-static void fill_text(const FrameContent *content, const char *text, char *out,
+/* Fills a string that is still empty with the first known line of a text. */
+static void fill_text(const LiveValues *values, const char *text, char *string,
                       size_t size)
 {
-    if (!out[0])
-        snprintf(out, size, "%.*s", (int)size - 1,
-                 text_first_line(&active_pane(content)->values, text).words);
+    if (!string[0])
+        snprintf(string, size, "%.*s", (int)size - 1,
+                 text_first_line(values, text).words);
 }
 
 void frame_describe(FrameContent *content)
 {
     const Scene *scene = active_pane(content)->simulation->scene;
+    const LiveValues *values = &active_pane(content)->values;
+    Strip *strip = &content->strip;
     frame_fill_values(content);
-    if (!content->strip.topic)
-        content->strip.topic = scene->title ? scene->title : scene->name;
-    fill_text(content, text_sentences, content->strip.sentence,
-              sizeof content->strip.sentence);
-    fill_text(content, text_methods, content->strip.method,
-              sizeof content->strip.method);
-    fill_text(content, text_states, content->strip.state,
-              sizeof content->strip.state);
+    if (!strip->topic)
+        strip->topic = scene->title ? scene->title : scene->name;
+    fill_text(values, text_sentences, strip->sentence, sizeof strip->sentence);
+    fill_text(values, text_methods, strip->method, sizeof strip->method);
+    fill_text(values, text_states, strip->state, sizeof strip->state);
 }

@@ -1,36 +1,39 @@
-/* mass_picture.c - pictures of single masses: the circle, and one mass with the
- * arrows of its step. */
+/* mass_picture.c - pictures of single masses: on the circle, and with the
+ * arrows of one step. */
 #include <math.h>
 #include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-enum { TRAIL = 256, MASS_GUESSES = 6, MASS_AHEAD = 50, EIGEN_PIECES = 200 };
+enum {
+    TRAIL = 256,       /* steps that are drawn of a path */
+    MASS_GUESSES = 6,  /* fixed-point iterates of a step */
+    MASS_AHEAD = 50,   /* next points of a step that explodes */
+    EIGEN_PIECES = 200 /* pieces of the eigenvalues' path over h */
+};
 
-static const double MASS_REACH = 1.9; /* m, half a side of the view, at least */
-static const double CIRCLE_REACH = 1.75;
-static const double CIRCLE_MAX = 4; /* m, the view follows a run up to here */
+static const double MASS_REACH = 1.9;    /* m, half a side of the view */
+static const double CIRCLE_REACH = 1.75; /* m, half a side of the view */
+static const double CIRCLE_MAX = 4;      /* m, the view follows a run so far */
 static const double TWO_PI = 6.283185307179586;
-static const double EIGEN_REACH =
-    1.35; /* half a side of the complex plane that is seen, at least */
-static const double EIGEN_MAX =
-    5; /* the view follows an eigenvalue up to here */
-static const double MATRIX_WIDE = 16.4,
-                    MATRIX_HIGH = 12; /* ems, room for the numbers */
+static const double EIGEN_REACH = 1.35; /* half a side of the complex plane */
+static const double EIGEN_MAX = 5; /* the view follows an eigenvalue so far */
+/* Room for the numbers, ems. */
+static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12;
 static const double origin[2] = {0, 0};
 
-/* Colour of a run: that of its method.  A single mass with arrows has the
+/* Returns the colour of a run's method; a single mass with arrows has the
  * colour of x. */
-static Colour run_colour(const Simulation *simulation, int run)
+static Colour mass_colour(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
                ? COLOUR_X
                : colour_of_name(simulation->run[run].method->name);
 }
 
-/* Draws where the runs have been in the newest steps; steps true: with a disc
- * for each step. */
+/* Draws the paths of the runs in the newest steps.
+ *   steps  adds a disc for each step */
 static void draw_trails(const Plot *stage, bool steps)
 {
     const History *history = stage->pane->history;
@@ -38,7 +41,7 @@ static void draw_trails(const Plot *stage, bool steps)
     for (int r = 0; history && history->series && r < runs; r++) {
         const double *x = history->value[runs + 2 * r];
         const double *y = history->value[runs + 2 * r + 1];
-        Colour colour = run_colour(stage->simulation, r);
+        Colour colour = mass_colour(stage->simulation, r);
         int first = history->count > TRAIL ? history->count - TRAIL : 0;
         for (int i = first; i < history->count; i++) {
             const double at[2] = {x[i], y[i]};
@@ -90,7 +93,7 @@ void circle_draw(Plot *stage)
     plot_label(stage, 1, (double[2]){0.5, 0}, COLOUR_FAINT, "1 m");
     draw_trails(stage, false);
     for (int r = 0; r < simulation->runs; r++)
-        plot_disc(stage, simulation->run[r].x, 7, run_colour(simulation, r));
+        plot_disc(stage, simulation->run[r].x, 7, mass_colour(simulation, r));
 }
 
 /* The view grows with the runs as long as the circle stays visible. */
@@ -114,15 +117,15 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
             pick->index = r;
 }
 
-/* Matrix {xx, xv; -xv, vv} of a step of (x, v/omega) with t = h omega, and its
- * eigenvalues. */
+/* Matrix {xx, xv; -xv, vv} by which a step multiplies (x, v/omega). */
 typedef struct StepMatrix {
     double xx, xv, vv;
-    double lambda[2][2]; /* real and imaginary part: a complex pair, or two real
+    double lambda[2][2]; /* real and imaginary parts of both eigenvalues, real
                             ones in ascending order */
 } StepMatrix;
 
-/* Returns false if the method is none of the three Euler methods. */
+/* Computes the matrix of a step with t = h omega.  Returns false unless the
+ * method is one of the three Euler methods. */
 static bool find_step_matrix(const IntegratorMethod *method, double t,
                              StepMatrix *step)
 {
@@ -160,8 +163,7 @@ static void add_matrix(const IntegratorMethod *method, double t,
     values_add(values, "size", fmax(vector_length(least), vector_length(most)));
 }
 
-/* Draws the eigenvalues of a run's step, and a thin line from h = 0, where all
- * are 1. */
+/* Draws the eigenvalues of a run's step, and their path from h = 0. */
 static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
                              double turn)
 {
@@ -178,7 +180,7 @@ static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
         plot_disc(plot, step.lambda[k], 5, colour);
 }
 
-/* Draws the complex plane with the unit circle.  The view grows with the
+/* Draws the complex plane with the unit circle, in a view that grows with the
  * eigenvalues as long as the circle stays visible. */
 static void draw_complex_plane(const Plot *card)
 {
@@ -208,8 +210,8 @@ static void draw_complex_plane(const Plot *card)
 }
 
 /* Draws the numbers, and the complex plane at their right, or below them in a
- * card that is higher than wide.  In a low card the matrices are left out. */
-void matrix_draw(const Plot *card)
+ * high card.  In a low card the matrices are left out. */
+void step_matrix_draw(const Plot *card)
 {
     Plot numbers = *card, plane = *card;
     const Box *box = &card->box;
@@ -231,8 +233,7 @@ void matrix_draw(const Plot *card)
 /* Adds the values of each run. */
 void circle_add_values(const Simulation *simulation, LiveValues *values)
 {
-    double turn = simulation->run[0].h *
-                  TWO_PI; /* 2 pi h, the angle of a step on the circle */
+    double turn = simulation->run[0].h * TWO_PI; /* angle of a step */
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
     const char *first = simulation->run[0].method->name;
     for (int r = 0; r < simulation->runs; r++) {
@@ -245,17 +246,16 @@ void circle_add_values(const Simulation *simulation, LiveValues *values)
         if (circle)
             add_matrix(run->method, turn, values);
     }
-    values->run = 0; /* steps of forward Euler until the radius has doubled */
-    if (circle && strcmp(first, "forward-euler") == 0)
+    values->run = 0;
+    if (circle && strcmp(first, "forward-euler") == 0) /* steps */
         values_add(values, "doubling", ceil(2 * log(2) / log1p(turn * turn)));
     values_add(values, "h", simulation->run[0].h);
 }
 
 /* ---- the arrows ---------------------------------------------------------- */
 
-/* Finds a view with all masses and arrows.  It grows by factors of sqrt(2), so
- * that it seldom moves.  A page about a single step sees the first step from
- * near. */
+/* Finds a view with all masses and arrows, which grows by factors of sqrt(2)
+ * and seldom moves.  On a page about a single step the view is close. */
 void mass_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
@@ -285,15 +285,14 @@ void mass_bounds(const Plot *stage, double bounds[4])
     bounds_grow(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
-/* Position after time h of exact motion. */
+/* Returns the position after time h of exact motion. */
 static Point exact_position(const MassStep *step, double h)
 {
     const Point x = point_along(origin, cos(h), step->x);
     return point_along(x.at, sin(h), step->v);
 }
 
-/* Draws the error of a step of forward Euler: the exact end is about h^2/2 a
- * away. */
+/* Draws the error of a step of forward Euler, about h^2/2 a. */
 static void draw_step_error(const Plot *stage, const MassStep *step, double h,
                             const char *words)
 {
@@ -306,9 +305,9 @@ static void draw_step_error(const Plot *stage, const MassStep *step, double h,
     plot_label(stage, 2, at->at, COLOUR_WARNING, "%s", words);
 }
 
-/* Draws what a page explains: the exact end of the step; for backward Euler the
- * fixed-point iterates of x'; for symplectic Euler the next points and the
- * ellipse through them. */
+/* On a page, draws the exact end of the step, and the errors of forward Euler,
+ * the fixed-point iterates of backward Euler, or the next points of symplectic
+ * Euler and the ellipse through them. */
 static void draw_mass_lesson(Plot *stage)
 {
     MassStep step;
@@ -352,8 +351,8 @@ static void draw_mass_lesson(Plot *stage)
                      COLOUR_ALPHA);
 }
 
-/* Draws the arrows of one step in the order in which the method makes them,
- * then their labels, the most important first; a short arrow has none. */
+/* Draws the arrows of one step in the order of the method, and the labels of
+ * long arrows, the most important first. */
 static void draw_mass_step(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -397,8 +396,8 @@ static void draw_mass_step(Plot *stage)
     }
 }
 
-/* Draws path, trails and the next step of each run.  Before a guess the arrows
- * of the step would give the answer and are left out. */
+/* Draws path, trails and the next step of each run.  The arrows of a step are
+ * left out before a guess. */
 void mass_draw(Plot *stage)
 {
     const FrameContent *content = stage->content;
@@ -416,21 +415,21 @@ void mass_draw(Plot *stage)
         MassStep step;
         mass_find_next_step(simulation, r, &step);
         plot_arrow(stage, step.x, vector_between(step.x, step.new_x).at, 1, 3,
-                   run_colour(simulation, r));
-        plot_ring(stage, step.new_x, 8, 2.2, run_colour(simulation, r));
+                   mass_colour(simulation, r));
+        plot_ring(stage, step.new_x, 8, 2.2, mass_colour(simulation, r));
     }
     if (simulation->runs == 1 && content->lecture.hides_answer)
         plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
     else if (simulation->runs == 1)
         draw_mass_step(stage);
     for (int r = 0; r < simulation->runs; r++)
-        plot_disc(stage, run[r].x, 8, run_colour(simulation, r));
+        plot_disc(stage, run[r].x, 8, mass_colour(simulation, r));
 }
 
-/* ---- the formula with its numbers --------------------------------------- */
+/* ---- live values -------------------------------------------------------- */
 
-/* The invariant of symplectic Euler: |x|^2 + |v|^2 - h x.v. */
-static double invariant(const double *x, const double *v, double h)
+/* Returns the invariant of symplectic Euler: |x|^2 + |v|^2 - h x.v. */
+static double symplectic_invariant(const double *x, const double *v, double h)
 {
     return 2 * mass_energy(x, v) - h * (x[0] * v[0] + x[1] * v[1]);
 }
@@ -469,11 +468,10 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     if (!step.by_old_v && !backward) {
         values_add(values, "h limit", 2);
         values_add_flag(values, "ellipse", h < 2);
-        if (h < 2) { /* for larger h the difference of growing squares loses all
-                        digits */
-            values_add(values, "kept", invariant(step.x, step.v, h));
+        if (h < 2) { /* for larger h rounding hides the invariant */
+            values_add(values, "kept", symplectic_invariant(step.x, step.v, h));
             values_add(values, "kept later",
-                       invariant(step.new_x, step.new_v, h));
+                       symplectic_invariant(step.new_x, step.new_v, h));
         }
     }
     values_add(values, "miss",

@@ -10,8 +10,8 @@
 
 enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 
-static const double FIT_LEAST =
-    0.6; /* letters shrink at most to this part of their size */
+static const double MIN_FIT =
+    0.6; /* least size of letters that shrink to fit */
 
 Status paper_create(int width, int height, Paper *paper)
 {
@@ -65,7 +65,7 @@ int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
     int air = paper_pixels(paper, 0.35); /* room for superscripts */
     Box room = {box.x, box.y - air, box.width, box.height + 2 * air};
     Box before = canvas_set_clip(&paper->canvas, room);
-    double least = FIT_LEAST * size;
+    double least = MIN_FIT * size;
     for (int wide = paper_width(paper, face, size, markup);
          wide > box.width && size > least;
          wide = paper_width(paper, face, size, markup))
@@ -94,9 +94,8 @@ int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
     return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
 }
 
-/* Counts the bytes of the text that fit into this width and end at a blank
- * outside of braces, or at the text's end.  A word that is wider than the width
- * stands alone. */
+/* Counts the bytes of a text that fit into this width, up to a blank outside of
+ * braces or the text's end.  At least one word fits. */
 static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
                             const char *markup)
 {
@@ -119,12 +118,12 @@ static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
     return fits;
 }
 
-void paper_shorten(Paper *paper, Face face, double size, int width, char *words,
+void paper_shorten(Paper *paper, double size, int width, char *words,
                    size_t room)
 {
     static const char end[] = " \u2026";
-    TextStyle style = paper_style(paper, face, size, 0);
-    int rest = width - paper_width(paper, face, size, end);
+    TextStyle style = paper_style(paper, FACE_REGULAR, size, 0);
+    int rest = width - paper_width(paper, FACE_REGULAR, size, end);
     size_t fits = fitting_bytes(paper, &style, width, words);
     if (words[fits])
         fits = fitting_bytes(paper, &style, rest, words);

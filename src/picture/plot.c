@@ -20,9 +20,8 @@ static const double TICK_SIZE = 0.82;  /* ems, letters of the axes */
 static const double TICK_ROOM = 5;     /* ems, width for a number of x */
 static const double LINE_ROOM = 1.6;   /* ems, height for a number of y */
 static const double NUMBER_ROOM = 3.1; /* ems, width left of the plot */
-static const double NUMBER_BELOW =
-    0.25;                        /* ems, gap between plot and numbers of x */
-static const double HEAD = 0.62; /* ems, length of arrow heads */
+static const double NUMBER_GAP = 0.25; /* ems, between plot and numbers of x */
+static const double HEAD = 0.62;       /* ems, length of arrow heads */
 
 double plot_round_up(double value)
 {
@@ -37,8 +36,8 @@ double plot_round_axis(double value)
     return step * ceil(value / step * (1 - 1e-12));
 }
 
-/* Coordinate of a value on its axis: its logarithm if the axis is logarithmic.
- */
+/* Returns the coordinate of a value on an axis, a logarithm if the axis is
+ * logarithmic. */
 static double axis_coordinate(const Axis *axis, double value)
 {
     return axis->log ? log10(value) : value;
@@ -63,17 +62,17 @@ static void set_camera(Plot *plot, int k, const Axis *axis)
         k ? box->y + box->height + scale * low : box->x - scale * low;
 }
 
-/* Number of a tick; rounding would show 1e-17 instead of 0. */
-static Number tick_number(const Axis *axis, double value)
+/* Returns the number of a tick; rounding becomes 0. */
+static Number format_tick(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
     bool is_zero = !axis->log && fabs(value) < 1e-9 * span;
     return format_number(is_zero ? 0 : value);
 }
 
-/* Finds the values with numbers on an axis of this length.  Returns how many.
- *   upright  is the axis of y */
-static int axis_ticks(const Axis *axis, bool upright, double ems, double *ticks)
+/* Finds the ticks of an axis of this length.  Returns the number of ticks.
+ *   upright  the axis is that of y */
+static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
 {
     double room = upright ? fmax(ems / LINE_ROOM, 1) : fmax(ems / TICK_ROOM, 2);
     double intervals = fmin(room, (upright ? 1 : 2) * PLOT_INTERVALS);
@@ -102,13 +101,13 @@ static void write_tick(const Plot *plot, Colour colour, double x, double y,
                 words);
 }
 
-static int tick_width(Paper *paper, const char *words)
+static int measure_tick(Paper *paper, const char *words)
 {
     return paper_width(paper, FACE_REGULAR, TICK_SIZE, words);
 }
 
-/* Draws light lines across, darker at 0, with their numbers on the left; and
- * the numbers of x as far as the label leaves room. */
+/* Draws light lines across, a darker one at 0, with the numbers of y, and the
+ * numbers of x as far as the label leaves room. */
 static void draw_axes(const Plot *plot)
 {
     Paper *paper = plot->paper;
@@ -116,8 +115,8 @@ static void draw_axes(const Plot *plot)
     const char *x_label = plot->x.label, *y_label = plot->y.label;
     double em = paper->em, ticks[PLOT_MOST_LINES], at[2];
     double right = box->x + box->width, end = right;
-    double below = box->y + box->height + NUMBER_BELOW * em;
-    int count = axis_ticks(&plot->y, true, box->height / em, ticks);
+    double below = box->y + box->height + NUMBER_GAP * em;
+    int count = find_ticks(&plot->y, true, box->height / em, ticks);
     int thin = (int)fmax(1, paper->unit);
     for (int i = 0; i < count; i++) {
         bool zero = !plot->y.log && fabs(ticks[i]) < 1e-12 * plot->y.high;
@@ -127,36 +126,36 @@ static void draw_axes(const Plot *plot)
                     zero ? COLOUR_BORDER : COLOUR_GRID);
         write_tick(plot, COLOUR_FAINT, box->x - 0.35 * em,
                    at[1] - 0.65 * TICK_SIZE * em, ALIGN_RIGHT,
-                   tick_number(&plot->y, ticks[i]).text);
+                   format_tick(&plot->y, ticks[i]).text);
     }
     if (y_label && box->height > 1.6 * TICK_SIZE * em)
         write_tick(plot, COLOUR_TEXT, right, box->y + 0.1 * em, ALIGN_RIGHT,
                    y_label);
     if (x_label) {
         write_tick(plot, COLOUR_TEXT, right, below, ALIGN_RIGHT, x_label);
-        end -= tick_width(paper, x_label) + paper_pixels(paper, 0.5);
+        end -= measure_tick(paper, x_label) + paper_pixels(paper, 0.5);
     }
-    count = axis_ticks(&plot->x, false, box->width / em, ticks);
+    count = find_ticks(&plot->x, false, box->width / em, ticks);
     for (int i = 0; i < count; i++) {
-        Number number = tick_number(&plot->x, ticks[i]);
+        Number number = format_tick(&plot->x, ticks[i]);
         plot_pixel(plot, (double[2]){ticks[i], plot->y.low}, at);
-        if (at[0] + tick_width(paper, number.text) / 2 <= end)
+        if (at[0] + measure_tick(paper, number.text) / 2 <= end)
             write_tick(plot, COLOUR_FAINT, at[0], below, ALIGN_CENTRE,
                        number.text);
     }
 }
 
-/* Box of the plot without the room above and below, ems, and left for the
- * widest number. */
-static Box inner_box(const Plot *outer, const Axis *y, double above,
-                     double below)
+/* Returns the box of a plot without the room above and below, ems, and without
+ * that of the widest number. */
+static Box box_inside_axes(const Plot *outer, const Axis *y, double above,
+                           double below)
 {
     Paper *paper = outer->paper;
     Box box = outer->box;
     double ticks[PLOT_MOST_LINES], left = paper_pixels(paper, NUMBER_ROOM);
-    int count = axis_ticks(y, true, box.height / paper->em, ticks);
+    int count = find_ticks(y, true, box.height / paper->em, ticks);
     for (int i = 0; i < count; i++)
-        left = fmax(left, tick_width(paper, tick_number(y, ticks[i]).text) +
+        left = fmax(left, measure_tick(paper, format_tick(y, ticks[i]).text) +
                               paper_pixels(paper, 0.4));
     box.x += (int)left;
     box.y += paper_pixels(paper, above);
@@ -172,7 +171,7 @@ Plot plot_create(const Plot *card, Axis x, Axis y)
     Plot plot = *card;
     plot.x = x;
     plot.y = y;
-    plot.box = inner_box(card, &y, 0.5, 1.5);
+    plot.box = box_inside_axes(card, &y, 0.5, 1.5);
     set_camera(&plot, 0, &x);
     set_camera(&plot, 1, &y);
     draw_axes(&plot);
@@ -180,7 +179,7 @@ Plot plot_create(const Plot *card, Axis x, Axis y)
 }
 
 /* Sets the axis to the range low ... high of camera coordinates. */
-static void set_range(Axis *axis, double low, double high)
+static void axis_set_range(Axis *axis, double low, double high)
 {
     axis->low = axis->log ? pow(10, low) : low;
     axis->high = axis->log ? pow(10, high) : high;
@@ -193,16 +192,16 @@ Plot plot_on_stage(const Plot *stage, Axis x, Axis y)
     const Box *box = &plot.box;
     plot.x = x;
     plot.y = y;
-    for (int pass = 0; pass < 2; pass++) { /* the first pass finds the numbers,
-                                              whose width the second needs */
+    /* The first pass finds the numbers, whose width the second one needs. */
+    for (int pass = 0; pass < 2; pass++) {
         if (stage->has_text && pass > 0)
-            plot.box = inner_box(stage, &plot.y, 2.2, 1.7);
+            plot.box = box_inside_axes(stage, &plot.y, 2.2, 1.7);
         camera_world(&stage->camera, box->x, box->y + box->height, low);
         camera_world(&stage->camera, box->x + box->width, box->y, high);
         if (y.high == 0)
-            set_range(&plot.y, low[1], high[1]);
+            axis_set_range(&plot.y, low[1], high[1]);
     }
-    set_range(&plot.x, low[0], high[0]);
+    axis_set_range(&plot.x, low[0], high[0]);
     if (y.high != 0)
         set_camera(&plot, 1, &y);
     if (stage->has_text)
@@ -219,7 +218,7 @@ static bool has_axes(const Plot *plot)
 }
 
 /* Width of a line in pixels, at least 1. */
-static double pixels_wide(const Plot *plot, double width)
+static double line_pixels(const Plot *plot, double width)
 {
     return fmax(1, width * plot->paper->unit);
 }
@@ -231,7 +230,7 @@ static void draw_line(const Plot *plot, const double *a, const double *b,
     double line[4] = {a[0], a[1], b[0], b[1]};
     if (!has_axes(plot) || box_clip_line(&plot->box, 0, line))
         canvas_line(&plot->paper->canvas, line[0], line[1], line[2], line[3],
-                    pixels_wide(plot, width), colour);
+                    line_pixels(plot, width), colour);
 }
 
 void plot_line(const Plot *plot, const double *a, const double *b, double width,
@@ -251,7 +250,7 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
     Box before = canvas_set_clip(canvas, plot->box);
     plot_pixel(plot, a, p);
     plot_pixel(plot, b, q);
-    canvas_dashes(canvas, p, q, pixels_wide(plot, width), plot->paper->unit,
+    canvas_dashes(canvas, p, q, line_pixels(plot, width), plot->paper->unit,
                   phase, colour);
     canvas_set_clip(canvas, before);
 }
@@ -291,9 +290,9 @@ void plot_quad(const Plot *plot, const double *const corner[4], Colour colour)
     canvas_triangle(&plot->paper->canvas, half, false, colour);
 }
 
-/* Each joint is moved to the middle between two pixels in the direction in
- * which the line is longer.  Otherwise both lines would cover parts of one
- * pixel, and the joint would look paler. */
+/* Each joint is moved to the middle between two pixels in the longer direction
+ * of the line.  Else both lines would cover parts of one pixel, which would
+ * look paler. */
 void plot_curve(const Plot *plot, int count, const double *x, const double *y,
                 double width, Colour colour)
 {
@@ -304,7 +303,7 @@ void plot_curve(const Plot *plot, int count, const double *x, const double *y,
         if (isfinite(p[0] + p[1]) && isfinite(q[0] + q[1])) {
             const double d[2] = {q[0] - p[0], q[1] - p[1]};
             if (fabs(d[0]) < 1 && fabs(d[1]) < 1 && i + 1 < count)
-                continue; /* shorter than a pixel: waits for the next point */
+                continue; /* the line waits for a point farther away */
             int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
             double end = floor(q[k] + 0.5);
             q[1 - k] += (end - q[k]) * d[1 - k] / d[k];
@@ -329,8 +328,8 @@ void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
     plot_curve(plot, PLOT_POINTS + 1, at, value, width, colour);
 }
 
-/* Maps a point to pixels p [2], out.  Returns whether it is visible. */
-static bool find_pixel(const Plot *plot, const double *at, double p[2])
+/* Maps a point to pixels.  Returns whether the point is visible. */
+static bool find_visible_pixel(const Plot *plot, const double *at, double p[2])
 {
     plot_pixel(plot, at, p);
     return !has_axes(plot) || (at[0] >= plot->x.low && at[0] <= plot->x.high &&
@@ -340,7 +339,7 @@ static bool find_pixel(const Plot *plot, const double *at, double p[2])
 bool plot_disc(const Plot *plot, const double *at, double radius, Colour colour)
 {
     double p[2];
-    bool seen = find_pixel(plot, at, p);
+    bool seen = find_visible_pixel(plot, at, p);
     if (seen)
         canvas_disc(&plot->paper->canvas, p[0], p[1],
                     radius * plot->paper->unit, colour);
@@ -358,9 +357,9 @@ void plot_ring(const Plot *plot, const double *at, double radius, double width,
                Colour colour)
 {
     double p[2], unit = plot->paper->unit;
-    if (find_pixel(plot, at, p))
+    if (find_visible_pixel(plot, at, p))
         canvas_ring(&plot->paper->canvas, p[0], p[1], radius * unit,
-                    pixels_wide(plot, width), colour);
+                    line_pixels(plot, width), colour);
 }
 
 /* Draws a dark square with a light middle. */
@@ -388,7 +387,7 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
     plot_pixel(plot, a, p);
     plot_pixel(plot, b, q);
     canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
-                 pixels_wide(plot, width), HEAD * paper->em, colour);
+                 line_pixels(plot, width), HEAD * paper->em, colour);
     canvas_set_clip(&paper->canvas, before);
 }
 

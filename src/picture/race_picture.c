@@ -8,27 +8,25 @@
 #include "picture/colour_map.h"
 
 enum { HALVED = 4 }; /* columns of the table for halved time steps */
-static const double NAMES_WIDTH =
-    45; /* ems, width of a plot with names beside the lines */
-static const double TARGET_ERROR =
-    0.01; /* m, the error that the picture compares run times for */
+static const double NAMES_WIDTH = 45;    /* ems, width of a plot with names */
+static const double TARGET_ERROR = 0.01; /* m, error of the runs compared */
 static const double REFERENCE_ERROR = 1e-8; /* m, accuracy of the reference */
 
-/* Bounds in powers of ten. */
+/* Returns bounds in powers of ten. */
 void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.switches;
     bounds[0] = over_h ? -4.8 : -7.6;
     bounds[1] = over_h ? -9 : -10;
     bounds[2] = over_h ? -1.9 : 0.3;
-    bounds[3] = over_h ? 2.5 : 3; /* below the switch */
+    bounds[3] = over_h ? 2.5 : 3; /* leaves room for the switch */
 }
 
-/* Writes names of methods in a column beside their points, from top to bottom,
- * each with a line to its point.
- *   over_h   whether the plot is over h, where the left column has every name
- *   on_left  the left column, else the right one; explicit methods are in the
- *            left one, implicit methods in the right one */
+/* Writes the names of methods into a column beside their points, with a line to
+ * each point.
+ *   over_h   the plot is over h, with all names in the left column
+ *   on_left  the left column, of explicit methods; else the right column, of
+ *            implicit methods */
 static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
                         bool over_h, bool on_left)
 {
@@ -66,8 +64,8 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
     }
 }
 
-/* Draws the points of each method, joined; hollow where the method explodes
- * later.  Over h also the slopes of errors of order 1 and 2. */
+/* Draws the joined points of each method, hollow if the method explodes later;
+ * over h also the slopes of order 1 and 2. */
 void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -134,7 +132,7 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
         values_add(values, names[i][2], best ? 1e3 * best->h : NAN);
         values_add_flag(values, i ? "" : "no explicit", !best && all);
     }
-    bool failed = false; /* in the table */
+    bool failed = false; /* a run of the table failed */
     for (int i = RACE_SHOWN_ROW * RACE_METHODS; i < race->count; i++)
         failed = failed || (isnan(race->point[i].error) &&
                             i < (RACE_SHOWN_ROW + HALVED + 1) * RACE_METHODS);
@@ -147,21 +145,20 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "failed", simulation->status);
 }
 
-/* Writes a number of the table; a number that is not finite leaves the cell as
- * it is. */
-static void put_cell(char *cell, size_t size, const char *sign, double value,
+enum { COLUMNS = 9, CELL = 64 };
+
+/* Writes a finite number into a cell of the table. */
+static void put_cell(char cell[CELL], const char *sign, double value,
                      int digits, const char *unit)
 {
     if (isfinite(value))
-        snprintf(cell, size, "%s%.40s%s", sign,
+        snprintf(cell, CELL, "%s%.40s%s", sign,
                  format_digits(value, digits).text, unit);
 }
 
-enum { COLUMNS = 9, CELL = 64 };
-
-/* Fills the row of a method: error with h, its quotient each time h is halved
- * (below the reference error only epsilon), energy left after a second with h,
- * longest stable step, run time. */
+/* Fills the row of a method: error, quotient of errors each time h is halved
+ * (or epsilon below the reference's error), energy left after a second, longest
+ * stable h, run time. */
 static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
 {
     const IntegratorMethod *shown = race_method(method);
@@ -169,10 +166,10 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
         &race->point[RACE_SHOWN_ROW * RACE_METHODS + method];
     snprintf(cell[0], CELL, "%s", shown->label);
     if (race->count > point - race->point) {
-        put_cell(cell[1], CELL, "", point->error, 2, "");
+        put_cell(cell[1], "", point->error, 2, "");
         snprintf(cell[6], CELL, "explodes");
-        put_cell(cell[6], CELL, "\u00d7 ", point->energy_after_second, 2, "");
-        put_cell(cell[8], CELL, "", 1e3 * point->seconds, 2, " ms");
+        put_cell(cell[6], "\u00d7 ", point->energy_after_second, 2, "");
+        put_cell(cell[8], "", 1e3 * point->seconds, 2, " ms");
     }
     for (int k = 1; k <= HALVED; k++) {
         const RacePoint *half = point + RACE_METHODS;
@@ -180,7 +177,7 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
             break;
         snprintf(cell[1 + k], CELL,
                  half->error < REFERENCE_ERROR ? "\u03b5" : "\u2013");
-        put_cell(cell[1 + k], CELL, "\u00f7 ",
+        put_cell(cell[1 + k], "\u00f7 ",
                  half->error < REFERENCE_ERROR ? NAN
                                                : point->error / half->error,
                  2, "");
@@ -190,13 +187,13 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
         snprintf(cell[7], CELL, shown->damps ? "(any h)" : "(if linear)");
     else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
         snprintf(cell[7], CELL, "none");
-    put_cell(cell[7], CELL, "",
+    put_cell(cell[7], "",
              shown->implicit ? NAN : 1e3 * race_find_stable_h(race, method), 3,
              " ms");
 }
 
-/* Draws as many columns as there is room for, the most important first. */
-void table_draw(const Plot *card)
+/* Draws the most important columns that have room. */
+void race_table_draw(const Plot *card)
 {
     static const char heads[COLUMNS][CELL] = {"",       "error, m", "h/2",
                                               "h/4",    "h/8",      "h/16",

@@ -1,6 +1,5 @@
-/* scalar_picture.c - Newton's method in one unknown: f with its quadratic
- * models (overshoot), and g with its tangents above E with its parabolas
- * (tangent). */
+/* scalar_picture.c - Newton's method in one unknown: f with quadratic models
+ * (overshoot), or g with tangents above E with parabolas (tangent). */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,17 +12,16 @@ enum { ROOT_UPDATES = 60, ITERATE_TEXT = 48 };
 static const double TANGENT_REACH = 3; /* m, x is seen from -3 to 3, at least */
 static const double ITERATES_WIDE = 11.5; /* ems */
 
-/* An update and its model q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2, which is
- * least at x1 = x0 + p. */
+/* An update with its model q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2, whose
+ * minimum is at x1 = x0 + p. */
 typedef struct ScalarUpdate {
     const Simulation *simulation;
     double x0, x1, f, slope, curvature;
-    double alpha; /* step length; 0: not known yet, or all were refused */
-    int refusals; /* lengths 1, 1/2, ... refused by the line search */
+    double alpha; /* step length; 0: unknown, or all lengths were refused */
+    int refusals; /* number of lengths 1, 1/2, ... that were refused */
     int number;   /* number of the iterate x0 */
     bool is_made;
-    bool slopes; /* curve_at and model_at return derivatives: f' and its tangent
-                  */
+    bool slopes; /* curve_at and model_at return f' and its tangent */
 } ScalarUpdate;
 
 static LocalModel scalar_at(const Simulation *simulation, double x)
@@ -31,8 +29,8 @@ static LocalModel scalar_at(const Simulation *simulation, double x)
     return descent_at(simulation, PROJECTION_NONE, x, 0);
 }
 
-/* Update 0, 1, ...; -1: the first one, which is still to come. */
-static ScalarUpdate update_at(const Simulation *simulation, int i)
+/* Returns update 0, 1, ...; -1: the next update of the present iterate. */
+static ScalarUpdate find_update(const Simulation *simulation, int i)
 {
     const Descent *descent = &simulation->descent;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
@@ -54,7 +52,7 @@ static ScalarUpdate update_at(const Simulation *simulation, int i)
     return update;
 }
 
-/* Function and model for plot_graph. */
+/* Returns the function at x, for plot_graph. */
 static double curve_at(const void *data, double x)
 {
     const ScalarUpdate *update = data;
@@ -62,26 +60,26 @@ static double curve_at(const void *data, double x)
     return update->slopes ? at.g[0] : at.value;
 }
 
+/* Returns the model at x, for plot_graph. */
 static double model_at(const void *data, double x)
 {
     const ScalarUpdate *update = data;
-    double d = x - update->x0, slope = update->slope,
-           curvature = update->curvature;
-    return update->slopes ? slope + d * curvature
-                          : update->f + d * (slope + 0.5 * d * curvature);
+    double d = x - update->x0, bend = d * update->curvature;
+    return update->slopes ? update->slope + bend
+                          : update->f + d * (update->slope + 0.5 * bend);
 }
 
-/* Iterate i of 0 ... count; the last one is the present point. */
+/* Returns iterate i of 0 ... count; the last one is the present point. */
 static double iterate_at(const Descent *descent, int i)
 {
     return i == descent->count ? descent->point[0] : descent->record[i].from[0];
 }
 
-/* ---- a function, its model and the iterates --------------------------------
+/* ---- function, model and iterates -----------------------------------------
  */
 
-/* Draws the model, its minimum (or the tangent's zero), and the line from there
- * to the curve, where the full step leads. */
+/* Draws the model, its minimum (or the tangent's zero), and a line from there
+ * to the curve. */
 static void draw_scalar_model(const Plot *plot, const ScalarUpdate *update,
                               double width, double radius, Colour colour)
 {
@@ -92,9 +90,9 @@ static void draw_scalar_model(const Plot *plot, const ScalarUpdate *update,
     plot_hollow_disc(plot, low, radius, 0.6 * radius, COLOUR_P);
 }
 
-/* Draws the function (or its derivative) and the model.  Rings mark the lengths
- * that the line search refused; discs mark the iterates, the last one black,
- * with numbers where there is room. */
+/* Draws the function (or its derivative), the model, a ring for each refused
+ * length, and a disc for each iterate, the last one black, with its number if
+ * there is room. */
 static void draw_search(const Plot *plot, const ScalarUpdate *update,
                         bool model)
 {
@@ -130,26 +128,26 @@ static void draw_search(const Plot *plot, const ScalarUpdate *update,
     }
 }
 
-/* Draws f with the iterates, and pale below them the models of earlier full
- * updates. */
+/* Draws f with the iterates over the pale models of earlier full updates. */
 void curve_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
-    ScalarUpdate update = update_at(simulation, simulation->descent.count - 1);
+    ScalarUpdate update =
+        find_update(simulation, simulation->descent.count - 1);
     Plot plot = plot_on_stage(stage, (Axis){.label = "x"}, (Axis){0});
     for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
-        ScalarUpdate earlier = update_at(simulation, i);
+        ScalarUpdate earlier = find_update(simulation, i);
         draw_scalar_model(&plot, &earlier, 1.4, 4, pale);
     }
     draw_search(&plot, &update, !stage->content->lecture.hides_answer);
 }
 
-/* The step length that backtracking finds from the present iterate. */
-static double first_length(const Simulation *simulation)
+/* Returns the step length that backtracking finds from the present iterate. */
+static double find_first_length(const Simulation *simulation)
 {
-    ScalarUpdate from = update_at(simulation, -1);
+    ScalarUpdate from = find_update(simulation, -1);
     double alpha = 1, p = from.x1 - from.x0;
     while (alpha > DBL_EPSILON &&
            scalar_at(simulation, from.x0 + alpha * p).value > from.f)
@@ -157,10 +155,11 @@ static double first_length(const Simulation *simulation)
     return alpha;
 }
 
-/* Adds the values of the update shown, from its iterate to the next one. */
+/* Adds the values of the shown update. */
 void scalar_add_values(const Simulation *simulation, LiveValues *values)
 {
-    ScalarUpdate update = update_at(simulation, simulation->descent.count - 1);
+    ScalarUpdate update =
+        find_update(simulation, simulation->descent.count - 1);
     double x = update.x0, p = update.x1 - update.x0;
     double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
     bool tangent = simulation->scene->picture == PICTURE_TANGENT;
@@ -175,7 +174,7 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)
         values_add(values, "shorter", update.alpha);
-    values_add(values, "first length", first_length(simulation));
+    values_add(values, "first length", find_first_length(simulation));
     values_add(values, "slope", update.slope);
     values_add(values, "curvature", update.curvature);
     values_add(values, "direction", p);
@@ -183,18 +182,17 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, update.curvature > 0 ? "lowest" : "highest", true);
 }
 
-/* ---- g and its tangents above E and its parabolas ------------------------ */
+/* ---- g with tangents above E with parabolas ------------------------------ */
 
-/* Both plots share the range of x; y is theirs. */
 void tangent_bounds(const Plot *stage, double bounds[4])
 {
     double x = stage->simulation->descent.point[0];
     bounds_grow(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
 }
 
-/* Plot of g in the upper half (0) or of E in the lower half (1), with a line at
- * 0.  Its y covers |g| or E of all iterates. */
-static Plot tangent_plot(const Plot *stage, int half)
+/* Makes the plot of g in the upper half (0) or of E in the lower half (1), high
+ * enough for all iterates, with a line at 0. */
+static Plot create_tangent_plot(const Plot *stage, int half)
 {
     const Descent *descent = &stage->simulation->descent;
     double high = half ? 2 : 4;
@@ -218,8 +216,10 @@ void tangent_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const double target[2] = {simulation->exhibit.target[0], 0};
-    ScalarUpdate update = update_at(simulation, simulation->descent.count - 1);
-    const Plot plot[2] = {tangent_plot(stage, 0), tangent_plot(stage, 1)};
+    ScalarUpdate update =
+        find_update(simulation, simulation->descent.count - 1);
+    const Plot plot[2] = {create_tangent_plot(stage, 0),
+                          create_tangent_plot(stage, 1)};
     bool asked = stage->content->lecture.hides_answer;
     for (int half = 0; half < 2; half++) {
         update.slopes = half == 0;
@@ -239,8 +239,8 @@ void tangent_draw(Plot *stage)
                 "E(x) = m/2 (x \u2212 {xt}^{n})\u00b2 + h\u00b2 P(x)");
 }
 
-/* Zero of g that full updates reach from the present iterate; NaN: they do not
- * converge. */
+/* Returns the zero of g that full updates find from the present iterate; NaN:
+ * full updates do not converge. */
 static double find_root(const Simulation *simulation)
 {
     double x = simulation->descent.point[0], p = INFINITY;
@@ -253,7 +253,7 @@ static double find_root(const Simulation *simulation)
     return fabs(p) <= 1e-14 * fmax(1, fabs(x)) ? x : NAN;
 }
 
-/* Writes all digits that a double has here. */
+/* Writes all digits of a double. */
 static void write_digits(double x, char text[ITERATE_TEXT])
 {
     bool plain = fabs(x) < 1e4;
@@ -261,8 +261,7 @@ static void write_digits(double x, char text[ITERATE_TEXT])
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
-/* Writes the newest iterates that fit.  The digits that agree with the zero of
- * g are black on a light ground. */
+/* Writes the newest iterates that fit, the right digits on a light ground. */
 static void draw_iterates(const Plot *card)
 {
     const double size = 0.95, pitch = 1.38; /* ems */
@@ -291,8 +290,8 @@ static void draw_iterates(const Plot *card)
     }
 }
 
-/* Draws the update with its numbers, and at its right all iterates. */
-void update_draw(const Plot *card)
+/* Writes the numbers of the update, and at the right all iterates. */
+void tangent_numbers_draw(const Plot *card)
 {
     Plot left = *card, right = *card;
     right.box = box_cut_off(&left.box, EDGE_RIGHT,

@@ -1,4 +1,5 @@
-/* spring_picture.c - the picture of one spring, and its energy over its length.
+/* spring_picture.c - the picture of a spring, and of its energy over its
+ * length.
  */
 #include <math.h>
 #include <string.h>
@@ -9,11 +10,9 @@
 
 enum { SPRING_COILS = 12 };
 
-static const double SPRING_REACH =
-    1.7; /* m, half a side of the view, at least */
+static const double SPRING_REACH = 1.7;   /* m, half a side of the view */
 static const double SPRING_ARROW = 0.005; /* m/N, scale of the force */
-static const double SPRING_BESIDE =
-    0.13; /* m, distance of the force's arrow from the spring */
+static const double SPRING_GAP = 0.13;    /* m, from the spring to its force */
 static const double origin[2] = {0, 0};
 
 void spring_bounds(const Plot *stage, double bounds[4])
@@ -27,13 +26,14 @@ static SpringValues spring_at(const double d[2], const System *system)
     return spring_evaluate(d, system->l2[0], system->k[0]);
 }
 
-/* Energies at a signed length d, for plot_graph. */
-static double energy_over(const void *system, double d)
+/* Returns the energy at a signed length d, for plot_graph. */
+static double energy_at_length(const void *system, double d)
 {
     return spring_at((double[2]){d, 0}, system).energy;
 }
 
-static double root_over(const void *system, double d)
+/* Returns the energy with the root at a signed length d, for plot_graph. */
+static double root_energy_at_length(const void *system, double d)
 {
     return spring_at((double[2]){d, 0}, system).root_energy;
 }
@@ -64,9 +64,9 @@ static void draw_coil(Plot *stage, const double *x, Colour colour)
     }
 }
 
-/* Draws the spring (in another colour where projection changes its block) and
- * its force.  On a page about modes it draws the eigenvectors (q, -q) of the
- * block instead: longer for larger eigenvalues, red for negative ones. */
+/* Draws the spring (in another colour if projection changes its block) and its
+ * force; on a page about modes instead the eigenvectors (q, -q) of the block,
+ * longer for larger eigenvalues, red for negative ones. */
 void spring_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -74,7 +74,8 @@ void spring_draw(Plot *stage)
     const double *x = simulation->run[0].x;
     double l = sqrt(simulation->system.l2[0]);
     SpringValues spring = spring_at(x, &simulation->system);
-    bool projects = spring.across < 0 && !content->lecture.hides_answer;
+    bool shows_answer = !content->lecture.hides_answer;
+    bool projects = spring.across < 0 && shows_answer;
     bool modes = simulation->options.layers & LAYER_MODES;
     draw_length_circle(stage, l, COLOUR_FAINT, "l");
     if (!content->lecture.page || modes)
@@ -82,9 +83,8 @@ void spring_draw(Plot *stage)
     draw_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
     const double value[2] = {spring.along, spring.across};
-    for (int i = 0;
-         i < 4 && modes && !content->lecture.hides_answer && spring.length > 0;
-         i++) {
+    int vectors = modes && shows_answer && spring.length > 0 ? 4 : 0;
+    for (int i = 0; i < vectors; i++) {
         double n[2] = {x[i / 2] / spring.length, x[1 - i / 2] / spring.length};
         double size = fabs(value[i / 2]) / (4 * simulation->system.k[0]);
         n[0] = i / 2 ? -n[0] : n[0];
@@ -93,8 +93,7 @@ void spring_draw(Plot *stage)
     }
     if (!modes && spring.length > 0) {
         const double across[2] = {-x[1], x[0]};
-        const Point from =
-            point_along(x, SPRING_BESIDE / spring.length, across);
+        const Point from = point_along(x, SPRING_GAP / spring.length, across);
         plot_arrow(stage, from.at, spring.force, SPRING_ARROW, 3.2,
                    COLOUR_FORCE);
     }
@@ -103,8 +102,7 @@ void spring_draw(Plot *stage)
 
 /* ---- cards -------------------------------------------------------------- */
 
-/* Adds force and Hessian once more, by central differences of energy and force.
- */
+/* Adds force and Hessian by central differences of energy and force. */
 static void add_differences(const Simulation *simulation, LiveValues *values)
 {
     static const double step = 1e-4; /* m */
@@ -134,8 +132,8 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     const double *d = simulation->run[0].x, k = system->k[0];
     double l2 = system->l2[0], H[3];
     SpringValues now = spring_at(d, system);
-    double along = 2 * now.along,
-           across = 2 * now.across; /* eigenvalues of the block */
+    /* Eigenvalues of the block. */
+    double along = 2 * now.along, across = 2 * now.across;
     bool page = simulation->options.page;
     bool folds = simulation->options.projection == PROJECTION_ABS && !page;
     Projection projection = folds ? PROJECTION_ABS : PROJECTION_CLAMP;
@@ -169,33 +167,33 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, page ? "lecture" : "alone", true);
     values_add_flag(values, "pulled",
                     !(simulation->options.layers & LAYER_MODES));
-    values_add(values, "tip", root_over(system, 0));
+    values_add(values, "tip", root_energy_at_length(system, 0));
     values_add_flag(values, "shortened", now.across < 0);
     values_add(values, "root energy", both ? now.root_energy : NAN);
     values_add(values, "root along", both ? now.root_along : NAN);
     values_add(values, "root across", now.root_across);
 }
 
-void profile_draw(const Plot *card)
+void spring_profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
     SpringValues now = spring_at(card->simulation->run[0].x, system);
     bool both = card->simulation->exhibit.switches;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
-    double tip = (both ? root_over : energy_over)(system, 0);
+    double tip = (both ? root_energy_at_length : energy_at_length)(system, 0);
     Axis x = {-reach, reach, false, false, "d in m"};
     Axis y = {0, 1.12 * fmax(tip, now.energy), false, false, NULL};
     Plot plot = plot_create(card, x, y);
     const double at[2] = {now.length, now.energy};
     const double root[2] = {now.length, now.root_energy};
-    plot_graph(&plot, energy_over, system, 2.4, COLOUR_X);
+    plot_graph(&plot, energy_at_length, system, 2.4, COLOUR_X);
     if (both) {
-        plot_graph(&plot, root_over, system, 1.8, COLOUR_GHOST);
+        plot_graph(&plot, root_energy_at_length, system, 1.8, COLOUR_GHOST);
         plot_disc(&plot, root, 5, COLOUR_GHOST);
-        plot_label(&plot, 1, (double[2]){0, root_over(system, 0)}, COLOUR_GHOST,
-                   "P_{r} = 2k (|d| \u2212 l)\u00b2");
-        plot_label(&plot, 1, (double[2]){0, energy_over(system, 0)}, COLOUR_X,
-                   "P");
+        plot_label(&plot, 1, (double[2]){0, root_energy_at_length(system, 0)},
+                   COLOUR_GHOST, "P_{r} = 2k (|d| \u2212 l)\u00b2");
+        plot_label(&plot, 1, (double[2]){0, energy_at_length(system, 0)},
+                   COLOUR_X, "P");
     }
     plot_disc(&plot, at, 6, COLOUR_TEXT);
 }

@@ -11,7 +11,7 @@
 static const double SLAB = 1;        /* ems, depth of a slab */
 static const double FORCE_ARROW = 4; /* ems, arrow of the force in the legend */
 static const double MIN_FORCE =
-    0.02; /* smallest force that is drawn, as a part of the largest */
+    0.02; /* smallest drawn force, times the largest */
 
 ElementIterator square_contacts(const SquarePen *pen)
 {
@@ -94,8 +94,7 @@ void square_contact_slope(const SquarePen *pen)
     from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
     plot_pixel(stage, from, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
-    low = fmax(low, 0); /* distance by which the words move up along the wall to
-                           stay visible */
+    low = fmax(low, 0); /* pixels, the words move up the wall to be visible */
     snprintf(words, sizeof words, "\u03bc = %s tan %s\u00b0",
              format_number(wall->friction / fabs(slope)).text,
              format_number(fabs(atan(slope)) / DEGREE).text);
@@ -106,8 +105,8 @@ void square_contact_slope(const SquarePen *pen)
                 ALIGN_LEFT, "%s", words);
 }
 
-/* Draws a wall as a half plane, or as a slab, and dashed the distance d_hat at
- * which its force begins. */
+/* Draws a wall as a half plane or a slab, and a dashed line at the distance
+ * `reach` at which its force begins. */
 static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool as_slab)
 {

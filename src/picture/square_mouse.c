@@ -1,5 +1,5 @@
-/* square_mouse.c - picks the part of the square under the mouse, and writes the
- * note about it. */
+/* square_mouse.c - picks the part of the square under the mouse, and writes a
+ * note about the part. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,8 +15,7 @@ static const double NOTE_WIDTH = 17; /* ems, least width of the note */
 
 /* Picks the nearest node within reach of the mouse, else the nearest spring,
  * else an obstacle of the options.  Before the first step a spring of the left
- * or right edge stands for that edge.  pick->near has a larger reach, for
- * dragging. */
+ * or right edge stands for this edge.  Also sets pick->nearest_node. */
 void square_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     const Simulation *simulation = stage->simulation;
@@ -31,7 +30,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     Pick node = *pick;
     if (plot_pick_point(stage, system->nodes, at, fmax(reach, 0.75 * spacing),
                         x, y, PICK_NODE, &node))
-        pick->near = node.index;
+        pick->nearest_node = node.index;
     if (plot_pick_point(stage, system->nodes, at, reach, x, y, PICK_NODE, pick))
         return;
     for (int s = 0; s < springs; s++) {
@@ -70,10 +69,9 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     }
 }
 
-/* ---- the card beside it ------------------------------------------------- */
+/* ---- the note ----------------------------------------------------------- */
 
-/* Writes a text into the lower corner of the stage that is farther from the
- * mouse. */
+/* Writes a text into the lower corner of the stage away from the mouse. */
 static void draw_note(const Plot *stage, const LiveValues *values,
                       const char *text)
 {
@@ -100,7 +98,8 @@ static void draw_note(const Plot *stage, const LiveValues *values,
     card_write_text(&note, values, text);
 }
 
-/* Writes the note about a node; its force is m g - grad P, without friction. */
+/* Writes the note about a node.  The force is m g - grad P, without friction.
+ */
 static void note_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;
@@ -131,7 +130,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     values_add_point(&values, "velocity", v);
     values_add_point(&values, "force", force);
     values_add_point(&values, "inertia", tilde);
-    values_add_words(&values, "pin", /* only in scenes where time passes */
+    values_add_words(&values, "pin",
                      !simulation_is_draggable(simulation) ? NULL
                      : system->pinned[node]               ? "frees"
                                                           : "pins");
@@ -145,9 +144,8 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
     Projection projection = pane->simulation->options.projection;
-    double k = neo_hookean_of(system)
-                   ? NAN
-                   : system->k[s]; /* NaN: the spring has no block */
+    bool has_block = !neo_hookean_of(system);
+    double k = has_block ? system->k[s] : NAN;
     double l2 = system->l2[s], d[2];
     double d2 = spring_vector(e, pane_x(pane), d);
     const FlowLaw law = plasticity_get_law(system, s);

@@ -11,20 +11,17 @@
 #include "model/spring_law.h"
 #include "picture/colour_map.h"
 
-enum {
-    GHOST_SPRINGS = 700
-}; /* a mesh with more springs has only its outline as a ghost */
+enum { GHOST_SPRINGS = 700 }; /* the most springs of a ghost with springs */
 
-static const double FLOWN =
-    30; /* view that counts as flown apart, times the side of the square */
-static const double NODE =
-    0.1; /* radius of a node, times the distance of two nodes */
-static const double FACE = 4; /* pixels, smallest side of a face */
+static const double FLOWN = 30; /* a larger view, times the side: flown apart */
+static const double NODE = 0.1; /* radius of a node, times their distance */
+static const double FACE = 4;   /* pixels, smallest side of a face */
 
 /* ---- sizes and colours -------------------------------------------------- */
 
-/* Strain of the end colours: half the strain at the start, or half the largest
- * plastic strain, at least 5 %. */
+/* Returns the strain of the end colours: half of the strain at the start or of
+ * the largest plastic strain, at least 5 %. ep  [springs] in, plastic strain;
+ * NULL: strain is shown */
 static double strain_range(const Simulation *simulation, const double *ep)
 {
     double most = ep ? 0 : fabs(fabs(simulation->options.stretch) - 1);
@@ -35,7 +32,7 @@ static double strain_range(const Simulation *simulation, const double *ep)
     return plot_round_up(fmax(0.5 * most, 0.05));
 }
 
-static bool is_fixed(const SquarePen *pen, int node)
+static bool node_is_fixed(const SquarePen *pen, int node)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     return pen->fixed_bodies && node < mesh->nodes &&
@@ -78,25 +75,26 @@ SquarePen square_pen_create(Plot *stage, int run)
     pen.radius = NODE * pen.spacing / unit;
     if (!content->bare)
         pen.radius = fmin(pen.radius, 6.5);
-    pen.shows_plastic = !content->strain && !content->bare && pen.ep;
+    pen.shows_plastic = !content->shows_strain && !content->bare && pen.ep;
     pen.below = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_COMPRESS;
     pen.above = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_STRETCH;
-    if (pen.shows_plastic || content->strain)
+    if (pen.shows_plastic || content->shows_strain)
         pen.colour_range = pen.shows_plastic ? strain_range(simulation, pen.ep)
                                              : pen.shade_strain;
     if (pen.colour_range > 0)
         pen.width *= 1.4;
     pen.shows_projected = trace && trace->line >= LINE_PROJECT &&
-                          trace->line <= LINE_SEARCH && !content->strain &&
+                          trace->line <= LINE_SEARCH &&
+                          !content->shows_strain &&
                           simulation->options.projection != PROJECTION_NONE &&
                           trace->projected != 0 && !neo_hookean_of(system);
     return pen;
 }
 
-/* Colour of a spring or face by plastic strain, by strain, or by projection
- * (springs shorter than at rest); 0: none of these. */
-static Colour state_colour(const SquarePen *pen, double plastic, double strain,
-                           bool shorter)
+/* Returns the colour of a spring or face by plastic strain, strain, or
+ * projection (of springs shorter than at rest); 0: by none. */
+static Colour colour_of_state(const SquarePen *pen, double plastic,
+                              double strain, bool shorter)
 {
     if (pen->colour_range > 0)
         return colour_of_strain(pen->shows_plastic ? plastic : strain,
@@ -104,7 +102,7 @@ static Colour state_colour(const SquarePen *pen, double plastic, double strain,
     return pen->shows_projected && shorter ? COLOUR_PROJECT : 0;
 }
 
-static const double *node_at(const SquarePen *pen, int node)
+static const double *position_of_node(const SquarePen *pen, int node)
 {
     return pen->x + 2 * (size_t)node;
 }
@@ -113,15 +111,14 @@ void square_spring(const SquarePen *pen, int s, double width, Colour colour)
 {
     const int *e = pen->system->e + 2 * (size_t)s;
     double p[2], q[2], unit = pen->stage->paper->unit;
-    if (spring_is_broken(pen->system, s) || is_fixed(pen, e[0]))
+    if (spring_is_broken(pen->system, s) || node_is_fixed(pen, e[0]))
         return;
-    camera_pixel(&pen->stage->camera, node_at(pen, e[0]), p);
-    camera_pixel(&pen->stage->camera, node_at(pen, e[1]), q);
+    camera_pixel(&pen->stage->camera, position_of_node(pen, e[0]), p);
+    camera_pixel(&pen->stage->camera, position_of_node(pen, e[1]), q);
     canvas_line(&pen->stage->paper->canvas, p[0], p[1], q[0], q[1],
                 width * unit, colour);
 }
 
-/* Springs take most of a frame's time. */
 void square_springs(const SquarePen *pen)
 {
     const System *system = pen->system;
@@ -130,7 +127,7 @@ void square_springs(const SquarePen *pen)
         double l2 = system->l2[s], d[2], d2 = spring_vector(e, pen->x, d);
         double strain = pen->colour_range > 0 ? sqrt(d2 / l2) - 1 : 0;
         Colour colour =
-            state_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
+            colour_of_state(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
         square_spring(pen, s,
                       (colour == COLOUR_PROJECT ? 1.15 : 1) * pen->width,
                       colour ? colour : COLOUR_X);
@@ -139,8 +136,8 @@ void square_springs(const SquarePen *pen)
 
 /* ---- cells -------------------------------------------------------------- */
 
-/* Twice the signed area of the triangle a b c, m^2; negative if it has turned
- * over. */
+/* Returns twice the signed area of the triangle a b c, m^2, which is negative
+ * if the triangle has turned over. */
 static double signed_area(const double *x, int a, int b, int c)
 {
     const double *p = x + 2 * a, *q = x + 2 * b, *r = x + 2 * c;
@@ -149,7 +146,7 @@ static double signed_area(const double *x, int a, int b, int c)
 
 /* Whether one of the two triangles of a face has turned over; nodes are
  * anticlockwise at rest. */
-static bool is_folded(const double *x, const int node[4])
+static bool face_is_folded(const double *x, const int node[4])
 {
     return signed_area(x, node[0], node[1], node[2]) < 0 ||
            signed_area(x, node[0], node[2], node[3]) < 0;
@@ -170,7 +167,7 @@ int pane_count_folded(const Pane *pane)
     int folded = 0, node[4];
     for (int c = 0; c < pane->simulation->mesh.cells; c++)
         folded += cell_is_whole(pane->simulation, c, node) &&
-                  is_folded(pane_x(pane), node);
+                  face_is_folded(pane_x(pane), node);
     return folded;
 }
 
@@ -178,11 +175,12 @@ static void fill_face(const SquarePen *pen, const int node[4], Colour colour)
 {
     const double *corner[4];
     for (int k = 0; k < 4; k++)
-        corner[k] = node_at(pen, node[k]);
+        corner[k] = position_of_node(pen, node[k]);
     plot_quad(pen->stage, corner, colour);
 }
 
-/* Shade from dark at 0 over the blue of springs at 1/2 to light at 1. */
+/* Returns a shade from dark at 0 over the blue of springs at 1/2 to light at 1.
+ */
 static Colour shade_of_blue(double part)
 {
     double dark = fmin(fmax(1 - 2 * part, 0), 1);
@@ -191,9 +189,7 @@ static Colour shade_of_blue(double part)
                       COLOUR_WHITE, 0.7 * light);
 }
 
-/* Draws the triangles of a solid in pale colours, darker where the area is
- * smaller than at rest; or the cells of springs, the folded ones in red and, if
- * `all`, the others too.  Returns the number of folded cells. */
+/* Triangles of a solid are darker if their area is smaller than at rest. */
 int square_cells(const SquarePen *pen, bool all)
 {
     const NeoHookean *solid = neo_hookean_of(pen->system);
@@ -204,13 +200,14 @@ int square_cells(const SquarePen *pen, bool all)
             fabs(signed_area(pen->x, n[0], n[1], n[2])) / (2 * solid->area);
         Colour colour = shade_of_blue(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
         fill_face(pen, face,
-                  is_fixed(pen, n[0]) ? COLOUR_SOLID
-                                      : colour_mix(colour, COLOUR_WHITE, 0.6));
+                  node_is_fixed(pen, n[0])
+                      ? COLOUR_SOLID
+                      : colour_mix(colour, COLOUR_WHITE, 0.6));
     }
     for (int c = 0; !solid && c < pen->simulation->mesh.cells; c++) {
         if (!cell_is_whole(pen->simulation, c, node))
             continue;
-        bool over = is_folded(pen->x, node);
+        bool over = face_is_folded(pen->x, node);
         folded += over;
         if (over || all)
             fill_face(pen, node, over ? 0x38d00000u : 0x180000ffu);
@@ -218,11 +215,12 @@ int square_cells(const SquarePen *pen, bool all)
     return folded;
 }
 
-/* Colour of a face: that of its springs, else a shade by stretch and rotation.
- *   side  m, of the face at rest
- *   cell  number of its lower left cell, whose plastic strain counts */
-static Colour face_colour(const SquarePen *pen, const int node[4], double side,
-                          int cell)
+/* Returns the colour of a face: that of its springs, or else a shade by stretch
+ * and rotation.
+ *   side  m, side of the face at rest
+ *   cell  number of the lower left cell, which has the face's plastic strain */
+static Colour colour_of_face_state(const SquarePen *pen, const int node[4],
+                                   double side, int cell)
 {
     int corner[4], spring[6];
     double l2 = 2 * side * side, plastic = 0, d[2]; /* d is a diagonal */
@@ -234,24 +232,25 @@ static Colour face_colour(const SquarePen *pen, const int node[4], double side,
     for (int k = 0; pen->ep && k < 6; k++)
         if (fabs(pen->ep[spring[k]]) > fabs(plastic))
             plastic = pen->ep[spring[k]];
-    Colour colour = state_colour(pen, plastic, strain, d2 < l2 || other2 < l2);
+    Colour colour =
+        colour_of_state(pen, plastic, strain, d2 < l2 || other2 < l2);
     double seen = copysign(sqrt(fabs(strain) / pen->shade_strain), strain);
     double turned = (d[1] - d[0]) / sqrt(d2); /* 0 at rest */
     return colour ? colour : shade_of_blue(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
-/* Folded cells are drawn last, cell by cell. */
 void square_faces(const SquarePen *pen)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     int wide = (int)fmin(fmax(FACE / pen->spacing, 1), mesh->cells), node[4];
     for (int cell = 0; cell < mesh->cells; cell++)
         if (square_mesh_get_patch(mesh, cell, wide, node))
-            fill_face(pen, node,
-                      face_colour(pen, node, wide * mesh->spacing, cell));
+            fill_face(
+                pen, node,
+                colour_of_face_state(pen, node, wide * mesh->spacing, cell));
     for (int cell = 0; cell < mesh->cells; cell++)
         if (square_mesh_get_patch(mesh, cell, 1, node) &&
-            is_folded(pen->x, node))
+            face_is_folded(pen->x, node))
             fill_face(pen, node, COLOUR_FOLDED);
     square_outline(pen, pen->x, false, COLOUR_X);
 }
@@ -267,18 +266,18 @@ void square_nodes(const SquarePen *pen)
         0) /* larger nodes would hide the colours of a fine mesh */
         radius *= 0.75;
     for (int i = 0; i < system->nodes; i++) {
-        if (radius >= 0.5 * pen->width && !is_fixed(pen, i))
-            plot_disc(pen->stage, node_at(pen, i), radius, colour);
-        if (system->pinned[i] && !is_fixed(pen, i))
-            plot_pin(pen->stage, node_at(pen, i), radius);
+        if (radius >= 0.5 * pen->width && !node_is_fixed(pen, i))
+            plot_disc(pen->stage, position_of_node(pen, i), radius, colour);
+        if (system->pinned[i] && !node_is_fixed(pen, i))
+            plot_pin(pen->stage, position_of_node(pen, i), radius);
     }
     for (int k = 0; pen->fixed_bodies && k < pen->simulation->mesh.outline;
          k++) {
         int node[2];
         square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);
-        if (is_fixed(pen, node[0]))
-            plot_line(pen->stage, node_at(pen, node[0]), node_at(pen, node[1]),
-                      1.5, COLOUR_EDGE);
+        if (node_is_fixed(pen, node[0]))
+            plot_line(pen->stage, position_of_node(pen, node[0]),
+                      position_of_node(pen, node[1]), 1.5, COLOUR_EDGE);
     }
 }
 

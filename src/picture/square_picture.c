@@ -50,8 +50,8 @@ static bool moves_freely(const Simulation *simulation)
 
 /* Returns the view that the scene sets, or else the square at the start with
  * room in which a compressed square can spring out and bulge. */
-static Extent first_view(const FrameContent *content,
-                         const Simulation *simulation)
+static Extent find_first_view(const FrameContent *content,
+                              const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     const double *frame = simulation->scene->frame;
@@ -71,7 +71,7 @@ static Extent first_view(const FrameContent *content,
 
 /* Returns the part of the world that fills the stage if the view fits: more at
  * two sides. */
-static Extent fill_stage(const Plot *stage, const Extent *view)
+static Extent find_seen_extent(const Plot *stage, const Extent *view)
 {
     Extent seen = *view;
     const double box[2] = {stage->box.width, stage->box.height};
@@ -116,7 +116,7 @@ static void add_obstacles(const Plot *stage, Extent *view)
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
-    const Extent seen = fill_stage(stage, view);
+    const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->size[0], view->size[1]);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
@@ -173,8 +173,8 @@ static void pan_view(const double box[4], Extent *view)
 
 /* Returns the factor by which the view must grow to show the box.
  *   tall  out, the factor for the height alone */
-static double needed_growth(const double box[4], const Extent *view,
-                            double *tall)
+static double find_needed_growth(const double box[4], const Extent *view,
+                                 double *tall)
 {
     double need[2];
     for (int k = 0; k < 2; k++)
@@ -192,12 +192,12 @@ void square_bounds(const Plot *stage, double bounds[4])
     static const double GROWTH = 1.5;
     const Simulation *simulation = stage->simulation;
     bool bare = stage->content->bare;
-    Extent view = first_view(stage->content, simulation);
+    Extent view = find_first_view(stage->content, simulation);
     double box[4], tall, grown = 1;
     pane_node_bounds(stage->pane, simulation->runs, box);
     if (moves_freely(simulation))
         follow_body(simulation, pane_x(stage->pane), &view);
-    while (grown < needed_growth(box, &view, &tall) * (1 - 1e-12) &&
+    while (grown < find_needed_growth(box, &view, &tall) * (1 - 1e-12) &&
            grown < MAX_VIEW) {
         Extent larger = view;
         grown *= GROWTH;
@@ -277,7 +277,7 @@ static void draw_mouse(const SquarePen *pen)
     bool over = hover->pane == plot_pane_index(stage);
     bool writes = pen->simulation->options.next == NEXT_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
-              : writes                   ? newest_spring(pen->simulation)
+              : writes                   ? find_newest_spring(pen->simulation)
                                          : -1;
     if (over && hover->kind == PICK_NODE && hover->index < system->nodes)
         plot_ring(stage, pen->x + 2 * (size_t)hover->index, pen->radius + 4, 2,
@@ -429,7 +429,7 @@ static void draw_arrows(const SquarePen *pen, const double *d, double factor,
 }
 
 /* Computes the positions at rest, x [2n], out. */
-static void rest_positions(const Simulation *simulation, double *x)
+static void compute_rest_positions(const Simulation *simulation, double *x)
 {
     for (int i = 0; i < simulation->mesh.nodes; i++)
         square_mesh_rest_position(&simulation->mesh, i, x + 2 * i);
@@ -444,7 +444,7 @@ static void draw_page_arrows(const SquarePen *pen)
     if (system->nodes > NUMBERED)
         return;
     if (layers & LAYER_MODES) {
-        rest_positions(pen->simulation, arrow);
+        compute_rest_positions(pen->simulation, arrow);
         for (int k = 0; k < 2 * system->nodes; k++)
             arrow[k] = pen->x[k] - arrow[k];
         draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
@@ -465,8 +465,8 @@ static void draw_kinds(const SquarePen *pen)
 {
     static const int colours[] = {0, 1, 3, 3}; /* colours of these runs */
     const System *system = pen->system;
-    int newest =
-        exhibit_spring_kind(pen->simulation, newest_spring(pen->simulation));
+    int newest = exhibit_spring_kind(pen->simulation,
+                                     find_newest_spring(pen->simulation));
     bool wide = pen->simulation->options.layers & LAYER_KINDS;
     for (int s = 0; s < system->springs; s++) {
         int kind = exhibit_spring_kind(pen->simulation, s);
@@ -610,7 +610,7 @@ void square_draw(Plot *stage)
 
 /* ---- live values --------------------------------------------------------- */
 
-int newest_spring(const Simulation *simulation)
+int find_newest_spring(const Simulation *simulation)
 {
     int last = simulation->system.springs - 1;
     return simulation->steps < last ? (int)simulation->steps : last;
@@ -623,7 +623,7 @@ static void add_block(const Simulation *simulation, LiveValues *values)
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};
     static const char *const rows[] = {"row 1", "row 2", "row 3", "row 4"};
     const System *system = &simulation->system;
-    int s = newest_spring(simulation);
+    int s = find_newest_spring(simulation);
     const int *e = system->e + 2 * s;
     double d[2], H[3], l2 = system->l2[s], h = simulation->options.timestep;
     double k = h * h * system->k[s];
@@ -678,15 +678,15 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "stretch", options->stretch);
     values_add(values, "h", options->timestep);
     values_add(values, "epsilon", options->tolerance);
-    const int *e = system->e + 2 * newest_spring(simulation);
-    values_add(values, "newest", newest_spring(simulation));
+    const int *e = system->e + 2 * find_newest_spring(simulation);
+    values_add(values, "newest", find_newest_spring(simulation));
     values_add(values, "from", e[0]);
     values_add(values, "to", e[1]);
     if (options->next == NEXT_SPRING)
         add_block(simulation, values);
     law_add_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
-        rest_positions(simulation, start);
+        compute_rest_positions(simulation, start);
         double omega = simulation_fastest_mode(simulation, start, mode);
         values_add(values, "fastest", omega);
         values_add(values, "h limit", 2 / omega);

@@ -1,4 +1,4 @@
-/* text.c - fonts and letters; type.c makes lines and formulas of them. */
+/* text.c - fonts and letters, from which type.c sets lines and formulas. */
 #include <errno.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -41,8 +41,8 @@ static const char *const font_folders[] = {
 static const char *const face_files[FACE_COUNT] = {
     "DejaVuSans.ttf", "DejaVuSans-Bold.ttf", "DejaVuSansMono.ttf"};
 
-/* Opens the font that the user named, else DejaVu from the first folder that
- * has it.  Returns 0 or FreeType's last error. */
+/* Opens the font that the user named, or else DejaVu from the first folder that
+ * has DejaVu.  Returns 0 or FreeType's last error. */
 static FT_Error open_font(FT_Library library, Face face, const char *given,
                           FT_Face *font)
 {
@@ -110,7 +110,7 @@ void text_free(Text *text)
 
 /* ---- letters ------------------------------------------------------------ */
 
-/* Draws a letter.  A letter that cannot be drawn leaves its space blank. */
+/* Draws a letter; a letter that cannot be drawn is blank. */
 static Glyph make_glyph(Text *text, Face face, int size, uint32_t letter)
 {
     Glyph glyph = {.advance = (int)(FONT_GUESSED * size)};

@@ -1,8 +1,8 @@
 /* type.c - sets lines of words and formulas, letter by letter.
  *
- * A pen sets each part of a formula from the part's start on.  A pen without a
- * canvas only measures.  For a fraction, for example, pens first measure both
- * parts, and then set each of them centred on the fraction's line. */
+ * A pen sets a part of a formula, or only measures the part if the pen has no
+ * canvas.  For a fraction, pens first measure both parts, and then set each
+ * part centred on the fraction's line. */
 #include <math.h>
 #include <string.h>
 
@@ -18,16 +18,12 @@ enum {
 };
 
 /* Lengths in ems of the letters. */
-static const double ASCENT = 0.93,
-                    DESCENT = 0.37; /* line above, below the baseline */
-static const double HIGH = 0.76,
-                    LOW = 0.24; /* letters above, below the baseline */
+static const double ASCENT = 0.93, DESCENT = 0.37; /* line, from the baseline */
+static const double HIGH = 0.76, LOW = 0.24; /* letters, from the baseline */
 static const double SCRIPT_SIZE = 0.8;
-static const double RAISE = 0.36,
-                    LOWER = 0.18;    /* raise of superscripts, subscripts */
+static const double RAISE = 0.36, LOWER = 0.18; /* offsets of scripts */
 static const double PART_SIZE = 0.9; /* size of numerator and denominator */
-static const double AXIS =
-    0.28; /* height of fraction lines over the baseline */
+static const double AXIS = 0.28;     /* fraction lines above the baseline */
 static const double THIN = 0.12; /* space around rules and inside brackets */
 static const double CELL = 0.9;  /* space between columns of a matrix */
 static const double ROW = 0.22;  /* space between rows of a matrix */
@@ -42,12 +38,12 @@ typedef struct Pen {
     int mark_left, mark_width, mark_top; /* box of the last letter */
 } Pen;
 
-/* A part of the markup: its first byte and the byte after its last. */
+/* A part of the markup. */
 typedef struct MarkupPart {
-    const char *from, *end;
+    const char *from, *end; /* first byte, byte after the last one */
 } MarkupPart;
 
-static MarkupPart whole_part(const char *string)
+static MarkupPart part_of_string(const char *string)
 {
     return (MarkupPart){string, string + strlen(string)};
 }
@@ -71,7 +67,7 @@ static uint32_t next_letter(const char **string)
     return wrong ? 0xfffd : letter;
 }
 
-static void extend_pen(Pen *pen, double top, double bottom)
+static void pen_extend(Pen *pen, double top, double bottom)
 {
     pen->top = fmin(pen->top, top);
     pen->bottom = fmax(pen->bottom, bottom);
@@ -83,7 +79,7 @@ static void set_letter(Pen *pen, uint32_t letter)
     double em = pen->style.size;
     int size = (int)(em + 0.5), base = (int)floor(pen->y + 0.5);
     bool mark = letter >= 0x300 && letter < 0x370;
-    extend_pen(pen, pen->y - HIGH * em, pen->y + LOW * em);
+    pen_extend(pen, pen->y - HIGH * em, pen->y + LOW * em);
     if (!pen->text) {
         pen->x += mark ? 0 : FONT_GUESSED * em;
         return;
@@ -108,7 +104,7 @@ static void set_letter(Pen *pen, uint32_t letter)
 
 /* ---- parts of formulas -------------------------------------------------- */
 
-static TextExtent measure(const Pen *like, MarkupPart part, int depth)
+static TextExtent measure_part(const Pen *like, MarkupPart part, int depth)
 {
     Pen pen = {.text = like->text, .style = like->style};
     set_part(&pen, part, depth);
@@ -116,13 +112,14 @@ static TextExtent measure(const Pen *like, MarkupPart part, int depth)
 }
 
 /* Sets a part at (x, y) without moving the pen. */
-static void set_at(Pen *pen, double x, double y, MarkupPart part, int depth)
+static void set_part_at(Pen *pen, double x, double y, MarkupPart part,
+                        int depth)
 {
     Pen inner = *pen;
     inner.x = x;
     inner.y = y;
     set_part(&inner, part, depth);
-    extend_pen(pen, inner.top, inner.bottom);
+    pen_extend(pen, inner.top, inner.bottom);
 }
 
 static void draw_rule_line(const Pen *pen, double x0, double y0, double x1,
@@ -134,9 +131,9 @@ static void draw_rule_line(const Pen *pen, double x0, double y0, double x1,
                     pen->style.colour);
 }
 
-/* Finds a word outside of all inner braces, or the brace that closes the
- * part; word NULL: only that brace.  Returns the part's end if neither
- * exists. */
+/* Finds a word outside of all inner braces, or the brace that closes the part.
+ * Returns the part's end if neither exists.
+ *   word  NULL: only finds the closing brace */
 static const char *find_outside(MarkupPart part, const char *word)
 {
     size_t length = word ? strlen(word) : 0;
@@ -157,14 +154,14 @@ static void shrink_letters(TextStyle *style, double factor)
         fmin(style->size, fmax(factor * style->size, style->min_size));
 }
 
-/* Sets ^{...} or _{...}; the character before the brace tells which. */
+/* Sets ^{...} or _{...}. */
 static void set_raised(Pen *pen, MarkupPart part, int depth)
 {
     Pen inner = *pen;
     inner.y += (part.from[-2] == '^' ? -RAISE : LOWER) * pen->style.size;
     shrink_letters(&inner.style, SCRIPT_SIZE);
     set_part(&inner, part, depth);
-    extend_pen(pen, inner.top, inner.bottom);
+    pen_extend(pen, inner.top, inner.bottom);
     pen->x = inner.x;
 }
 
@@ -177,17 +174,17 @@ static void set_fraction(Pen *pen, MarkupPart part, int depth)
     below.from += middle < part.end ? strlen(over) : 0;
     Pen small = *pen;
     shrink_letters(&small.style, PART_SIZE);
-    TextExtent a = measure(&small, above, depth);
-    TextExtent b = measure(&small, below, depth);
+    TextExtent a = measure_part(&small, above, depth);
+    TextExtent b = measure_part(&small, below, depth);
     double thin = THIN * pen->style.size;
     double wide = fmax(a.width, b.width) + 2 * thin, left = pen->x + thin;
     double y = floor(pen->y - AXIS * pen->style.size) + 0.5;
-    set_at(&small, left + 0.5 * (wide - a.width), y - thin - a.below, above,
-           depth);
-    set_at(&small, left + 0.5 * (wide - b.width), y + thin + b.above, below,
-           depth);
+    set_part_at(&small, left + 0.5 * (wide - a.width), y - thin - a.below,
+                above, depth);
+    set_part_at(&small, left + 0.5 * (wide - b.width), y + thin + b.above,
+                below, depth);
     draw_rule_line(pen, left, y, left + wide, y);
-    extend_pen(pen, small.top, small.bottom);
+    pen_extend(pen, small.top, small.bottom);
     pen->x = left + wide + thin;
 }
 
@@ -219,7 +216,7 @@ static void set_matrix(Pen *pen, MarkupPart part, int depth)
         below[rows] = LOW * em;
         for (int c = 0; c < COLUMNS && at < part.end && !last; c++) {
             last = next_cell(&at, part.end, &cell[rows][c]);
-            TextExtent in = measure(pen, cell[rows][c], depth);
+            TextExtent in = measure_part(pen, cell[rows][c], depth);
             above[rows] = fmax(above[rows], in.above);
             below[rows] = fmax(below[rows], in.below);
             wide[c] = fmax(wide[c], in.width);
@@ -232,8 +229,8 @@ static void set_matrix(Pen *pen, MarkupPart part, int depth)
         double y = top;
         right += wide[c] + CELL * em;
         for (int r = 0; r < rows; r++) {
-            double width = measure(pen, cell[r][c], depth).width;
-            set_at(pen, right - width, y + above[r], cell[r][c], depth);
+            double width = measure_part(pen, cell[r][c], depth).width;
+            set_part_at(pen, right - width, y + above[r], cell[r][c], depth);
             y += above[r] + below[r] + ROW * em;
         }
     }
@@ -245,11 +242,11 @@ static void set_matrix(Pen *pen, MarkupPart part, int depth)
         draw_rule_line(pen, x, top, in, top);
         draw_rule_line(pen, x, bottom, in, bottom);
     }
-    extend_pen(pen, top, bottom);
+    pen_extend(pen, top, bottom);
     pen->x = right + 1.5 * THIN * em;
 }
 
-/* Sets #name{...} in that colour, unless the whole text is grey. */
+/* Sets #name{...} in the colour of this name, unless the whole text is grey. */
 static void set_coloured(Pen *pen, MarkupPart part, int depth)
 {
     Colour before = pen->style.colour;
@@ -264,8 +261,7 @@ static void set_coloured(Pen *pen, MarkupPart part, int depth)
 
 /* ---- markup ------------------------------------------------------------- */
 
-/* Words that start markup.  A letter of the slides stands for other markup, its
- * meaning. */
+/* Words that start markup.  A letter of the slides means other markup. */
 static const struct {
     const char *name;
     void (*set)(Pen *pen, MarkupPart part, int depth);
@@ -281,8 +277,8 @@ static const struct {
                 {"{alpha}", NULL, "#alpha{\u03b1}"}};
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
-/* Finds the command that begins here, and its brace.  Returns COMMANDS if none
- * does. */
+/* Finds the command that begins at `string`, and its brace.  Returns COMMANDS
+ * if no command begins there. */
 static int find_command(const char *string, const char **brace)
 {
     for (int i = 0; i < COMMANDS; i++) {
@@ -314,7 +310,7 @@ static void set_part(Pen *pen, MarkupPart part, int depth)
         bool plain = pen->style.plain || depth >= DEPTH;
         int command = plain ? COMMANDS : find_command(at, &brace);
         if (command < COMMANDS && commands[command].means) {
-            set_part(pen, whole_part(commands[command].means), depth);
+            set_part(pen, part_of_string(commands[command].means), depth);
             at += strlen(commands[command].name);
         } else if (command < COMMANDS && brace < part.end) {
             MarkupPart inside = {brace + 1, part.end};
@@ -339,7 +335,7 @@ TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
     Pen pen = {.text = text, .style = *style};
     TextExtent ink = {0, 0, 0};
     if (style->size >= MIN_SIZE && style->size <= MAX_SIZE)
-        ink = measure(&pen, whole_part(markup), 0);
+        ink = measure_part(&pen, part_of_string(markup), 0);
     double above = ASCENT * style->size, below = DESCENT * style->size;
     double air = THIN * style->size; /* space around fractions and matrices */
     return (TextExtent){ceil(ink.width),
@@ -361,6 +357,6 @@ int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
                .style = *style,
                .x = floor(start + 0.5),
                .y = y + ASCENT * style->size};
-    set_part(&pen, whole_part(markup), 0);
+    set_part(&pen, part_of_string(markup), 0);
     return (int)ceil(pen.x - start);
 }

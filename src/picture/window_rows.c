@@ -116,11 +116,11 @@ static void draw_bars(Paper *paper, Box bars, double pitch,
     long group = (long)ceil(MIN_BAR / pitch), most = FULL_BAR_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
     for (long s = 1; s <= line->steps; s++)
-        most = (long)fmax(most, line->bar(line->past, s).updates);
+        most = (long)fmax(most, line->bar(line->bar_data, s).updates);
     for (long s = 0; s < line->steps; s += group) {
         StepBar bar = {0, false};
         for (long k = s; k < s + group && k < line->steps; k++) {
-            StepBar one = line->bar(line->past, k + 1);
+            StepBar one = line->bar(line->bar_data, k + 1);
             bar.updates = (int)fmax(bar.updates, one.updates);
             bar.unconverged |= one.unconverged;
         }

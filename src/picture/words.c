@@ -1,5 +1,5 @@
-/* words.c - words of a plot: legend, scale, labels that avoid what is drawn,
- * and numbers as people write them. */
+/* words.c - words of a plot: legend, scale, labels that avoid drawn pixels, and
+ * numbers as people write them. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,12 +15,11 @@ enum { WORDS_TEXT = 512 }; /* bytes of a label */
 
 static const double LEGEND_SIZE = 0.92; /* ems */
 static const double SCALE_PART =
-    0.08; /* the scale's least part of the stage's width */
-static const double FARTHEST =
-    1e6; /* pixels, labels farther out are left out */
+    0.08;                           /* least length, times the stage's width */
+static const double FARTHEST = 1e6; /* pixels, labels beyond are left out */
 static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
-/* Cost of a label's place: fully covered by ink, fully outside of the plot, and
- * each step down the list of preferred places. */
+/* Costs of a label's place: fully covered by ink, fully outside of the plot,
+ * and for each better place in the list. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_LATER = 0.08;
 static const double AIR = 0.2;   /* ems, between label and ink */
 static const double APART = 0.8; /* ems, between point and label */
@@ -58,7 +57,7 @@ Number format_number(double value)
     return format_digits(value, 3);
 }
 
-/* ---- in a row, at the edges ---------------------------------------------- */
+/* ---- scale and legend ---------------------------------------------------- */
 
 void plot_scale(const Plot *plot)
 {
@@ -93,7 +92,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     card_flow_words(&room, plot->legend_at, LEGEND_SIZE, 1.6, &line);
 }
 
-/* ---- off what is drawn -------------------------------------------------- */
+/* ---- labels -------------------------------------------------------------- */
 
 double plot_label_cost(const Plot *plot, Box place)
 {

@@ -307,7 +307,7 @@ static void fill_frame(const Player *player, Frame *frame)
     content->min_em = player->screen.window  ? window_letter()
                       : player->screen.draws ? SMALL_LETTER
                                              : 0;
-    content->document = player->screen.window && window_has_document();
+    content->in_document = player->screen.window && window_has_document();
     content->panes = past_panes(past);
     if (content->panes > LAYOUT_PANES) /* a script may draw more */
         content->panes = LAYOUT_PANES;
@@ -322,11 +322,11 @@ static void fill_frame(const Player *player, Frame *frame)
         content->hand = control;
     content->time_line.steps = past->keeps ? past_newest(past) : 0;
     content->time_line.bar = find_bar;
-    content->time_line.past = player;
+    content->time_line.bar_data = player;
     content->time_line.step = past->step;
     content->strip.is_warning = player->warning;
     content->cards.large = player->screen.large;
-    content->strain =
+    content->shows_strain =
         player->screen.strain !=
         (content->pane[0].simulation->scene->strain_colour_max > 0);
     content->bare = player->screen.bare;

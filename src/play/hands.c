@@ -233,7 +233,7 @@ static Status take_under_mouse(Player *player, const Under *under)
     default:
         if (under->pick.kind != PICK_NODE) /* a spring near the node */
             player->screen.view.hover.kind = PICK_NONE;
-        mouse->index = under->pick.near;
+        mouse->index = under->pick.nearest_node;
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
                       : places         ? COMMAND_PLACE
                                        : COMMAND_GRAB;
@@ -402,9 +402,9 @@ static Status press_left(Player *player, const Under *under, int clicks)
         return go_on_dragging(player);
     case ZONE_SETTING:
         return press_number(player, index, clicks);
-    case ZONE_PAGE_CLOSE:
+    case ZONE_LIST_CLOSE:
         return order(player, COMMAND_ESCAPE, 0);
-    case ZONE_PAGE: /* a line of a list */
+    case ZONE_LIST: /* a line of a list */
         index = frame_find_row(&player->screen.frame.content, &under->layout,
                                player->hands.mouse.x, player->hands.mouse.y);
         if (find_keyboard(player) != AT_LIST || index < 0)
@@ -420,7 +420,7 @@ static Status press_left(Player *player, const Under *under, int clicks)
             status = order(player, COMMAND_PANE, under->pane);
         if (status || clicks < 2 || !ground)
             return status ? status : take_under_mouse(player, under);
-        return body && under->pick.near < 0 && under->pick.kind == PICK_NONE
+        return body && under->pick.nearest_node < 0 && under->pick.kind == PICK_NONE
                    ? add_ball(player, under->at)
                    : order(player, COMMAND_FIT, 0);
     default:
@@ -435,7 +435,7 @@ static Status press_button(Player *player, const Input *input)
     bool stage = under.hit.zone == ZONE_STAGE;
     const Scene *scene = player_simulation(player)->scene;
     bool nodes = (scene->needs & NEEDS_MESH) && !scene->step;
-    int near = under.pick.near;
+    int near = under.pick.nearest_node;
     mouse->from[0] = mouse->x;
     mouse->from[1] = mouse->y;
     mouse->grip[0] = mouse->grip[1] = 0;

@@ -198,9 +198,9 @@ TEST(cards_share_the_column)
     Layout page = layout_create(&content, 1280, 800);
     CHECK(page.cards == 0 && page.column.width == pair.column.width);
     CHECK(layout_hit(&page, page.column.x + 9, page.column.y + 9).zone ==
-          ZONE_PAGE);
+          ZONE_LIST);
     Box close = layout_close_box(&page, -1);
-    CHECK(layout_hit(&page, close.x + 9, close.y + 9).zone == ZONE_PAGE_CLOSE);
+    CHECK(layout_hit(&page, close.x + 9, close.y + 9).zone == ZONE_LIST_CLOSE);
 }
 
 /* There and back; zooming keeps the point under the mouse. */

@@ -141,7 +141,7 @@ TEST(every_size_is_drawn)
                 if (!tests_are_long() && (scene - scenes + i + mode) % 2)
                     continue;
                 stand_up(scene->name, mode);
-                content.strain = mode & 1;
+                content.shows_strain = mode & 1;
                 content.bare = mode == 3;
                 content.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
                 content.cards.closed = 0;
@@ -275,7 +275,7 @@ TEST(fine_squares_are_faces)
     draw();
     int dark = on_stage(COLOUR_FOLDED);
     CHECK(dark > 10 && dark < 400);
-    content.strain = true;
+    content.shows_strain = true;
     draw();
     CHECK(on_stage(COLOUR_FOLDED) == dark);
     Colour stretched = pixel(200, 150);
@@ -293,7 +293,7 @@ TEST(bars_are_steps)
     const long unconverged = 251;
     stand_up("square", 0);
     content.time_line.bar = bar_of;
-    content.time_line.past = &unconverged;
+    content.time_line.bar_data = &unconverged;
     for (long count = 1; count <= 500; count += 61) {
         content.time_line.steps = count;
         draw();
@@ -542,7 +542,7 @@ TEST(right_digits_are_marked)
             CHECK(!simulation_step(&simulation));
         frame_fill_values(&content);
         Plot card = blank_card(600, 400);
-        update_draw(&card);
+        tangent_numbers_draw(&card);
         int lit[7] = {0}, rows = 0, before = 0;
         for (int y = 0; y < 400; y++) {
             int now = count_colour((Box){300, y, 300, 1}, COLOUR_LIT);
