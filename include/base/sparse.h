@@ -15,17 +15,18 @@
 
 typedef struct Triplets {
     int size;    /* rows = columns of the matrix */
-    int count;   /* triplets so far */
-    int *row;    /* [capacity] row >= column */
-    int *column; /* [capacity] */
+    int count;   /* number of triplets */
+    int *row;    /* [capacity] row of each triplet, >= column */
+    int *column; /* [capacity] column of each triplet */
 } Triplets;
 
 typedef struct Sparse {
-    int size;      /* rows = columns */
-    int entries;   /* stored entries */
-    int *start;    /* [size+1] column c is start[c] ... start[c+1]-1 */
-    int *row;      /* [entries] ascending in each column */
-    double *value; /* [entries+1] the last one collects dropped entries */
+    int size;    /* rows = columns */
+    int entries; /* stored entries */
+    int *start;  /* [size+1] column c is start[c] ... start[c+1]-1 */
+    int *row;    /* [entries] row of each entry, ascending in each column */
+    double
+        *value; /* [entries+1] value[entries] is the sum of dropped entries */
 } Sparse;
 
 /* Allocates memory for `capacity` triplets.  Returns OK, TOO_LARGE or

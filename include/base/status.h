@@ -11,7 +11,7 @@
 
 /* Each row: the constant without its prefix, the name in logs, and a sentence
  * for messages, without full stop.  status_is_unconverged is true from
- * ITERATION_LIMIT to DIVERGED, status_is_failure below DIVERGED. */
+ * ITERATION_LIMIT to DIVERGED, status_is_failure after DIVERGED. */
 #define STATUSES(F)                                                            \
     F(OK, ok, "converged")                                                     \
     F(RUNNING, running, "not at the end yet")                                  \
@@ -38,10 +38,10 @@
 #define STATUS_CONSTANT(name, lower, text) STATUS_##name,
 typedef enum Status { STATUSES(STATUS_CONSTANT) STATUS_COUNT } Status;
 
-/* Returns the sentence for messages. */
+/* Returns the sentence of a status for messages. */
 const char *status_text(Status status);
 
-/* Returns the name in logs. */
+/* Returns the name of a status in logs. */
 const char *status_name(Status status);
 
 /* Whether a step ended in a finite state that is not the minimiser.  E did not

@@ -22,7 +22,7 @@ Status options_parse(int argc, char **argv, int pane, Options *options,
 
 /* Reads a line such as "drop --segments 8", which names no files and no nodes.
  */
-Status options_of_line(const char *line, Options *options, Message message);
+Status options_parse_line(const char *line, Options *options, Message message);
 
 /* Sets an option that has a value.  An option that the scene cannot use, or
  * that does not fit the others, is refused with a message as above. text   in,

@@ -8,7 +8,7 @@
 #include "run/simulation.h"
 
 /* Returns the mesh of the options; a beam has fewer rows than columns. */
-SquareMesh body_shape(const Options *options);
+SquareMesh body_make_mesh(const Options *options);
 
 /* Reads node numbers and PINS_WORDS, separated by commas; "top:2" is the top of
  * the second body.

@@ -29,8 +29,8 @@ Control *control_copy(const Control *from);
 /* Whether the mouse holds a node or an obstacle. */
 bool control_holds(const Control *control);
 
-/* Finds the present place of an obstacle of a run, without the lift by which
- * grounds of different runs differ in slope.
+/* Finds the present place of an obstacle of a run, less the lift of the run
+ * (RunVariant).
  *   at  [2] out, m */
 void simulation_find_obstacle(const Simulation *simulation, int run, int number,
                               double at[2]);
@@ -44,10 +44,10 @@ void control_store_obstacle(Control *control, int number,
 const Control *control_retain(const Control *control);
 void control_release(const Control *control);
 
-/* Gives a simulation this control from the next step on; scene, mesh and start
- * must be the same.  The change of the energy is booked as work.
- * Returns as simulation_create; after a failure only simulation_free may
- * follow. */
+/* Gives a simulation a control from the next step on.  Scene, mesh and start of
+ * the control must be those of the simulation.  The change of the energy is
+ * booked as work. Returns as simulation_create; after a failure only
+ * simulation_free may follow. */
 Status control_apply(Simulation *simulation, const Control *control);
 
 /* ---- the state ----------------------------------------------------------- */
@@ -60,8 +60,8 @@ Status control_apply(Simulation *simulation, const Control *control);
  * Returns the number of bytes. */
 size_t state_save(const Simulation *simulation, void *bytes);
 
-/* Restores a saved state.  The stiffness of whole springs and the numbers of
- * walls are those of the simulation's options.
+/* Restores a saved state.  The stiffness of unbroken springs and the numbers of
+ * obstacles are those of the simulation's options.
  *   bytes  in, from a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);
 

@@ -25,7 +25,7 @@ typedef struct Prediction {
  * m. A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
 typedef struct LocalModel {
     double value, g[2], H[3];
-    int projected; /* springs whose Hessian the projection has changed */
+    int projected; /* number of springs whose Hessian was changed */
 } LocalModel;
 
 /* A function of one unknown. */
@@ -36,7 +36,7 @@ enum { DESCENT_MAX = 256 };
 /* A minimisation that is shown iteration by iteration. */
 typedef struct Descent {
     int count;                        /* number of records */
-    NewtonRecord record[DESCENT_MAX]; /* first iterations */
+    NewtonRecord record[DESCENT_MAX]; /* records of the first iterations */
     double point[2];                  /* present iterate, m */
     double value;                     /* f or E at the iterate */
     double start_value;               /* E at the start of the search */
@@ -66,7 +66,7 @@ typedef struct DialCurve {
 
 #define RACE_TIME 0.064 /* s, simulated time of each run */
 
-/* RACE_SHOWN_ROW is the step size, by its number, of the table of methods. */
+/* RACE_SHOWN_ROW is the index of the step size in the table of methods. */
 enum { RACE_SHOWN_ROW = 1, RACE_METHODS = 7, RACE_STEP_SIZES = 7 };
 
 /* An explicit run counts as stable if RACE_EXTRA_STEPS further steps, which are

@@ -21,13 +21,14 @@ void copy_one_line(const char *text, char *line, size_t size);
 void append(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Buffer for the message of a call that fails.  {0}: no message is written. */
+/* Buffer for the message of a call that fails.  Into {0} no message is written.
+ */
 typedef struct Message {
     char *text;
     size_t size; /* bytes of text */
 } Message;
 
-/* A char array as such a buffer. */
+/* Makes a Message of a char array. */
 #define MESSAGE(array) ((Message){(array), sizeof(array)})
 
 /* Writes a message as one line.  Returns INVALID_INPUT. */

@@ -72,21 +72,22 @@ typedef struct Options {
             double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
             /* height, velocity, lowest height; velocity 0: no ceiling */
             double ceiling[3];
-            double barrier[2]; /* 0: side/100 and 4 k */
+            double barrier[2]; /* m, J/m^2; 0: side/100 and 4 k */
             double friction, slip_speed, cells, self_contact;
-            double self_friction; /* -1: equal to friction */
+            double self_friction; /* between bodies; -1: equal to `friction` */
             double material;      /* 0: springs, 1: triangles */
             double young, poisson;
-            double yield, hardening, tear; /* 0: never */
+            double yield, hardening, tear; /* 0: no spring flows or breaks */
             double damping;
             double timestep, tolerance;
-            double integrator;  /* row of integrator_methods; -1: the scene's */
+            double integrator;  /* row of integrator_methods; -1: the scene's
+                                   choice */
             double solver;      /* enum Solver */
             double projection;  /* enum Projection */
             double line_search; /* enum LineSearch */
-            double flips; /* bit s: switch s of the scene starts turned over */
-            double steps; /* -1: no limit in a window, 100 without a window */
-            double speed; /* steps a frame; 0: the scene's */
+            double flips;   /* bit s: switch s starts in the other position */
+            double steps;   /* -1: no limit in a window, 100 without a window */
+            double speed;   /* steps a frame; 0: the speed of the scene */
             double size[2]; /* pixels; 0: the usual size */
             double paused, fullscreen, headless, quiet, big;
             double help, version, list; /* print a text and exit */
@@ -119,8 +120,8 @@ enum { OPTIONS_MAX_DRAWN = 6, OPTIONS_MAX_PANES = 64 };
 
 typedef enum OptionKind {
     OPTION_SWITCH, /* no value: 0, or 1 if the option is given */
-    OPTION_NUMBER, /* count numbers */
-    OPTION_WHOLE,  /* count whole numbers */
+    OPTION_NUMBER, /* numbers, `count` of them */
+    OPTION_WHOLE,  /* whole numbers, `count` of them */
     OPTION_NAME,   /* index of one of the row's names */
     OPTION_TEXT,   /* file, folder or list of nodes, not empty */
     OPTION_PAGE,   /* page of the tour; the value may be left out */
@@ -180,17 +181,18 @@ typedef struct OptionRow {
     int count;             /* numbers in a value; 0: one */
     unsigned short_counts; /* bit n: a value may have only the first n numbers
                             */
-    const double *omitted; /* [count] numbers that a shorter value leaves out */
-    char separator;        /* between the numbers; 0: a comma */
-    int max_times;         /* how often the option may be repeated; 0: the last
-                              value counts */
-    int counter;           /* max_times > 0: slot with the number of
-                              repetitions, whose values follow each other from
-                              `slot` on */
-    double default_value;  /* as on the slides */
-    double low, high;      /* range, both ends included */
-    const char *unit;      /* unit of the numbers, or "" */
-    Names names;           /* OPTION_NAME: the values */
+    const double *
+        omitted; /* [count] numbers for those that a shorter value leaves out */
+    char separator;       /* separator of the numbers; 0: a comma */
+    int max_times;        /* how often the option may be repeated; 0: the last
+                             value counts */
+    int counter;          /* max_times > 0: slot with the number of
+                             repetitions, whose values follow each other from
+                             `slot` on */
+    double default_value; /* default, as on the slides */
+    double low, high;     /* range, both ends included */
+    const char *unit;     /* unit of the numbers, or "" */
+    Names names;          /* OPTION_NAME: the values */
     unsigned needs; /* enum SceneNeeds: the scene must have one of these */
     /* Returns why the option has no effect beside the others; NULL: it has one.
      * The function is NULL for options that always have one. */

@@ -91,8 +91,8 @@ enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {
     double kinetic, gravity, total;
-    double work;       /* done by walls, pins and hand */
-    double dissipated; /* by the integrator; negative: it has made energy */
+    double work;       /* work of walls, pins and hand */
+    double dissipated; /* by the integrator; negative: added by it */
     int rows;
     Energy row[ENERGY_ROWS]; /* energies in the order of legends */
 } Energies;
@@ -134,20 +134,21 @@ double simulation_time(const Simulation *simulation);
 /* Computes the energies of a run. */
 Energies simulation_energies(const Simulation *simulation, int run);
 
-/* Whether run 0 is at rest: in a frame and in a step no node moves by more than
- * a millionth of the shortest spring, and the nodes are within a thousandth of
- * it from where the forces vanish.  Without the second condition a turning
- * point would count as rest. */
+/* Whether run 0 is at rest: no node moves by more than a millionth of the
+ * shortest spring in a frame and in a step, and the forces would vanish if each
+ * node moved by at most a thousandth of this spring.  Without the second
+ * condition a turning point would count as rest. */
 bool simulation_is_at_rest(const Simulation *simulation);
 
 /* Returns Newton's counters, summed over the runs; zero with explicit methods.
  */
-NewtonCounters simulation_counters(const Simulation *simulation);
+NewtonCounters simulation_sum_counters(const Simulation *simulation);
 
 /* Returns when a changed option takes effect in this scene: the effect of its
  * row, except that scenes without time need a new start, and so does another
  * method if runs have different ones. */
-Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
+Effect simulation_find_effect(const Simulation *simulation,
+                              const OptionRow *row);
 
 /* Checks that obstacles of changed options overlap no body at its present
  * place. Returns OK, or INVALID_INPUT with a message. */
@@ -158,8 +159,9 @@ Status simulation_has_room(const Simulation *simulation, const Options *options,
  * options can move: 1 if there is room at the end, else the part up to the
  * first body. number  of the obstacle: grounds first, then balls to      [2] m,
  * in, the point */
-double simulation_free_way(const Simulation *simulation, const Options *options,
-                           int number, const double to[2]);
+double simulation_find_free_way(const Simulation *simulation,
+                                const Options *options, int number,
+                                const double to[2]);
 
 /* Puts a node at rest at (x, y), m; the change of the energy is booked as work.
  *   moves  false: only checks whether the node can be there
@@ -186,14 +188,14 @@ bool simulation_projects_springs(const Simulation *simulation);
  *   at  [2] out, m
  * Returns how many coordinates are used: 1 for a function of one variable, 0 if
  * the scene has several points. */
-int simulation_point(const Simulation *simulation, double at[2]);
+int simulation_find_point(const Simulation *simulation, double at[2]);
 
 /* Finds the fastest small oscillation around x, M mode'' = -H mode, with the
  * Hessian H of P, not projected.  Returns its angular frequency, 1/s; NaN if no
  * mode oscillates, or with more than SIMULATION_MODE_NODES nodes.
  *   x     [2n] m, in
  *   mode  [2n] out, of length 1 */
-double simulation_fastest_mode(const Simulation *simulation, const double *x,
-                               double *mode);
+double simulation_find_fastest_mode(const Simulation *simulation,
+                                    const double *x, double *mode);
 
 #endif

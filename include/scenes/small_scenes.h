@@ -28,9 +28,9 @@ void scene_predict(Simulation *simulation, double x, double y);
 
 /* ---- one mass, one spring ------------------------------------------------ */
 
-/* Creates a system of a free node 0 and `held` pinned nodes, each with a spring
+/* Creates a system of a free node 0 and some pinned nodes, each with a spring
  * to node 0; kg, m, J/m^2.  Returns as system_create. */
-Status create_small_system(System *system, int held, double mass, double length,
+Status create_small_system(System *system, int pins, double mass, double length,
                            double stiffness);
 
 /* Runs 0, 1, 2 by forward, symplectic and backward Euler; a single run if an
@@ -65,8 +65,8 @@ typedef struct SpringValues {
     double strain;      /* |d|^2/l2 - 1 */
     double energy;      /* P, J */
     double force[2];    /* -grad P, on the free end, N */
-    double along;       /* eigenvalue of the Hessian along d, J/m^2 */
-    double across;      /* eigenvalue across d, J/m^2 */
+    double along;       /* eigenvalue of P's Hessian along d, J/m^2 */
+    double across;      /* eigenvalue of P's Hessian across d, J/m^2 */
     double root_energy; /* P_root, J */
     double root_along, root_across; /* eigenvalues of P_root, J/m^2; root_across
                                        is -infinity at d = 0 */
@@ -95,8 +95,8 @@ void descent_find_direction(Simulation *simulation);
 void descent_restart(Simulation *simulation);
 
 /* Returns E or f at (x, y), of the parts that are switched on. */
-LocalModel descent_at(const Simulation *simulation, Projection projection,
-                      double x, double y);
+LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
+                            double x, double y);
 
 /* Computes p = -H^-1 g with a given projection.
  *   x  [2] m, in
@@ -112,8 +112,8 @@ int descent_hessian_index(const Simulation *simulation, double x, double y);
 
 /* Returns the value of some parts of E at (x, y), J s^2.
  *   parts  enum LandscapePart */
-double landscape_part_value(const Simulation *simulation, unsigned parts,
-                            double x, double y);
+double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
+                                double x, double y);
 
 /* The dial: a step makes h 10^(1/10) times longer, up to 10 s; node 0 is at the
  * minimiser. */
@@ -126,10 +126,11 @@ void dial_restart(Simulation *simulation);
 /* Computes the motion of run 0 up to rounding and puts its end into run 1.
  * Springs must be the only term.  Returns OK, NOT_FINITE if the motion is too
  * fast or explodes, OUT_OF_MEMORY. */
-Status race_reference(Simulation *simulation, double time);
+Status race_make_reference(Simulation *simulation, double time);
 
 /* Measures run time and error of a method from run 0 to run 1.
- *   run    in/out, run of the method, in its last step; the caller frees it
+ *   run    in/out, an old run or zeros, then the run of the method at its end;
+ *          the caller frees it
  *   point  out
  * Returns OK, or the failure that ended the run. */
 Status race_measure(Simulation *simulation, const IntegratorMethod *method,

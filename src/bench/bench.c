@@ -20,7 +20,7 @@ static int compare_doubles(const void *a, const void *b)
 }
 
 /* Sorts the values and returns their median.  count > 0. */
-static double median(double *values, int count)
+static double find_median(double *values, int count)
 {
     qsort(values, (size_t)count, sizeof *values, compare_doubles);
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
@@ -35,11 +35,11 @@ static void print_claim(const char *what, double measured, double at_most)
 }
 
 /* Returns the options of the slides, with this many segments. */
-static Options slides_options(int segments)
+static Options make_slides_options(int segments)
 {
     char message[128];
     Options options;
-    options_of_line("square", &options, MESSAGE(message));
+    options_parse_line("square", &options, MESSAGE(message));
     options.segments = segments;
     return options;
 }
@@ -51,7 +51,7 @@ static Options slides_options(int segments)
 typedef struct Motion {
     const char *name;
     double stiffness; /* J/m^2 */
-    double stretch;   /* at the start */
+    double stretch;   /* horizontal, at the start */
     double spin;      /* rad/s, angular velocity at the start */
     double time;      /* s, duration */
     int segments[4];  /* sizes of the square, then 0 */
@@ -76,17 +76,17 @@ static const double targets[TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 static const double first_error = 1e-2;
 
 /* The fastest run with an error below a target. */
-typedef struct Best {
+typedef struct FastestRun {
     const char *name; /* method; NULL: no run is so accurate */
     double ms;        /* run time */
-} Best;
+} FastestRun;
 
 /* Creates a simulation whose run 0 is the start of the motion and whose run 1
  * is its exact end. */
 static Status create_motion(const Motion *motion, int segments,
                             Simulation *simulation)
 {
-    Options options = slides_options(segments);
+    Options options = make_slides_options(segments);
     options.stiffness = motion->stiffness;
     options.stretch = motion->stretch;
     options.solver = SOLVER_MULTIGRID;
@@ -98,7 +98,7 @@ static Status create_motion(const Motion *motion, int segments,
         start->v[i] = -motion->spin * start->x[i + 1];
         start->v[i + 1] = motion->spin * start->x[i];
     }
-    return race_reference(simulation, motion->time);
+    return race_make_reference(simulation, motion->time);
 }
 
 /* Measures a method with 8, 16, 32, ... steps, up to a run that takes too long
@@ -111,7 +111,8 @@ static Status create_motion(const Motion *motion, int segments,
  * last p, and the remaining error is a hundredth of p or less. */
 static Status measure_method(bool quick, const Motion *motion,
                              Simulation *simulation,
-                             const IntegratorMethod *method, Best best[TARGETS])
+                             const IntegratorMethod *method,
+                             FastestRun best[TARGETS])
 {
     int segments = simulation->options.segments;
     double longest = quick ? 0.01 : segments / 64.0 + 0.25;
@@ -135,7 +136,7 @@ static Status measure_method(bool quick, const Motion *motion,
             now.error = INFINITY;
         for (int t = 0; t < TARGETS; t++)
             if (now.error <= targets[t] && ms < best[t].ms)
-                best[t] = (Best){method->name, ms};
+                best[t] = (FastestRun){method->name, ms};
         if (2 * now.seconds > longest)
             break;
         expected = fmin(now.error, first_error) / (1 << method->order);
@@ -148,9 +149,9 @@ static Status measure_method(bool quick, const Motion *motion,
 static Status measure_motion(bool quick, const Motion *motion,
                              Simulation *simulation)
 {
-    Best best[2][TARGETS];
+    FastestRun best[2][TARGETS];
     for (int i = 0; i < 2 * TARGETS; i++)
-        best[i / TARGETS][i % TARGETS] = (Best){NULL, INFINITY};
+        best[i / TARGETS][i % TARGETS] = (FastestRun){NULL, INFINITY};
     for (int i = 0; i < RACE_METHODS; i++) {
         const IntegratorMethod *method = race_method(i);
         Status status = measure_method(quick, motion, simulation, method,
@@ -162,7 +163,7 @@ static Status measure_motion(bool quick, const Motion *motion,
            "implicit        ms  implicit/explicit\n",
            motion->name, simulation->options.segments);
     for (int t = 0; t < TARGETS; t++) {
-        const Best *one = &best[0][t], *other = &best[1][t];
+        const FastestRun *one = &best[0][t], *other = &best[1][t];
         if (one->name && other->name)
             printf("#  %7.0e  %-16s %11.3f  %-14s %8.3f  %8.3g: implicit %s\n",
                    targets[t], one->name, one->ms, other->name, other->ms,
@@ -206,19 +207,19 @@ static const struct {
 static const double time_limit = 60;
 
 /* Results of one program on one square, for each start. */
-typedef struct Runs {
+typedef struct ProgramResults {
     double ms[STARTS];             /* processor time a step */
     double newton_updates[STARTS]; /* updates a step */
-    double energy[STARTS]; /* energy at the end, % of that at the start */
+    double energy[STARTS]; /* energy at the end, % of the energy at the start */
     long unconverged;      /* steps of all starts that did not converge */
-} Runs;
+} ProgramResults;
 
-/* Runs a program from one start and stores its results. */
+/* ProgramResults a program from one start and stores its results. */
 static Status measure_start(Program program, int segments, int start, int steps,
-                            Runs *runs)
+                            ProgramResults *runs)
 {
     Simulation simulation;
-    Options options = slides_options(segments);
+    Options options = make_slides_options(segments);
     options.stretch += 1e-9 * start;
     options.solver = program == MULTIGRID ? SOLVER_MULTIGRID : SOLVER_NEWTON;
     Status status = simulation_create(&options, NULL, NULL, &simulation);
@@ -237,7 +238,7 @@ static Status measure_start(Program program, int segments, int start, int steps,
     }
     runs->ms[start] = 1e3 * (clock_processor() - began) / steps;
     runs->newton_updates[start] =
-        (double)simulation_counters(&simulation).iterations / steps;
+        (double)simulation_sum_counters(&simulation).iterations / steps;
     if (!status)
         runs->energy[start] =
             100 * simulation_energies(&simulation, 0).total / energy;
@@ -249,7 +250,7 @@ static Status measure_start(Program program, int segments, int start, int steps,
  *   ms  out, median time a step */
 static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
 {
-    Runs runs[SOLVERS] = {{.unconverged = 0}};
+    ProgramResults runs[SOLVERS] = {{.unconverged = 0}};
     int starts = quick ? 1 : STARTS, steps = quick ? 3 : STEPS;
     int count = 0;
     double began = clock_now();
@@ -261,14 +262,14 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
                 status =
                     measure_start((Program)m, segments, count, steps, &runs[m]);
     for (int m = 0; m < SOLVERS && !status; m++) {
-        Runs *all = &runs[m];
+        ProgramResults *all = &runs[m];
         if (segments > programs[m].largest)
             continue;
-        ms[m] = median(all->ms, count); /* sorts ms */
+        ms[m] = find_median(all->ms, count); /* sorts ms */
         printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
                programs[m].name, count, ms[m], all->ms[0], all->ms[count - 1],
-               median(all->newton_updates, count), median(all->energy, count),
-               all->unconverged);
+               find_median(all->newton_updates, count),
+               find_median(all->energy, count), all->unconverged);
     }
     return status;
 }

@@ -101,13 +101,13 @@ static Vec2 *draw_points(int n, double size)
 }
 
 /* Meaning of the numbers of a result. */
-typedef enum Kind { NUMBER, POINTS, MATRIX, SEARCH, STATE } Kind;
+typedef enum ResultKind { NUMBER, POINTS, MATRIX, SEARCH, STATE } ResultKind;
 
 typedef struct Task {
-    int number; /* TASK_..., place in student[] */
+    int number; /* TASK_..., index in student[] */
     const char *name;
     Function *truth;
-    Kind kind;
+    ResultKind kind;
     const char *case_names[5]; /* name of each case for messages, then NULL */
     int steps;      /* calls of step_forward, the first with a table */
     unsigned needs; /* bits of the tasks whose functions are called */
@@ -122,7 +122,7 @@ typedef struct Case {
     double block[4][4];           /* argument of make_psd */
     int row[40 * UNKNOWNS], column[40 * UNKNOWNS];
     double value[40 * UNKNOWNS];
-    cholmod_triplet H; /* with the arrays row, column and value */
+    cholmod_triplet H; /* Hessian, in the arrays row, column and value */
     double h, tol;
 } Case;
 
@@ -334,7 +334,7 @@ static const Task tasks[] = {
 enum { CHECKS = sizeof tasks / sizeof *tasks };
 
 /* Returns the name of number i of a result, for messages. */
-static const char *name_number(Kind kind, int i)
+static const char *name_number(ResultKind kind, int i)
 {
     static char text[60];
     bool v = kind == STATE && i >= UNKNOWNS;
@@ -486,7 +486,7 @@ static void read_reason(FILE *errors)
         report("%s", reason);
 }
 
-enum { SECONDS = 4 }; /* after which a function counts as endless */
+enum { SECONDS = 4 }; /* a function that runs longer counts as endless */
 
 /* Runs one check in its own process.  The fault is then in `shared`. */
 static void run_check(const Task *task)

@@ -125,7 +125,7 @@ static Status apply_text(const Line *line, const Word *word)
 
 /* Stores the value of an option.  --lecture without a page is the first page.
  */
-static Status apply(const Line *line, const Word *word)
+static Status apply_word(const Line *line, const Word *word)
 {
     Options *options = line->options;
     switch (word->row->kind) {
@@ -198,8 +198,8 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     if (!text[0] && !isnan(value))
         option_write(row, value, number, sizeof number);
     const Word word = {row, text[0] ? text : number, NULL, ""};
-    return apply(&line, &word) ? STATUS_INVALID_INPUT
-                               : check_change(options, row, message);
+    return apply_word(&line, &word) ? STATUS_INVALID_INPUT
+                                    : check_change(options, row, message);
 }
 
 /* ---- words -------------------------------------------------------------- */
@@ -331,7 +331,7 @@ static Status check_words(Line *line)
             return refuse(line->message,
                           "--%s: '%.60s' and '%.60s': only one can be given",
                           row->name, word->text, last->text);
-        if (row && row->kind == OPTION_PAGE && apply(line, word))
+        if (row && row->kind == OPTION_PAGE && apply_word(line, word))
             return STATUS_INVALID_INPUT;
         if (!row && options->scene)
             return refuse(line->message,
@@ -352,7 +352,7 @@ static Status check_words(Line *line)
 }
 
 /* Fills the options with the defaults, changed by the scene or by the page. */
-static Status begin_options(Line *line)
+static Status fill_defaults(Line *line)
 {
     Options *options = line->options;
     char copy[512];
@@ -364,8 +364,9 @@ static Status begin_options(Line *line)
             options->number[row->slot] = row->default_value;
     Status status = split_words(options->scene->line, copy, sizeof copy, &own);
     for (int i = 0; i < own.words && !status; i++)
-        status = apply(&own, &own.word[i]);
-    if (!find_word(line, "body")) /* pins of the scene's body */
+        status = apply_word(&own, &own.word[i]);
+    if (!find_word(line,
+                   "body")) /* --body replaces the scene's body and its pins */
         options->pin = options->scene->pin;
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->max_times && find_word(line, row->name))
@@ -409,7 +410,7 @@ static Status pick_values(Line *line, int pane)
 /* Checks the nodes of --pin. */
 static Status check_pins(const Options *options, Message message)
 {
-    const SquareMesh shape = body_shape(options);
+    const SquareMesh shape = body_make_mesh(options);
     const char *bad =
         options->pin ? pins_read(options->pin, &shape, NULL) : NULL;
     if (!bad)
@@ -440,9 +441,9 @@ static Status check_effects(Line *line)
     return STATUS_OK;
 }
 
-/* Checks that the body can start.  Cells of triangles do not turn over anyway,
- * so the term cells is left out.  Bodies whose cells must not turn over are
- * projected on demand unless the line says otherwise. */
+/* Checks that the body can start.  Triangles do not turn over anyway, so with
+ * triangles the term cells is left out.  With cells, triangles or self-contact
+ * the default projection is on-demand. */
 static Status check_body(Line *line)
 {
     Options *options = line->options;
@@ -470,7 +471,7 @@ static Status check_body(Line *line)
 static Status apply_words(Line *line, int pane)
 {
     *line->options = (Options){.panes = 1};
-    if (check_words(line) || begin_options(line) || pick_values(line, pane))
+    if (check_words(line) || fill_defaults(line) || pick_values(line, pane))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++) {
         const Word *word = &line->word[i];
@@ -481,7 +482,7 @@ static Status apply_words(Line *line, int pane)
                           word->row->name);
         if (word->row &&
             (check_scene(line->options, word->row, line->message) ||
-             apply(line, word)))
+             apply_word(line, word)))
             return STATUS_INVALID_INPUT;
     }
     return check_effects(line) ? STATUS_INVALID_INPUT : check_body(line);
@@ -495,7 +496,7 @@ Status options_parse(int argc, char **argv, int pane, Options *options,
     return status ? status : apply_words(&line, pane);
 }
 
-Status options_of_line(const char *text, Options *options, Message message)
+Status options_parse_line(const char *text, Options *options, Message message)
 {
     char copy[512];
     Line line = {options, message, 0, {{0}}};

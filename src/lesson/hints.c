@@ -29,7 +29,7 @@ static bool letters_match(char typed, char letter)
            (typed == '_' && letter == '-');
 }
 
-/* Letters that are compared at most. */
+/* Largest number of letters that are compared. */
 enum { NAME_LETTERS = 24 };
 
 /* Number of typing mistakes (Damerau 1964) between a text, of at most

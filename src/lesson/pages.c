@@ -34,7 +34,7 @@ void lecture_enter(const LecturePage *page, Options *options)
 Status lecture_options(const LecturePage *page, Options *options,
                        Message message)
 {
-    Status status = options_of_line(page->line, options, message);
+    Status status = options_parse_line(page->line, options, message);
     const char *pin = strstr(page->line, "--pin ");
     if (pin) /* the line's last option: its text stays */
         options->pin = pin + strlen("--pin ");

@@ -43,17 +43,17 @@ static double find_rim(const Simulation *simulation)
     unsigned parts = simulation->exhibit.switches;
     double rim = 0;
     if (parts & PART_INERTIA)
-        rim += landscape_part_value(simulation, PART_INERTIA,
-                                    target[0] + RIM_INERTIA, target[1]);
+        rim += landscape_evaluate_parts(simulation, PART_INERTIA,
+                                        target[0] + RIM_INERTIA, target[1]);
     if (parts & PART_ELASTICITY)
-        rim +=
-            RIM_PASS * landscape_part_value(simulation, PART_ELASTICITY, 0, 0);
+        rim += RIM_PASS *
+               landscape_evaluate_parts(simulation, PART_ELASTICITY, 0, 0);
     return rim;
 }
 
 static Corner corner_at(const Relief *relief, double x, double y)
 {
-    LocalModel E = descent_at(relief->simulation, PROJECTION_NONE, x, y);
+    LocalModel E = descent_evaluate(relief->simulation, PROJECTION_NONE, x, y);
     return (Corner){x, y, E.value, landscape_is_convex(&E)};
 }
 

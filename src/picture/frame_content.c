@@ -228,7 +228,7 @@ static void draw_guess(const Plot *stage)
         return;
     plot_pixel(stage, guess->at, at);
     plot_pixel(stage, guess->end, came);
-    if (simulation_point(stage->simulation, point) == 1) {
+    if (simulation_find_point(stage->simulation, point) == 1) {
         canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
                     1.5 * unit, COLOUR_HAND);
         came[1] = at[1];

@@ -37,7 +37,7 @@ static double level_factor(const Simulation *simulation)
 /* Returns E before projection at x. */
 static LocalModel energy_at(const Simulation *simulation, const double *x)
 {
-    return descent_at(simulation, PROJECTION_NONE, x[0], x[1]);
+    return descent_evaluate(simulation, PROJECTION_NONE, x[0], x[1]);
 }
 
 bool landscape_is_convex(const LocalModel *E)
@@ -86,9 +86,10 @@ static void draw_contour_map(const Plot *plot)
     canvas_fill(canvas, *box, COLOUR_WHITE);
     for (int j = box->y; j < box->y + box->height; j += 2)
         for (int i = box->x; i < box->x + box->width; i += 2) {
-            LocalModel E = descent_at(simulation, PROJECTION_NONE,
-                                      plot->x.low + (i - box->x + 1) * metre,
-                                      plot->y.high - (j - box->y + 1) * metre);
+            LocalModel E =
+                descent_evaluate(simulation, PROJECTION_NONE,
+                                 plot->x.low + (i - box->x + 1) * metre,
+                                 plot->y.high - (j - box->y + 1) * metre);
             if (!landscape_is_convex(&E))
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             draw_contours(plot, i, j, E.value / e, E.g[0] * metre / e,
@@ -242,7 +243,7 @@ static void draw_forces(const Plot *plot, const LocalModel *E)
 static double energy_of_parts(const Simulation *simulation, unsigned parts,
                               const double *x)
 {
-    double value = landscape_part_value(simulation, parts, x[0], x[1]);
+    double value = landscape_evaluate_parts(simulation, parts, x[0], x[1]);
     return value < 1e-30 ? 0 : value;
 }
 
@@ -296,7 +297,8 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add_point(values, "solution", descent->direction);
     values_add(values, "slope", descent->slope != 0 ? descent->slope : NAN);
     if (parts == PART_BOTH) { /* the projected Hessian and its direction */
-        LocalModel P = descent_at(simulation, PROJECTION_CLAMP, x[0], x[1]);
+        LocalModel P =
+            descent_evaluate(simulation, PROJECTION_CLAMP, x[0], x[1]);
         values_add_matrix(values, projected, P.H, 0);
         values_add_flag(values, "directions",
                         simulation->options.layers & LAYER_DOWNHILL &&

@@ -186,9 +186,9 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
 static double energy_difference(const void *function, double alpha)
 {
     const DescentTrace *space = function;
-    LocalModel there = descent_at(space->simulation, PROJECTION_NONE,
-                                  space->from[0] + alpha * space->p[0],
-                                  space->from[1] + alpha * space->p[1]);
+    LocalModel there = descent_evaluate(space->simulation, PROJECTION_NONE,
+                                        space->from[0] + alpha * space->p[0],
+                                        space->from[1] + alpha * space->p[1]);
     return there.value - space->value;
 }
 
@@ -209,9 +209,9 @@ static const Trace *trace_descent(const Simulation *simulation,
                            : descent->direction[k];
     }
     bool aims = space->p[0] != 0 || space->p[1] != 0, taken = aims && made;
-    space->value =
-        descent_at(simulation, PROJECTION_NONE, space->from[0], space->from[1])
-            .value;
+    space->value = descent_evaluate(simulation, PROJECTION_NONE, space->from[0],
+                                    space->from[1])
+                       .value;
     space->trace = (Trace){
         .line = aims && !made ? LINE_SOLVE : LINE_NONE,
         .h = simulation->options.timestep,

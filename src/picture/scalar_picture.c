@@ -26,7 +26,7 @@ typedef struct ScalarUpdate {
 
 static LocalModel scalar_at(const Simulation *simulation, double x)
 {
-    return descent_at(simulation, PROJECTION_NONE, x, 0);
+    return descent_evaluate(simulation, PROJECTION_NONE, x, 0);
 }
 
 /* Returns update 0, 1, ...; -1: the next update of the present iterate. */

@@ -687,7 +687,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     law_add_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
         compute_rest_positions(simulation, start);
-        double omega = simulation_fastest_mode(simulation, start, mode);
+        double omega = simulation_find_fastest_mode(simulation, start, mode);
         values_add(values, "fastest", omega);
         values_add(values, "h limit", 2 / omega);
         double turn = omega * options->timestep, t = 0.5 * turn * turn - 1;

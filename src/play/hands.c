@@ -277,8 +277,8 @@ static Status drag_obstacle(Player *player, const double at[2])
     }
     for (int p = 0; p < past_panes(past); p++) {
         const Options *options = &past_control(past, p)->options;
-        part = fmin(part, simulation_free_way(&past->machine[p].simulation,
-                                              options, number, at));
+        part = fmin(part, simulation_find_free_way(&past->machine[p].simulation,
+                                                   options, number, at));
     }
     simulation_find_obstacle(player_simulation(player), 0, number, from);
     if (part == 0)
@@ -420,7 +420,8 @@ static Status press_left(Player *player, const Under *under, int clicks)
             status = order(player, COMMAND_PANE, under->pane);
         if (status || clicks < 2 || !ground)
             return status ? status : take_under_mouse(player, under);
-        return body && under->pick.nearest_node < 0 && under->pick.kind == PICK_NONE
+        return body && under->pick.nearest_node < 0 &&
+                       under->pick.kind == PICK_NONE
                    ? add_ball(player, under->at)
                    : order(player, COMMAND_FIT, 0);
     default:

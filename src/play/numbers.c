@@ -126,10 +126,6 @@ static Status put_value(Player *player, int pane, const Command *command,
     const OptionRow *row = &option_rows[command->number];
     Status status = options_set(options, row, command->text, command->x,
                                 MESSAGE(player->message));
-    if (!status && row->slot == OPTION_SLOT(integrator) &&
-        integrator_method_refuses(options_method(options),
-                                  &player_simulation(player)->system))
-        return player_refuse(player, "a term of this scene refuses it");
     return status || !row->max_times
                ? status
                : simulation_has_room(&player->past.machine[pane].simulation,
@@ -168,7 +164,7 @@ Status obey_set(Player *player, const Command *command)
          (player_settings(player)->law && player->past.step > 0 &&
           player_is_stopped(player)) ||
          (player->time.fine > 0 && player->side[player->active].place >= 0));
-    if (simulation_effect(simulation, row) == EFFECT_START)
+    if (simulation_find_effect(simulation, row) == EFFECT_START)
         return player_begin_again(player, options, past_panes(&player->past),
                                   command);
     if (again && change.x != old)

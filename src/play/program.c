@@ -135,7 +135,7 @@ print_quantity(FILE *file, const char *name, const char *format, ...)
 static void print_newton(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
-    NewtonCounters sum = simulation_counters(simulation);
+    NewtonCounters sum = simulation_sum_counters(simulation);
     unsigned needs = simulation->scene->needs;
     const struct {
         const char *name;

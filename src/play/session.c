@@ -58,7 +58,7 @@ Status player_default_options(Player *player, const char *scene,
     *count = 1;
     Status status =
         page ? lecture_options(page, options, MESSAGE(player->message))
-             : options_of_line(scene, options, MESSAGE(player->message));
+             : options_parse_line(scene, options, MESSAGE(player->message));
     if (status)
         return status;
     options->big = given->big;

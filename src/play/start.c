@@ -257,7 +257,7 @@ Status obey_predict(Player *player, const Command *command)
 {
     double at[2];
     Simulation *simulation = &player->past.machine[player->active].simulation;
-    if (simulation->done || simulation_point(simulation, at) == 0)
+    if (simulation->done || simulation_find_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
     player_pause(player);
     scene_predict(simulation, command->x, command->y);

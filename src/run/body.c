@@ -22,7 +22,7 @@
 static const struct PinWord {
     const char *word;
     int side;  /* side of all nodes; 0: anywhere */
-    int other; /* sides, one of which each node is on as well; 0: anywhere */
+    int other; /* sides; each node is also on one of them; 0: anywhere */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -64,7 +64,7 @@ const char *pins_read(const char *text, const SquareMesh *shape,
 
 /* ---- the body ------------------------------------------------------------ */
 
-SquareMesh body_shape(const Options *options)
+SquareMesh body_make_mesh(const Options *options)
 {
     double aspect = options->scene->body.aspect;
     double rows =
@@ -87,7 +87,7 @@ static int find_ball_node(const Options *options)
  * node; l2 = |d|^2 in the rest positions. */
 static Status create_system(const Options *options, System *system)
 {
-    const SquareMesh shape = body_shape(options);
+    const SquareMesh shape = body_make_mesh(options);
     int nodes = shape.nodes / shape.bodies, ball = find_ball_node(options);
     bool square = shape.rows == shape.segments;
     if ((double)shape.segments * shape.rows * shape.bodies >
@@ -243,7 +243,7 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
  * option_rows. */
 static Status set_terms(const Options *options, System *system)
 {
-    const SquareMesh shape = body_shape(options);
+    const SquareMesh shape = body_make_mesh(options);
     double part = options->scene->body.cell_stiffness;
     double k_c = (part > 0 ? part : 0.5) * options->stiffness;
     Status status = set_obstacles(options, system);
@@ -268,7 +268,7 @@ static Status set_terms(const Options *options, System *system)
 static Status place_body(const Options *options, int run, double *x, double *v,
                          Message message)
 {
-    const SquareMesh shape = body_shape(options);
+    const SquareMesh shape = body_make_mesh(options);
     const double *at = options->at, *speed = options->velocity;
     const double single[BODY_NUMBERS] = {
         at[0], at[1], options->turn, speed[0], speed[1], options->stretch, 1};
@@ -298,8 +298,8 @@ static Status place_body(const Options *options, int run, double *x, double *v,
 }
 
 /* Returns the options of one run, changed by its variant. */
-static Options options_of_run(const Simulation *simulation, int run,
-                              const Options *options)
+static Options make_run_options(const Simulation *simulation, int run,
+                                const Options *options)
 {
     const RunVariant *variant = &simulation->variant[run];
     Options own = *options;
@@ -334,11 +334,11 @@ static Status build_body(const Options *options, int run, System *system,
 Status body_create(Simulation *simulation, int run)
 {
     const Options options =
-        options_of_run(simulation, run, &simulation->options);
+        make_run_options(simulation, run, &simulation->options);
     System *system = run ? &simulation->more[run] : &simulation->system;
     double *x;
     Status status = build_body(&options, run, system, &x, (Message){0});
-    simulation->mesh = body_shape(&options);
+    simulation->mesh = body_make_mesh(&options);
     if (!status) {
         double *v = x + 2 * (size_t)system->nodes;
         for (int i = 0; i < 2 * system->nodes; i++)
@@ -353,7 +353,7 @@ Status body_create(Simulation *simulation, int run)
 Status body_update(Simulation *simulation, int run)
 {
     System *system = simulation->run[run].system;
-    Options options = options_of_run(simulation, run, &simulation->options);
+    Options options = make_run_options(simulation, run, &simulation->options);
     system->gravity[1] = -options.gravity;
     for (int s = 0; s < system->springs; s++)
         if (!spring_is_broken(system, s))
@@ -423,7 +423,7 @@ static Status check_places(const Options *options, const System *system,
                            const double *x, double apart, int number,
                            Message message)
 {
-    const SquareMesh shape = body_shape(options);
+    const SquareMesh shape = body_make_mesh(options);
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = eval_point_term(&at, t);
@@ -488,7 +488,7 @@ static Status check_room(const Simulation *simulation, const Options *options,
 {
     Status status = check_obstacles(options, message);
     for (int run = 0; run < simulation->runs && !status; run++) {
-        const Options own = options_of_run(simulation, run, options);
+        const Options own = make_run_options(simulation, run, options);
         System system = *simulation->run[run].system;
         Contact contact = {.barrier = make_barrier(&own), .ball = -1};
         int count = list_obstacles(&own, contact.obstacle);
@@ -509,8 +509,9 @@ Status simulation_has_room(const Simulation *simulation, const Options *options,
     return check_room(simulation, options, 0, -1, message);
 }
 
-double simulation_free_way(const Simulation *simulation, const Options *options,
-                           int number, const double to[2])
+double simulation_find_free_way(const Simulation *simulation,
+                                const Options *options, int number,
+                                const double to[2])
 {
     enum { HALVINGS = 20 };
     static const double APART = 0.999; /* just inside the barrier's width */
@@ -532,7 +533,8 @@ double simulation_free_way(const Simulation *simulation, const Options *options,
 
 /* Twice the signed area of the triangle a b p: positive if p is left of the
  * line from a to b. */
-static double side_of(const double *a, const double *b, const double *p)
+static double find_orientation(const double *a, const double *b,
+                               const double *p)
 {
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
@@ -546,8 +548,8 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
         if (fmax(a[k], b[k]) < fmin(c[k], d[k]) ||
             fmax(c[k], d[k]) < fmin(a[k], b[k]))
             return false;
-    return side_of(a, b, c) * side_of(a, b, d) <= 0 &&
-           side_of(c, d, a) * side_of(c, d, b) <= 0;
+    return find_orientation(a, b, c) * find_orientation(a, b, d) <= 0 &&
+           find_orientation(c, d, a) * find_orientation(c, d, b) <= 0;
 }
 
 /* Checks that no body is inside another one.  The outlines do not cross, so one
@@ -573,7 +575,7 @@ static Status check_inside(const Options *options, const SquareMesh *shape,
 static Status check_overlap(const Options *options, const double *x,
                             Message message)
 {
-    const SquareMesh shape = body_shape(options);
+    const SquareMesh shape = body_make_mesh(options);
     int edge[2], other[2];
     for (int k = 0; k < shape.outline && options->self_contact; k++) {
         square_mesh_get_outline_edge(&shape, k, edge);

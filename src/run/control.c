@@ -14,8 +14,8 @@
 #include "model/pull_energy.h"
 #include "run/body.h"
 
-/* Creates a control without a hand, which holds `nodes` pins; NULL: no memory.
- */
+/* Creates a control for a system with this number of nodes; the mouse holds
+ * nothing.  NULL: no memory. */
 static Control *create_control(int nodes)
 {
     Control *control = calloc(1, sizeof *control + (size_t)nodes);
@@ -81,7 +81,7 @@ void simulation_find_obstacle(const Simulation *simulation, int run, int number,
 void control_store_obstacle(Control *control, int number,
                             const Simulation *simulation)
 {
-    static const double SAME = 1e-9; /* sides; nearer places are equal */
+    static const double SAME = 1e-9; /* sides; smallest difference of places */
     double *at = options_obstacle_at(&control->options, number), place[2],
            other[2];
     simulation_find_obstacle(simulation, 0, number, place);
@@ -258,7 +258,7 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
                         bool moves)
 {
     TimeIntegrator *run = &simulation->run[0];
-    double *before = run->new_x, *p = run->new_v; /* scratch, unused now */
+    double *before = run->new_x, *p = run->new_v; /* free between two steps */
     if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
         !isfinite(y))
         return STATUS_INVALID_INPUT;

@@ -18,8 +18,10 @@ int exhibit_list_handles(const Simulation *simulation,
     return count;
 }
 
-/* Dragging x moves the mass, which keeps its velocity, or on a spring loses it;
- * dragging v sets the velocity.  Each run begins again from there. */
+/* Dragging x moves the mass; the velocity stays, or becomes 0 in scenes with
+ * springs.  Dragging v sets the velocity.  Each run begins again from this
+ * state.
+ */
 void exhibit_drag(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;

@@ -67,7 +67,7 @@ void simulation_free(Simulation *simulation)
     *simulation = (Simulation){0};
 }
 
-int simulation_point(const Simulation *simulation, double at[2])
+int simulation_find_point(const Simulation *simulation, double at[2])
 {
     const TimeIntegrator *run = &simulation->run[0];
     bool single =
@@ -98,8 +98,8 @@ static Status finish_step(Simulation *simulation, Status status)
 
 /* Returns the energy of a run less the work done so far, J.
  *   abs_sum  out, J, sum of the absolute values of all energies */
-static double energy_less_work(const Simulation *simulation, int run,
-                               double *abs_sum)
+static double find_energy_less_work(const Simulation *simulation, int run,
+                                    double *abs_sum)
 {
     Energies now = simulation_energies(simulation, run);
     *abs_sum = fabs(now.work);
@@ -113,7 +113,8 @@ static Status begin_run(Simulation *simulation)
 {
     double abs_sum;
     int run = simulation->stepping;
-    simulation->energy_before = energy_less_work(simulation, run, &abs_sum);
+    simulation->energy_before =
+        find_energy_less_work(simulation, run, &abs_sum);
     return time_integrator_begin(&simulation->run[run]);
 }
 
@@ -122,7 +123,7 @@ static Status begin_run(Simulation *simulation)
 static void book_gain(Simulation *simulation)
 {
     int run = simulation->stepping;
-    double abs_sum, now = energy_less_work(simulation, run, &abs_sum);
+    double abs_sum, now = find_energy_less_work(simulation, run, &abs_sum);
     double gained = now - simulation->energy_before;
     bool backward_euler = simulation->run[run].method->at_end;
     if (!backward_euler || !(gained > 1e-9 * abs_sum))
@@ -188,7 +189,8 @@ bool simulation_is_draggable(const Simulation *simulation)
     return (scene->needs & NEEDS_TIME) && !scene->step && !scene->handle_kinds;
 }
 
-Effect simulation_effect(const Simulation *simulation, const OptionRow *row)
+Effect simulation_find_effect(const Simulation *simulation,
+                              const OptionRow *row)
 {
     unsigned needs = simulation->scene->needs;
     bool update = (needs & NEEDS_START) && row->effect == EFFECT_AGAIN;
@@ -251,7 +253,7 @@ bool simulation_is_at_rest(const Simulation *simulation)
     return forces_balance(simulation, l);
 }
 
-NewtonCounters simulation_counters(const Simulation *simulation)
+NewtonCounters simulation_sum_counters(const Simulation *simulation)
 {
     NewtonCounters sum = simulation->old_counters;
     for (int i = 0; i < simulation->runs; i++)
@@ -292,8 +294,8 @@ bool simulation_projects_springs(const Simulation *simulation)
 /* Power iterations, and numbers of the longest mode. */
 enum { ITERATIONS = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
 
-double simulation_fastest_mode(const Simulation *simulation, const double *x,
-                               double *mode)
+double simulation_find_fastest_mode(const Simulation *simulation,
+                                    const double *x, double *mode)
 {
     const System *system = &simulation->system;
     EvalPoint at = eval_point_at(system, NULL, NULL, x);

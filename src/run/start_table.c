@@ -19,7 +19,7 @@ enum { MAX_COLUMNS = 7 };
 
 /* A table that is being read.  The first line has the names of the columns;
  * wanted columns are found by name, others are skipped. */
-typedef struct Reader {
+typedef struct TableReader {
     FILE *file;
     char *text;               /* present line */
     size_t room;              /* bytes of text */
@@ -29,20 +29,20 @@ typedef struct Reader {
     int place[MAX_COLUMNS];   /* index of each wanted column; -1: missing */
     bool has_panes;           /* the table has a column "pane" */
     char why[200];            /* why the table cannot be read, or "" */
-} Reader;
+} TableReader;
 
 /* Stores why the table cannot be read. */
 #define explain(reader, ...)                                                   \
     snprintf((reader)->why, sizeof(reader)->why, __VA_ARGS__)
 
 /* The numbers of the wanted columns in one row. */
-typedef struct Row {
+typedef struct TableRow {
     double value[MAX_COLUMNS];
-} Row;
+} TableRow;
 
 /* Reads the next line, without LF or CR LF, and without the byte order mark
  * that some programs write before UTF-8.  Returns false at the end. */
-static bool next_line(Reader *reader)
+static bool next_line(TableReader *reader)
 {
     static const char mark[] = "\xef\xbb\xbf";
     ssize_t length = getline(&reader->text, &reader->room, reader->file);
@@ -71,7 +71,7 @@ static char *next_field(char **rest)
 }
 
 /* Finds the columns in the first line. */
-static void read_names(Reader *reader)
+static void read_names(TableReader *reader)
 {
     char shown[40];
     if (!next_line(reader)) {
@@ -98,7 +98,7 @@ static void read_names(Reader *reader)
 
 /* Reads the next row.  Returns false at the end, and if the row cannot be read;
  * reader->why then has the reason. */
-static bool next_row(Reader *reader, Row *row)
+static bool next_row(TableReader *reader, TableRow *row)
 {
     int fields = 0;
     do
@@ -128,27 +128,27 @@ static bool next_row(Reader *reader, Row *row)
 
 /* The rows of one step and one run in a table.  The second column numbers the
  * rows of a step from 0. */
-typedef struct Part {
+typedef struct TablePart {
     const char *option;             /* option with the table, for messages */
     const char *file;               /* name of the file */
     const char *element;            /* "node" or "spring" */
     const char *names[MAX_COLUMNS]; /* columns, up to NULL */
     int size;                       /* rows of a run */
     int run;                        /* run that is read */
-} Part;
+} TablePart;
 
 /* Reads the rows of the step of the options, or of all steps, of which the last
  * one remains.  A table has a step several times if the user went back; the
  * last one counts.
  *   row  [part->size] out */
-static void read_rows(Reader *reader, const Options *options, const Part *part,
-                      Row *row)
+static void read_rows(TableReader *reader, const Options *options,
+                      const TablePart *part, TableRow *row)
 {
     const double step = options->state_step;
     const char *element = part->element;
     double last = -1;
     int count = 0, runs = (int)fmax(options->scene->body.runs, 1);
-    Row next = {{0}};
+    TableRow next = {{0}};
     while (next_row(reader, &next)) {
         bool goes_on = next.value[0] == last && next.value[1] != 0;
         last = next.value[0];
@@ -180,10 +180,10 @@ static void read_rows(Reader *reader, const Options *options, const Part *part,
 /* Reads a part of a table.
  *   row  out, [part->size], to be freed by the caller in any case
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
-static Status read_part(const Options *options, const Part *part, Row **row,
-                        Message message)
+static Status read_part(const Options *options, const TablePart *part,
+                        TableRow **row, Message message)
 {
-    Reader reader = {.file = fopen(part->file, "r"), .names = part->names};
+    TableReader reader = {.file = fopen(part->file, "r"), .names = part->names};
     errno = reader.file ? 0 : errno;
     *row = malloc((size_t)part->size * sizeof **row);
     if (reader.file && *row) {
@@ -204,10 +204,10 @@ static Status read_part(const Options *options, const Part *part, Row **row,
 Status start_table_read(const Options *options, int run, int nodes, double *x,
                         double *v, Message message)
 {
-    const Part part = {"state", options->state,
-                       "node",  {"step", "node", "x", "y", "vx", "vy"},
-                       nodes,   run};
-    Row *row;
+    const TablePart part = {"state", options->state,
+                            "node",  {"step", "node", "x", "y", "vx", "vy"},
+                            nodes,   run};
+    TableRow *row;
     Status status = read_part(options, &part, &row, message);
     for (int i = 0; i < nodes && !status; i++) {
         memcpy(x + 2 * i, row[i].value + 2, 2 * sizeof *x);
@@ -241,11 +241,11 @@ static const char *restore_spring(const Options *options, System *system,
 Status start_springs_read(const Options *options, int run, System *system,
                           Message message)
 {
-    const Part part = {
+    const TablePart part = {
         "state-springs", options->state_springs,
         "spring",        {"step", "spring", "whole", "plastic", "flowed"},
         system->springs, run};
-    Row *row;
+    TableRow *row;
     Status status = read_part(options, &part, &row, message);
     for (int s = 0; s < system->springs && !status; s++) {
         const char *why = restore_spring(options, system, s, row[s].value);

@@ -1,4 +1,4 @@
-/* state.c - saves, restores and hashes the state of a simulation. */
+/* state.c - saves, is_restoring and hashes the state of a simulation. */
 #include "run/control.h"
 
 #include <string.h>
@@ -12,15 +12,15 @@
  * pieces of a state by the same functions. */
 typedef struct Cursor {
     unsigned char *bytes; /* NULL: the pieces are only counted */
-    bool restores;        /* bytes are read, not written */
+    bool is_restoring;    /* the pieces are read from the bytes */
     size_t used;          /* bytes visited so far */
 } Cursor;
 
-/* Saves, restores or counts a piece of the state. */
+/* Saves, is_restoring or counts a piece of the state. */
 static void visit(Cursor *cursor, void *piece, size_t size)
 {
     unsigned char *at = cursor->bytes ? cursor->bytes + cursor->used : NULL;
-    if (at && cursor->restores)
+    if (at && cursor->is_restoring)
         memcpy(piece, at, size);
     else if (at)
         memcpy(at, piece, size);
@@ -94,7 +94,7 @@ static void visit_all(Cursor *cursor, Simulation *simulation)
         visit(cursor, run->memory, (size_t)run->method->memory * array);
         if (r == 0 || run->system != simulation->run[0].system)
             visit_system(cursor, run->system);
-        if (cursor->restores)
+        if (cursor->is_restoring)
             system_mark_changed(run->system, false);
     }
 }

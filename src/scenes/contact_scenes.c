@@ -94,7 +94,7 @@ Status create_tear(Simulation *simulation)
 /* The ball starts 0.05 m above the beam. */
 Obstacle ball_of_bend(const Options *options)
 {
-    const SquareMesh shape = body_shape(options);
+    const SquareMesh shape = body_make_mesh(options);
     double half = 0.5 * shape.rows * shape.spacing;
     return (Obstacle){.kind = OBSTACLE_BALL,
                       .o = {0, half + 0.18 + 0.05},
@@ -111,7 +111,7 @@ Status create_bend(Simulation *simulation)
         return status;
     double a = mesh->spacing, half = 0.5 * mesh->rows * a;
     simulation->system.m[mesh->nodes] = 60;
-    if (!simulation->options.state) /* else the table has the velocity */
+    if (!simulation->options.state) /* a table of states has the velocity */
         simulation->run[0].v[2 * mesh->nodes + 1] = -3;
     cut_springs(simulation, 0.5 * a, -2 * half, -half + 0.6 * a);
     return STATUS_OK;

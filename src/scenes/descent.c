@@ -95,16 +95,16 @@ static LocalModel landscape_at(const Simulation *simulation, unsigned parts,
     return E;
 }
 
-LocalModel descent_at(const Simulation *simulation, Projection projection,
-                      double x, double y)
+LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
+                            double x, double y)
 {
     const double at[2] = {x, y};
     return landscape_at(simulation, simulation->exhibit.switches,
                         simulation->run[0].h, projection, at);
 }
 
-double landscape_part_value(const Simulation *simulation, unsigned parts,
-                            double x, double y)
+double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
+                                double x, double y)
 {
     const double at[2] = {x, y}, h = simulation->run[0].h;
     return landscape_at(simulation, parts, h, PROJECTION_NONE, at).value;
@@ -112,7 +112,7 @@ double landscape_part_value(const Simulation *simulation, unsigned parts,
 
 int descent_hessian_index(const Simulation *simulation, double x, double y)
 {
-    LocalModel E = descent_at(simulation, PROJECTION_NONE, x, y);
+    LocalModel E = descent_evaluate(simulation, PROJECTION_NONE, x, y);
     if (simulation->descent.scalar)
         return E.H[0] < 0 ? 2 : 0;
     bool same = E.H[0] * E.H[2] - E.H[1] * E.H[1] > 0;
@@ -138,7 +138,7 @@ static double newton_direction(const LocalModel *E, bool scalar, double p[2])
     }
     double determinant = H[0] * H[2] - H[1] * H[1], trace = H[0] + H[2];
     if (fabs(determinant) <= 1e-14 * trace * trace)
-        determinant = NAN; /* no inverse in the digits of a double */
+        determinant = NAN; /* too small for an inverse */
     p[0] = (H[1] * g[1] - H[2] * g[0]) / determinant;
     p[1] = (H[1] * g[0] - H[0] * g[1]) / determinant;
     return g[0] * p[0] + g[1] * p[1];
@@ -147,7 +147,7 @@ static double newton_direction(const LocalModel *E, bool scalar, double p[2])
 double descent_direction(const Simulation *simulation, Projection projection,
                          const double *x, double p[2])
 {
-    LocalModel E = descent_at(simulation, projection, x[0], x[1]);
+    LocalModel E = descent_evaluate(simulation, projection, x[0], x[1]);
     return newton_direction(&E, simulation->descent.scalar, p);
 }
 
@@ -183,7 +183,7 @@ static LocalModel find_model(const Simulation *simulation)
         projection = descent_hessian_index(simulation, at[0], at[1])
                          ? PROJECTION_CLAMP
                          : PROJECTION_NONE;
-    return descent_at(simulation, projection, at[0], at[1]);
+    return descent_evaluate(simulation, projection, at[0], at[1]);
 }
 
 /* Computes E, p, slope and residual at a new iterate.  If the status is RUNNING
@@ -196,7 +196,8 @@ static Status evaluate_iterate(Simulation *simulation, Status status)
     Descent *descent = &simulation->descent;
     double *p = descent->direction;
     descent->value =
-        descent_at(simulation, PROJECTION_NONE, run->x[0], run->x[1]).value;
+        descent_evaluate(simulation, PROJECTION_NONE, run->x[0], run->x[1])
+            .value;
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
@@ -384,8 +385,8 @@ void dial_restart(Simulation *simulation)
     minimise(simulation, h, simulation->descent.point);
     memcpy(simulation->run[0].x, simulation->descent.point, sizeof point);
     simulation->descent.value =
-        landscape_part_value(simulation, PART_BOTH, simulation->run[0].x[0],
-                             simulation->run[0].x[1]);
+        landscape_evaluate_parts(simulation, PART_BOTH, simulation->run[0].x[0],
+                                 simulation->run[0].x[1]);
 }
 
 Status create_dial(Simulation *simulation)

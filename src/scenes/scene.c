@@ -169,7 +169,7 @@ void scene_predict(Simulation *simulation, double x, double y)
     const Scene *scene = simulation->scene;
     const double *p = simulation->descent.direction;
     double at[2];
-    int count = simulation_point(simulation, at);
+    int count = simulation_find_point(simulation, at);
     const double iterate[2] = {at[0] + p[0], at[1] + p[1]}, *end = iterate;
     MassStep step;
     if (simulation->done || count == 0)

@@ -87,7 +87,7 @@ static Status advance_exactly(TimeIntegrator *run, double H, double *from,
     return status;
 }
 
-Status race_reference(Simulation *simulation, double time)
+Status race_make_reference(Simulation *simulation, double time)
 {
     const double max_intervals = 1 << 14; /* more would take too long */
     const TimeIntegrator *start = &simulation->run[0];
@@ -115,7 +115,7 @@ Status create_race(Simulation *simulation)
 {
     Status status = create_square(simulation);
     if (!status)
-        status = race_reference(simulation, RACE_TIME);
+        status = race_make_reference(simulation, RACE_TIME);
     if (status == STATUS_NOT_FINITE) { /* without a reference */
         simulation->done = true;
         simulation->status = status;

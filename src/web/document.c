@@ -104,7 +104,7 @@ static void write_page(Writer *to, const FrameContent *content)
             page_wants_click(page) ? "place"
             : page->answer         ? "number"
                                    : "words",
-            simulation_point(active_pane(content)->simulation, at));
+            simulation_find_point(active_pane(content)->simulation, at));
     } else {
         put_text(to, values, "look", page->look);
         put_text(to, values, "try", page->touch);
@@ -262,9 +262,9 @@ static void put_shape(Writer *to, const Pane *pane)
         put(to, " %d masses, %d springs, %s m wide and %s m high.", nodes,
             simulation->system.springs, format_number(box[2] - box[0]).text,
             format_number(box[3] - box[1]).text);
-    } else if (simulation_point(simulation, at) == 1)
+    } else if (simulation_find_point(simulation, at) == 1)
         put(to, " The point is at %s.", format_digits(at[0], 4).text);
-    else if (simulation_point(simulation, at) == 2)
+    else if (simulation_find_point(simulation, at) == 2)
         put(to, " The point is at (%s, %s).", format_digits(at[0], 4).text,
             format_digits(at[1], 4).text);
 }

@@ -313,7 +313,7 @@ TEST(rest_takes_one_iteration)
             make_steps(simulate("--stretch 1 --integrator %s %s",
                                 implicit_names[i / 2], i % 2 ? multigrid : ""),
                        5);
-        NewtonCounters did = simulation_counters(rest);
+        NewtonCounters did = simulation_sum_counters(rest);
         CHECK(did.iterations <= 5 * rest->run[0].method->stages);
         for (size_t c = 0; c < rest->run[0].size; c++)
             CHECK(fabs(rest->run[0].v[c]) < 1e-15);
@@ -344,7 +344,7 @@ TEST(counters_count_what_was_done)
         Simulation *square = make_steps(
             simulate_watched(count_factored, &factored, "%s", rows[i].line),
             14);
-        NewtonCounters did = simulation_counters(square);
+        NewtonCounters did = simulation_sum_counters(square);
         CHECK(did.iterations > 0);
         CHECK((factored > 0) == rows[i].factors);
         CHECK((did.solves > 0) == rows[i].factors);
@@ -393,7 +393,7 @@ TEST(newton_takes_back_what_multigrid_cannot_end)
         simulate("--segments 8 --stretch 1.2 --tolerance 1e-15 %s", multigrid);
     for (int step = 0; step < 3; step++)
         CHECK(status_is_unconverged(simulation_step(square)));
-    NewtonCounters did = simulation_counters(square);
+    NewtonCounters did = simulation_sum_counters(square);
     CHECK(did.taken_back == 3 && did.cycles > 0 && did.factorisations > 0);
 }
 

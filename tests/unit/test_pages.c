@@ -41,7 +41,7 @@ TEST(the_fastest_motion_limits_h)
                  limit * (i ? 1.02 : 0.98));
         Simulation *simulation = open_page("explicit", line);
         TimeIntegrator *run = &simulation->run[0];
-        simulation_fastest_mode(simulation, run->x, mode);
+        simulation_find_fastest_mode(simulation, run->x, mode);
         for (size_t k = 0; k < run->size; k++)
             run->v[k] += 1e-6 * mode[k];
         double start = simulation_energies(simulation, 0).total;

@@ -64,10 +64,12 @@ static void check_path(const Simulation *simulation)
         const double *from = record->from, *to = record->to;
         CHECK(record->slope < 0 && record->change < 0 && record->alpha > 0);
         double E =
-            descent_at(simulation, PROJECTION_NONE, from[0], from[1]).value;
-        CHECK_NEAR(descent_at(simulation, PROJECTION_NONE, to[0], to[1]).value -
-                       E,
-                   record->change, 1e-12 * (1 + fabs(E)));
+            descent_evaluate(simulation, PROJECTION_NONE, from[0], from[1])
+                .value;
+        CHECK_NEAR(
+            descent_evaluate(simulation, PROJECTION_NONE, to[0], to[1]).value -
+                E,
+            record->change, 1e-12 * (1 + fabs(E)));
         if (on_demand)
             CHECK((record->projected > 0) ==
                   (descent_hessian_index(simulation, from[0], from[1]) > 0));
@@ -163,7 +165,8 @@ TEST(landscape_minimises_what_it_shows)
         CHECK_AT_MOST(descent->residual, scene->options.tolerance);
         /* p <= h 1e-6, twice: E <= 10 p^2 */
         const double *at = descent->point;
-        CHECK_AT_MOST(landscape_part_value(scene, part, at[0], at[1]), 1e-12);
+        CHECK_AT_MOST(landscape_evaluate_parts(scene, part, at[0], at[1]),
+                      1e-12);
     }
     /* both springs along x: elasticity alone has no H^-1 */
     Simulation *flat = simulate("landscape --start 0.3,0");
@@ -203,7 +206,7 @@ TEST(envelope_cells_are_runs)
         CHECK(cell->known);
         CHECK_STATUS(cell->worst, worst);
         refused += worst != STATUS_OK;
-        CHECK(cell->updates == simulation_counters(run).iterations);
+        CHECK(cell->updates == simulation_sum_counters(run).iterations);
         CHECK_SAME_BITS(map->run[0].x, run->run[0].x, 2 * run->system.nodes);
     }
     CHECK(refused >= 1); /* cells that did not converge are compared, too */
