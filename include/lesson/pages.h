@@ -1,8 +1,9 @@
-/* pages.h - the lecture, a page a row of a table, in the slides' order.
+/* pages.h - the lecture as a table with a row for each page, in the slides'
+ * order.
  *
- * A page is a scene with settings and what there is to say about it.  The
- * table is made of src/lesson/pages.txt.  To add one: write it there, and a
- * session for its claim in tests/data/claims.txt; a test reminds of it.
+ * A page is a scene with settings, and texts about the scene.  The table is
+ * generated from src/lesson/pages.txt.  A new page needs a text there, and a
+ * session for its claim in tests/data/claims.txt.
  */
 #ifndef ELASTO_PAGES_H
 #define ELASTO_PAGES_H
@@ -10,49 +11,52 @@
 #include "run/message.h"
 #include "run/options.h"
 
-/* Lines of Algorithm 3 that a page can show; line 1 is the first. */
+/* Length of LecturePage.walk: lines 1 to 8 of Algorithm 3; entry 0 is unused.
+ */
 enum { LINES_WALKED = 9 };
 
+/* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
 typedef struct LecturePage {
     const char *name;    /* one word, for --lecture */
-    const char *topic;   /* of the slide */
-    const char *section; /* heading before it in the list of pages; or NULL */
-    bool extra;          /* left out of the 80 minutes */
-    const char *text;    /* what it is about: one or two sentences */
-    const char *formula; /* set large below it, one a line; or NULL */
+    const char *topic;   /* title of the slide */
+    const char *section; /* heading above the page in the list, or NULL */
+    bool extra;          /* whether the 80 minutes leave the page out */
+    const char *text;    /* text: what the page is about */
+    const char *formula; /* text: formulas in large letters, one on a line; or
+                            NULL */
     const char *line;    /* scene and settings, as on the command line */
-    const char *cards;   /* names of those that are open, with blanks between */
-    const char *look;    /* what to look at */
-    const char *touch;   /* what to change, and how */
-    const char *ask;     /* what to guess before the rest is shown; or NULL */
-    const char *answer;  /* a fact (live_values.h): the number that is guessed;
-                            "click": the place to which the next step leads;
-                            NULL: words */
-    const char *veils; /* cards that wait for the guess, with blanks between */
-    const char *star;  /* the card that is enlarged, or NULL */
-    const char *law;   /* that the card of it draws (card_law.c), or NULL */
-    const char *notes; /* what to say, for whoever presents it */
-    double minutes;    /* that it takes */
-    const char *file;  /* where its code is: as from the top folder */
-    const char *function;    /* and functions in it, with ',' between */
-    const char *const *code; /* their lines, up to NULL */
-    const char *lit;         /* those with this text are at work */
-    const char *const *walk; /* [LINES_WALKED] text in the lines at work at
-                                each line of Algorithm 3; NULL: lit */
-    const char *claim;       /* what a test holds */
+    const char *cards;   /* names of the open cards, separated by blanks */
+    const char *look;    /* text: the answer, and what to look at */
+    const char *touch;   /* text: what to change, and what will happen */
+    const char *ask;     /* text: the question before the answer, or NULL */
+    const char *answer;  /* live value that is the right number; "click": the
+                            end of the next step; NULL: the answer is words */
+    const char *veils;   /* names of the cards hidden before the answer, or NULL
+                          */
+    const char *star;    /* name of the enlarged card, or NULL */
+    const char *law;     /* name of the curve in the card `law`, or NULL */
+    const char *notes;   /* what a lecturer may say */
+    double minutes;      /* duration in the lecture */
+    const char *file;    /* path of the source shown by K */
+    const char *function;    /* functions shown by K, separated by ',' */
+    const char *const *code; /* lines of these functions, ended by NULL */
+    const char *lit;         /* part of each code line that is lit */
+    const char *const *walk; /* [LINES_WALKED] part of each code line that is
+                                lit at a line of Algorithm 3; NULL: lit */
+    const char *claim;       /* what a test checks */
     unsigned flips;          /* bit s: switch s of the scene is turned over */
-    int picture;             /* the step that the printed page shows */
-    double speed;            /* steps a frame; 0: the scene's */
-    const char *open;        /* commands when it opens, ';' between; or NULL */
-    const char *tell;        /* commands when N shows the answer; or NULL */
-    int lines;               /* or so many lines on from where the page opens */
-    unsigned layers;         /* bits of Layer */
-    NextAction next;           /* what N does */
-    int pause;               /* step at which playing pauses; 0: none */
+    int picture;             /* step that the printed page shows */
+    double speed;            /* steps for each frame; 0: as in the scene */
+    const char *open;        /* commands at the opening, separated by ';' */
+    const char *tell;        /* commands at the answer, separated by ';' */
+    int lines;               /* presses of N before the printed page; 0: picture
+                              */
+    unsigned layers;         /* bits of Layer: additions to the picture */
+    NextAction next;         /* what N does after the answer */
+    int pause;               /* step at which a run pauses; 0: none */
 } LecturePage;
 
-/* Text, formulas, look and touch are texts of live_values.h: live numbers stand
- * in braces.  The table; it ends with a NULL name. */
+/* All pages; the table ends with a page whose name is NULL. */
 extern const LecturePage lecture_pages[];
 
 /* A letter of the pages, in the markup of text.h, and its meaning; the table
@@ -63,21 +67,22 @@ typedef struct Letter {
 
 extern const Letter lecture_letters[];
 
-/* How many pages there are. */
+/* Number of all pages. */
 int lecture_count(void);
 
-/* The page with this name, or with this number from 1; NULL: there is none. */
+/* Returns the page with this name, or with this number from 1; NULL: there is no
+ * such page. */
 const LecturePage *lecture_find(const char *text);
 
-/* Whether the page asks for a click; NULL: no page. */
+/* Whether the page asks for a click on the picture.  page may be NULL. */
 bool page_wants_click(const LecturePage *page);
 
-/* Puts a page, and what its picture shows, into options with its scene. */
+/* Writes a page, and the fields that it gives to options, into options of its
+ * scene. */
 void lecture_enter(const LecturePage *page, Options *options);
 
-/* Returns the options of a page: the defaults changed by its command line.
- * Returns OK, or INVALID_INPUT with a message, which a test rules
- * out. */
+/* Sets options to the defaults, changed by the command line of the page.
+ * Returns OK or INVALID_INPUT.  A test checks that all pages return OK. */
 Status lecture_options(const LecturePage *page, Options *options,
                        Message message);
 

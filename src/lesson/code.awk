@@ -1,7 +1,7 @@
-# code.awk - for pages.awk: the functions that a page shows, as they stand in
-# their source, without what a class reads past.
+# code.awk - finds the functions that a page shows in their sources, for
+# pages.awk, and leaves out lines that explain nothing (`skip` of pages.txt).
 
-# The lines of a source, which is read once, into source[file, 1 ...].
+# Reads the lines of a source, once, into source[file, 1 ...].
 function read_source(file,    line)
 {
     if (file in lines)
@@ -11,8 +11,8 @@ function read_source(file,    line)
     close(file)
 }
 
-# The line with the closing brace of what begins here; 0: a declaration, for it
-# ends before a brace.
+# Returns the line with the closing brace of the definition that begins at
+# `from`; 0: a declaration begins there, which has no brace.
 function find_end(file, from,    i, line, body)
 {
     for (i = from; i <= lines[file]; i++) {
@@ -26,8 +26,8 @@ function find_end(file, from,    i, line, body)
     return 0
 }
 
-# The first line of the function, 0: there is none.  It is named outside of any
-# body: in column 1 stands a type, and the name before a parenthesis.
+# Returns the first line of a function's definition, 0: there is none.  That line
+# begins with a type in column 1, and the name is followed by a parenthesis.
 function find_function(file, name,    i)
 {
     for (i = 1; i <= lines[file]; i++)
@@ -37,8 +37,8 @@ function find_function(file, name,    i)
     return 0
 }
 
-# How many lines from this one on begin with what no page shows (asides), a
-# condition before them included.
+# Returns how many lines from `at` on no page shows: a statement or comment that
+# begins with one of `asides`, together with the condition before it.
 function count_asides(file, at,    line, heads, count, ending)
 {
     line = source[file, at]
@@ -57,8 +57,8 @@ function count_asides(file, at,    line, heads, count, ending)
     return 0
 }
 
-# The lines of these functions, with ',' between the names, a blank one between
-# the functions, as the elements of an array.
+# Returns the lines of functions as elements of a C array, with an empty line
+# between two functions.  names: separated by ','.
 function code_of(file, names,    i, n, name, at, end, skipped, last, line, code)
 {
     read_source(file)

@@ -1,7 +1,6 @@
-# pages.awk - pages.txt, which says how it is written, as rows of the table of
-# pages.h.
+# pages.awk - turns pages.txt, whose head describes it, into the tables of pages.h.
 
-# Names of layers, with blanks between, as bits of Layer.
+# Returns bits of Layer in C.  text: names of layers, separated by blanks.
 function layers_of(text,    i, n, name, bits)
 {
     n = split(text, name, " ")
@@ -13,7 +12,7 @@ function layers_of(text,    i, n, name, bits)
     return bits
 }
 
-# {page:NAME} becomes the number of that page.
+# Replaces {page:NAME} by the number of that page.
 function with_numbers(text,    name)
 {
     while (match(text, /[{]page:[a-z0-9]+[}]/)) {
@@ -26,7 +25,7 @@ function with_numbers(text,    name)
     return text
 }
 
-# The names of all pages in their order, into place[name] = 1 ...
+# Reads the names of all pages: place[name] is the number of the page.
 function read_names(file,    line)
 {
     while ((getline line < file) > 0)
@@ -35,7 +34,7 @@ function read_names(file,    line)
     close(file)
 }
 
-# The lines of one word, put together in text, as fields of the row.
+# Adds the lines of one word, which `text` has joined, to the row of the page.
 function put_word(    part)
 {
     if (word in prose)

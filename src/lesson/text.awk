@@ -1,7 +1,8 @@
-# text.awk - what pages.awk and cards.awk, which stand behind it, read alike: words
-# at the beginning of a line, with the lines that go on with them.
+# text.awk - reads lines that begin with a word, and the lines that continue them,
+# for pages.awk and cards.awk, which follow this file on the command line.
 
-# What is wrong is said, all of it; the last END then ends with 1.
+# Reports a mistake.  Reading goes on, so that all mistakes are reported; the last
+# END then returns 1.
 function fail(line, why)
 {
     print FILENAME ":" line ": " why > "/dev/stderr"
@@ -15,7 +16,9 @@ function quoted(text)
     return "\"" text "\""
 }
 
-# A word of a row begins; made: whether there is a row.
+# Begins the text of a word.
+#   made  whether a row has begun
+#   none  the mistake if no row has begun
 function begin_word(made, none)
 {
     if (!made)

@@ -1,35 +1,38 @@
-/* card_page.c - the card with the texts of a page of the lecture. */
+/* card_page.c - the card with the texts of a page, and the text of its test. */
 #include <limits.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* What a page says, one below the other: a head, and lines of a text. */
+/* A text of the card, with a head on its left side. */
 typedef struct Words {
-    const char *head;
-    const char *text; /* of live_values.h, or NULL */
-    Colour colour;
-    double size; /* times that of the others */
+    const char *head; /* in bold letters, or NULL */
+    const char *text; /* a text of live_values.h, or NULL */
+    Colour colour;    /* colour of the head */
+    double size;      /* size of the letters, times that of the page */
 } Words;
 
-static const double HEAD_ROOM = 3.2; /* ems of the letters, of a head */
-static const double TEST_ROOM = 4.4; /* of the head of a test */
-static const double VERDICT = 1.5;   /* times that, what became of a guess */
-static const double GAP = 0.35;      /* lines, between two texts */
-static const double LETTERS = 1.2;   /* ems, on every page */
-static const double FORMULA = 1.25;  /* times that, a formula */
-static const double SMALLEST = 0.9;  /* ems, where the window is too small */
+static const double LETTERS = 1.2;   /* ems, size of the letters of a page */
+static const double SMALLEST = 0.9;  /* ems, size in a window without room */
+static const double VERDICT = 1.5;   /* size of a verdict, times the page's */
+static const double FORMULA = 1.25;  /* size of a formula, times the page's */
+static const double HEAD_ROOM = 3.2; /* letters, width for the head of a text */
+static const double TEST_ROOM = 4.4; /* letters, width for the head "Tested" */
+static const double GAP = 0.35;      /* lines, space between two texts */
 
-/* One text with its head in bold, drawn or only measured.  Returns where the
- * next one begins. */
-static int put_words(Paper *paper, Box inside, int y, double size, double head,
+/* Draws a text with its head, or only measures it.
+ *   y     pixels, top of the text
+ *   size  ems, size of the page's letters
+ *   room  letters, width for the head
+ * Returns the top of the next text. */
+static int put_words(Paper *paper, Box inside, int y, double size, double room,
                      const Words *words, const FrameContent *content, bool draw)
 {
     double letters = size * words->size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
     TextLine line = text_begin(&active_pane(content)->values, words->text);
     if (words->head) {
-        int width = paper_pixels(paper, head * size);
+        int width = paper_pixels(paper, room * size);
         if (draw)
             paper_write(paper, FACE_BOLD, size, words->colour, box.x, y,
                         ALIGN_LEFT, "%s", words->head);
@@ -46,8 +49,9 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
 }
 
 /* Draws the texts of a page one below the other, or only measures them.
- *   brief  leaves out the first text
- * Returns their height in pixels. */
+ *   size   ems, size of the letters
+ *   brief  whether the first text is left out
+ * Returns the height of all texts in pixels. */
 static int put_page(Paper *paper, Box inside, double size, bool brief,
                     const FrameContent *content, bool draw)
 {
@@ -56,8 +60,7 @@ static int put_page(Paper *paper, Box inside, double size, bool brief,
                           ? "Click on the picture. N shows it."
                       : page->answer ? "Type a number, then Enter. N shows it."
                                      : "Say it, then press N or Space.";
-    bool asks = content->lecture
-                    .hides_answer; /* before a guess nothing that would tell */
+    bool asks = content->lecture.hides_answer;
     bool judged = content->lecture.verdict && !asks;
     const Words words[] = {
         {NULL, brief ? NULL : page->text, COLOUR_TEXT, 1},
@@ -104,7 +107,8 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
     return inside;
 }
 
-/* Returns the height, ems, that a page's words need at this width. */
+/* Returns the height in ems of the whole card with all texts of the page.
+ *   wide  ems, width of the texts */
 double page_needed_height(const FrameContent *content, double wide, double em)
 {
     Paper paper = {.text = content->text, .em = em, .min_letter = 1};

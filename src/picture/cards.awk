@@ -1,6 +1,6 @@
-# cards.awk - cards.txt, which says how it is written, as the tables of cards.h.
+# cards.awk - turns cards.txt, whose head describes it, into the tables of cards.h.
 
-# What stands under one word, as a field of the row.
+# Adds the lines of one word to the row, as a field.
 function put_word(    i, part)
 {
     if (word in texts)
@@ -26,7 +26,7 @@ function put_word(    i, part)
     word = ""
 }
 
-# The texts of a row behind its other fields.
+# Ends a row: adds its texts after its other fields, and prints it.
 function put_texts(    i)
 {
     for (i in texts) {

@@ -367,7 +367,7 @@ static void draw_origin(const SquarePen *pen)
         plot_pixel(stage, pen->x + 2 * i, p);
         low = p[1] < least ? fmax(low, p[1]) : low;
     }
-    low += 2.5 * em;
+    low = fmin(low + 2.5 * em, box->y + box->height - 1.5 * em);
     canvas_arrow(&stage->paper->canvas, origin[0], low, origin[0], origin[1],
                  2 * stage->paper->unit, 9 * stage->paper->unit, COLOUR_TEXT);
     paper_panel(stage->paper, FACE_BOLD, 1.1, COLOUR_TEXT, origin[0], low,
