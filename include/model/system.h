@@ -117,6 +117,12 @@ void system_acceleration(const System *system, const double *x, double *a);
  * internal. */
 bool system_falls_freely(const System *system);
 
+/* Whether P stays the same when all nodes turn about the pivot: all terms are
+ * internal, none depends on x_n, and at most one node is pinned.
+ *   pivot  out, the pinned node; -1: none, bodies turn about the centre of mass
+ */
+bool system_turns_freely(const System *system, int *pivot);
+
 /* Returns the kinetic energy sum m |v|^2/2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
 

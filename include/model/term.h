@@ -151,6 +151,8 @@ struct TermKind {
                                  its Hessian is a diagonal matrix */
     bool internal;            /* the forces add up to 0: the centre of mass does
                                  not feel them */
+    bool depends_on_start;    /* P depends on x_n too, so that a turn of all
+                                 nodes changes P */
     bool backward_euler_only; /* refused by all other integrators, since
                                  x_(n+1) must be the minimiser itself */
 };

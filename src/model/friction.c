@@ -230,6 +230,7 @@ const TermKind friction_energy = {
     .place = PLACE_FRICTION,
     .begin_step = friction_begin_step,
     .end_step = friction_end_step,
+    .depends_on_start = true,
     .backward_euler_only = true,
 };
 
@@ -240,6 +241,7 @@ const TermKind self_friction_energy = {
     .begin_step = friction_begin_step,
     .end_step = friction_end_step,
     .internal = true,
+    .depends_on_start = true,
     .backward_euler_only = true,
 };
 

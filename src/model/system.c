@@ -221,6 +221,22 @@ bool system_falls_freely(const System *system)
     return !memchr(system->pinned, 1, (size_t)system->nodes);
 }
 
+bool system_turns_freely(const System *system, int *pivot)
+{
+    int pins = 0;
+    *pivot = -1;
+    for (int i = 0; i < system->nodes; i++)
+        if (system->pinned[i]) {
+            pins++;
+            *pivot = i;
+        }
+    for (int t = 0; t < system->terms; t++)
+        if (!system->term[t].kind->internal ||
+            system->term[t].kind->depends_on_start)
+            return false;
+    return pins <= 1;
+}
+
 void system_acceleration(const System *system, const double *x, double *a)
 {
     EvalPoint at = eval_point_at(system, x, NULL, x);

@@ -340,6 +340,16 @@ static double largest_movement(const Newton *newton, double norm)
     return sqrt(2 / newton->rounding.lightest) * norm;
 }
 
+bool turns_may_follow(const Newton *newton)
+{
+    const Iterate *at = &newton->at;
+    double torque = 0;
+    for (int i = 0; i < 2 * newton->system->nodes; i++)
+        torque += fabs(at->p[i] * at->g[i]);
+    return torque > newton->tolerance * newton->settings.h *
+                        newton->rounding.lightest * newton->rounding.shortest;
+}
+
 /* Computes the residual of p, and tests it.
  *   exact  whether p solves H p = -g up to rounding.  Otherwise the bound of
  *          its error must pass the test, too.  Rounding of g itself is not in
@@ -350,6 +360,7 @@ static Status find_residual(Newton *newton, bool exact)
     const double h = newton->settings.h;
     Status status = STATUS_OK;
     double error = 0;
+    int pivot;
     record->residual = largest_row_sum(newton->system->nodes, newton->at.p) / h;
     record->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
     if (!isfinite(record->residual))
@@ -358,7 +369,9 @@ static Status find_residual(Newton *newton, bool exact)
     if (!exact && newton->passes)
         status = direction_error_bound(newton, &error);
     if (record->residual + largest_movement(newton, error) / h >
-        newton->tolerance)
+            newton->tolerance ||
+        (turns_may_follow(newton) &&
+         !system_turns_freely(newton->system, &pivot)))
         newton->passes = false;
     return status;
 }

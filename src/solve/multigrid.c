@@ -266,6 +266,8 @@ static Status grid_test(Newton *newton, Status status)
         swap_iterates(newton);
         grid_write_state(&mg->grid, &newton->at);
     }
+    if (ends && newton->rounding.stiff)
+        record->change += turn_free_body(newton);
     if (ends && status != STATUS_NOT_FINITE)
         return STATUS_OK;
     bool hidden = small && below_roundoff(newton, record->change);

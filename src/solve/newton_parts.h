@@ -32,6 +32,11 @@ void direction_free_matrix(SearchDirection *search);
 
 Status find_direction(Newton *newton);
 
+/* Whether the next direction may turn nodes by more than the tolerance although
+ * p passes.  Forces g at x resist a turn; at x + p most of them are gone, and
+ * the masses alone resist it, against a torque of at most sum |p_i| |g_i|. */
+bool turns_may_follow(const Newton *newton);
+
 /* Largest |p_x| + |p_y| of a negligible direction, m, which passes the test and
  * is at most a millionth of the shortest spring. */
 double negligible_direction(const Newton *newton);
@@ -47,6 +52,13 @@ Status find_step_length(Newton *newton);
 
 /* Exchanges the iterate and the trial. */
 void swap_iterates(Newton *newton);
+
+/* Turns all nodes to the angle at which E is lowest, where P stays the same
+ * (system_turns_freely), in stiff scenes or after a last p that needs it.  Then
+ * sum m d x (u - u_tilde) = 0, d the arm from the pivot: angular momentum is
+ * exact.  Straight directions stretch what they turn, so a stiff body would
+ * turn by tiny steps, which pass the test.  Returns the change of E, J s^2. */
+double turn_free_body(Newton *newton);
 
 /* ---- multigrid.c: the same phases for large squares, without a factor */
 

@@ -122,7 +122,8 @@ enum { STRESS_LINE = 512 };
  *      walls
  *   m, n  two to six bodies of springs, or of triangles, that are thrown at
  *      each other, squeezed and pinned
- *   k  solids of triangles: moduli to 1e13 Pa, density from 1e-6 kg/m^2
+ *   k  solids of triangles: moduli to 1e13 Pa, density from 1e-6 kg/m^2, h to
+ *      1 s, tolerances from 1e-9 m/s
  *   l  large squares */
 void stress_line(const char *kinds, uint64_t seed, long number,
                  char line[STRESS_LINE]);

@@ -45,7 +45,7 @@ static const struct Draw {
     {"w", 1, " --stretch [0.6 1.5]"},
     {"n", 1, " --material neo-hookean --young <1e3 1e7> --poisson [0 0.48]"},
     {"k", 1, " --material neo-hookean --young <1e3 1e13> --poisson [0 0.48]"},
-    {"k", 1, " --density <1e-6 1e3> --timestep <1e-4 0.1>"},
+    {"k", 1, " --density <1e-6 1e3> --timestep <1e-4 1>"},
     {"k", 1, " --stretch [0.05 3] --turn [0 360] --tolerance <1e-9 1e-2>"},
     {"k", 4, " --velocity [-9 9],[-9 9]"},
     {"k", 4, " --gravity 9.81"},

@@ -46,6 +46,9 @@ TEST(random_scenes_keep_the_promise)
 #define STIFF                                                                  \
     "square --segments 2 --density 1e-3 --timestep 0.1 --tolerance 1e-6 "      \
     "--material neo-hookean --poisson 0.3 --stretch 0.5 --turn 30 --young "
+#define TURNS                                                                  \
+    "square --segments 3 --material neo-hookean --poisson 0.2 --turn 210 "     \
+    "--stretch 2.2 --tolerance 1e-5 --young "
 #define EDGE                                                                   \
     "square --segments 3 --stiffness 2.41e6 --density 8.93e-5 --timestep "     \
     "13.1 --yield 7e-4 --hardening 1.5e-4 --stretch "
@@ -62,7 +65,8 @@ static const struct {
     {3, STIFF "1e12 --gravity 9.81 --pin left", VERDICT_CONVERGED},
     {3, STIFF "3e11 --stretch 1.7 --turn 200 --velocity 5,-3",
      VERDICT_CONVERGED},
-    /* what turns it must not be lost in H p, either */
+    /* what turns it must not be lost in H p, either; and it is turned to the
+     * angle of its target, not left where tiny straight directions pass */
     {2,
      "square --segments 3 --material neo-hookean --young 1.74e12 "
      "--poisson 0.187 --density 5.85e-6 --timestep 0.442 --stretch 2.6 "
@@ -77,6 +81,22 @@ static const struct {
      "square --segments 1 --material neo-hookean --young 1.42e12 "
      "--poisson 0.0263 --density 6.31e-6 --timestep 0.419 --stretch 0.74 "
      "--turn 191 --tolerance 5.72e-6",
+     VERDICT_CONVERGED},
+    {3, TURNS "2.4e8 --density 2.07e-6 --timestep 0.314 --stretch 2.58",
+     VERDICT_CONVERGED},
+    {3, TURNS "5.55e12 --density 2e-6 --timestep 5e-3 --velocity -3,5",
+     VERDICT_CONVERGED},
+    {3, TURNS "1e12 --density 1e-5 --timestep 0.3 --pin 0 --gravity 9.81",
+     VERDICT_CONVERGED},
+    {2,
+     "square --segments 1 --stiffness 1610 --density 7.49e-9 --timestep "
+     "5.06e5 --stretch 0.0198 --tolerance 9.11e-6 --projection abs "
+     "--solver newton shaken 7.01e5",
+     VERDICT_REPORTED},
+    {1,
+     "square --segments 1 --stiffness 404 --density 81.4 --side 0.0666 "
+     "--timestep 0.0415 --stretch 0.0595 --solver multigrid --velocity "
+     "-2.64,0.486 shaken 2.75e5",
      VERDICT_CONVERGED},
     /* step 9 begins at rest, after an end that was looked at for a saddle:
      * the test there is of the projected Hessian again */
