@@ -39,14 +39,21 @@
  * after step 1. */
 #define PAST_EXPLODED 10
 
-/* A stored state, and its samples for plots over time. */
+/* A stored state, which entries of several branches can share. */
 typedef struct State {
-    size_t size; /* bytes of memory, with this struct */
+    int users;              /* number of entries that share it */
+    size_t size;            /* bytes of memory, with this struct */
+    bool is_set;            /* a start or a drag has set it, no step made it */
+    const Control *control; /* control under which the state was saved */
+    unsigned char bytes[];  /* the state (state_save) */
+} State;
+
+/* A point of the plots over time. */
+typedef struct Sample {
     double time; /* s */
     int rows;
-    Energy row[HISTORY_SERIES]; /* [rows] samples (show_sample) */
-    unsigned char bytes[];      /* the state (state_save) */
-} State;
+    Energy row[HISTORY_SERIES]; /* [rows] energies (picture_sample) */
+} Sample;
 
 /* The summary of a step, which outlives its iterations. */
 typedef struct Outcome {
@@ -60,8 +67,9 @@ typedef struct Outcome {
 typedef struct Entry {
     const Control *control; /* control of the next step; NULL: this step is not
                                made yet */
-    State *state; /* state after the step, under its old control; NULL: not
-                     stored */
+    State *state;   /* state after the step, before the control; NULL: not
+                       stored */
+    Sample *sample; /* sample of the state under the control, or NULL */
     int substeps; /* steps of the simulation in this step; 0: the scene is over,
                      or the pane has ended with the status of the outcome */
     Outcome outcome;
@@ -76,8 +84,7 @@ typedef struct Branch {
     int given;   /* entries that were copied from the branch below: 1, or 2 if
                     the branch begins before the edited step */
     long shown;  /* step that was shown when the user left the branch */
-    long stride; /* each stride-th state is stored; entry 0 has a state only in
-                    a fresh branch and after a drag */
+    long stride; /* each stride-th state is stored */
     int panes;
     Entry *entry; /* [room][panes]; entry `count` is being made */
     int gesture;  /* id; edits of one gesture share a branch; 0: none */

@@ -222,7 +222,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
         append(label, LABEL_SIZE, " (drawn: %ld)", seen);
 }
 
-/* Fills the picture of a pane. */
+/* Fills what the picture of a pane shows. */
 static void fill_pane(const Player *player, int p, Frame *frame)
 {
     const Machine *machine = &player->past.machine[p];
@@ -270,7 +270,7 @@ static void fill_time(const Player *player, FrameContent *content)
     }
     content->time_line.paused = player_is_stopped(player);
     if (player_settings(player)->next ==
-            NEXT_SPRING && /* each step fills in a spring */
+            NEXT_SPRING && /* each step assembles a spring */
         past->step < player_simulation(player)->system.springs) {
         snprintf(text, SENTENCE_SIZE, "spring %ld", past->step);
         return;
@@ -309,7 +309,7 @@ static void fill_frame(const Player *player, Frame *frame)
                                              : 0;
     content->in_document = player->screen.window && window_has_document();
     content->panes = past_panes(past);
-    if (content->panes > LAYOUT_PANES) /* a script may draw more */
+    if (content->panes > LAYOUT_PANES) /* scripts can add more */
         content->panes = LAYOUT_PANES;
     content->active = active < content->panes ? active : 0;
     for (int i = 0; i < content->panes; i++)

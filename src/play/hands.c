@@ -18,7 +18,7 @@ enum {
 
 static const double WHEEL_ZOOM = 1.15; /* factor for each notch */
 
-/* The things under the mouse. */
+/* The parts of window and scene under the mouse. */
 typedef struct Under {
     Layout layout; /* layout of the last frame */
     Hit hit;       /* part of the window */
@@ -155,11 +155,11 @@ static Status drag_number(Player *player, const Under *under)
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
-        return raise_number(player, row, 1); /* refused with a reason */
+        return raise_number(player, row, 1); /* refuses several numbers */
     if (row->display.increment > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
-        paces += 1e-9; /* between values that are rounded to paces */
+        paces += 1e-9; /* whole paces would give round values */
     if (!edge)
         wanted = option_turn_wheel(row, &mouse->options, paces);
     return now.number[row->slot] == wanted ? STATUS_OK
@@ -366,7 +366,7 @@ static Status hover(Player *player)
 static Status press_number(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->hands.mouse;
-    if (index >= player->screen.frame.numbers) /* "+ more" */
+    if (index >= player->screen.frame.numbers) /* the item "+ more" */
         return order(player, COMMAND_OPTIONS, 0);
     player->hands.selected = player->screen.frame.number[index];
     player->screen.changed = true;

@@ -83,7 +83,7 @@ int player_next_argument(const Player *player, int i)
             return i;
         if (row->kind != OPTION_SWITCH && words[i][length] == '\0' &&
             words[i + 1])
-            i++; /* the value */
+            i++; /* skips the option's value */
     }
     return 0;
 }

@@ -222,7 +222,7 @@ Status player_obey(Player *player, const Command *asked)
     begin_command(player, &command);
     if (waits_for_step(player, &command))
         return STATUS_OK;
-    if (reveals_answer(player, &command, &status)) /* "next" again: a step */
+    if (reveals_answer(player, &command, &status))
         return status ? status : obey_queue(player, false);
     if (past_works(past) && !(flags & SCREEN)) {
         stops = command.kind == COMMAND_ESCAPE;
@@ -238,7 +238,7 @@ Status player_obey(Player *player, const Command *asked)
                    player->orders.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_works(past);
-    player_complete_line(player); /* the command may have opened its card */
+    player_complete_line(player); /* a card with E along p may be open now */
     if (past_works(past) && (!worked || !(flags & SCREEN))) {
         Status shown = player_work(player);
         status = status ? status : shown;

@@ -1,5 +1,5 @@
-/* past.c - the tree of all computed steps and edits: going back, undo,
- * several panes.
+/* past.c - stores all steps and edits, goes back to steps, undoes edits, and
+ * makes steps in several panes.
  */
 #include "play/past.h"
 
@@ -72,14 +72,15 @@ const Control *past_start(const Past *past, int pane)
     return branch->entry[pane].control;
 }
 
-/* Whether a pane failed to make the step of this entry, and ended. */
+/* Whether the outcome of an entry is a failure, which has ended its pane. */
 static bool is_failure(const Entry *entry)
 {
     Status status = entry->outcome.status;
     return status && !status_is_unconverged(status);
 }
 
-/* Whether a pane had ended before the step of this entry was over. */
+/* Whether a pane has no part in the step of an entry, since a failure has ended
+ * it. */
 static bool has_ended(const Entry *entry)
 {
     return entry->substeps == 0 && is_failure(entry);
@@ -106,12 +107,18 @@ long past_last_seen(const Past *past, int pane, long step)
 
 /* ---- entries and branches ------------------------------------------------ */
 
+/* Drops the state of an entry, and its sample. */
 static void drop_state(Past *past, Entry *entry)
 {
-    if (entry->state)
-        past->bytes -= entry->state->size;
-    free(entry->state);
+    State *state = entry->state;
+    if (state && --state->users == 0) {
+        past->bytes -= state->size;
+        control_release(state->control);
+        free(state);
+    }
+    free(entry->sample);
     entry->state = NULL;
+    entry->sample = NULL;
 }
 
 static void drop_entry(Past *past, Entry *entry)
@@ -160,6 +167,16 @@ static void drop_branches(Past *past, int from)
 
 /* ---- states -------------------------------------------------------------- */
 
+/* Whether an entry keeps its state when the machine leaves its step.  In a
+ * branch that was thinned entry 0 only keeps a state that no step can make
+ * again. */
+static bool keeps_state(const Branch *branch, const Entry *entry)
+{
+    long i = (entry - branch->entry) / branch->panes;
+    return i % branch->stride == 0 && (i > 0 || branch->stride == 1 ||
+                                       !entry->state || entry->state->is_set);
+}
+
 /* Drops every second state of the branch with the smallest stride; among equals
  * the present branch comes last.  Returns false if no state is left to drop. */
 static bool thin_states(Past *past)
@@ -176,39 +193,15 @@ static bool thin_states(Past *past)
         return false;
     finest->stride *= 2;
     for (long i = 0; i < finest->room * finest->panes; i++)
-        if (i / finest->panes % finest->stride)
+        if (!keeps_state(finest, &finest->entry[i]))
             drop_state(past, &finest->entry[i]);
     return true;
 }
 
-/* The place where the state of a step is stored, or may be. */
-typedef struct StoredState {
-    Entry *entry;
-    bool due;          /* the state stays when the machine leaves the step */
-    bool dragged;      /* the state was set by a start or a drag */
-    const Control *by; /* control of the step that made the state */
-} StoredState;
-
-/* Finds the place of a state in the branch that has made or dragged it. */
-static StoredState find_stored(const Past *past, int pane, long step)
-{
-    const Branch *branch = present_branch(past);
-    while (!branch->fresh &&
-           (step < branch->first ||
-            (step == branch->first && !branch->entry[pane].state))) {
-        pane = pane_below(branch, pane);
-        branch--;
-    }
-    long i = step - branch->first;
-    Entry *entry = &branch->entry[i * branch->panes + pane];
-    return (StoredState){entry, i % branch->stride == 0, i == 0,
-                         i > 0 ? entry[-branch->panes].control
-                               : entry->control};
-}
-
 bool past_is_state_set(const Past *past)
 {
-    return find_stored(past, 0, past->step).dragged;
+    const State *state = find_entry(past, 0, past->step)->state;
+    return state && state->is_set;
 }
 
 /* Samples at most HISTORY_POINTS steps of a long run, the newest one among
@@ -223,18 +216,19 @@ void past_history(const Past *past, int pane, History *history)
         last = ended;
     history->series = history->count = 0;
     for (long step = 0; step < last + stride; step += stride) {
-        const State *state =
-            find_stored(past, pane, step < last ? step : last).entry->state;
-        if (state)
-            history_add(history, state->time, state->rows, state->row);
+        const Sample *sample =
+            find_entry(past, pane, step < last ? step : last)->sample;
+        if (sample)
+            history_add(history, sample->time, sample->rows, sample->row);
     }
 }
 
 /* Stores the machine's state in an entry; drops other states beyond the limit.
  */
-static Status store_state(Past *past, int pane, Entry *entry)
+static Status store_state(Past *past, int pane, bool set, Entry *entry)
 {
-    const Simulation *simulation = &past->machine[pane].simulation;
+    const Machine *machine = &past->machine[pane];
+    const Simulation *simulation = &machine->simulation;
     size_t size = sizeof *entry->state + state_save(simulation, NULL);
     drop_state(past, entry);
     while (past->bytes + size > past->limit && thin_states(past))
@@ -242,23 +236,26 @@ static Status store_state(Past *past, int pane, Entry *entry)
     State *state = malloc(size);
     if (!state)
         return STATUS_OUT_OF_MEMORY;
-    state->size = size;
+    *state = (State){1, size, set, control_retain(machine->control)};
     state_save(simulation, state->bytes);
     past->bytes += size;
     entry->state = state;
     return STATUS_OK;
 }
 
-/* Notes that the machine's simulation leaves its step, whose state was stored
- * for edits; drops the state unless it is due. */
+/* Leaves the step of a machine.  Its state was stored at least until now, since
+ * edits may need it. */
 static void machine_leave_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
+    const Branch *branch = present_branch(past);
     if (!machine->has_state)
         return;
-    StoredState stored = find_stored(past, pane, machine->step);
-    if (!stored.due)
-        drop_state(past, stored.entry);
+    while (machine->step < branch->first && !branch->fresh)
+        branch--;
+    Entry *entry = find_entry(past, pane, machine->step);
+    if (!keeps_state(branch, entry))
+        drop_state(past, entry);
     machine->has_state = false;
 }
 
@@ -269,8 +266,8 @@ static void leave_all_steps(Past *past)
 }
 
 /* Puts a branch on top of the present one, and drops undone ones.  The given
- * entries are copied from the branch below, without states.  Returns NULL if
- * memory is missing. */
+ * entries are copied from the branch below; the first one shares its state.
+ * Returns NULL if memory is missing. */
 static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->now + 1);
@@ -299,7 +296,11 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
             *to = *branch_entry(branch - 1, pane_below(branch, p),
                                 branch->first + i);
             control_retain(to->control);
-            to->state = NULL;
+            to->sample = NULL;
+            if (i > 0)
+                to->state = NULL;
+            if (to->state)
+                to->state->users++;
         }
     if (past->branches > 0)
         branch[-1].shown = past->step;
@@ -390,27 +391,33 @@ static Status machine_use_control(Machine *machine, const Control *control)
 }
 
 /* Notes that the machine has the state of a step, gives it the control of the
- * next step, and samples the state for plots.
- *   state  out, or NULL */
-static Status machine_set_step(Past *past, int pane, long step, State *state)
+ * next step, and samples the state if this control is new. */
+static Status machine_set_step(Past *past, int pane, long step)
 {
     Machine *machine = &past->machine[pane];
-    Status status =
-        machine_use_control(machine, find_entry(past, pane, step)->control);
+    Entry *entry = find_entry(past, pane, step);
+    bool samples =
+        past->keeps && (!entry->sample || machine->control != entry->control);
+    Status status = machine_use_control(machine, entry->control);
     machine->step = step;
     machine->has_state = !status;
-    if (!status && state) {
-        state->time = simulation_time(&machine->simulation);
-        state->rows = picture_sample(&machine->simulation, state->row);
+    if (status || !samples)
+        return status;
+    if (!entry->sample)
+        entry->sample = malloc(sizeof *entry->sample);
+    if (entry->sample) {
+        entry->sample->time = simulation_time(&machine->simulation);
+        entry->sample->rows =
+            picture_sample(&machine->simulation, entry->sample->row);
     }
-    return status;
+    return STATUS_OK;
 }
 
-static Status machine_load_state(Machine *machine, StoredState stored)
+static Status machine_load_state(Machine *machine, const State *state)
 {
-    Status status = machine_use_control(machine, stored.by);
+    Status status = machine_use_control(machine, state->control);
     if (!status)
-        state_restore(stored.entry->state->bytes, &machine->simulation);
+        state_restore(state->bytes, &machine->simulation);
     return status;
 }
 
@@ -421,31 +428,29 @@ static Status machine_seek(Past *past, int pane, long goal)
     Machine *machine = &past->machine[pane];
     const Control *start = past_start(past, pane);
     long from = goal;
-    while (past->keeps && from > 0 &&
-           !find_stored(past, pane, from).entry->state)
+    while (past->keeps && from > 0 && !find_entry(past, pane, from)->state)
         from--;
     bool is_near = machine->has_state && machine->step <= goal &&
                    (machine->step >= from || machine->step >= goal - 1);
     if (is_near &&
         machine->control == find_entry(past, pane, machine->step)->control)
-        return machine_set_step(past, pane, machine->step, NULL);
-    StoredState stored = find_stored(past, pane, from);
-    if (!stored.entry->state)
+        return machine_set_step(past, pane, machine->step);
+    const Entry *entry = find_entry(past, pane, from);
+    if (!entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
     if (!machine->has_state || machine->step != from) {
         machine_leave_step(past, pane);
         machine_forget_step(machine);
-        machine->outcome = find_entry(past, pane, from)->outcome;
+        machine->outcome = entry->outcome;
     }
     if (machine->start != start) {
         status = machine_create(machine, &start->options);
         machine->start = status ? NULL : control_retain(start);
     }
     if (!status)
-        status = machine_load_state(machine, stored);
-    return status ? status
-                  : machine_set_step(past, pane, from, stored.entry->state);
+        status = machine_load_state(machine, entry->state);
+    return status ? status : machine_set_step(past, pane, from);
 }
 
 /* ---- steps --------------------------------------------------------------- */
@@ -549,13 +554,12 @@ static Status machine_finish_step(Past *past, int pane)
         past->work = WORK_MADE;
     machine->substeps = 0;
     machine_leave_step(past, pane);
-    StoredState stored = find_stored(past, pane, step);
-    if (stored.dragged)
-        status = machine_load_state(machine, stored);
-    else if (past->keeps && !stored.entry->state)
-        store_state(past, pane, stored.entry);
+    if (to->state && to->state->is_set)
+        status = machine_load_state(machine, to->state);
+    else if (past->keeps && !to->state)
+        store_state(past, pane, false, to);
     if (!status)
-        status = machine_set_step(past, pane, step, stored.entry->state);
+        status = machine_set_step(past, pane, step);
     return status ? machine_fail(past, pane, status) : STATUS_RUNNING;
 }
 
@@ -787,9 +791,9 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
         entry->control = control_retain(past->machine[p].start);
         entry->substeps = 1;
         if (past->keeps)
-            status = store_state(past, p, entry);
+            status = store_state(past, p, true, entry);
         if (!status)
-            status = machine_set_step(past, p, 0, entry->state);
+            status = machine_set_step(past, p, 0);
     }
     return status;
 }
@@ -861,9 +865,8 @@ static Status edit_entry(Past *past, int pane, const Command *edit,
         simulation_place(simulation, (int)edit->number, edit->x, edit->y, true);
     else
         exhibit_flip(simulation, (int)edit->number);
-    Status status = store_state(past, pane, entry);
-    return status ? status
-                  : machine_set_step(past, pane, past->step, entry->state);
+    Status status = store_state(past, pane, true, entry);
+    return status ? status : machine_set_step(past, pane, past->step);
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
@@ -884,36 +887,20 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                            .given = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
-    if (joins) /* branches that were undone began with the old edit */
+    if (joins) /* undone branches began before this edit */
         drop_branches(past, past->now + 1);
     else
         branch = push_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
-    if (edit->kind ==
-        branch->edit.kind) /* undo reports the last edit of a gesture */
-        branch->edit = *edit;
+    if (edit->kind == branch->edit.kind)
+        branch->edit = *edit; /* undo reports the last edit of a gesture */
     invalidate_tables(past, past->step, changes_state(edit));
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)
             status = edit_entry(past, p, edit,
                                 &branch->entry[i * branch->panes + p]);
     return status || again ? status : past_settle(past);
-}
-
-/* Samples the first states of branches low ... high again for plots, with the
- * controls that follow them now. */
-static void resample_first_steps(Past *past, int low, int high)
-{
-    for (int b = low; b <= high; b++) {
-        const Branch *branch = &past->branch[b];
-        if (!past->keeps || branch->fresh ||
-            branch->first > past_newest(past) ||
-            !find_stored(past, 0, branch->first).entry->state)
-            continue;
-        past_aim(past, branch->first, false);
-        past_finish(past);
-    }
 }
 
 const Command *past_undo(Past *past, int way)
@@ -934,9 +921,7 @@ const Command *past_undo(Past *past, int way)
     leave_all_steps(past);
     present_branch(past)->shown = past->step;
     past->now = to;
-    past->step = past->branch[to].shown;
-    resample_first_steps(past, low + 1, high);
-    past->step = past->branch[to].shown;
+    past->step = present_branch(past)->shown;
     past_aim(past, past->step, false);
     return &past->branch[high].edit;
 }

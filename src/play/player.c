@@ -12,13 +12,13 @@
 #include "run/scene.h"
 
 enum {
-    FRAME_SIZE = 900,   /* pixels, without a window */
-    UNSEEN_STEPS = 100, /* without a window, if nobody says how many */
+    FRAME_SIZE = 900,   /* pixels of a frame without a window */
+    UNSEEN_STEPS = 100, /* default number of steps without a window */
     FRAME_RATE = 60,    /* frames a second at most */
-    IDLE_WAIT = 200     /* ms between looks at the signals while paused */
+    IDLE_WAIT = 200     /* ms, longest wait for inputs between signals */
 };
 
-static const double EARLY = 0.002; /* s, how early a frame may come */
+static const double EARLY = 0.002; /* s by which a frame may be early */
 
 Status player_draw(Player *player)
 {
@@ -26,7 +26,7 @@ Status player_draw(Player *player)
     if (!player->screen.draws)
         return STATUS_OK;
     if (past_works(&player->past) && !past_makes(&player->past)) {
-        player->screen.changed = true; /* the step is soon shown */
+        player->screen.changed = true; /* drawn when the step is there */
         return STATUS_OK;
     }
     Paper *paper = player_paper(player);
@@ -38,11 +38,10 @@ Status player_draw(Player *player)
     player_paint(player, paper);
     Status status =
         player->screen.size[0] ? STATUS_OK : window_show(&paper->canvas);
-    int shown =
-        player->time.speed < 0 ? 1 << -player->time.speed : 1; /* in a film */
+    int slow = player->time.speed < 0 ? -player->time.speed : 0;
     if (!status && (fresh || filmed))
         status = recording_frame(&player->recording, &paper->canvas,
-                                 player->past.step, shown);
+                                 player->past.step, 1 << slow);
     return status;
 }
 
@@ -88,8 +87,8 @@ static Status obey_script(Player *player)
     return status;
 }
 
-/* Makes the steps of one frame, fewer if they take long.  Without a window each
- * step is a frame. */
+/* Makes the steps of one frame, at most for SLICE.  Without a window each step
+ * is a frame. */
 static Status step_frame(Player *player)
 {
     const Past *past = &player->past;
@@ -128,12 +127,12 @@ Status player_frame(Player *player)
     if (!status && !past_works(&player->past))
         status = obey_script(player);
     double now = player->screen.window ? clock_now() : 0;
-    if (player->screen.drawn < 0) /* a new run: step 0 is a frame too */
+    if (player->screen.drawn < 0) /* a new run begins with step 0 */
         player->time.due = now + period;
     bool due = !player->screen.window || now >= player->time.due - EARLY;
     bool first = player->screen.drawn < 0 && player->screen.draws;
     bool works = past_works(&player->past);
-    bool begins = works && player->time.began > start; /* draws it at once */
+    bool begins = works && player->time.began > start; /* is drawn first */
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);
@@ -176,7 +175,7 @@ Status player_run(Player *player)
 
 /* ---- beginning and end --------------------------------------------------- */
 
-/* Opens a window; without a screen frames go to files. */
+/* Opens the window; if there is no screen, has frames written to files. */
 static void open_view(Player *player)
 {
     Options *options = &player->given.options[0];
@@ -197,7 +196,7 @@ static void open_view(Player *player)
     }
     if (!player->screen.window && !options->script) {
         options->steps = options->steps < 0 ? UNSEEN_STEPS : options->steps;
-        options->paused = 0; /* no key could end it */
+        options->paused = 0; /* no key could end a pause */
     }
     player->screen.draws =
         player->screen.window || options->frames || options->film;
@@ -233,7 +232,7 @@ Status player_create(const Options *options, int count, char *const *words,
     if (!status)
         status =
             player_begin_runs(player, player->given.options, count, &begin);
-    if (!status && player_is_stopped(player)) /* scripts begin to run */
+    if (!status && player_is_stopped(player)) /* scripts begin running */
         status = script_add(&player->orders.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
     if (!status && player->given.asks && options->page)

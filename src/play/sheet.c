@@ -46,7 +46,7 @@ Status obey_sheet(Player *player, const Command *command)
     player->screen.sheet = calloc(1, sizeof *player->screen.sheet);
     if (!player->screen.sheet)
         return STATUS_OUT_OF_MEMORY;
-    int cells = 1; /* the tour */
+    int cells = 1; /* cell 0 shows the tour */
     while (cells < LAYOUT_CELLS && scenes[cells - 1].name &&
            !scenes[cells - 1].only_by_name)
         cells++;

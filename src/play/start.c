@@ -109,7 +109,7 @@ Status player_begin_again(Player *player, const Options *options, int panes,
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
     player->time.fine = opens ? 0 : player->time.fine;
     if (!status && opens &&
-        player->given.asks) { /* a script has these commands */
+        player->given.asks) { /* scripts repeat these commands themselves */
         player->orders.queue.pins = before;
         return player_enqueue_page(player);
     }

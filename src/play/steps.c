@@ -237,7 +237,7 @@ static void detect_rest(Player *player)
     int going = 0;
     const Options *options = player_settings(player);
     if (player->given.options[0].steps >= 0 || !player->given.attended ||
-        (options->next == NEXT_SPRING && /* springs still fill the Hessian */
+        (options->next == NEXT_SPRING && /* each step assembles a spring */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {

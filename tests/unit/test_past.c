@@ -187,6 +187,20 @@ TEST(a_pane_that_has_ended_comes_back)
     }
 }
 
+/* Each edit begins a branch; together their states stay below the limit. */
+TEST(states_of_many_edits_have_a_limit)
+{
+    begin_past("square --segments 3");
+    past.limit = 6 * past.bytes;
+    for (int i = 1; i <= 30; i++) {
+        const Command pin = {.kind = COMMAND_PIN, .number = 1, .x = i % 2};
+        CHECK_OK(try_edit(&pin, false, i));
+        show(i);
+    }
+    CHECK(past.branches == 31 && past.bytes <= past.limit);
+    past_free(&past);
+}
+
 /* Changes of one gesture are one branch, which goes on with its steps. */
 TEST(a_gesture_is_undone_as_a_whole)
 {
