@@ -34,7 +34,8 @@ typedef struct FlowLaw {
 double flow_law_slope(FlowLaw law, double e);
 
 /* Returns the eigenvalue along d of H/c, m^2.  H = c (l2 tau I + 2 tau' d d^T)
- * is the spring's block of the Hessian (spring_law.h). d2      m^2, |d|^2
+ * is the spring's block of the Hessian (spring_law.h).
+ *   d2      m^2, |d|^2
  *   across  m^2, l2 tau, the eigenvalue of H/c across d */
 double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
                                  double across);

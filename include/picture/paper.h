@@ -30,7 +30,8 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 
 /* Replaces the last words of a line by an ellipsis if the line is wider than
- * this in pixels. words  [room] in/out, markup */
+ * this in pixels.
+ *   words  [room] in/out, markup */
 void paper_shorten(Paper *paper, double size, int width, char *words,
                    size_t room);
 
@@ -49,8 +50,8 @@ int paper_width(Paper *paper, Face face, double size, const char *markup);
 
 /* Draws a paragraph in the width of the box, broken at blanks outside of
  * braces. If text is left, the last line ends with an ellipsis.  Returns the
- * height in pixels. lines  the most lines to draw; 0: only measures the whole
- * paragraph */
+ * height in pixels.
+ *   lines  the most lines to draw; 0: only measures the whole paragraph */
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup);
 

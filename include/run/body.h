@@ -19,8 +19,8 @@ const char *pins_read(const char *text, const SquareMesh *shape,
                       unsigned char *pinned);
 
 /* Creates the mesh, the system with all its terms, and the run at its start.
- * The centre of a scene's ball is the last node. Returns OK, INVALID_INPUT,
- * TOO_LARGE, OUT_OF_MEMORY. */
+ * The centre of a scene's ball is the last node.
+ * Returns OK, INVALID_INPUT, TOO_LARGE, OUT_OF_MEMORY. */
 Status body_create(Simulation *simulation, int run);
 
 /* Gives the terms and springs of a run the present numbers of the simulation's
@@ -43,11 +43,13 @@ Status body_check(const Options *options, Message message);
  * --states wrote, or which of its springs are broken and have yielded from
  * options->state_springs, a table of --springs.  Columns are found by their
  * names, so that a table may have more.  Of a table with several panes the
- * first one is read. nodes    nodes of each run; the rows of run r follow those
- * of run r - 1 x, v     [2 nodes] out, m, m/s system   in/out, with all its
- * terms Returns OK, OUT_OF_MEMORY, or INVALID_INPUT if the file has no such
- * step, has a line that cannot be read, or is about another number of nodes,
- * springs or runs. */
+ * first one is read.
+ *   nodes    nodes of each run; the rows of run r follow those of run r - 1
+ *   x, v     [2 nodes] out, m, m/s
+ *   system   in/out, with all its terms
+ * Returns OK, OUT_OF_MEMORY, or INVALID_INPUT if the file has no such step, has
+ * a line that cannot be read, or is about another number of nodes, springs or
+ * runs. */
 Status start_table_read(const Options *options, int run, int nodes, double *x,
                         double *v, Message message);
 Status start_springs_read(const Options *options, int run, System *system,

@@ -9,12 +9,10 @@
 
 #include "base/status.h"
 
-/* Copies a text for a message.  Control characters, characters that change the
+/* Makes a text safe to print.  Control characters, characters that change the
  * direction of writing, and bytes that are not UTF-8 become '?', so that the
- * message stays one line and contains no command for a terminal.  A text that
- * is too long loses its middle: "abc...xyz". text  in, or NULL: "" line  [size]
- * out, size at least 12; may be the text itself */
-void copy_one_line(const char *text, char *line, size_t size);
+ * text stays one line and contains no command for a terminal. */
+void make_one_line(char *text);
 
 /* Appends to a text, as far as it fits.
  *   text  [size] in/out */

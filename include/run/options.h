@@ -220,7 +220,8 @@ int option_count_values(const char *text, char separator);
 
 /* Reads a value as users type it: numbers such as "1/60" and "4 ms", each in
  * the row's range, or a name.  A single number may have a decimal comma,
- * "0,02". count   expected numbers; a value may have fewer if the row says so
+ * "0,02".
+ *   count   expected numbers; a value may have fewer if the row says so
  *   number  [count] out; of a name its index
  * Returns whether the text is such a value. */
 bool option_read(const OptionRow *row, int count, const char *text,

@@ -157,8 +157,9 @@ Status simulation_has_room(const Simulation *simulation, const Options *options,
 
 /* Returns the part of the straight way to a point that an obstacle of these
  * options can move: 1 if there is room at the end, else the part up to the
- * first body. number  of the obstacle: grounds first, then balls to      [2] m,
- * in, the point */
+ * first body.
+ *   number  of the obstacle: grounds first, then balls
+ *   to      [2] m, in, the point */
 double simulation_find_free_way(const Simulation *simulation,
                                 const Options *options, int number,
                                 const double to[2]);

@@ -20,8 +20,8 @@ static const double FACE = 4;   /* pixels, smallest side of a face */
 /* ---- sizes and colours -------------------------------------------------- */
 
 /* Returns the strain of the end colours: half of the strain at the start or of
- * the largest plastic strain, at least 5 %. ep  [springs] in, plastic strain;
- * NULL: strain is shown */
+ * the largest plastic strain, at least 5 %.
+ *   ep  [springs] in, plastic strain; NULL: strain is shown */
 static double strain_range(const Simulation *simulation, const double *ep)
 {
     double most = ep ? 0 : fabs(fabs(simulation->options.stretch) - 1);

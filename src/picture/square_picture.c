@@ -83,8 +83,10 @@ static Extent find_seen_extent(const Plot *stage, const Extent *view)
 
 /* Widens the view by a circle that is partly outside of the seen part.  Between
  * `reach` and 1.5 times `reach` the view shrinks to the seen part again, so
- * that the camera never jumps. at, radius  m, circle reach       distance from
- * the middle, times the seen part, up to which the whole circle is shown */
+ * that the camera never jumps.
+ *   at, radius  m, circle
+ *   reach       distance from the middle, times the seen part, up to which the
+ *               whole circle is shown */
 static void widen_view(const Extent *seen, const double at[2], double radius,
                        double reach, Extent *view)
 {

@@ -232,12 +232,11 @@ Status script_add(Script *script, long step, const Command *command,
 
 Status script_read(const char *name, Script *script, Message message)
 {
-    char *text = NULL, why[600] = "", shown[80];
+    char *text = NULL, why[600] = "";
     size_t room = 0;
     *script = (Script){0};
     if (!name)
         return STATUS_OK;
-    copy_one_line(name, shown, sizeof shown);
     FILE *file = fopen(name, "r");
     Status status = STATUS_OK;
     long number = 0;
@@ -259,9 +258,9 @@ Status script_read(const char *name, Script *script, Message message)
             status = script_add(script, step, &command, 0);
     }
     if (!file || (!status && !feof(file)))
-        status = refuse(message, "--script: %s: %s", shown, strerror(errno));
+        status = refuse(message, "--script: %.80s: %s", name, strerror(errno));
     else if (status == STATUS_INVALID_INPUT)
-        refuse(message, "--script: %s, line %ld: %s", shown, number, why);
+        refuse(message, "--script: %.80s, line %ld: %s", name, number, why);
     free(text);
     if (file)
         fclose(file);

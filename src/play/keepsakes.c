@@ -126,7 +126,7 @@ static char *make_line(const Player *player, const char *script)
         free(line);
         return NULL;
     }
-    copy_one_line(line, line, size + 1);
+    make_one_line(line);
     return line;
 }
 

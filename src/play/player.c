@@ -76,7 +76,7 @@ static Status obey_script(Player *player)
         if (status == STATUS_INVALID_INPUT) {
             char line[128];
             command_format(command, line, sizeof line);
-            copy_one_line(line, line, sizeof line);
+            make_one_line(line);
             fprintf(stderr, "script: step %ld: '%s': %s\n", player->past.step,
                     line, player->message);
             player->message[0] = '\0';
@@ -179,20 +179,21 @@ Status player_run(Player *player)
 static void open_view(Player *player)
 {
     Options *options = &player->given.options[0];
-    char reason[256], shown[256];
+    char line[640];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
     if (!options->headless)
         player->screen.window =
             window_open("elasto", size, options->fullscreen);
     if (!options->headless && !player->screen.window) {
-        copy_one_line(window_failure(), reason, sizeof reason);
-        window_close();
         if (!options->frames && !options->film)
             options->frames = "frames";
-        copy_one_line(options->frames ? options->frames : options->film, shown,
-                      sizeof shown);
-        fprintf(stderr, "no screen: %s; the frames go to %s%s\n", reason, shown,
-                options->frames ? "/" : "");
+        snprintf(
+            line, sizeof line, "no screen: %.300s; the frames go to %.300s%s",
+            window_failure(), options->frames ? options->frames : options->film,
+            options->frames ? "/" : "");
+        window_close();
+        make_one_line(line);
+        fprintf(stderr, "%s\n", line);
     }
     if (!player->screen.window && !options->script) {
         options->steps = options->steps < 0 ? UNSEEN_STEPS : options->steps;

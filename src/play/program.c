@@ -28,7 +28,7 @@ print_error(int code, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    copy_one_line(line, line, sizeof line);
+    make_one_line(line);
     fprintf(stderr, "elasto: %s\n", line);
     return code;
 }
@@ -126,7 +126,7 @@ print_quantity(FILE *file, const char *name, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    copy_one_line(line, line, sizeof line);
+    make_one_line(line);
     fprintf(file, "%-20s%s\n", name, line);
 }
 
@@ -230,7 +230,8 @@ static void print_old_frames(const Recording *recording)
             last = step;
         }
     bool several = count > 1;
-    copy_one_line(recording->folder, folder, sizeof folder);
+    snprintf(folder, sizeof folder, "%s", recording->folder);
+    make_one_line(folder);
     if (several)
         snprintf(range, sizeof range, " ... frame_%06ld.png", last);
     if (count > 0)

@@ -7,16 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char CUT[] = "...";
-
-/* Whether a byte continues a character of UTF-8. */
-static bool is_continuation(char byte)
-{
-    return ((unsigned char)byte & 0xC0) == 0x80;
-}
-
-/* Whether a character moves the cursor, ends a line, or changes the direction of
- * writing (from U+2028 on), and so could hide a part of a message. */
+/* Whether a character moves the cursor, ends a line, or changes the direction
+ * of writing (from U+2028 on), and so could hide a part of a message. */
 static bool is_control(long letter)
 {
     return letter < 0x20 || (letter >= 0x7F && letter < 0xA0) ||
@@ -36,43 +28,26 @@ static int count_bytes(const char *text)
     if ((first >= 0x80 && first < 0xC0) || first > 0xF4)
         return 0;
     for (int i = 1; i < size; i++) {
-        if (!is_continuation(text[i]))
+        if (((unsigned char)text[i] & 0xC0) != 0x80)
             return 0;
         letter = letter << 6 | (text[i] & 0x3F);
     }
     return letter < least[size] || is_control(letter) ? 0 : size;
 }
 
-void copy_one_line(const char *text, char *line, size_t size)
+void make_one_line(char *text)
 {
-    if (!text)
-        text = "";
-    size_t length = strlen(text), room = size - 1;
-    if (length <= room) {
-        memmove(line, text, length + 1);
-    } else {
-        /* Cut between characters, not inside one. */
-        size_t left = (room - (sizeof CUT - 1)) / 2;
-        size_t right = room - (sizeof CUT - 1) - left;
-        while (left > 0 && is_continuation(text[left]))
-            left--;
-        while (right > 0 && is_continuation(text[length - right]))
-            right--;
-        const char *rest = text + length - right;
-        memmove(line, text, left);
-        memmove(line + left, CUT, sizeof CUT - 1);
-        memmove(line + left + sizeof CUT - 1, rest, right + 1);
-    }
-    for (const char *from = line; *from;) {
+    char *to = text;
+    for (const char *from = text; *from;) {
         int bytes = count_bytes(from);
         if (bytes == 0) {
-            *line++ = '?';
+            *to++ = '?';
             from++;
         }
         while (bytes-- > 0)
-            *line++ = *from++;
+            *to++ = *from++;
     }
-    *line = '\0';
+    *to = '\0';
 }
 
 void append(char *text, size_t size, const char *format, ...)
@@ -91,6 +66,6 @@ Status refuse(Message message, const char *format, ...)
     vsnprintf(message.text, message.size, format, arguments);
     va_end(arguments);
     if (message.size > 0)
-        copy_one_line(message.text, message.text, message.size);
+        make_one_line(message.text);
     return STATUS_INVALID_INPUT;
 }

@@ -209,9 +209,9 @@ static const double STILL = 1e-6, BALANCED = 1e-3, FRAME = 1.0 / 60;
 /* Whether the nodes are close to places where the forces f vanish.  The
  * distance is p = (M/T^2 + H_P)^-1 f, the direction of Algorithm 3 for a step
  * from rest that is so long that masses hardly matter.  With a T^2 above 1e10 m
- * / curvature of P rounding would make p inaccurate.  A separate Newton object
- * computes p, so that the run is not changed. l  m, length of the shortest
- * spring */
+ * over the curvature of P rounding would make p inaccurate.  A separate Newton
+ * object computes p, so that the run is not changed.
+ *   l  m, length of the shortest spring */
 static bool forces_balance(const Simulation *simulation, double l)
 {
     const System *system = &simulation->system;

@@ -60,7 +60,8 @@ static LocalModel line_energy(const Simulation *simulation, double x)
 }
 
 /* Returns value and derivatives of parts of E for a time step h, in landscape
- * and dial, or of the function of one unknown. parts  enum LandscapePart */
+ * and dial, or of the function of one unknown.
+ *   parts  enum LandscapePart */
 static LocalModel landscape_at(const Simulation *simulation, unsigned parts,
                                double h, Projection projection,
                                const double at[2])
@@ -345,7 +346,8 @@ Status create_landscape(Simulation *simulation)
 
 /* Finds the minimiser for a time step h, up to rounding, by Algorithm 3 for two
  * unknowns.  The gradient is 0 also at a saddle on the line through the pins,
- * so the search begins beside this line. point  [2] m, in/out */
+ * so the search begins beside this line.
+ *   point  [2] m, in/out */
 static void minimise(const Simulation *simulation, double h, double point[2])
 {
     double p[2], length = INFINITY;

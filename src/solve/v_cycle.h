@@ -58,7 +58,9 @@ bool v_cycle_solve(VCycle *cycle, const double *g, double square,
 /* Whether the exact direction passes the test.  H - M is positive
  * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M,
  * where r = -g - H p is the remainder of p, and at most sqrt(2/m) times that at
- * a node. square   |r|_(M^-1)^2 largest, longest  as above, of p */
+ * a node.
+ *   square            |r|_(M^-1)^2
+ *   largest, longest  as above, of p */
 bool v_cycle_passes(const Grid *grid, double largest, double square,
                     double longest);
 
