@@ -98,7 +98,6 @@ space='(s.csv|l.csv|frames/frame_00000..png): (No space left|Input/output)'
 if [ -z "${SANITIZE:-}" ]; then # a sanitizer has a malloc of its own
     faults_of memory_fails_once memory \
         'not enough memory|Cannot allocate memory|drawing failed' 160x120
-    faults_of writes_fail_once write "$space" 400x300
     faults_of renames_fail rename "$space" 160x120
 fi
 

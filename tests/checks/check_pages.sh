@@ -23,30 +23,6 @@ verdict every_page_opens_by_number_and_by_name "$(
     cmp last/frame_000000.png "frames_$last/frame_000000.png" 2>&1
 )"
 
-# Touched, left and entered again it is what it was at first: every third page,
-# LONG=1 every page.
-walk() { # FOLDER LINES...: a picture of the page that the commands end at
-    mkdir "$1"
-    (
-        cd "$1" || exit 1
-        shift
-        printf '0 %s\n' pause "$@" shot quit >script
-        "$elasto" --lecture --headless --quiet --size 480x300 \
-            --script script 2>error ||
-            grep -v 'this is the \(first\|last\) page' error
-        mv elasto_*.png shot.png
-    )
-}
-verdict a_page_is_the_same_when_it_is_entered_again "$(
-    for name in $(awk -v stride="$([ -z "${LONG:-}" ] && echo 3 || echo 1)" \
-        '$2 !~ /order/ && NR % stride == 0 { print $2 }' list); do
-        walk "once_$name" "page $name"
-        walk "again_$name" "page $name" next next page-back page-on page-on \
-            "page $name"
-        cmp "once_$name/shot.png" "again_$name/shot.png" 2>&1
-    done
-)"
-
 # Pages are referred to by name: with a page more at place 3 each number in a
 # text is that of the same page as before.
 numbers() { # PAGES.TXT: which pages its texts name, by number

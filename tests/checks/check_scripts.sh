@@ -96,6 +96,9 @@ ends_of_runs() {
     done | sort -u | wc -l | grep -qx 1 || echo 'a step beyond the newest'
     "$elasto" --headless --segments 2 | grep -q '^steps  *100$' ||
         echo 'not 100 steps without a window'
+    printf '0 pause\n9 step\n' >late.script # a line waits while steps are made
+    timeout 60 "$elasto" --headless --segments 2 --script late.script |
+        grep -q '^steps  *1$' || echo 'a line of a script waits for ever'
     echo '0 play' >play.script
     "$elasto" --headless --quiet --integrator forward-euler --timestep 0.1 \
         --steps 30 --script play.script 2>error
@@ -148,13 +151,8 @@ pushes_end() {
 }
 verdict twenty_seconds_of_pushing_have_one_hash "$(pushes_end)"
 
-# Each pane counts: for the hash, and for the exit code.
+# The exit code is that of the worst pane.
 each_pane() {
-    hashes=$(for pair in 1e-2,1e-6 1e-2,1e-9 1e-9,1e-6; do
-        "$elasto" --headless --steps 5 --tolerance $pair |
-            sed -n 's/^state hash *//p'
-    done | sort -u | wc -l)
-    [ "$hashes" = 3 ] || echo "$hashes hashes of 3 pairs"
     for pair in none,clamp clamp,none; do
         "$elasto" unprojected --headless --quiet --steps 5 --projection $pair
         code=$?

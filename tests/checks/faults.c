@@ -1,11 +1,10 @@
 /* Makes calls fail, those of all libraries, too: it is preloaded (LD_PRELOAD).
  *
- *   FAULT       which call: memory, write, rename; hang: renaming never ends
+ *   FAULT       which call: memory, rename; hang: renaming never ends
  *   FAULT_AT    the number of the one that fails, from 1; 0: only count
  *   FAULT_FILE  the number of calls goes to this file at the end
  *
- * Counting begins with main.  Streams opened for writing are replaced by ones
- * whose writes can fail.
+ * Counting begins with main.
  */
 #include <dlfcn.h>
 #include <errno.h>
@@ -54,30 +53,6 @@ void *calloc(size_t count, size_t size)
 void *realloc(void *old, size_t size)
 {
     return fails("memory", ENOMEM) ? NULL : __libc_realloc(old, size);
-}
-
-/* A stream around another one. */
-static ssize_t fault_write(void *cookie, const char *bytes, size_t count)
-{
-    if (fails("write", ENOSPC))
-        return 0;
-    return (ssize_t)fwrite(bytes, 1, count, cookie);
-}
-
-static int fault_close(void *cookie)
-{
-    return fclose(cookie);
-}
-
-FILE *fopen(const char *name, const char *mode)
-{
-    FILE *file = REAL(fopen)(name, mode);
-    if (!file || mode[0] != 'w' || !is_kind("write"))
-        return file;
-    setvbuf(file, NULL, _IONBF, 0);
-    cookie_io_functions_t functions = {.write = fault_write,
-                                       .close = fault_close};
-    return fopencookie(file, mode, functions);
 }
 
 int rename(const char *from, const char *to)

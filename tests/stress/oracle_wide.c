@@ -87,6 +87,5 @@ static Wide power_of(Wide a, int n)
 #define exact_gap         wide_exact_gap
 #define smallest_gap      wide_smallest_gap
 #define smallest_cell     wide_smallest_cell
-#define exact_nearest     wide_exact_nearest
 #define exact_crossings   wide_exact_crossings
 #include "../unit/oracle.c"

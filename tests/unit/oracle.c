@@ -1009,40 +1009,6 @@ long exact_crossings(const System *system, const double *x)
 
 /* ---- what must stay above 0 ---------------------------------------------- */
 
-Real exact_nearest(const Simulation *simulation, Real reach, Real *slip)
-{
-    const System *system = &simulation->system;
-    const double *x = simulation->run[0].x, *v = simulation->run[0].v;
-    int each = simulation->mesh.nodes / simulation->mesh.bodies;
-    Real least = INFINITY, pressed = 0, sum = 0;
-    for (int k = 0; k < system->nodes * system->springs; k++) {
-        int p = k % system->nodes, s = k / system->nodes;
-        int a = system->e[2 * s], b = system->e[2 * s + 1];
-        Real q[2], e[2], w[2], n[2];
-        if (p / each == a / each || is_far(x, p, (int[]){a, b}, (double)reach))
-            continue;
-        for (int c = 0; c < 2; c++) {
-            q[c] = (Real)x[2 * p + c] - x[2 * a + c];
-            e[c] = (Real)x[2 * b + c] - x[2 * a + c];
-        }
-        Real r = (q[0] * e[0] + q[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]);
-        r = fminl(fmaxl(r, 0), 1);
-        for (int c = 0; c < 2; c++) {
-            n[c] = q[c] - r * e[c];
-            w[c] = v[2 * p + c] - (1 - r) * v[2 * a + c] - r * v[2 * b + c];
-        }
-        Real d = hypotl(n[0], n[1]);
-        if (!(d < reach))
-            continue;
-        least = fminl(least, d);
-        Real S = powl(d / reach, 2), force = d * (1 / S - 1 - logl(S));
-        pressed += force;
-        sum += force * fabsl(n[0] * w[1] - n[1] * w[0]) / d;
-    }
-    *slip = sum / pressed;
-    return least;
-}
-
 double exact_gap(const System *system, const double *x, int node, int obstacle)
 {
     const Contact *contact = contact_of(system);

@@ -222,39 +222,6 @@ TEST(broken_springs_do_nothing)
     CHECK(lost() == damped);
 }
 
-/* A pinned node can touch what moves by itself or is moved, and nothing else.
- */
-TEST(pairs_are_those_that_can_move)
-{
-    enum { PINNED, BALL, WALL = 0, MOVED = 2 };
-    static const struct {
-        int node, obstacle;
-        bool plain, held, drawn; /* the ball is free; pinned; all are drawn */
-    } rows[] = {{PINNED, WALL, false, false, true},
-                {PINNED, BALL, true, false, true},
-                {PINNED, MOVED, true, true, true},
-                {BALL, WALL, true, false, true},
-                {BALL, BALL, false, false, false}};
-    unsigned char pinned[2] = {1, 0};
-    double pin_v[4] = {0};
-    System system = {.nodes = 2, .pinned = pinned};
-    Contact contact = {.obstacles = 3, .ball = BALL};
-    contact.obstacle[WALL] = (Obstacle){.kind = OBSTACLE_WALL, .node = -1};
-    contact.obstacle[BALL] = (Obstacle){.kind = OBSTACLE_BALL, .node = BALL};
-    contact.obstacle[MOVED] = contact.obstacle[WALL];
-    contact.obstacle[MOVED].motion.phases = 1;
-    for (int i = 0; i < 5; i++) {
-        int node = rows[i].node, k = rows[i].obstacle;
-        pinned[BALL] = 0;
-        system.pin_v = NULL;
-        CHECK(contact_has_pair(&contact, &system, node, k) == rows[i].plain);
-        pinned[BALL] = 1;
-        CHECK(contact_has_pair(&contact, &system, node, k) == rows[i].held);
-        system.pin_v = pin_v;
-        CHECK(contact_has_pair(&contact, &system, node, k) == rows[i].drawn);
-    }
-}
-
 /* ---- whole scenes ------------------------------------------------------ */
 
 /* As many as the scenes here have at most. */

@@ -190,17 +190,6 @@ TEST(the_words_of_pin_name_their_nodes)
         for (int node = 0; cases[i].pinned[node]; node++)
             CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
     }
-    static const char *const bad[] = {
-        "",    "9",          "-1",
-        "1,",  ",1",         "1.0",
-        "1 ",  "upper",      "toppp",
-        "to",  "1;2",        "1,,2",
-        "+1",  "top left",   "0x1",
-        "1e0", "4294967296", "99999999999999999999999999999999",
-    };
-    const SquareMesh shape = square_mesh_create(2, 2, 1, 1);
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        CHECK(pins_read(bad[i], &shape, NULL));
 }
 
 TESTS(NULL, NULL)

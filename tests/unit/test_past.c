@@ -1,7 +1,7 @@
 /* The one past: every state comes back to the last bit, whatever was kept,
- * thrown away, changed, undone and done again; commands.  The hand: its work is
- * booked; it wins; whatever the mouse does, every step ends (the derivatives of
- * its energy are in test_terms.c).
+ * thrown away (changed, undone: test_session); commands.  The hand: its
+ * work is booked; it wins; whatever the mouse does, every step ends (the
+ * derivatives of its energy are in test_terms.c).
  */
 #include "test.h"
 
@@ -62,25 +62,10 @@ static uint64_t show(long step)
     return hash_now();
 }
 
-static Status try_edit(const Command *command, bool again, int gesture)
-{
-    return past_edit(&past, command, 0, past_panes(&past), again, gesture);
-}
-
 static void edit(CommandKind kind, long number, double x, double y)
 {
     const Command command = {.kind = kind, .number = number, .x = x, .y = y};
-    CHECK_OK(try_edit(&command, false, 0));
-}
-
-/* "timestep 0.01" */
-static void set_option(const char *text, bool again)
-{
-    char line[96], message[128];
-    Command command;
-    snprintf(line, sizeof line, "set %s", text);
-    CHECK_OK(command_parse(line, &command, MESSAGE(message)));
-    CHECK_OK(try_edit(&command, again, 0));
+    CHECK_OK(past_edit(&past, &command, 0, past_panes(&past), false, 0));
 }
 
 enum { STEPS = 48 };
@@ -193,261 +178,11 @@ TEST(states_of_many_edits_have_a_limit)
     begin_past("square --segments 3");
     past.limit = 6 * past.bytes;
     for (int i = 1; i <= 30; i++) {
-        const Command pin = {.kind = COMMAND_PIN, .number = 1, .x = i % 2};
-        CHECK_OK(try_edit(&pin, false, i));
+        edit(COMMAND_PIN, 1, i % 2, 0);
         show(i);
     }
     CHECK(past.branches == 31 && past.bytes <= past.limit);
     past_free(&past);
-}
-
-/* Changes of one gesture are one branch, which goes on with its steps. */
-TEST(a_gesture_is_undone_as_a_whole)
-{
-    uint64_t hash[9];
-    begin_past("square --segments 3");
-    run(0, 3, hash);
-    const double *x = past.machine[0].simulation.run[0].x;
-    Command grab = {.kind = COMMAND_GRAB, .number = 5, .x = x[10], .y = x[11]};
-    CHECK_OK(try_edit(&grab, false, 7));
-    for (long step = 4; step <= 8; step++) {
-        Command drag = {.kind = COMMAND_DRAG, .x = 0.1 * (double)step, .y = 1};
-        CHECK_OK(try_edit(&drag, false, 7));
-        hash[step] = show(step);
-    }
-    CHECK(past.branches == 2);
-    check_all_steps(8, hash);
-    show(8);
-    past_undo(&past, -1);
-    CHECK_OK(past_finish(&past));
-    CHECK(past.step == 3 && hash_now() == hash[3] && past_newest(&past) == 3);
-    past_undo(&past, 1);
-    CHECK_OK(past_finish(&past));
-    CHECK(past.step == 8 && hash_now() == hash[8]);
-    const Command add = {.kind = COMMAND_ADD_PANE};
-    CHECK_OK(past_edit(&past, &add, 0, 0, false, 0));
-    past_undo(&past, -1);
-    CHECK_OK(try_edit(&grab, false, 7)); /* goes on with it: */
-    CHECK(!past_undo(&past, 1));         /* the panes were of another end */
-    past_free(&past);
-    begin_past("arrows --integrator backward-euler");
-    show(1);
-    for (int i = 1; i <= 3; i++) {
-        Command drag = {.kind = COMMAND_HANDLE, .x = i, .y = 0.5};
-        CHECK_OK(try_edit(&drag, false, 7));
-        CHECK(past.branches == 2);
-    }
-    uint64_t dragged = hash_now();
-    show(2);
-    CHECK(show(0) != dragged && show(1) == dragged);
-    past_free(&past);
-}
-
-static double plotted_total(long step)
-{
-    static History history;
-    past_history(&past, 0, &history);
-    CHECK(history.series > 0 && history.count > step);
-    return history.value[0][step];
-}
-
-/* What plots show of a step is the ledger with the numbers that it goes on
- * with: after an undo those of before, after a redo the others. */
-TEST(plots_follow_undo)
-{
-    static const char *const numbers[] = {"stiffness 2e4", "stiffness 7e5",
-                                          "stiffness 1e9"};
-    for (int i = 0; i < 3; i++) {
-        uint64_t hash[7];
-        begin_past("square --segments 2");
-        run(0, 4, hash);
-        show(2);
-        double before = plotted_total(2);
-        set_option(numbers[i], false);
-        double after = plotted_total(2);
-        CHECK(after != before);
-        show(3);
-        show(4);
-        past_undo(&past, -1);
-        CHECK_OK(past_finish(&past));
-        CHECK(plotted_total(2) == before && past.step == 2);
-        past_undo(&past, 1);
-        CHECK_OK(past_finish(&past));
-        CHECK(plotted_total(2) == after && past.step == 4);
-        past_free(&past);
-    }
-}
-
-/* ---- anything in any order ------------------------------------------------
- */
-
-/* What was seen when a step was first made, as each branch has it. */
-enum { LAST = 12, DEPTH = 40, PANES = 3 };
-static uint64_t truth[DEPTH][LAST + 1][PANES];
-
-/* The state that is shown, if it is a new one; else it has been seen. */
-static void look(bool fresh)
-{
-    for (int p = 0; p < past_panes(&past); p++) {
-        const Simulation *simulation = &past.machine[p].simulation;
-        uint64_t hash = hash_of(simulation, STATE_HASH_SEED);
-        CHECK(fresh || truth[past.now][past.step][p] == hash);
-        truth[past.now][past.step][p] = hash;
-    }
-}
-
-static void visit(long step, bool again)
-{
-    bool fresh = step > past_newest(&past);
-    past_aim(&past, step, again);
-    CHECK_OK(past_finish(&past));
-    CHECK(past.step == step);
-    look(fresh);
-}
-
-/* Work that is given up somewhere, or not. */
-static void visit_in_part(Random *random)
-{
-    long newest = past_newest(&past);
-    past_aim(&past, random_below(random, (int)newest + 2),
-             random_below(random, 2));
-    for (int k = random_below(random, 9); k > 0 && past_works(&past); k--)
-        past_iterate(&past);
-    past_aim(&past, past.step, false);
-    CHECK_OK(past_finish(&past));
-    look(past_newest(&past) > newest);
-}
-
-/* A change of a random kind in all panes, or a number in one. */
-static Command random_edit(Random *random, int kind)
-{
-    static const char *const settings[] = {
-        "timestep 0.01",  "timestep 0.003",      "stiffness 2e4",
-        "stiffness 1e5",  "projection none",     "projection clamp",
-        "tolerance 1e-6", "integrator midpoint", "integrator backward-euler"};
-    const Simulation *simulation = &past.machine[0].simulation;
-    const double *x = simulation->run[0].x;
-    double at[SCENE_MAX_HANDLES][2];
-    int nodes = simulation->system.nodes;
-    int node = random_below(random, nodes < 2 ? nodes : 2);
-    bool pinned = simulation->system.pinned[node];
-    Command edit = {0};
-    char message[256], line[40];
-    bool mesh = simulation->scene->needs & NEEDS_MESH;
-    int all = contact_of(&simulation->system) ? 7 : mesh ? 9 : 2;
-    snprintf(line, sizeof line, "set %s", settings[random_below(random, all)]);
-    CHECK_OK(command_parse(line, &edit, MESSAGE(message)));
-    if (kind < 2)
-        return edit;
-    edit = (Command){.number = node};
-    edit.x = x[0] + random_uniform(random, -0.1, 0.1);
-    edit.y = x[1] + random_uniform(random, -0.1, 0.1);
-    if (kind < 4)
-        edit.kind = COMMAND_PIN;
-    else if (exhibit_list_handles(simulation, at) > 0)
-        edit.kind = COMMAND_HANDLE;
-    else if (past_control(&past, 0)->hand < 0)
-        edit.kind = COMMAND_GRAB;
-    else
-        edit.kind = kind < 5 ? COMMAND_DRAG : COMMAND_RELEASE;
-    if (edit.kind == COMMAND_PIN)
-        edit.x = !pinned;
-    return edit;
-}
-
-static void change_at_random(Random *random, int gesture)
-{
-    int kind = random_below(random, 6), panes = past_panes(&past);
-    int now = past.now, one = random_below(random, 2 * panes);
-    bool all = kind > 1 || one >= panes;
-    bool again = kind < 2 && past.step > 0 && random_below(random, 3) == 0;
-    const Command edit = random_edit(random, kind);
-    CHECK_OK(past_edit(&past, &edit, all ? 0 : one, all ? panes : one + 1,
-                       again, gesture));
-    const double *x = past.machine[0].simulation.run[0].x;
-    CHECK(edit.kind != COMMAND_HANDLE || (x[0] == edit.x && x[1] == edit.y));
-    if (past.now != now)
-        memcpy(truth[past.now], truth[now], sizeof *truth);
-    past_aim(&past, past.step, false);
-    CHECK_OK(past_finish(&past));
-    look(true); /* a node that was pinned has stopped */
-    if (again)
-        visit(past.step + 1, false);
-}
-
-static void change_panes(int panes)
-{
-    int had = past_panes(&past), now = past.now;
-    const Command edit = {.kind = panes > had ? COMMAND_ADD_PANE
-                                              : COMMAND_END_PANE};
-    if (panes < 1 || panes > PANES)
-        return;
-    CHECK_OK(past_edit(&past, &edit, 0, 0, false, 0));
-    memcpy(truth[past.now], truth[now], sizeof *truth);
-    for (int step = 0; step <= LAST && panes > had; step++)
-        truth[past.now][step][had] = truth[now][step][had - 1];
-    look(false);
-}
-
-static void undo_at_random(int way)
-{
-    if (past_undo(&past, way)) {
-        CHECK_OK(past_finish(&past));
-        look(false);
-    }
-}
-
-static void play_at_random(const char *line, uint64_t seed, size_t states)
-{
-    Random random = {seed};
-    int gesture = 1;
-    begin_past(line);
-    past.limit = states * past.bytes;
-    look(true);
-    for (int i = 0; i < 80; i++) {
-        long newest = past_newest(&past), step = past.step;
-        int kind = random_below(&random, 16), way = random_below(&random, 2);
-        bool deep = past.now + 2 == DEPTH;
-        gesture += random_below(&random, 6) == 0;
-        if (kind < 4 && newest < LAST)
-            visit(newest + 1, false);
-        else if (kind < 6)
-            visit(random_below(&random, (int)newest + 1), way);
-        else if (kind < 8)
-            undo_at_random(2 * way - 1);
-        else if (kind < 11 && newest < LAST)
-            visit_in_part(&random);
-        else if (kind < 12 && !deep)
-            change_panes(past_panes(&past) + 2 * way - 1);
-        else if (!deep)
-            change_at_random(&random, gesture);
-        else if (step > 0)
-            visit(step - 1, false);
-    }
-    while (past_undo(&past, -1))
-        continue;
-    do {
-        CHECK_OK(past_finish(&past));
-        for (long step = past_newest(&past); step >= 0; step--)
-            visit(step, false);
-        for (long step = 0; step <= past_newest(&past); step++)
-            visit(step, false);
-    } while (past_undo(&past, 1));
-    past_free(&past);
-}
-
-/* Steps, changes of all kinds, undo, work that is given up, with plenty of
- * memory or little: each step as each branch has it is always the same. */
-TEST(commands_in_any_order_lead_to_the_same_states)
-{
-    static const char *const some[] = {
-        "square --segments 2", "drop --segments 2",
-        "square --segments 2 --integrator sdirk2", "squeeze --segments 2",
-        "arrows --integrator backward-euler"};
-    static const size_t states[] = {1, 6, 1000};
-    for (int seed = 1; seed <= tests_many(100, 6); seed++)
-        for (int i = 0; i < 5; i++)
-            play_at_random(some[i], (uint64_t)seed, states[seed % 3]);
 }
 
 /* What is written can be read, and is the same. */
@@ -584,11 +319,9 @@ static double change_of_motion(const Simulation *simulation, const double *v_n)
 /* A timestep every ten steps; a node is taken, jerked about and let go. */
 static void jerk(Random *random, int step)
 {
-    char text[64];
     double h = random_logarithmic(random, 1e-4, 1);
-    snprintf(text, sizeof text, "timestep %.17g", h);
     if (step % 10 == 0)
-        set_option(text, false);
+        edit(COMMAND_SET, option_find("timestep") - option_rows, h, 0);
     if (step % 25 == 0)
         edit(COMMAND_GRAB,
              random_below(random, past.machine[0].simulation.system.nodes),

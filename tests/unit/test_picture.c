@@ -407,39 +407,7 @@ TEST(readme_shows_what_is_drawn)
     CHECK(count == 16);
 }
 
-/* The sheet of films has a tile for each line of tests/data/films.txt, all
- * lines can be run, and they are as long as one another. */
-TEST(readme_shows_films_of_all_scenes)
-{
-    char name[32], line[128], begin[16];
-    int speed, steps, count = 0;
-    FILE *list = fopen("tests/data/films.txt", "r");
-    assert_non_null(list);
-    while (fscanf(list, "%31s %d %d %127[^\n]", name, &speed, &steps, line) ==
-           4) {
-        Simulation *scene = make_steps(simulate("%s", line), 1);
-        CHECK(strcmp(scene->scene->name, name) == 0);
-        CHECK(steps == 60 * speed);
-        count++;
-    }
-    fclose(list);
-    CHECK(count == 8);
-    FILE *file = fopen("tests/data/scenes.webp", "rb");
-    assert_non_null(file);
-    CHECK(fread(begin, 1, sizeof begin, file) == sizeof begin);
-    CHECK(fseek(file, 0, SEEK_END) == 0 && ftell(file) < 800000);
-    CHECK(memcmp(begin, "RIFF", 4) == 0 && memcmp(begin + 8, "WEBP", 4) == 0);
-    fclose(file);
-}
-
 /* ---- files (what runs leave: check_files.sh) ---------------------------- */
-
-static bool has_part(const char *name)
-{
-    char part[64];
-    snprintf(part, sizeof part, "%s.part", name);
-    return access(part, F_OK) == 0;
-}
 
 TEST(png_files_are_whole)
 {
@@ -453,38 +421,11 @@ TEST(png_files_are_whole)
     CHECK(write(earlier, "an earlier file", 15) == 15);
     close(earlier);
     CHECK_OK(png_file_write(name, NULL, canvas));
-    CHECK(!has_part(name));
     Canvas again = read_png(name);
     assert_int_equal(again.width, 37);
     assert_memory_equal(again.pixels, canvas->pixels, 37 * 23 * 4);
     canvas_free(&again);
     remove(name);
-}
-
-/* What stood there stays until the end, whatever becomes of it. */
-TEST(outputs_replace_at_the_end)
-{
-    Output output;
-    char name[] = "/tmp/elasto-picture-XXXXXX";
-    close(mkstemp(name));
-    remove(name);
-    for (int round = 0; round < 3; round++) { /* new, replaced, discarded */
-        char text[8] = "";
-        CHECK_OK(output_open(name, NULL, &output));
-        fprintf(output.file, "%d\n", round);
-        CHECK(has_part(name) && (access(name, F_OK) == 0) == (round > 0));
-        CHECK_OK(output_close(&output, round == 2 ? KEEP_NOTHING : KEEP_WHOLE));
-        FILE *file = fopen(name, "r");
-        CHECK(file && fgets(text, sizeof text, file));
-        fclose(file);
-        assert_string_equal(text, round ? "1\n" : "0\n");
-        CHECK(!has_part(name));
-    }
-    remove(name);
-    CHECK_OK(output_open("/dev/full", NULL, &output));
-    fputs("text", output.file);
-    CHECK_STATUS(output_close(&output, KEEP_WHOLE), STATUS_FILE_FAILED);
-    assert_int_equal(errno, ENOSPC);
 }
 
 TESTS(NULL, NULL)

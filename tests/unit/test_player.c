@@ -99,7 +99,8 @@ TEST(the_curve_goes_through_the_step)
                     continue;
                 }
                 const NewtonRecord *record = &kept->records.row[round];
-                double change = trace.difference(trace.difference_data, record->alpha);
+                double change =
+                    trace.difference(trace.difference_data, record->alpha);
                 rough += kept->round[round].rough;
                 if (kept->round[round].rough &&
                     record->alpha < trace.first_alpha / ROUND_PARTS)
@@ -115,75 +116,6 @@ TEST(the_curve_goes_through_the_step)
         CHECK(whole.residual > 0);
         end();
     }
-}
-
-/* E along p where it is no polynomial, halfway to each trial of the rounds of
- * what is shown; out [room].  Returns how many they are. */
-static int look_along(double *out, int room)
-{
-    const StepTrace *kept = &machine(0)->trace;
-    int count = 0;
-    for (int place = 0; place < kept->places && count < room; place++) {
-        Trace trace;
-        step_trace_at(kept, place, &trace);
-        const Round *round = trace.difference_data;
-        if (trace.difference && round->rough)
-            out[count++] = trace.difference(trace.difference_data,
-                                            0.625 * trace.first_alpha);
-    }
-    return count;
-}
-
-/* E along p is kept of all updates of a step whose lines are walked through; of
- * the last one where it is drawn; else of none.  Where it is drawn later, or an
- * update before the last is walked to, the step is made once more. */
-TEST(curves_are_kept_where_they_are_drawn)
-{
-    enum { ROOM = 100, WALKED = 0, UNSEEN, DRAWN };
-    double kept[3][ROOM];
-    int count[3];
-    for (int way = WALKED; way <= DRAWN; way++) {
-        Trace trace;
-        begin("tear --segments 6");
-        player.screen.draws = way == DRAWN;
-        for (int step = 0; step < (way == WALKED ? 3 : 4); step++)
-            CHECK_OK(obey("step"));
-        CHECK_OK(obey("finer"));
-        if (way == WALKED)
-            CHECK_OK(obey("next"));
-        step_trace_at(&machine(0)->trace, -1, &trace);
-        double last =
-            trace.difference(trace.difference_data, 0.625 * trace.first_alpha);
-        CHECK(isnan(last) == (way == UNSEEN) && player.past.step == 4);
-        count[way] = look_along(kept[way], ROOM);
-        CHECK(isnan(kept[way][0]) == (way != WALKED));
-        player.screen.draws = true;
-        for (int i = 0; i < ROOM && isnan(kept[way][0]); i++) {
-            CHECK_OK(obey("back"));
-            count[way] = look_along(kept[way], ROOM);
-        }
-        CHECK(player.past.step == 4);
-        end();
-        CHECK(count[way] == count[0]);
-        CHECK_SAME_BITS(kept[way], kept[0], count[0]);
-    }
-}
-
-static void give_up(int number)
-{
-    stop = number;
-}
-
-/* A line of the script waits for its step only while steps are made. */
-TEST(scripts_wait_while_it_runs)
-{
-    begin_script("0 pause\n9 step\n", "square --segments 2");
-    signal(SIGALRM, give_up);
-    alarm(600); /* s; it takes milliseconds */
-    CHECK_OK(player_run(&player));
-    alarm(0);
-    CHECK(!stop && player.past.step == 1 && player_is_stopped(&player));
-    end();
 }
 
 /* Frames until nothing is computed any more. */

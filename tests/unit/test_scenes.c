@@ -103,78 +103,6 @@ TEST(landscape_is_downhill_from_everywhere)
     CHECK(uphill > 5 && hollow > 100);
 }
 
-/* ---- one mass ----------------------------------------------------------- */
-
-/* The mass keeps its velocity and the tip its place where the other is dragged;
- * the exact path is the ellipse from there, also after another method is
- * chosen.  All runs follow. */
-TEST(mass_is_dragged)
-{
-    Simulation *scene = simulate("arrows"), *one;
-    double at[SCENE_MAX_HANDLES][2], now[2], later[2];
-    make_steps(scene, 1);
-    exhibit_drag(scene, 0, 0.25, -0.5);
-    exhibit_drag(scene, 1, 0.25 + 2, -0.5 + 3);
-    CHECK(exhibit_list_handles(scene, at) == 2);
-    CHECK(at[0][0] == 0.25 && at[1][1] == 2.5);
-    const double x[2] = {0.25, -0.5}, v[2] = {2, 3};
-    for (int run = 0; run < 3; run++) {
-        CHECK_SAME_BITS(scene->run[run].x, x, 2);
-        CHECK_SAME_BITS(scene->run[run].v, v, 2);
-    }
-    one = simulate("arrows --integrator forward-euler");
-    exhibit_drag(one, 0, 0.25, -0.5);
-    exhibit_drag(one, 1, 0.25 + 2, -0.5 + 3);
-    for (int changed = 0; changed < 2; changed++) {
-        mass_find_exact(one, 0, now);
-        mass_find_exact(one, 0.5 * M_PI, later);
-        CHECK_SAME_BITS(now, x, 2);
-        for (int i = 0; i < 2; i++)
-            CHECK_NEAR(later[i], v[i], 1e-15);
-        make_steps(one, 1);
-        CHECK_OK(simulation_set(one, OPTION_SLOT(integrator),
-                                integrator_method("symplectic-euler") -
-                                    integrator_methods));
-    }
-}
-
-/* ---- two unknowns ------------------------------------------------------- */
-
-/* What is switched off is not minimised either: the part that is left falls in
- * each update, to its own minimum, with every method. */
-TEST(landscape_minimises_what_it_shows)
-{
-    static const char *const lines[] = {
-        "landscape --start 0.2,-0.3 --projection abs",
-        "landscape --start 0.6,0.9 --projection on-demand",
-        "landscape --start 0.6,0.9 --projection none --line-search none"};
-    for (int i = 0; i < 6; i++) {
-        Simulation *scene = simulate("%s", lines[i / 2]);
-        const Descent *descent = &scene->descent;
-        bool off = i % 2;
-        make_steps(scene, 1);
-        exhibit_flip(scene, off);
-        unsigned part = off ? PART_INERTIA : PART_ELASTICITY;
-        CHECK(scene->exhibit.switches == part && descent->count == 0);
-        while (!scene->done) {
-            double before = descent->value;
-            make_steps(scene, 1);
-            CHECK(descent->value < before);
-        }
-        CHECK(!off || descent->count == 1);
-        CHECK_AT_MOST(descent->residual, scene->options.tolerance);
-        /* p <= h 1e-6, twice: E <= 10 p^2 */
-        const double *at = descent->point;
-        CHECK_AT_MOST(landscape_evaluate_parts(scene, part, at[0], at[1]),
-                      1e-12);
-    }
-    /* both springs along x: elasticity alone has no H^-1 */
-    Simulation *flat = simulate("landscape --start 0.3,0");
-    exhibit_flip(flat, 0);
-    CHECK_STATUS(flat->status, STATUS_SINGULAR);
-    CHECK(flat->done && flat->descent.direction[0] == 0);
-}
-
 /* ---- the envelope ------------------------------------------------------- */
 
 static const EnvelopeCell *visit(Simulation *map, int column, int row)
@@ -212,80 +140,6 @@ TEST(envelope_cells_are_runs)
     CHECK(refused >= 1); /* cells that did not converge are compared, too */
 }
 
-/* ---- predict, then show ------------------------------------------------- */
-
-TEST(predictions_are_compared)
-{
-    Simulation *scene = simulate("arrows --integrator forward-euler");
-    const Prediction *guess = &scene->prediction;
-    scene_predict(scene, 1.3, 0.9);        /* the step leads to (1, 0.5) */
-    for (int step = 0; step < 2; step++) { /* the guess stays beside its step */
-        CHECK(guess->made);
-        CHECK_NEAR(guess->end[1], 0.5, 1e-15);
-        CHECK_NEAR(guess->distance, 0.5, 1e-15);
-        make_steps(scene, 1);
-    }
-    CHECK(!guess->made);
-    /* along x alone: from 2 to 2 - sinh(4)/2 */
-    scene = simulate("overshoot");
-    scene_predict(scene, -11, 123);
-    CHECK_NEAR(scene->prediction.distance, 0.644958598563875, 1e-12);
-    exhibit_drag(scene, 0, 1.5, NAN); /* x alone counts */
-    exhibit_drag(scene, 0, NAN, 1);
-    CHECK(scene->descent.point[0] == 1.5 && scene->steps == 0);
-    scene = simulate("square"); /* no single point */
-    scene_predict(scene, 1, 1);
-    CHECK(!scene->prediction.made);
-}
-
-/* A scene is a row of defaults: the square with the same options makes the
- * same bits, with normals of any length.  And a number that is set at the
- * beginning of a run is the option: long enough to meet what needs it; with
- * damping that is taken back it is as if there never was any. */
-TEST(scenes_are_rows_of_options)
-{
-    static const struct {
-        const char *one, *other;
-        int steps;
-        double friction, damping; /* set in the other, if it is > 0 */
-    } rows[] = {
-        {"hang",
-         "square --segments 12 --stiffness 1e4 --stretch 1 --timestep 0.01 "
-         "--tolerance 1e-3 --gravity 9.81 --pin top-corners",
-         70, 0, 0},
-        {"drop",
-         "square --segments 16 --stretch 1 --timestep 0.005 --tolerance 1e-4 "
-         "--gravity 9.81 --cells on --turn 25 --at -0.3,0.75 --velocity 0.9,-1 "
-         "--friction 0.3 --ground 0,2,0,-0.5 --ground 1,0,-1.1,0 --ground "
-         "-0.5,0,1.1,0",
-         70, 0, 0},
-        {"rub --friction 0.4", "rub --friction 0", 20, 0.4, 0},
-        {"slope --friction 0.2", "slope", 20, 0.2, 0},
-        {"drop --friction 0.4 --segments 8", "drop --friction 0 --segments 8",
-         100, 0.4, 0},
-        {"dent --damping 0.003 --segments 8", "dent --segments 8", 90, 0,
-         0.003},
-        {"--damping 0.003", "--damping 1", 20, 0, 0.003},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        Simulation *one = simulate("%s", rows[i].one);
-        Simulation *other = simulate("%s", rows[i].other);
-        if (rows[i].friction > 0)
-            CHECK(!simulation_set(other, OPTION_SLOT(friction),
-                                  rows[i].friction));
-        for (int k = 0; k < 2; k++)
-            CHECK(!simulation_set(other, OPTION_SLOT(damping),
-                                  k ? rows[i].damping : 0.1));
-        CHECK(!system_term_data(&other->system, &damping) ==
-              !(rows[i].damping > 0));
-        make_steps(one, rows[i].steps);
-        make_steps(other, rows[i].steps);
-        CHECK(state_hash(one, 1) == state_hash(other, 1));
-        CHECK(energy_now(one, 0, "damping") == energy_now(other, 0, "damping"));
-        CHECK((energy_now(one, 0, "damping") > 0) == (rows[i].damping > 0));
-    }
-}
-
 /* Of a run that goes on only what may be moved counts: not where a ball began,
  * nor a cell that is torn. */
 TEST(obstacles_have_room_in_what_was_torn)
@@ -298,37 +152,6 @@ TEST(obstacles_have_room_in_what_was_torn)
     beam->run[0].x[1] = -1;
     CHECK_STATUS(simulation_has_room(beam, &beam->options, MESSAGE(message)),
                  STATUS_INVALID_INPUT);
-}
-
-/* Pins are no way out: a ceiling ends at nodes that are held, and pins that are
- * drawn against a wall stop before it; the steps say so.  What a ceiling has
- * pressed flat takes few updates: 706, and 2642 with parts as short as a
- * millionth of the way. */
-TEST(pins_and_walls_stop_each_other)
-{
-    static const struct {
-        const char *line;
-        int blocked, updates; /* more than this, less than that */
-    } rows[] = {
-        {"squeeze --segments 4 --pin top", 15, 100},
-        {"tear --segments 4 --ground 1,0,-0.52,0 --timestep 0.01", 15, 200},
-        {"return --segments 4 --body 0,0 --body 0,1.1 --ground 0,1,0,-0.6 "
-         "--ceiling 1.7,-50,-5",
-         5, 1300}};
-    for (int i = 0; i < 3; i++) {
-        Simulation *scene = simulate("%s", rows[i].line);
-        double gap = INFINITY;
-        int blocked = 0;
-        for (int step = 0; step < 30; step++) {
-            Status status = simulation_step(scene);
-            CHECK(status == STATUS_OK || status == STATUS_BLOCKED);
-            blocked += status == STATUS_BLOCKED;
-            gap = fmin(gap, smallest_gap(&scene->system, scene->run[0].x));
-        }
-        CHECK(gap > 0 && gap < 1e-3);
-        CHECK(blocked > rows[i].blocked && blocked < 30);
-        CHECK(scene->run[0].newton->counters.iterations < rows[i].updates);
-    }
 }
 
 /* Two bodies at rest, 0.2 m apart, have no entries for each other.  One that is
@@ -384,40 +207,10 @@ TEST(a_body_that_is_pushed_stops_at_another)
     CHECK(x[2 * 9 + 1] > 0.5 && x[2 * 9 + 1] < 0.5 + 1e-3);
 }
 
-/* Neither into another body nor through all of it. */
-TEST(no_node_is_placed_in_another_body)
+/* The blocks of the slope begin as high above their grounds, whatever their
+ * size.  1e-15: rounding of coordinates of size 1. */
+TEST(blocks_begin_at_the_same_height)
 {
-    Simulation *scene = simulate("--segments 4 --body 0,0 --body 0,1.1");
-    for (int i = 0; i < 2; i++)
-        CHECK_STATUS(simulation_place(scene, 25, 0, -2 * i, true),
-                     STATUS_INVALID_INPUT);
-    CHECK_OK(simulation_place(scene, 25, -0.5, 0.55, true));
-    CHECK(exact_crossings(&scene->system, scene->run[0].x) == 0);
-}
-
-/* The sides of the sheet are drawn apart; a node that a hand pins stays. */
-TEST(a_pin_set_by_hand_stays)
-{
-    Simulation *scene = simulate("tear --segments 6");
-    const double *x = scene->run[0].x;
-    double left = x[0], at[2] = {x[2 * 17], x[2 * 17 + 1]};
-    CHECK_OK(simulation_pin(scene, 17, true));
-    make_steps(scene, 10);
-    CHECK_SAME_BITS(scene->run[0].x + 2 * 17, at, 2);
-    CHECK_NEAR(scene->run[0].x[0], left - 0.2 * 10 * 0.002, 1e-14);
-}
-
-/* A beam of another size has the cells of the one that is shown; the blocks of
- * the slope begin as high above their grounds, whatever their size.  1e-15:
- * rounding of coordinates of size 1. */
-TEST(scenes_begin_alike_at_every_size)
-{
-    static const char *const beams[] = {"bend", "bend --side 0.01",
-                                        "bend --side 1"};
-    for (int i = 0; i < 3; i++) {
-        const SquareMesh *mesh = &simulate("%s", beams[i])->mesh;
-        CHECK(mesh->segments == 32 && mesh->rows == 6);
-    }
     const Simulation *slope = simulate("slope --side 0.3");
     const TimeIntegrator *run = slope->run;
     double gap = smallest_gap(run[0].system, run[0].x);

@@ -11,12 +11,11 @@
 #include <glob.h>
 #include <math.h>
 
-enum { SIDE = 900, MARKS = 16 };
+enum { SIDE = 900, MARKS = 16, CHANGES = 80, STEPS = 80 };
 
 static uint64_t marks[MARKS]; /* by letter */
 static double mouse[2];       /* pixels */
 static bool open_player;
-static uint64_t started; /* hash of the beginning */
 static char folder[] = "/tmp/elasto-session-XXXXXX";
 
 static Layout layout_now(void)
@@ -679,6 +678,8 @@ static double find_number(const char *name)
             return numbers[n].find(simulation);
     if (strcmp(name, "unconverged") == 0)
         return (double)simulation->unconverged;
+    if (strcmp(name, "all updates") == 0)
+        return (double)simulation_counters(simulation).iterations;
     if (sscanf(name, "rise %d", &i) == 1)
         return find_rise(simulation, i);
     if (sscanf(name, "radius %d", &i) == 1)
@@ -1010,47 +1011,101 @@ static void random_keys_stay_in_their_field(void **unused)
     CHECK(refused > ROUNDS / 10);
 }
 
-/* Undoing and redoing every change leads back to the same bits. */
-static void undo_and_redo(void)
+/* Goes to each step, back or on: its state is that of the time before. */
+static void visit_steps(uint64_t *hash, bool again)
 {
+    const long newest = past_newest(&player.past);
+    CHECK(newest < STEPS);
+    for (long i = 0; i <= newest; i++) {
+        char line[32];
+        long step = again ? i : newest - i;
+        snprintf(line, sizeof line, "goto %ld", step);
+        tell(obey(line));
+        CHECK(!again || hash[step] == player_hash(&player));
+        hash[step] = player_hash(&player);
+    }
+}
+
+/* Undoes and redoes every change, which leads back to the same bits, in all
+ * steps between. */
+static void undo_and_redo(uint64_t started)
+{
+    static uint64_t hash[CHANGES][STEPS];
     int back = 0;
     session_line("release 350 300");
     const uint64_t end = player_hash(&player);
     const long step = player.past.step;
-    for (; player.past.now > 0; back++)
+    for (; player.past.now > 0; back++) {
+        CHECK(back + 1 < CHANGES);
+        visit_steps(hash[back], false);
         tell(obey("undo"));
-    if (back == 0) /* the session changed nothing */
-        return;
-    tell(obey("home"));
+    }
+    visit_steps(hash[back], false);
     CHECK(player_hash(&player) == started);
-    for (; back > 0; back--)
-        tell(obey("redo"));
-    CHECK(player_hash(&player) == end && player.past.step == step);
+    for (; back >= 0; back--) {
+        visit_steps(hash[back], true);
+        if (back > 0)
+            tell(obey("redo"));
+    }
+    char line[32];
+    snprintf(line, sizeof line, "goto %ld", step);
+    tell(obey(line));
+    CHECK(player_hash(&player) == end);
 }
 
-/* Whatever hands do, Y's script leads to the same bits, and none of its lines
- * is refused. */
+/* Whatever hands do, with plenty of memory for states or little: each step of
+ * each change stays as it was, Y's script leads to the same bits, and none of
+ * its lines is refused. */
 static void random_hands_are_written_down(void **unused)
 {
     (void)unused;
-    enum { ROUNDS = 30, LENGTH = 40 };
+    enum { ROUNDS = 60, LENGTH = 40 };
+    static const char *const scene[] = {
+        "square --segments 2", "square --segments 2 --integrator sdirk2",
+        "drop --segments 2", "square --segments 2 --integrator bdf2"};
+    static const size_t states[] = {1, 6, 1000};
     Random random = {21};
     const char **acts = session_called("acts")->line;
     int count = 0;
     while (acts[count])
         count++;
     for (int round = 0; round < ROUNDS; round++) {
-        session_line("begin square --segments 2 --paused");
-        started = player_hash(&player);
+        char line[80];
+        snprintf(line, sizeof line, "begin %s --paused", scene[round % 4]);
+        session_line(line);
+        player.past.limit = states[round % 3] * player.past.bytes;
+        const uint64_t started = player_hash(&player);
         for (int i = 0; i < LENGTH; i++) {
             session_line(present = acts[random_below(&random, count)]);
             player.quit = false; /* by Escape */
         }
-        undo_and_redo();
-        replay("square --segments 2");
+        undo_and_redo(started);
+        replay(scene[round % 4]);
         count_files(true);
     }
     present = NULL;
+}
+
+/* A page that is left and entered again looks as it did at first.  The race
+ * measures its own times. */
+static void pages_are_the_same_when_they_are_entered_again(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < lecture_count(); i += tests_are_long() ? 1 : 3) {
+        char line[64];
+        if (strcmp(lecture_pages[i].name, "order") == 0)
+            continue;
+        session_line("begin square --paused");
+        snprintf(line, sizeof line, "do page %s", lecture_pages[i].name);
+        session_line(present = line);
+        session_line("mark a");
+        session_line("key N N");
+        tell(obey("page-back"));
+        tell(obey("page-on"));
+        session_line(line);
+        session_line("same a");
+        present = NULL;
+    }
 }
 
 /* Each page of the lecture has a session that does what its Try says, and one
@@ -1070,7 +1125,7 @@ static void each_page_is_tried_and_held(void **unused)
 
 int main(void)
 {
-    struct CMUnitTest tests[SESSIONS + SCENES + 3];
+    struct CMUnitTest tests[SESSIONS + SCENES + 5];
     char before[4096];
     int count = 0;
     read_sessions("tests/data/sessions.txt");
@@ -1092,6 +1147,8 @@ int main(void)
         random_keys_stay_in_their_field, end_session);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
         random_hands_are_written_down, end_session);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
+        pages_are_the_same_when_they_are_entered_again, end_session);
     tests[count++] =
         (struct CMUnitTest)cmocka_unit_test(each_page_is_tried_and_held);
     assert_int_equal(chdir(folder), 0);

@@ -282,34 +282,6 @@ TEST(fine_squares_are_faces)
     CHECK((stretched >> 16 & 255) > (stretched & 255));
 }
 
-static StepBar bar_of(const void *past, long step)
-{
-    return (StepBar){1 + step % 5, step == *(const long *)past};
-}
-
-/* The bar under the mouse is the step that is asked for. */
-TEST(bars_are_steps)
-{
-    const long unconverged = 251;
-    stand_up("square", 0);
-    content.time_line.bar = bar_of;
-    content.time_line.bar_data = &unconverged;
-    for (long count = 1; count <= 500; count += 61) {
-        content.time_line.steps = count;
-        draw();
-        CHECK(frame_find_step(&content, &layout, 0) == 0);
-        CHECK(frame_find_step(&content, &layout, 1280) == count);
-        long before = 0;
-        for (int x = 0; x < 1280; x++) {
-            long step = frame_find_step(&content, &layout, x);
-            CHECK(step >= before && step <= count);
-            before = step;
-        }
-        int red = count_colour(layout.bars, COLOUR_WARNING);
-        CHECK((red > 0) == (count > 250));
-    }
-}
-
 /* However far nodes fly, the view goes with them as long as there are numbers;
  * beyond them words say why nothing is seen. */
 TEST(what_flies_far_is_drawn_or_reported)
