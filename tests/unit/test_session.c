@@ -679,7 +679,7 @@ static double find_number(const char *name)
     if (strcmp(name, "unconverged") == 0)
         return (double)simulation->unconverged;
     if (strcmp(name, "all updates") == 0)
-        return (double)simulation_counters(simulation).iterations;
+        return (double)simulation_sum_counters(simulation).iterations;
     if (sscanf(name, "rise %d", &i) == 1)
         return find_rise(simulation, i);
     if (sscanf(name, "radius %d", &i) == 1)
