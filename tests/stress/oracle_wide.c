@@ -62,16 +62,10 @@ static Wide log_of(Wide a)
     return small_log_of(a / ldexpl(0.5L, k)) + (k - 1) * small_log_of(2);
 }
 
-static Wide power_of(Wide a, int n)
-{
-    return n == 1 ? a : a * power_of(a, n - 1);
-}
-
 #define fabsl             size_of
 #define sqrtl             root_of
 #define logl              log_of
 #define hypotl            length_of
-#define powl              power_of
 #define fminl             smaller
 #define fmaxl             larger
 #define copysignl         with_sign
