@@ -45,7 +45,7 @@ static void handle_signals(void)
 }
 
 /* A file that the program opens must not become a standard stream that was
- * closed. Closed streams are therefore opened on /dev/null, for reading only,
+ * closed.  Closed streams are therefore opened on /dev/null, for reading only,
  * so that writing to them still fails. */
 int main(int argc, char **argv)
 {

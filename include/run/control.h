@@ -46,7 +46,7 @@ void control_release(const Control *control);
 
 /* Gives a simulation a control from the next step on.  Scene, mesh and start of
  * the control must be those of the simulation.  The change of the energy is
- * booked as work. Returns as simulation_create; after a failure only
+ * booked as work.  Returns as simulation_create; after a failure only
  * simulation_free may follow. */
 Status control_apply(Simulation *simulation, const Control *control);
 

@@ -22,13 +22,13 @@ typedef struct Prediction {
 /* ---- descents: minimisation by Newton's method, update by update --------- */
 
 /* Value, gradient and Hessian (xx, xy, yy) of E or f at a point, in J s^2 and
- * m. A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
+ * m.  A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
 typedef struct LocalModel {
     double value, g[2], H[3];
     int projected; /* number of springs whose Hessian was changed */
 } LocalModel;
 
-/* A function of one unknown. */
+/* Evaluates a function of one unknown at x. */
 typedef LocalModel ScalarEnergy(const Simulation *simulation, double x);
 
 enum { DESCENT_MAX = 256 };

@@ -222,7 +222,7 @@ int option_count_values(const char *text, char separator);
  * the row's range, or a name.  A single number may have a decimal comma,
  * "0,02".
  *   count   expected numbers; a value may have fewer if the row says so
- *   number  [count] out; of a name its index
+ *   number  [count] out; the index of a name
  * Returns whether the text is such a value. */
 bool option_read(const OptionRow *row, int count, const char *text,
                  double *number);
@@ -233,7 +233,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 
 /* Writes the value of an option with few digits, for the window, or "none" if
- * the option is not given.  Of a repeated option the last value is written.
+ * the option is not given.  A repeated option has its last value written.
  *   text  [size] out */
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size);

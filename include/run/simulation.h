@@ -151,7 +151,7 @@ Effect simulation_find_effect(const Simulation *simulation,
                               const OptionRow *row);
 
 /* Checks that obstacles of changed options overlap no body at its present
- * place. Returns OK, or INVALID_INPUT with a message. */
+ * place.  Returns OK, or INVALID_INPUT with a message. */
 Status simulation_has_room(const Simulation *simulation, const Options *options,
                            Message message);
 

@@ -107,7 +107,7 @@ static Status create_motion(const Motion *motion, int segments,
  * Tolerance: the last direction p of a step changes velocities by at most the
  * tolerance, so all steps change positions by at most steps * tolerance * time
  * /
- * 2.  This bound may equal the expected error of the method: a step applies the
+ * 2.  The bound may equal the expected error of the method: a step applies the
  * last p, and the remaining error is a hundredth of p or less. */
 static Status measure_method(bool quick, const Motion *motion,
                              Simulation *simulation,

@@ -355,7 +355,7 @@ static const char *name_number(ResultKind kind, int i)
 }
 
 /* Returns the index of the first number that differs by more than rounding;
- * MAX_NUMBERS: there is no difference. */
+ * MAX_NUMBERS: no number does. */
 static int find_difference(const double *a, const double *b)
 {
     double largest = 0;

@@ -85,18 +85,14 @@ static const struct Synonym {
                 {"leapfrog", "verlet"},
                 {"velocity-verlet", "verlet"},
                 {"cholesky", "newton"},
-                {"cholmod", "newton"},
                 {"armijo", "backtrack"},
                 {"on", "backtrack"},
                 {"off", "none"},
                 {"psd", "clamp"},
-                {"true", "on"},
                 {"yes", "on"},
-                {"false", "off"},
                 {"no", "off"},
                 {"triangles", "neo-hookean"},
-                {"solid", "neo-hookean"},
-                {"rubber", "neo-hookean"}};
+                {"solid", "neo-hookean"}};
 
 /* A text of 3 to 4 letters may have one mistake, of 5 to 7 letters two. */
 Phrase suggest_name(const char *text, const char *dashes, Names names)

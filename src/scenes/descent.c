@@ -45,7 +45,7 @@ static LocalModel log_two_cosh(const Simulation *simulation, double x)
     return (LocalModel){.value = f, .g = {g}, .H = {H}};
 }
 
-/* E of the scene tangent at x. */
+/* Returns E of the scene tangent at x. */
 static LocalModel line_energy(const Simulation *simulation, double x)
 {
     double m = POINT_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
@@ -370,7 +370,7 @@ static void minimise(const Simulation *simulation, double h, double point[2])
 }
 
 /* Each search begins at the previous minimiser, so that the curve is
- * continuous. Node 0 moves to the minimiser of the present h. */
+ * continuous.  Node 0 moves to the minimiser of the present h. */
 void dial_restart(Simulation *simulation)
 {
     DialCurve *dial = &simulation->exhibit.dial;

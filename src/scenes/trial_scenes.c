@@ -58,7 +58,7 @@ static double find_frequency_bound(const System *system, const double *x)
 
 /* Moves a run by H seconds almost exactly, by extrapolation (Gragg 1965).
  * Verlet makes 1, 2, ... 6 steps; the results are extrapolated to steps of
- * length 0. Verlet's error has even powers of the step only, so an error of
+ * length 0.  Verlet's error has even powers of the step only, so an error of
  * O(H^12) remains.  By Lagrange the polynomial in 1/n^2 through the results has
  * the value sum over j of w_j times result j at 0, with w_j = product over i of
  * n_j^2 / (n_j^2 - n_i^2).

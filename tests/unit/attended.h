@@ -87,10 +87,4 @@ static inline const Machine *machine(int pane)
     return &player.past.machine[pane];
 }
 
-/* Outcome of a step of a pane */
-static inline const Outcome *told(int pane, long step)
-{
-    return &past_entry(&player.past, pane, step)->outcome;
-}
-
 #endif

@@ -121,7 +121,7 @@ static void begin_session(const char *line)
 }
 
 /* A refused command leaves its message as a note. */
-static void tell(Status status)
+static void show_result(Status status)
 {
     CHECK(!status || status == STATUS_INVALID_INPUT ||
           status_is_unconverged(status));
@@ -133,7 +133,7 @@ static void put(Input input)
 {
     input.x = mouse[0];
     input.y = mouse[1];
-    tell(player_input(&player, &input));
+    show_result(player_input(&player, &input));
 }
 
 static void press_key(const char *name)
@@ -298,7 +298,7 @@ static void run_until(long step)
 {
     Command pause = {.kind = COMMAND_PAUSE};
     if (player_is_stopped(&player))
-        tell(obey("play"));
+        show_result(obey("play"));
     player.given.script.count =
         player.given.script.next; /* later lines of the script are dropped */
     CHECK_STATUS(script_add(&player.given.script, step, &pause, 0), STATUS_OK);
@@ -309,7 +309,7 @@ static void run_until(long step)
 static void begin_step(void)
 {
     Past *past = &player.past;
-    tell(player_seek(&player, past->step + 1, AFTER_NOTHING));
+    show_result(player_seek(&player, past->step + 1, AFTER_NOTHING));
     while (!past->machine[0].iterating)
         CHECK_STATUS(past_iterate(past), STATUS_RUNNING);
 }
@@ -330,7 +330,7 @@ static void replay(const char *line)
 {
     char script[65536] = "", paused[160];
     glob_t found;
-    tell(obey("hash")); /* a lit number would take Y */
+    show_result(obey("hash")); /* a lit number would take Y */
     assert_int_equal(glob("elasto_*.script", 0, NULL, &found), 0);
     FILE *file = fopen(found.gl_pathv[0], "r");
     assert_true(file && fread(script, 1, sizeof script - 1, file) > 0);
@@ -733,7 +733,7 @@ static void check_value(const char *line)
 static void keep_value(const char *line)
 {
     for (long left = atol(line); left > 0; left--) {
-        tell(player_step(&player));
+        show_result(player_step(&player));
         check_value(strchr(line, ' ') + 1);
     }
 }
@@ -753,14 +753,14 @@ static void session_line(const char *line)
         for (const char *letter = rest; *letter; letter++)
             press_letter(*letter);
     else if (strcmp(verb, "do") == 0)
-        tell(obey(rest));
+        show_result(obey(rest));
     else if (strcmp(verb, "run") == 0)
         run_until(atol(rest));
     else if (strcmp(verb, "rest") == 0)
         run_until_it_pauses();
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
-            tell(player_step(&player));
+            show_result(player_step(&player));
     else if (strcmp(verb, "value") == 0)
         check_value(rest);
     else if (strcmp(verb, "keeps") == 0)
@@ -768,7 +768,7 @@ static void session_line(const char *line)
     else if (strcmp(verb, "half") == 0)
         begin_step();
     else if (strcmp(verb, "whole") == 0)
-        tell(player_continue(&player));
+        show_result(player_continue(&player));
     else if (strcmp(verb, "asks") == 0)
         player.given.asks = player.screen.changed = true;
     else if (strcmp(verb, "replays") == 0)
@@ -1020,7 +1020,7 @@ static void visit_steps(uint64_t *hash, bool again)
         char line[32];
         long step = again ? i : newest - i;
         snprintf(line, sizeof line, "goto %ld", step);
-        tell(obey(line));
+        show_result(obey(line));
         CHECK(!again || hash[step] == player_hash(&player));
         hash[step] = player_hash(&player);
     }
@@ -1038,18 +1038,18 @@ static void undo_and_redo(uint64_t started)
     for (; player.past.now > 0; back++) {
         CHECK(back + 1 < CHANGES);
         visit_steps(hash[back], false);
-        tell(obey("undo"));
+        show_result(obey("undo"));
     }
     visit_steps(hash[back], false);
     CHECK(player_hash(&player) == started);
     for (; back >= 0; back--) {
         visit_steps(hash[back], true);
         if (back > 0)
-            tell(obey("redo"));
+            show_result(obey("redo"));
     }
     char line[32];
     snprintf(line, sizeof line, "goto %ld", step);
-    tell(obey(line));
+    show_result(obey(line));
     CHECK(player_hash(&player) == end);
 }
 
@@ -1100,8 +1100,8 @@ static void pages_are_the_same_when_they_are_entered_again(void **unused)
         session_line(present = line);
         session_line("mark a");
         session_line("key N N");
-        tell(obey("page-back"));
-        tell(obey("page-on"));
+        show_result(obey("page-back"));
+        show_result(obey("page-on"));
         session_line(line);
         session_line("same a");
         present = NULL;
