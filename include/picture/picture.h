@@ -11,6 +11,15 @@
 
 typedef struct Plot Plot; /* drawing area with its coordinates (plot.h) */
 
+enum { CARD_COLUMNS = 9, CARD_CELL = 96 };
+
+/* A row of the table in a card. */
+typedef struct TableRow {
+    int columns;
+    Colour colour;                      /* of the first cell */
+    char cell[CARD_COLUMNS][CARD_CELL]; /* markup; "": not known yet */
+} TableRow;
+
 /* A box of the column with numbers or a graph about the active pane. */
 typedef struct Card {
     const char *name;  /* name in tables and scripts: "listing" */
@@ -27,10 +36,15 @@ typedef struct Card {
     bool needs_line_energy; /* draws E along p, which play then computes */
     bool below_picture;     /* as a star is below the picture, not beside it */
     bool only_in_lecture;   /* is hidden outside of the lecture */
-    /* The content is one of these three. */
-    const char *words; /* text, all known lines of which are shown */
-    const struct ListingRow *rows;  /* algorithm line by line (cards.h) */
-    void (*draw)(const Plot *card); /* draws the content */
+    const char *words;      /* text, all known lines of which are shown */
+    const struct ListingRow *rows; /* algorithm line by line (cards.h) */
+    /* Fills row 0 of a table, which has the heads, 1, ...  Returns false after
+     * the last row. */
+    bool (*table)(const FrameContent *content, int row, TableRow *cells);
+    /* Draws the content: curves, unless has_no_curves is set, and words and
+     * table, unless a document shows these.  NULL: words or rows are drawn. */
+    void (*draw)(const Plot *card);
+    bool has_no_curves;
 } Card;
 
 typedef struct Picture {

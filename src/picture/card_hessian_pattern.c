@@ -97,7 +97,8 @@ void hessian_pattern_draw(const Plot *card)
     Box inside = card->box;
     int line = paper_pixels(paper, 1.4), gap = line;
     int side = (inside.width - gap) / 2;
-    int below = writes ? paper_pixels(paper, 9) : 0;
+    int below =
+        writes && !card->content->in_document ? paper_pixels(paper, 9) : 0;
     below = 2 * below < inside.height ? below : 0;
     if (side > inside.height - line - below)
         side = inside.height - line - below;
@@ -116,6 +117,6 @@ void hessian_pattern_draw(const Plot *card)
     }
     Plot rest = *card; /* room below, for the newest spring's block of H */
     box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
-    if (rest.box.height > 7 * paper->em)
-        card_write_text(&rest, &card->pane->values, text_newest);
+    if (rest.box.height > 7 * paper->em && !card->content->in_document)
+        card_write_text(&rest, &card->pane->values, card_hessian_pattern.words);
 }

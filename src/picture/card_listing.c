@@ -2,6 +2,7 @@
  * that the slides' program prints. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -103,6 +104,38 @@ void card_write_rows(const Plot *card, const ListingRow *row)
     put_rows(card->content, row, card, line);
 }
 
+/* Fills a row for each update of the step, and one that says where the loop
+ * ends. */
+bool prints_fill_row(const FrameContent *content, int row, TableRow *cells)
+{
+    static const TableRow heads = {
+        4,
+        COLOUR_TEXT,
+        {"iteration", "residual, m/s", "step size", "divided by"}};
+    const Trace *trace = active_pane(content)->update;
+    int count = trace ? trace->updates : 0;
+    *cells = heads;
+    if (count == 0 || row == 0)
+        return count > 0;
+    const NewtonRecord *now =
+        &trace->record[row <= count ? row - 1 : count - 1];
+    memset(cells->cell, 0, sizeof cells->cell);
+    if (row > count) {
+        snprintf(cells->cell[1], CARD_CELL, "%s\u2264 %s: the loop ends",
+                 now->residual > trace->tolerance ? "the next is " : "",
+                 format_number(trace->tolerance).text);
+        return row == count + 1 && now->status == STATUS_OK;
+    }
+    snprintf(cells->cell[0], CARD_CELL, "%d", row - 1);
+    snprintf(cells->cell[1], CARD_CELL, "%s",
+             format_digits(now->residual, 4).text);
+    snprintf(cells->cell[2], CARD_CELL, "%s", format_number(now->alpha).text);
+    if (row > 1)
+        snprintf(cells->cell[3], CARD_CELL, "\u00f7 %s",
+                 format_number(now[-1].residual / now->residual).text);
+    return true;
+}
+
 /* Prints residual and step size of the newest updates that fit.  A page's star
  * also plots the residuals, in its lower half. */
 void prints_draw(const Plot *card)
@@ -110,11 +143,16 @@ void prints_draw(const Plot *card)
     Paper *paper = card->paper;
     Plot below = *card;
     Box inside = card->box;
+    TableRow cells;
     const Trace *trace = card->pane->update;
     bool star = inside.height > 14 * paper->em;
     double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);
     bool narrow = size < 1; /* has shorter words */
     size = narrow ? 0.95 : size;
+    if (card->content->in_document) {
+        residual_draw(card);
+        return;
+    }
     if (star && trace) {
         inside = box_cut_off(&below.box, EDGE_TOP, inside.height / 2);
         residual_draw(&below);
@@ -122,30 +160,23 @@ void prints_draw(const Plot *card)
     int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
-    if (count == 0 && !(star && trace)) {
+    if (count == 0 && !(star && trace))
         card_write_hint(card, text_undrawn);
-        return;
-    }
-    for (int i = first; i < count && i - first < room; i++) {
-        double residual = trace->record[i].residual;
-        double y = inside.y + (i - first) * pitch;
+    for (int i = 0; i < room; i++) {
+        double y = inside.y + i * pitch;
+        if (!prints_fill_row(card->content, first + i + 1, &cells))
+            return;
+        if (first + i == count) {
+            paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x, y,
+                        ALIGN_LEFT, "%s", cells.cell[1]);
+            return;
+        }
         int x = paper_write(
             paper, FACE_MONO, size, COLOUR_TEXT, inside.x, y, ALIGN_LEFT,
-            "%s%d: residual = %s  step%s = %s", narrow ? "" : "Iteration ", i,
-            format_digits(residual, 4).text, narrow ? "" : " size",
-            format_number(trace->record[i].alpha).text);
-        if (i > 0)
-            paper_write(
-                paper, FACE_MONO, size, COLOUR_P,
-                inside.x + x + 1.2 * size * paper->em, y, ALIGN_LEFT,
-                "\u00f7 %s",
-                format_number(trace->record[i - 1].residual / residual).text);
+            "%s%s: residual = %s  step%s = %s", narrow ? "" : "Iteration ",
+            cells.cell[0], cells.cell[1], narrow ? "" : " size", cells.cell[2]);
+        paper_write(paper, FACE_MONO, size, COLOUR_P,
+                    inside.x + x + 1.2 * size * paper->em, y, ALIGN_LEFT, "%s",
+                    cells.cell[3]);
     }
-    const NewtonRecord *last = count > 0 ? trace->record + count - 1 : NULL;
-    if (last && count - first < room && last->status == STATUS_OK)
-        paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x,
-                    inside.y + (count - first) * pitch, ALIGN_LEFT,
-                    "%s\u2264 %s: the loop ends",
-                    last->residual > trace->tolerance ? "the next is " : "",
-                    format_number(trace->tolerance).text);
 }

@@ -121,36 +121,40 @@ void step_energy_draw(const Plot *card)
         draw_excess(&right, trace);
 }
 
-/* Draws a row of the table with the columns that are known at this line; row 0
- * is the header. */
-static void draw_update_row(const Plot *card, double y, int row,
-                            const NewtonRecord *update, Line line)
+/* Fills a row for each update so far; the row of the current update has the
+ * cells that are known at this line. */
+bool updates_fill_row(const FrameContent *content, int row, TableRow *cells)
 {
-    static const char *const heads[] = {"", "projected",
-                                        "\u2016{p}\u2016_{\u221e}/h, m/s",
-                                        "{alpha}", "change of E, J s\u00b2"};
-    static const double right[] = {0.05, 0.25, 0.52, 0.63, 1};
-    enum { COLUMNS = sizeof right / sizeof *right };
-    const Trace *trace = card->pane->trace;
-    char cell[COLUMNS][96] = {""};
-    if (row > 0)
-        snprintf(cell[0], sizeof *cell, "%d", row);
-    if (line >= LINE_PROJECT)
-        snprintf(cell[1], sizeof *cell, "%d", update->projected);
+    static const TableRow heads = {5,
+                                   COLOUR_TEXT,
+                                   {"update", "projected",
+                                    "\u2016{p}\u2016_{\u221e}/h, m/s",
+                                    "{alpha}", "change of E, J s\u00b2"}};
+    const Trace *trace = active_pane(content)->trace;
+    *cells = heads;
+    if (!trace || row == 0)
+        return trace;
+    int made = count_added_updates(trace);
+    bool now = trace->line >= LINE_PROJECT && trace->line < LINE_UPDATE &&
+               trace->projected >= 0;
+    const NewtonRecord *update = &trace->record[row - 1];
+    Line line = row <= made ? LINE_END : trace->line;
+    if (row > made + now)
+        return false;
+    memset(cells->cell, 0, sizeof cells->cell);
+    snprintf(cells->cell[0], CARD_CELL, "%d", row);
+    snprintf(cells->cell[1], CARD_CELL, "%d", update->projected);
     if (line >= LINE_SOLVE)
-        snprintf(cell[2], sizeof *cell, "%s %s \u03b5",
+        snprintf(cells->cell[2], CARD_CELL, "%s %s \u03b5",
                  format_number(update->residual).text,
                  update->residual > trace->tolerance ? ">" : "\u2264");
     if (line > LINE_SEARCH || (line == LINE_SEARCH && trace->accepted))
-        snprintf(cell[3], sizeof *cell, "%s",
+        snprintf(cells->cell[3], CARD_CELL, "%s",
                  format_number(update->alpha).text);
     if (line >= LINE_UPDATE)
-        snprintf(cell[4], sizeof *cell, "%s",
+        snprintf(cells->cell[4], CARD_CELL, "%s",
                  format_number(update->change).text);
-    for (int c = 0; c < COLUMNS; c++)
-        paper_write(card->paper, row ? FACE_REGULAR : FACE_BOLD, 1, COLOUR_TEXT,
-                    card->box.x + right[c] * card->box.width, y, ALIGN_RIGHT,
-                    "%s", row ? cell[c] : heads[c]);
+    return true;
 }
 
 static const double UPDATE_PITCH = 1.45; /* ems, height of a row of the table */
@@ -165,23 +169,23 @@ double updates_needed_height(const FrameContent *content, double wide,
     return UPDATE_PITCH * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
 }
 
-/* Draws the table of the newest updates that fit, the present one as far as
- * known. */
+/* Draws the heads of the table and the newest updates that fit. */
 void updates_draw(const Plot *card)
 {
-    const Trace *trace = card->pane->trace;
+    static const double right[] = {0.05, 0.25, 0.52, 0.63, 1};
     double pitch = UPDATE_PITCH * card->em, y = card->box.y + 0.2 * card->em;
-    if (!trace) {
-        card_write_hint(card, text_undrawn);
-        return;
+    int room = (int)(card->box.height / pitch - 1), rows = 0;
+    TableRow cells;
+    while (updates_fill_row(card->content, rows, &cells))
+        rows++;
+    int skipped = rows - 1 > room ? rows - 1 - room : 0;
+    for (int i = 0; i < rows - skipped; i++) {
+        updates_fill_row(card->content, i ? i + skipped : 0, &cells);
+        for (int c = i == 0; c < cells.columns; c++)
+            paper_write(card->paper, i ? FACE_REGULAR : FACE_BOLD, 1,
+                        COLOUR_TEXT, card->box.x + right[c] * card->box.width,
+                        y + i * pitch, ALIGN_RIGHT, "%s", cells.cell[c]);
     }
-    int made = count_added_updates(trace);
-    bool now = trace->line >= LINE_PROJECT && trace->line < LINE_UPDATE &&
-               trace->projected >= 0;
-    int rows = made + now, room = (int)(card->box.height / pitch - 1);
-    int first = rows > room ? rows - room : 0;
-    draw_update_row(card, y, 0, NULL, LINE_NONE);
-    for (int i = first; i < rows; i++)
-        draw_update_row(card, y + (i - first + 1) * pitch, i + 1,
-                        &trace->record[i], i < made ? LINE_END : trace->line);
+    if (rows == 0)
+        card_write_hint(card, text_undrawn);
 }

@@ -188,12 +188,12 @@ void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
                        .em = paper->em};
     if (content->cards.covered >> card & 1)
         card_write_hint(&plot, "after your guess");
+    else if (row->draw)
+        row->draw(&plot);
     else if (row->words)
         card_write_text(&plot, &pane->values, row->words);
-    else if (row->rows)
-        card_write_rows(&plot, row->rows);
     else
-        row->draw(&plot);
+        card_write_rows(&plot, row->rows);
 }
 
 /* Draws the code or list in the column. */

@@ -28,11 +28,12 @@ typedef struct ShownRow {
 
 /* Tables and texts generated from cards.txt, as far as sources use them. */
 extern const Picture pictures[PICTURE_COUNT];
-extern const Card card_law, card_listing;
+extern const Card card_law, card_listing, card_matrix, card_tangent_numbers,
+    card_hessian_pattern;
 extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
-    text_matrix[], text_eigenvalues[], text_update[], text_trials[],
-    text_undrawn[], text_newest[], text_node[], text_spring[];
+    text_eigenvalues[], text_trials[], text_undrawn[], text_node[],
+    text_spring[];
 
 /* Functions that cards.txt names; picture.h describes each kind. */
 typedef void StageBounds(const Plot *stage, double bounds[4]);
@@ -41,6 +42,7 @@ typedef void StageAddValues(const Simulation *simulation, LiveValues *values);
 typedef void StagePick(const Plot *stage, double x, double y, Pick *pick);
 typedef int StageSample(const Simulation *simulation, Energy *row);
 typedef void CardDraw(const Plot *card);
+typedef bool CardTable(const FrameContent *content, int row, TableRow *cells);
 typedef double CardNeeds(const FrameContent *content, double wide, double em);
 extern StageBounds square_bounds, circle_bounds, mass_bounds, tangent_bounds,
     spring_bounds, race_bounds;
@@ -56,6 +58,8 @@ extern CardDraw page_draw, prints_draw, line_energy_draw, residual_draw,
     step_energy_draw, updates_draw, energies_draw, energy_budget_draw,
     radius_draw, relief_draw, step_matrix_draw, tangent_numbers_draw, law_draw,
     hessian_pattern_draw, spring_profile_draw, race_table_draw;
+extern CardTable prints_fill_row, updates_fill_row, iterates_fill_row,
+    race_fill_row;
 extern CardNeeds page_needed_height, listing_needed_height,
     energies_needed_height, updates_needed_height;
 

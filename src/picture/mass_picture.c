@@ -215,6 +215,10 @@ void step_matrix_draw(const Plot *card)
 {
     Plot numbers = *card, plane = *card;
     const Box *box = &card->box;
+    if (card->content->in_document) {
+        draw_complex_plane(card);
+        return;
+    }
     int wide = paper_pixels(card->paper, MATRIX_WIDE);
     int high = paper_pixels(card->paper, MATRIX_HIGH);
     int rest = box->width - wide;
@@ -224,7 +228,7 @@ void step_matrix_draw(const Plot *card)
         plane.box = box_cut_off(&numbers.box, EDGE_RIGHT,
                                 rest < box->height ? rest : box->height);
     card_write_text(&numbers, &card->pane->values,
-                    box->height < high ? text_eigenvalues : text_matrix);
+                    box->height < high ? text_eigenvalues : card_matrix.words);
     Box before = canvas_set_clip(&card->paper->canvas, plane.box);
     draw_complex_plane(&plane);
     canvas_set_clip(&card->paper->canvas, before);

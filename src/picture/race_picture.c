@@ -145,29 +145,39 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "failed", simulation->status);
 }
 
-enum { COLUMNS = 9, CELL = 64 };
-
 /* Writes a finite number into a cell of the table. */
-static void put_cell(char cell[CELL], const char *sign, double value,
+static void put_cell(char cell[CARD_CELL], const char *sign, double value,
                      int digits, const char *unit)
 {
     if (isfinite(value))
-        snprintf(cell, CELL, "%s%.40s%s", sign,
+        snprintf(cell, CARD_CELL, "%s%.40s%s", sign,
                  format_digits(value, digits).text, unit);
 }
 
 /* Fills the row of a method: error, quotient of errors each time h is halved
  * (or epsilon below the reference's error), energy left after a second, longest
  * stable h, run time. */
-static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
+bool race_fill_row(const FrameContent *content, int row, TableRow *cells)
 {
+    static const TableRow heads = {CARD_COLUMNS,
+                                   COLOUR_TEXT,
+                                   {"", "error, m", "h/2", "h/4", "h/8", "h/16",
+                                    "energy", "stable h", "time"}};
+    const Race *race = &active_pane(content)->simulation->exhibit.race;
+    int method = row - 1;
+    *cells = heads;
+    if (row == 0 || row > RACE_METHODS)
+        return row == 0;
     const IntegratorMethod *shown = race_method(method);
     const RacePoint *point =
         &race->point[RACE_SHOWN_ROW * RACE_METHODS + method];
-    snprintf(cell[0], CELL, "%s", shown->label);
+    char(*cell)[CARD_CELL] = cells->cell;
+    memset(cells->cell, 0, sizeof cells->cell);
+    cells->colour = colour_of_name(shown->name);
+    snprintf(cell[0], CARD_CELL, "%s", shown->label);
     if (race->count > point - race->point) {
         put_cell(cell[1], "", point->error, 2, "");
-        snprintf(cell[6], CELL, "explodes");
+        snprintf(cell[6], CARD_CELL, "explodes");
         put_cell(cell[6], "\u00d7 ", point->energy_after_second, 2, "");
         put_cell(cell[8], "", 1e3 * point->seconds, 2, " ms");
     }
@@ -175,7 +185,7 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
         const RacePoint *half = point + RACE_METHODS;
         if (race->count <= half - race->point)
             break;
-        snprintf(cell[1 + k], CELL,
+        snprintf(cell[1 + k], CARD_CELL,
                  half->error < REFERENCE_ERROR ? "\u03b5" : "\u2013");
         put_cell(cell[1 + k], "\u00f7 ",
                  half->error < REFERENCE_ERROR ? NAN
@@ -184,63 +194,55 @@ static void fill_row(const Race *race, int method, char cell[COLUMNS][CELL])
         point = half;
     }
     if (shown->implicit) /* not tried by the race */
-        snprintf(cell[7], CELL, shown->damps ? "(any h)" : "(if linear)");
+        snprintf(cell[7], CARD_CELL, shown->damps ? "(any h)" : "(if linear)");
     else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
-        snprintf(cell[7], CELL, "none");
+        snprintf(cell[7], CARD_CELL, "none");
     put_cell(cell[7], "",
              shown->implicit ? NAN : 1e3 * race_find_stable_h(race, method), 3,
              " ms");
+    return true;
 }
 
 /* Draws the most important columns that have room. */
 void race_table_draw(const Plot *card)
 {
-    static const char heads[COLUMNS][CELL] = {"",       "error, m", "h/2",
-                                              "h/4",    "h/8",      "h/16",
-                                              "energy", "stable h", "time"};
-    static const char *const widest[COLUMNS] = {"implicit midpoint",
-                                                "4.4\u00b710^{\u22125}",
-                                                "\u00f7 6.4",
-                                                "\u00f7 6.4",
-                                                "\u00f7 6.4",
-                                                "\u00f7 6.4",
-                                                "\u00d7 8.9\u00b710^{\u22128}",
-                                                "(if linear)",
-                                                "0.0055 ms"};
-    static const int order[2][COLUMNS] = {{0, 6, 7, 1, 2, 3, 4, 5, 8},
-                                          {0, 2, 3, 4, 5, 1, 6, 7, 8}};
+    static const char *const widest[CARD_COLUMNS] = {
+        "implicit midpoint",
+        "4.4\u00b710^{\u22125}",
+        "\u00f7 6.4",
+        "\u00f7 6.4",
+        "\u00f7 6.4",
+        "\u00f7 6.4",
+        "\u00d7 8.9\u00b710^{\u22128}",
+        "(if linear)",
+        "0.0055 ms"};
+    static const int order[2][CARD_COLUMNS] = {{0, 6, 7, 1, 2, 3, 4, 5, 8},
+                                               {0, 2, 3, 4, 5, 1, 6, 7, 8}};
     const int *next = order[card->simulation->exhibit.switches != 0];
     Paper *paper = card->paper;
     Box inside = card->box;
-    char cell[COLUMNS][CELL];
-    double wide[COLUMNS], gap = 0.8 * paper->em, rest = inside.width;
+    TableRow cells;
+    double wide[CARD_COLUMNS], gap = 0.8 * paper->em, rest = inside.width;
     double line = fmin(3.6 * paper->em, inside.height / (RACE_METHODS + 1.0));
-    bool shown[COLUMNS] = {false};
+    bool shown[CARD_COLUMNS] = {false};
     int count = 0;
-    for (int c = 0; c < COLUMNS; c++)
+    for (int c = 0; c < CARD_COLUMNS; c++)
         wide[c] = paper_width(paper, FACE_REGULAR, 1, widest[c]);
-    for (; count < COLUMNS && wide[next[count]] <= rest; count++) {
+    for (; count < CARD_COLUMNS && wide[next[count]] <= rest; count++) {
         rest -= wide[next[count]] + gap;
         shown[next[count]] = true;
     }
     gap += (rest + gap) / fmax(count - 1, 1);
-    for (int row = 0; row <= RACE_METHODS; row++) {
+    for (int row = 0; race_fill_row(card->content, row, &cells); row++) {
         double right = inside.x - gap;
-        memset(cell, 0, sizeof cell);
-        if (row > 0)
-            fill_row(&card->simulation->exhibit.race, row - 1, cell);
-        else
-            memcpy(cell, heads, sizeof cell);
-        for (int c = 0; c < COLUMNS; c++) {
-            Colour colour = row && c == 0
-                                ? colour_of_name(race_method(row - 1)->name)
-                                : COLOUR_TEXT;
+        for (int c = 0; c < CARD_COLUMNS; c++) {
             if (!shown[c])
                 continue;
             right += wide[c] + gap;
-            paper_write(paper, row ? FACE_REGULAR : FACE_BOLD, 1, colour,
-                        c ? right : inside.x, inside.y + row * line,
-                        c ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);
+            paper_write(paper, row ? FACE_REGULAR : FACE_BOLD, 1,
+                        c ? COLOUR_TEXT : cells.colour, c ? right : inside.x,
+                        inside.y + row * line, c ? ALIGN_RIGHT : ALIGN_LEFT,
+                        "%s", cells.cell[c]);
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -261,32 +262,50 @@ static void write_digits(double x, char text[ITERATE_TEXT])
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
+/* Fills a row for each iterate; the digits that differ from those of the zero
+ * of g are grey. */
+bool iterates_fill_row(const FrameContent *content, int row, TableRow *cells)
+{
+    static const TableRow heads = {2, COLOUR_TEXT, {"iterate", "its digits"}};
+    const Simulation *simulation = active_pane(content)->simulation;
+    char root[ITERATE_TEXT], x[ITERATE_TEXT];
+    int right = 0;
+    *cells = heads;
+    if (row == 0 || row > simulation->descent.count + 1)
+        return row == 0;
+    write_digits(find_root(simulation), root);
+    write_digits(iterate_at(&simulation->descent, row - 1), x);
+    while (x[right] && x[right] == root[right])
+        right++;
+    snprintf(cells->cell[0], CARD_CELL, "#x{x^{%d}}", row - 1);
+    snprintf(cells->cell[1], CARD_CELL, "%.*s#grey{%s}", right, x, x + right);
+    return true;
+}
+
 /* Writes the newest iterates that fit, the right digits on a light ground. */
 static void draw_iterates(const Plot *card)
 {
     const double size = 0.95, pitch = 1.38; /* ems */
-    const Descent *descent = &card->simulation->descent;
+    int count = card->simulation->descent.count + 1;
     Paper *paper = card->paper;
     int rows = (int)(card->box.height / (pitch * paper->em));
-    int first = descent->count + 1 > rows ? descent->count + 1 - rows : 0;
-    char root[ITERATE_TEXT], x[ITERATE_TEXT], words[3 * ITERATE_TEXT];
-    write_digits(find_root(card->simulation), root);
-    for (int i = first; i <= descent->count; i++) {
+    int first = count > rows ? count - rows : 0;
+    TableRow cells;
+    for (int i = first; iterates_fill_row(card->content, i + 1, &cells); i++) {
         int y = card->box.y + paper_pixels(paper, pitch * (i - first));
-        int right = 0;
-        write_digits(iterate_at(descent, i), x);
-        while (x[right] && x[right] == root[right])
-            right++;
-        snprintf(words, sizeof words, "#x{x^{%d}}  ", i);
+        int right = (int)strcspn(cells.cell[1], "#");
+        char words[2 * CARD_CELL];
+        snprintf(words, sizeof words, "%s  ", cells.cell[0]);
         int left = paper_width(paper, FACE_REGULAR, size, words);
-        snprintf(words, sizeof words, "#x{x^{%d}}  %.*s", i, right, x);
+        snprintf(words, sizeof words, "%s  %.*s", cells.cell[0], right,
+                 cells.cell[1]);
         int end = paper_width(paper, FACE_REGULAR, size, words);
         canvas_fill(&paper->canvas,
                     (Box){card->box.x + left, y + paper_pixels(paper, 0.15),
                           end - left, paper_pixels(paper, 1.25)},
                     right > 0 ? COLOUR_LIT : COLOUR_WHITE);
         paper_write(paper, FACE_REGULAR, size, COLOUR_TEXT, card->box.x, y,
-                    ALIGN_LEFT, "%s#grey{%s}", words, x + right);
+                    ALIGN_LEFT, "%s  %s", cells.cell[0], cells.cell[1]);
     }
 }
 
@@ -296,7 +315,7 @@ void tangent_numbers_draw(const Plot *card)
     Plot left = *card, right = *card;
     right.box = box_cut_off(&left.box, EDGE_RIGHT,
                             paper_pixels(card->paper, ITERATES_WIDE));
-    card_write_text(&left, &card->pane->values, text_update);
+    card_write_text(&left, &card->pane->values, card_tangent_numbers.words);
     draw_iterates(&right);
 }
 

@@ -1,27 +1,32 @@
-/* document.c - the frame as text: what the page says, the numbers that can be
- * set, the cards, what has just happened.
+/* document.c - writes a frame as lines of text, which document.js shows as
+ * elements.
  *
- * A line is a word and its fields, a tab before each.  TEXT is markup (text.h)
- * with its numbers filled in, LINE is "COLOUR BOLD TEXT".
- *     page NUMBER OF NAME          NUMBER 0: a scene, NAME is its name
+ * A line is a word and its fields, with a tab before each field.  TEXT is
+ * markup (text.h) with its numbers filled in; LINE stands for the three fields
+ * COLOUR BOLD TEXT; INDEX of a card is its index in the picture.
+ *     page NUMBER COUNT NAME      NUMBER 0: a scene, which has the name NAME
  *     topic, sentence, time, picture, event TEXT
  *     text, formula, ask, look, try, claim, notes LINE
- *     told WARNING TEXT            what the last command did
- *     verdict TEXT RIGHT GUESSES   on the guess at this page; of all so far
- *     asks KIND COORDINATES        a guess is awaited: number, words or place,
- *                                  which has one coordinate or two
+ *     told WARNING TEXT           message about the last command
+ *     verdict TEXT RIGHT GUESSES  verdict on the guess at this page; how many
+ *                                 guesses were right, and were made, so far
+ *     asks KIND COORDINATES       the page waits for a guess.  KIND: number,
+ *                                 words, or place, which has 1 or 2 coordinates
  *     number NAME LABEL VALUE UNIT CHOICES HELP IDLE SHOWN
- *                                  CHOICES: names with | between, "": a number;
- *                                  SHOWN: "row", as in the window; "tried", so,
- *                                  and Try wants it dragged; or "more"
- *     point INDEX X Y              can be dragged
+ *                                 an option.  CHOICES: names with | between, or
+ *                                 "" for a number; IDLE: why it has no effect
+ *                                 now, or ""; SHOWN: row (it is in the window's
+ *                                 row), tried (and Try wants it dragged), more
+ *     point INDEX X Y             a handle, m
  *     switch INDEX ON LABEL
- *     code LIT TEXT                a line of the page's function, as it is
- *     card INDEX NAME KIND CLOSED TITLE NUMBERS   KIND: text, graph (drawn), or
- *                                  star (drawn, and larger than the picture);
- *                                  NUMBERS: what a graph shows, in words
- *     words INDEX LINE             a line of a card of kind text
- *     row INDEX LIT STRUCK INDENTED TEXT VALUE   a line of an algorithm
+ *     code LIT TEXT               a line of the page's code, without markup
+ *     card INDEX NAME KIND CLOSED TITLE DESCRIPTION
+ *                                 KIND: text, covered (before the guess), graph
+ *                                 (drawn), or star (drawn larger than the
+ *                                 picture); DESCRIPTION: the graph in words
+ *     words INDEX LINE            a line of a card of kind text,
+ *     row INDEX LIT STRUCK INDENTED TEXT VALUE   of the algorithm in it,
+ *     cells INDEX COLOUR TEXT ... and of the table in it; heads come first
  *     step STEP NEWEST PAUSED
  */
 #include "web/document.h"
@@ -36,7 +41,7 @@
 #include "run/scene.h"
 #include "scenes/scenes.h"
 
-/* Text that grows up to its room; what is beyond is left out. */
+/* A text that grows; words beyond its size are left out. */
 typedef struct Writer {
     char *text; /* [DOCUMENT_SIZE] */
     size_t used;
@@ -53,8 +58,8 @@ __attribute__((format(printf, 2, 3))) static void put(Writer *to,
     to->used += count < (int)room ? (size_t)count : room - 1;
 }
 
-/* Relative luminance of a colour (WCAG 2.1), 0 ... 1. */
-static double luminance(Colour colour)
+/* Returns the relative luminance of a colour (WCAG 2.1), 0 ... 1. */
+static double find_luminance(Colour colour)
 {
     static const double parts[] = {0.0722, 0.7152, 0.2126}; /* blue, ... */
     double sum = 0;
@@ -68,9 +73,9 @@ static double luminance(Colour colour)
 
 unsigned document_colour(Colour colour)
 {
-    const double contrast = 4.6; /* on white; less is hard to read */
+    const double contrast = 4.6; /* with white; WCAG 2.1 asks for 4.5 */
     Colour darker = colour & 0xffffff;
-    for (int i = 99; 1.05 / (luminance(darker) + 0.05) < contrast; i--) {
+    for (int i = 99; 1.05 / (find_luminance(darker) + 0.05) < contrast; i--) {
         darker = 0;
         for (int k = 0; k < 3; k++)
             darker |= (colour >> 8 * k & 255) * (Colour)i / 100 << 8 * k;
@@ -78,20 +83,20 @@ unsigned document_colour(Colour colour)
     return darker;
 }
 
-/* All known lines of a text. */
-static void put_text(Writer *to, const LiveValues *values, const char *words,
+/* Writes a line with this word for each known line of a text. */
+static void put_text(Writer *to, const LiveValues *values, const char *word,
                      const char *text)
 {
     for (TextLine line = text_begin(values, text); text_next_line(&line);)
-        put(to, "%s\t#%06x\t%d\t%s\n", words, document_colour(line.colour),
+        put(to, "%s\t#%06x\t%d\t%s\n", word, document_colour(line.colour),
             line.face == FACE_BOLD, line.words);
 }
 
 /* ---- the page of the lecture ----------------------------------------------
  */
 
-/* Before a guess nothing that would tell the answer. */
-static void write_page(Writer *to, const FrameContent *content)
+/* Writes the page's texts; those that tell the answer after the guess alone. */
+static void put_page(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const LiveValues *values = &active_pane(content)->values;
@@ -120,9 +125,9 @@ static void write_page(Writer *to, const FrameContent *content)
 /* ---- cards -----------------------------------------------------------------
  */
 
-/* The lines of an algorithm as card_listing.c draws them. */
-static void write_rows(Writer *to, const FrameContent *content, int card,
-                       const ListingRow *row)
+/* Writes the known lines of an algorithm. */
+static void put_rows(Writer *to, const FrameContent *content, int card,
+                     const ListingRow *row)
 {
     const Pane *pane = active_pane(content);
     for (; row->shown_if; row++) {
@@ -133,7 +138,7 @@ static void write_rows(Writer *to, const FrameContent *content, int card,
     }
 }
 
-/* The energies of the first run. */
+/* Writes the energies of the first run, "total 21700 J, elastic 18200 J". */
 static void put_energies(Writer *to, const Simulation *simulation)
 {
     const Energies energies = simulation_energies(simulation, 0);
@@ -142,14 +147,13 @@ static void put_energies(Writer *to, const Simulation *simulation)
             format_number(energies.row[i].value).text);
 }
 
-/* What a graph of energies, or of the updates of a step, shows. */
-static void put_graph(Writer *to, const FrameContent *content, const char *name)
+/* Describes a graph of energies, of residuals, or of E along p. */
+static void put_description(Writer *to, const Pane *pane, const char *name)
 {
-    const Pane *pane = active_pane(content);
     const Trace *trace = pane->update;
     if (strcmp(name, "energies") == 0 || strcmp(name, "budget") == 0) {
         put_energies(to, pane->simulation);
-    } else if (trace && strstr("residual prints updates", name)) {
+    } else if (strcmp(name, "residual") == 0 && trace) {
         for (int i = 0; i < trace->updates; i++)
             put(to, "%supdate %d: residual %s, step length %s", i ? "; " : "",
                 i + 1, format_number(trace->record[i].residual).text,
@@ -161,43 +165,79 @@ static void put_graph(Writer *to, const FrameContent *content, const char *name)
     }
 }
 
+/* Writes the heads and the last rows of a card's table, or a hint that the
+ * table has no rows yet. */
+static void put_table(Writer *to, const FrameContent *content, int index,
+                      const Card *card)
+{
+    enum { MOST_ROWS = 40 };
+    const TextLine hint =
+        text_first_line(&active_pane(content)->values, text_undrawn);
+    TableRow row;
+    int rows = 0;
+    while (card->table(content, rows, &row))
+        rows++;
+    for (int i = 0; i < rows; i++) {
+        if (i > 0 && i < rows - MOST_ROWS)
+            continue;
+        card->table(content, i, &row);
+        put(to, "cells\t%d\t#%06x", index, document_colour(row.colour));
+        for (int c = 0; c < row.columns; c++)
+            put(to, "\t%s", row.cell[c]);
+        put(to, "\n");
+    }
+    if (rows == 0)
+        put(to, "words\t%d\t#%06x\t0\t%s\n", index,
+            document_colour(hint.colour), hint.words);
+}
+
+/* Writes a card: a line for its graph, and one with lines below it for its
+ * text. */
+static void put_card(Writer *to, const FrameContent *content, int index,
+                     const Card *card)
+{
+    const Pane *pane = active_pane(content);
+    const LecturePage *page = content->lecture.page;
+    bool covered = content->cards.covered >> index & 1;
+    bool graph = !covered && card->draw && !card->has_no_curves;
+    bool star = page && page->star && strcmp(page->star, card->name) == 0;
+    bool closed = content->cards.closed >> index & 1;
+    TextLine title = text_first_line(&pane->values, card->title);
+    char word[24];
+    snprintf(word, sizeof word, "words\t%d", index);
+    if (graph) {
+        put(to, "card\t%d\t%s\t%s\t%d\t%s\t", index, card->name,
+            star ? "star" : "graph", closed, title.words);
+        put_description(to, pane, card->name);
+        put(to, "\n");
+    }
+    if (graph && !card->table && !text_has_line(&pane->values, card->words))
+        return;
+    put(to, "card\t%d\t%s%s\t%s\t%d\t%s\t\n", index, card->name,
+        graph ? "-text" : "", covered ? "covered" : "text", closed,
+        title.words);
+    put_text(to, &pane->values, word,
+             covered ? "after your guess" : card->words);
+    if (card->rows && !covered)
+        put_rows(to, content, index, card->rows);
+    if (card->table && !covered)
+        put_table(to, content, index, card);
+}
+
 static void put_cards(Writer *to, const FrameContent *content)
 {
     const Picture *picture = active_picture(content);
-    const LiveValues *values = &active_pane(content)->values;
-    const LecturePage *page = content->lecture.page;
-    for (int i = 0; i < picture->count && content->sheet.cells == 0; i++) {
-        const Card *card = picture->cards[i];
-        bool veiled = content->cards.covered >> i & 1;
-        bool star = page && page->star && strcmp(page->star, card->name) == 0;
-        bool text = veiled || card->words || card->rows;
-        char words[24];
-        if (content->cards.hidden >> i & 1 || strcmp(card->name, "page") == 0)
-            continue;
-        put(to, "card\t%d\t%s\t%s\t%d\t%s\t", i, card->name,
-            text   ? "text"
-            : star ? "star"
-                   : "graph",
-            content->cards.closed >> i & 1,
-            text_first_line(values, card->title).words);
-        if (!text)
-            put_graph(to, content, card->name);
-        put(to, "\n");
-        snprintf(words, sizeof words, "words\t%d", i);
-        if (veiled)
-            put_text(to, values, words, "after your guess");
-        else if (card->rows)
-            write_rows(to, content, i, card->rows);
-        else
-            put_text(to, values, words, card->words);
-    }
+    for (int i = 0; i < picture->count && content->sheet.cells == 0; i++)
+        if (!(content->cards.hidden >> i & 1) &&
+            strcmp(picture->cards[i]->name, "page") != 0)
+            put_card(to, content, i, picture->cards[i]);
 }
 
 /* ---- what can be set -------------------------------------------------------
  */
 
-/* Whether "Drag ..." of a text names an option, up to the end of the clause. */
-static bool is_tried(const char *text, const OptionRow *row)
+/* Whether a clause "Drag ..." of the text names the option. */
+static bool asks_to_drag(const char *text, const OptionRow *row)
 {
     const char *name = option_label(row);
     size_t length = strlen(name);
@@ -231,9 +271,9 @@ static void put_numbers(Writer *to, const Player *player)
         for (int k = 0; named && names_at(row[i]->names, k); k++)
             put(to, "%s%s", k ? "|" : "", names_at(row[i]->names, k));
         put(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
-            !shown                                            ? "more"
-            : !named && page && is_tried(page->touch, row[i]) ? "tried"
-                                                              : "row");
+            !shown                                                ? "more"
+            : !named && page && asks_to_drag(page->touch, row[i]) ? "tried"
+                                                                  : "row");
     }
 }
 
@@ -252,6 +292,7 @@ static void put_exhibit(Writer *to, const Simulation *simulation)
 /* ---- what is seen, and what happened ---------------------------------------
  */
 
+/* Describes size and place of a body, or the place of a point. */
 static void put_shape(Writer *to, const Pane *pane)
 {
     const Simulation *simulation = pane->simulation;
@@ -269,12 +310,13 @@ static void put_shape(Writer *to, const Pane *pane)
             format_digits(at[1], 4).text);
 }
 
-/* The picture in words: of each pane method and shape, the energies of the
- * active one. */
+/* Describes the picture: method and shape in each pane, the energies and the
+ * legend of the active pane. */
 static void put_picture(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Simulation *simulation = player_simulation(player);
+    const LiveValues *values = &active_pane(content)->values;
     put(to, "picture\t");
     for (int p = 0; p < content->panes; p++) {
         const Pane *pane = &content->pane[p];
@@ -291,10 +333,14 @@ static void put_picture(Writer *to, const Player *player)
         put_energies(to, simulation);
         put(to, ".");
     }
+    for (TextLine line =
+             text_begin(values, picture_of(simulation->scene)->legend);
+         text_next_line(&line);)
+        put(to, " %s.", line.words);
     put(to, "\n");
 }
 
-/* The last step in a few words: "step 12: 3 updates, E fell by 13.8 J s²". */
+/* Describes the last step: "step 12: 3 updates, E fell by 13.8". */
 static void put_event(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
@@ -333,7 +379,7 @@ void document_write(const Player *player, char *text)
     put(to, "step\t%ld\t%ld\t%d\n", content->time_line.step,
         content->time_line.steps, content->time_line.paused);
     if (page)
-        write_page(to, content);
+        put_page(to, content);
     if (content->lecture.verdict && !content->lecture.hides_answer)
         put(to, "verdict\t%s\t%d\t%d\n", content->lecture.verdict,
             content->lecture.right, content->lecture.guesses);

@@ -1,24 +1,26 @@
-/* document.h - the frame as text, for a page that shows it beside the canvas.
+/* document.h - the texts of a frame, which the page shows beside its canvas.
  */
 #ifndef ELASTO_DOCUMENT_H
 #define ELASTO_DOCUMENT_H
 
 #include "play/player.h"
 
-/* Shows a card on a canvas of its own (window_web.c). */
+/* Shows the drawn card with this index on its canvas of the page, and the
+ * picture for card -1.  window_web.c defines this function. */
 void window_show_card(const Canvas *canvas, int card);
 
 enum { DOCUMENT_SIZE = 48 << 10 };
 
-/* Writes all texts of the last frame, with their numbers filled in; document.c
- * says which lines there are.
+/* Writes the texts of the last frame, with their numbers filled in; the head of
+ * document.c lists the kinds of lines.
  *   text  [DOCUMENT_SIZE] out */
 void document_write(const Player *player, char *text);
 
-/* A colour for letters on white: darker where it would be too faint to read. */
+/* Returns the colour, darkened until letters in it can be read on white. */
 unsigned document_colour(Colour colour);
 
-/* What never changes: the pages of the lecture, the scenes, the keys.
+/* Writes a line for each page of the lecture, each scene and each key:
+ *     pages ADDRESS TOPIC, scenes ADDRESS TEXT, keys KEY MEANING
  *   text  [DOCUMENT_SIZE] out */
 void document_write_lists(char *text);
 

@@ -1,18 +1,17 @@
-// document.js - the text beside the canvas: the lines of document.c as elements.
-// A part is made anew only where its lines have changed, so that a selection, or
-// what is typed elsewhere, stays.
-'use strict';
+// document.js - shows the lines of document.c as elements beside the canvas.  Only
+// elements whose lines have changed are replaced, so that a selection or a half
+// typed number elsewhere stays.
 
-const LIVE = 100; // ms, at least, between two texts of a run that goes on
-const SPOKEN = 4000; // ms, the same of what is read aloud
-let now = {}; // word -> lines, each a list of fields
-let lists = {}; // the same of pages, scenes and keys
-const seen = {}; // part -> its lines as they are shown
-let [rendered, spoken, late] = [-1e9, -1e9, 0]; // when; the timer of the next text
-const cards = new Map(); // index -> canvas
-let sheet = null; // {canvas} while the lecture is made for print
+const LIVE = 100; // ms between two texts of a run that goes on
+const SPOKEN = 4000; // ms between two texts that a screen reader speaks
+let now = {}; // lines of the last frame: word -> list of lines, each a list of fields
+let lists = {}; // lines of pages, scenes and keys
+const seen = {}; // lines that are shown, by their words
+let [rendered, spoken] = [-1e9, -1e9]; // ms, times of the last text and spoken text
+let late = 0; // timer of the next text
+let sheet = null; // {canvas}: where Page.show draws while the lecture is printed
 
-const read = (text) => {
+const parseLines = (text) => {
   const lines = {};
   for (const line of text.split('\n')) {
     const [word, ...fields] = line.split('\t');
@@ -23,20 +22,20 @@ const read = (text) => {
 const field = (word, i = 0) => now[word]?.[0][i] ?? '';
 const obey = (line) => wake(ask('web_obey', null, line));
 
-// Calls `build` where one of these words says something else than before.
+// Keeps a value in `store` and returns whether it differs from the value before.
+const isNew = (store, key, value) => store[key] !== (store[key] = JSON.stringify(value));
+// Calls build with the lines of the first word if the lines of a word have changed.
 const part = (words, build) => {
-  const lines = JSON.stringify(words.map((word) => now[word]));
-  if (seen[words] === lines) return;
-  seen[words] = lines;
-  build(now[words[0]] ?? []);
+  const lines = words.map((word) => now[word]);
+  if (isNew(seen, words, lines)) build(lines[0] ?? []);
 };
 
 // ---- texts ------------------------------------------------------------------
 
 const plain = (text) => text.replace(/[{}^_]/g, '');
 
-// "page 25" leads there.
-const link = (element) => {
+// Makes links of the words "page 25".
+const addLinks = (element) => {
   for (const node of [...element.childNodes].filter((child) => child.nodeType === Node.TEXT_NODE))
     node.replaceWith(
       ...node.textContent.split(/(page[ \u00a0]\d+)/i).map((text, i) => {
@@ -48,7 +47,8 @@ const link = (element) => {
 };
 
 const paragraph = ([colour, bold, text], asFormula) => {
-  const p = link(setMarkup(make('p', [], asFormula ? { class: 'formula' } : {}), text, asFormula));
+  const p = make('p', [], asFormula ? { class: 'formula' } : {});
+  addLinks(setMarkup(p, text, asFormula));
   if (colour !== '#1c1c1c') p.style.color = colour;
   if (bold === '1') p.style.fontWeight = 'bold';
   return p;
@@ -69,8 +69,8 @@ const input = (name, label, value, change, more = {}) => {
   return Object.assign(make('input', [], how), { onchange: change });
 };
 
-// Over two powers of ten around what the number is when the page opens, or four
-// times as many and as few.
+// Makes a slider from a tenth to ten times the first value, or from a quarter to
+// four times a whole number.
 const makeSlider = (name, first, whole) => {
   const most = Math.log(whole ? 4 : 10);
   const range = { type: 'range', min: -most, max: most, step: most / 100 };
@@ -88,20 +88,15 @@ const makeNumber = ([name, label, value, unit, choices, , , shown]) => {
   const full = label === name ? name : `${words.textContent}, ${name}`;
   const change = ({ target }) => obey(`set ${name} ${target.value}`);
   const options = choices.split('|').map((choice) => new Option(choice));
-  const select = Object.assign(make('select', options), {
-    name,
-    ariaLabel: full,
-    onchange: change,
-  });
+  const how = { name, ariaLabel: full, onchange: change };
+  const select = Object.assign(make('select', options), how);
   const element = choices ? select : input(name, full, value, change);
   const item = make('label', [words, element, setMarkup(make('span'), unit)]);
-  if (shown !== 'tried') return item;
-  item.append(makeSlider(name, Number(value), name === 'segments'));
-  item.className = 'tried';
+  item.className = shown;
+  if (shown === 'tried') item.append(makeSlider(name, Number(value), name === 'segments'));
   return item;
 };
 
-// Points that can be dragged, and switches.
 const makePoint = ([index, x, y]) => {
   const send = () => obey(`handle ${index} ${fields[0].value} ${fields[1].value}`);
   const fields = [x, y].map((value, i) => input('', `point ${index}, ${'xy'[i]}`, value, send));
@@ -116,13 +111,11 @@ const makeSwitch = ([index, on, label]) => {
 const showNumbers = () => {
   const rows = now.number ?? [];
   const names = rows.map(([name, , , , , , , shown]) => name + shown);
-  const shape = JSON.stringify([field('page', 2), names]);
-  if (seen.shape !== shape) {
+  if (isNew(seen, 'names', [field('page', 2), names])) {
     const made = rows.map(makeNumber);
     const of = (shown) => made.filter((item, i) => (rows[i][7] !== 'more') === shown);
     $('row').replaceChildren(...of(true));
     $('more').lastElementChild.replaceChildren(...of(false));
-    seen.shape = shape;
   }
   if (!$('exhibit').contains(document.activeElement))
     part(['switch', 'point'], (switches) => {
@@ -135,7 +128,7 @@ const showNumbers = () => {
     element.parentNode.title = idle || help;
     element.disabled = Boolean(idle);
     if (document.activeElement !== element) element.value = value;
-    if (element.options) element.parentNode.hidden = !element.value; // several, or none
+    if (element.options) element.parentNode.hidden = !element.value; // panes differ
     if (!slider) continue;
     slider.setAttribute('aria-valuetext', value);
     if (document.activeElement !== slider) slider.value = Math.log(value / slider.first);
@@ -144,8 +137,10 @@ const showNumbers = () => {
 
 // ---- cards ------------------------------------------------------------------
 
+const isDrawn = (kind) => kind === 'graph' || kind === 'star';
+
 const makeCard = ([index, name, kind, closed]) => {
-  const graph = kind !== 'text' && make('canvas', [], { role: 'img' });
+  const graph = isDrawn(kind) && make('canvas', [], { role: 'img', id: 'graph' + index });
   const box = make('div', graph ? [graph] : [], { class: graph ? 'paper' : 'lines' });
   const card = make('details', [make('summary'), box], { class: kind, id: 'card-' + name });
   card.open = closed === '0';
@@ -154,11 +149,10 @@ const makeCard = ([index, name, kind, closed]) => {
   const larger = make('button', ['⤢'], { 'aria-label': 'Larger, or as before' });
   larger.onclick = () => card.ontoggle(card.classList.toggle('large'));
   box.append(larger);
-  cards.set(Number(index), graph);
   return card;
 };
 
-// An algorithm line by line, with the values at the right.
+// A line of an algorithm, with its values at the right.
 const makeRow = ([, lit, struck, indented, text, value], i) => {
   const cells = [[String(i + 1)], [], []].map((content) => make('td', content));
   const line = make('tr', cells, lit === '1' ? { class: 'lit', 'aria-current': 'step' } : {});
@@ -168,31 +162,41 @@ const makeRow = ([, lit, struck, indented, text, value], i) => {
   return line;
 };
 
+// A row of a table; the first row and the first column are heads.
+const makeCells = ([, colour, ...texts], i) => {
+  const isHead = (text, at) => text && (i === 0 || at === 0);
+  const cells = texts.map((text, at) => setMarkup(make(isHead(text, at) ? 'th' : 'td'), text));
+  cells[0].style.color = colour;
+  return make('tr', cells);
+};
+
+const cardLines = (lines, index) =>
+  ['words', 'row', 'cells'].map((word) => (lines[word] ?? []).filter(([of]) => of === index));
+const makeLines = ([words, rows, cells]) => [
+  ...words.map((line) => paragraph(line.slice(1), true)),
+  make('table', rows.map(makeRow), { class: 'listing' }),
+  make('div', [make('table', cells.map(makeCells))], cells.length ? { tabindex: 0 } : {}),
+];
+
 const showCards = () => {
   const all = now.card ?? [];
-  const shape = JSON.stringify([field('page', 2), all.map((card) => card.slice(0, 4))]);
-  if (seen.cards !== shape) {
-    seen.cards = shape;
-    cards.clear();
+  if (isNew(seen, 'cards', [field('page', 2), all.map((card) => card.slice(0, 4))])) {
     const made = all.map(makeCard);
-    $('graphs').replaceChildren(...made.filter((card) => card.className !== 'text'));
-    $('cards').replaceChildren(...made.filter((card) => card.className === 'text'));
+    $('graphs').replaceChildren(...made.filter((card) => isDrawn(card.className)));
+    $('cards').replaceChildren(...made.filter((card) => !isDrawn(card.className)));
   }
-  for (const [index, name, , , title, words] of all) {
-    const own = (lines) => (lines ?? []).filter((line) => line[0] === index);
-    const lines = JSON.stringify([title, words, own(now.words), own(now.row)]);
-    const [card, graph] = [$('card-' + name), cards.get(Number(index))];
-    if (card.lines === lines) continue;
-    card.lines = lines;
-    setMarkup(card.firstElementChild, title);
-    graph?.setAttribute('aria-label', plain(`${title}. ${words}`));
-    if (graph) continue;
-    const texts = own(now.words).map((line) => paragraph(line.slice(1), true));
-    card.lastElementChild.replaceChildren(...texts, make('table', own(now.row).map(makeRow)));
+  for (const [index, name, kind, , title, description] of all) {
+    const texts = isDrawn(kind) ? description : cardLines(now, index);
+    const card = $('card-' + name);
+    const [summary, box] = card.children;
+    if (isNew(card, 'lines', [title, texts])) {
+      setMarkup(summary, title);
+      if (isDrawn(kind)) box.firstChild.ariaLabel = plain(`${title}. ${texts}`);
+      else box.replaceChildren(...makeLines(texts));
+    }
+    if (isDrawn(kind) && box.clientWidth && box.clientHeight)
+      Module._web_draw_card(Number(index), pixels(box.clientWidth), pixels(box.clientHeight));
   }
-  for (const [index, graph] of cards)
-    if (graph.clientWidth && graph.clientHeight)
-      Module._web_draw_card(index, pixels(graph.clientWidth), pixels(graph.clientHeight));
 };
 
 // ---- all of it --------------------------------------------------------------
@@ -213,7 +217,7 @@ const showPage = ([[number, of, name]]) => {
   $('pages').open = $('scenes').open = false;
   $('answer').value = $('answer2').value = '';
   scrollTo(0, 0);
-  follow();
+  updateAddress();
 };
 
 const showGuess = ([[kind, coordinates] = []]) => {
@@ -222,20 +226,20 @@ const showGuess = ([[kind, coordinates] = []]) => {
   $('typed').hidden = kind === 'words';
   $('second').hidden = kind !== 'place' || coordinates === '1';
   $('how').textContent = kind === 'place' ? 'Click in the picture, or x' : 'Your answer';
-  if (had && !kind) $('verdict').focus({ preventScroll: true }); // what had it is gone
+  if (had && !kind) $('verdict').focus({ preventScroll: true }); // the form is hidden
 };
 
-// After a frame; of a run that goes on not after each.
+// Called after a frame.  Texts of a run that goes on change every LIVE ms.
 const showDocument = (time) => {
   drawn = false;
   if (bare || canvas.hidden) return;
   clearTimeout(late);
   if (field('step', 2) === '0' && time - rendered < LIVE) {
-    late = setTimeout(() => showDocument(performance.now()), LIVE); // if it was the last one
+    late = setTimeout(() => showDocument(performance.now()), LIVE); // no frame may follow
     return showCards();
   }
   rendered = time;
-  now = read(ask('web_document', 'string'));
+  now = parseLines(ask('web_document', 'string'));
   const number = Number(field('page'));
   part(['page'], showPage);
   part(['topic', 'page'], () => {
@@ -271,9 +275,9 @@ const showDocument = (time) => {
   showCards();
 };
 
-// What never changes.
+// Fills the lists of pages, scenes and keys.
 const listDocument = () => {
-  lists = read(ask('web_lists', 'string'));
+  lists = parseLines(ask('web_lists', 'string'));
   const item = (content) => make('li', content);
   for (const id of ['pages', 'scenes']) {
     const links = lists[id].map(([words, text]) => make('a', [text], { href: '#' + words }));
@@ -283,7 +287,7 @@ const listDocument = () => {
   $('keys').lastElementChild.append(...keys);
 };
 
-// ---- what is pressed --------------------------------------------------------
+// ---- buttons and forms ------------------------------------------------------
 
 for (const button of document.querySelectorAll('button[data-key]'))
   button.onclick = () => key(button.dataset.key, false);
@@ -301,29 +305,34 @@ $('guess').onsubmit = (event) => {
 
 // ---- print ------------------------------------------------------------------
 
-// A page of the lecture with its picture at the step that it names and room to
-// write; its answer and its notes.
+// A page of the lecture: its picture at the step that the page names, open cards
+// and room to write; its answer, with the cards that tell it; its notes.
 const makeSheet = ([, topic], index) => {
   const head = `${index + 1}. ${topic}`;
-  const pictures = make('div', [], { class: 'pictures' });
   const draw = (card, width) => {
-    pictures.append((sheet.canvas = make('canvas')));
+    sheet.canvas = make('canvas');
     Module._web_sheet_draw(card, width, 620);
+    return sheet.canvas;
   };
   const texts = (lines = [], as) => lines.map((line) => paragraph(line, as));
   Module._web_sheet(index);
-  const told = read(ask('web_document', 'string'));
-  draw(-1, 900);
-  for (const [card, , kind, closed] of told.card ?? [])
-    if (kind !== 'text' && closed === '0') draw(Number(card), 720);
-  Module._web_sheet_veil();
-  const asked = read(ask('web_document', 'string'));
+  const told = parseLines(ask('web_document', 'string'));
+  const open = (told.card ?? []).filter(([, , , closed]) => closed === '0');
+  const made = open.map(([card, , kind]) =>
+    isDrawn(kind) ? draw(Number(card), 720) : make('div', makeLines(cardLines(told, card))),
+  );
+  const picture = draw(-1, 900);
+  Module._web_sheet_cover();
+  const asked = parseLines(ask('web_document', 'string'));
+  const covered = (asked.card ?? []).flatMap(([card, , kind]) => (kind === 'covered' ? card : []));
+  const select = (late) => made.filter((card, i) => covered.includes(open[i][0]) === late);
+  const pictures = make('div', [picture, ...select(false)], { class: 'pictures' });
   const room = make('div', [], { class: 'room' });
-  const question = make('b', texts(asked.ask));
-  const words = [...texts(asked.text), ...texts(asked.formula, true), question, room];
+  room.innerHTML = '<hr>'.repeat(16); // page.css cuts off those below the sheet
+  const words = [...texts(asked.text), ...texts(asked.formula, true), make('b', texts(asked.ask))];
   return {
-    page: make('section', [make('h2', [head]), pictures, ...words]),
-    answer: make('div', [make('h3', [head]), ...texts(told.look)]),
+    page: make('section', [make('h2', [head]), pictures, ...words, room]),
+    answer: make('div', [make('h3', [head]), ...texts(told.look), ...select(true)]),
     notes: make('div', [make('h3', [head]), ...texts(told.notes)]),
   };
 };

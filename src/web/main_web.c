@@ -1,5 +1,5 @@
-/* main_web.c - the program in a page: page.js begins it with a command line and
- * asks for its frames.
+/* main_web.c - functions that page.js calls: they begin the program with a
+ * command line, make its frames and answer questions about the last frame.
  */
 #include <emscripten.h>
 #include <signal.h>
@@ -15,25 +15,26 @@
 
 enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
 
-/* Of states of the past; a tab may have little memory, and what gives way is
- * made again. */
+/* Bytes for states of past steps; a tab may have little memory, and a state
+ * that was dropped is computed again when it is shown. */
 static const size_t PAST_ROOM = 8 << 20;
 
-/* A player, with the words that its options point into.  The next one is begun
- * beside it: after a bad command line the old one goes on. */
+/* A player and its command line, whose words the player's options point into.
+ * There are two sessions: the next one begins beside the shown one, which goes
+ * on if the new command line is wrong. */
 typedef struct Session {
     Player player;
     char text[MOST_TEXT];
-    char *word[MOST_WORDS + 1]; /* NULL ends them */
+    char *word[MOST_WORDS + 1]; /* words in `text`; NULL ends the list */
 } Session;
 
 static volatile sig_atomic_t never = 0;
 static Session sessions[2];
-static Session *session = &sessions[0]; /* the one that is shown, if `plays` */
-static bool plays;
+static Session *session = &sessions[0]; /* the session that is shown */
+static bool plays;                      /* a session is shown */
 
-/* Begins a command line, a word a line.  Returns PROGRAM_PLAYS, or the exit
- * code where nothing new is played. */
+/* Begins the program with the words of a command line, each on a line of its
+ * own.  Returns PROGRAM_PLAYS, or the exit code if nothing new is shown. */
 EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
 {
     Session *next =
@@ -59,8 +60,9 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
 
 /* ---- the address -------------------------------------------------------- */
 
-/* The command line that leads to the scene, page and numbers that are shown, a
- * word a line; "": none does.  The same memory each time. */
+/* Returns the command line that leads to the shown scene, page and numbers,
+ * each word on a line of its own; "" if no command line does.  The text is
+ * valid until the next call. */
 EMSCRIPTEN_KEEPALIVE const char *web_address(void)
 {
     static char words[MOST_TEXT];
@@ -72,7 +74,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
         return words;
     int count, panes = player_options(player, now);
     bool same = now->page == given->page && now->scene == given->scene;
-    base[0] = *given; /* what the session began with */
+    base[0] = *given; /* options that are left out where they have this value */
     if ((panes != given->panes && !now->page) ||
         (!same && player_default_options(player, now->scene->name, now->page,
                                          base, &count)))
@@ -96,7 +98,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
 
 /* ---- the page beside the canvas ------------------------------------------ */
 
-/* Texts of the last frame (document.c).  The same memory each time. */
+/* Returns the texts of the last frame, valid until the next call. */
 EMSCRIPTEN_KEEPALIVE const char *web_document(void)
 {
     static char text[DOCUMENT_SIZE];
@@ -105,7 +107,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_document(void)
     return text;
 }
 
-/* Pages, scenes and keys (document.c). */
+/* Returns the lists of pages, scenes and keys. */
 EMSCRIPTEN_KEEPALIVE const char *web_lists(void)
 {
     static char text[DOCUMENT_SIZE];
@@ -113,7 +115,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_lists(void)
     return text;
 }
 
-/* A colour of the markup as CSS has it, "#d55e00". */
+/* Returns the colour of a name in the markup as CSS writes it, "#d55e00". */
 EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
 {
     static char text[8];
@@ -122,8 +124,8 @@ EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
     return text;
 }
 
-/* Draws a card of the last frame on a canvas of the page: Page.show().  The
- * page may ask for a card of the scene before. */
+/* Draws a card of the last frame on its canvas of the page.  Ignores an index
+ * of the scene before, which the page may still have. */
 EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
 {
     static Paper paper;
@@ -139,7 +141,7 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
     }
 }
 
-/* Obeys lines of a script, "set timestep 0.004; flip 1". */
+/* Obeys commands of a script: "set timestep 0.004; flip 1". */
 EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
 {
     Player *player = &session->player;
@@ -151,7 +153,8 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
     player->screen.changed = true;
 }
 
-/* A guess of the number that the page asks for; "": shows the answer. */
+/* Judges a guess at the question of the page and shows the answer; "": only
+ * shows the answer. */
 EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 {
     Player *player = &session->player;
@@ -163,9 +166,9 @@ EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 /* ---- the printed lecture --------------------------------------------------
  */
 
-/* Plays a page of the lecture, from 0, up to the picture that is printed;
- * web_document and web_draw_card then show that page.  Page -1 leads back to
- * the session of the window. */
+/* Runs a page of the lecture, counted from 0, up to the step that is printed,
+ * in the other session, so that web_document returns the texts of that page.
+ * Page -1 returns to the session before. */
 EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
 {
     static bool played, prints;
@@ -177,7 +180,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
     char message[256];
     if (prints)
         player_free(player);
-    /* Change between the session of the window and that of the print */
+    /* Exchanges the session of the window and the session that is printed. */
     if (prints != (page >= 0)) {
         played = prints ? played : plays;
         plays = prints ? played : true;
@@ -205,8 +208,8 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
     player_fill(player);
 }
 
-/* Draws its picture, card -1, or a card, on the canvas that is to be printed.
- */
+/* Draws the picture of the printed page (card -1) or a card, and shows it on
+ * the canvas of the page that is to be printed. */
 EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
 {
     Player *player = &session->player;
@@ -221,8 +224,8 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
         window_show_card(&paper->canvas, card);
 }
 
-/* Its texts as before the guess. */
-EMSCRIPTEN_KEEPALIVE void web_sheet_veil(void)
+/* Hides the answer of the printed page, as before a guess. */
+EMSCRIPTEN_KEEPALIVE void web_sheet_cover(void)
 {
     session->player.given.asks = true;
     session->player.tour.revealed = NULL;
@@ -231,8 +234,8 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_veil(void)
 
 /* ---- the loop ----------------------------------------------------------- */
 
-/* One frame; without a window as many as fit into a slice of time.  Returns ms
- * until the next one is due; below 0: the end. */
+/* Makes a frame; without a window as many frames as fit into a slice of time.
+ * Returns the time until the next frame is due, ms; < 0: the run has ended. */
 EMSCRIPTEN_KEEPALIVE int web_frame(void)
 {
     Player *player = &session->player;

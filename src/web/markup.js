@@ -1,12 +1,12 @@
-// markup.js - texts in the markup of text.h as elements: words stay words, a
-// formula becomes MathML.
+// markup.js - makes elements of texts in the markup of text.h: words stay text,
+// formulas become MathML.
 //
 //   parse    markup -> parts: {text}, {colour, of}, {up}, {down}, {above, below},
-//            {rows}; `of`, `up`, ... are lists of parts again
-//   row      parts -> MathML; the blanks of the text are the room around signs
-//   prose    parts -> text, spans, and one <math> for each word with a formula
-//   formula  parts -> one <math> for each side of =, so that lines can break there
-'use strict';
+//            {rows}; `of`, `up`, ... are lists of parts
+//   row      parts -> MathML; blanks of the text are the spaces around signs
+//   prose    parts -> text, spans, and a <math> for each word with a formula
+//   formula  parts -> a <math> for each side of =, so that lines can break there
+'use strict'; // of the page's whole script, which begins here
 
 const make = (name, children = [], attributes = {}, space = 'http://www.w3.org/1999/xhtml') => {
   const element = document.createElementNS(space, name);
@@ -23,7 +23,7 @@ const LETTERS = { x: 'x', xt: 'x\u0303', p: 'p', alpha: 'α' };
 const SLIDES = /(?<![\^_]|frac|matrix|#[\w-]*)\{(x|xt|p|alpha)\}/g;
 const OPENS = /(\^|_|frac|matrix|#[a-z0-9-]*)\{/;
 
-// The parts of a text between the places of a word outside of all braces.
+// Splits a text at a word outside of all braces.
 const split = (text, word) => {
   const parts = [''];
   for (let at = 0, depth = 0; at < text.length; at++) {
@@ -60,16 +60,17 @@ const parse = (text) => {
 
 // ---- formulas ---------------------------------------------------------------
 
-const TOKEN = /[ \u00a0]+|\d+(?:[.,]\d+)*|(?:[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*)+|./gsu;
+const TOKEN = /[ \u00a0]+|\d+(?:[.,]\d+)*|(?:[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*|_)+|./gsu;
 const LETTER = /[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*/gu;
 const RAISED = { '²': '2', '³': '3', ᵀ: 'T', ⁿ: 'n', '⁻': '−', '¹': '1' };
-const SHORT = /^(kg|mm|ms|ln|if|of|so|at|in|to|by|up|on|or|no|as|is|it)$/; // no products
-const PLAIN = /[∇∂∞½¼°…⋯⋮⋱%]/; // no sign between two things
+const SHORT = /^(kg|mm|ms|ln|if|of|so|at|in|to|by|up|on|or|no|as|is|it)$/; // words
+const UNIT = /^(m|N|s|J|kg|mm|ms)$/;
+const PLAIN = /[∇∂∞½¼°…⋯⋮⋱%]/; // signs without space around
 const OPEN = /[([{|‖]/;
 const CLOSE = /[)\]}|‖,;:]/;
 const SIGN = { stretchy: false, largeop: false, movablelimits: false, rspace: 0 };
 
-// A mark that stands over its letter in DejaVu Sans is a lid in MathML.
+// Combining marks, which MathML sets as accents above their letter.
 const LIDS = { '\u0302': '^', '\u0303': '~', '\u0304': '¯', '\u0307': '˙', '\u0308': '¨' };
 const letterOf = (letter) => {
   const base = math('mi', [letter[0]]);
@@ -77,7 +78,7 @@ const letterOf = (letter) => {
   return lid ? math('mover', [base, lid], { accent: true }) : base;
 };
 
-// A script hangs on what stands before it; a second one on the same.
+// Hangs a superscript or subscript on the last element; a base may have both.
 const hang = (out, up, body) => {
   const base = out.pop() || math('mi');
   const both = base.localName === (up ? 'msub' : 'msup');
@@ -86,12 +87,19 @@ const hang = (out, up, body) => {
   return out.push(math('msubsup', up ? [core, other, body] : [core, body, other]));
 };
 
+// "²" becomes a superscript, "Ĥ" the letter H and its mark.
+const spellOut = (part) => {
+  const raise = (signs) => `^{${signs.replace(/./g, (sign) => RAISED[sign])}}`;
+  const letters = part.text?.replace(/[\u00c0-\u017f]/g, (letter) => letter.normalize('NFD'));
+  return letters ? parse(letters.replace(/[²³ᵀⁿ⁻¹]+/g, raise)) : part;
+};
+
 const row = (parts) => {
   const out = [];
-  let blank = 0; // blanks before the next thing
-  let sign = true; // the thing before is a sign, or nothing: a minus has one side
-  let unit = false; // the thing before is a unit, or the stroke behind one
-  let root = false; // the next thing is below a root
+  let blank = 0; // number of blanks before the next element
+  let sign = true; // no element or a sign stands before: a minus is a prefix
+  let unit = false; // the last element is a unit, or a stroke after a unit
+  let root = false; // the next element is below a root
   const put = (element) => {
     if (blank > 0) out.push(math('mspace', [], { width: blank > 1 ? '1.2em' : '0.25em' }));
     out.push(root ? math('msqrt', [element]) : element);
@@ -100,20 +108,17 @@ const row = (parts) => {
   };
   const token = (text) => {
     const last = out[out.length - 1];
-    const upright = () => put(math('mi', [text], { mathvariant: 'normal' }));
+    const upright = () => put(math('mtext', [text])); // not mi: Firefox puts a gap behind it
     if (/^[ \u00a0]/.test(text)) blank = text.length;
-    else if (RAISED[text] && last?.raised) last.lastChild.append(RAISED[text]);
-    else if (RAISED[text]) {
-      hang(out, true, math('mi', [RAISED[text]]));
-      out[out.length - 1].raised = true;
-    } else if (/[′″]/.test(text)) hang(out, true, math('mo', [text], { lspace: 0, rspace: 0 }));
+    else if (/[′″]/.test(text)) out.push(math('mo', [text], { ...SIGN, lspace: 0 }));
     else if (text === '√') root = true;
     else if (/^\d/.test(text)) put(math('mn', [text]));
     else {
       // "hω" is a product, "kg" and "tanh" are words; "2 m" and "J/m" have units.
       const letters = text.match(LETTER);
       const counts = blank && !sign && /^(mn|msup|mo)$/.test(last?.localName);
-      if (text !== '/') unit = /^[mNsJ]$/.test(text) && (unit ? last?.textContent === '/' : counts);
+      if (text !== '/')
+        unit = UNIT.test(text) && (unit ? blank > 0 || last?.textContent === '/' : counts);
       if (unit && text !== '/') return upright();
       const short = letters?.length === 1 || (letters?.length === 2 && !SHORT.test(text));
       if (letters && (short || /[α-ωΑ-Ω]/u.test(text)))
@@ -129,10 +134,8 @@ const row = (parts) => {
       sign = !CLOSE.test(text) || /[,;:]/.test(text);
     }
   };
-  for (const { text, up, down, above, below, rows, of, colour } of parts) {
-    // "Ĥ" is H and its mark; other signs, as ≠, stay whole.
-    const apart = text?.replace(/[\u00c0-\u017f]/g, (letter) => letter.normalize('NFD'));
-    if (apart) for (const [one] of apart.matchAll(TOKEN)) token(one);
+  for (const { text, up, down, above, below, rows, of, colour } of parts.flatMap(spellOut)) {
+    if (text) for (const [one] of text.matchAll(TOKEN)) token(one);
     else if (up) hang(out, true, math('mrow', row(up)));
     else if (down) hang(out, false, math('mrow', row(down)));
     else if (above) put(math('mfrac', [math('mrow', row(above)), math('mrow', row(below))]));
@@ -190,7 +193,8 @@ const formula = (parts) => {
     else if (part.text === undefined) side().push(part);
     else
       part.text.split(SIDES).forEach((text, i) => {
-        if (i % 2 && depth === 0 && bars % 2 === 0) sides.push(text.length > 1 ? '\u2003' : '', []);
+        if (i % 2 && depth === 0 && bars % 2 === 0)
+          sides.push(text.length > 1 ? '\u2003' : ' ', []);
         else if (text) side().push({ text });
         depth += text.split('(').length - text.split(')').length;
         bars += text.split('|').length - 1;
@@ -205,6 +209,6 @@ const formula = (parts) => {
 const setMarkup = (element, text, asFormula) => {
   const letters = text.replace(SLIDES, (all, name) => `#${name}{${LETTERS[name]}}`);
   element.replaceChildren(...(asFormula ? formula : prose)(parse(letters)));
-  element.normalize(); // words of one text, so that a reader reads on
+  element.normalize(); // screen readers pause between text nodes
   return element;
 };

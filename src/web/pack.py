@@ -1,12 +1,12 @@
-"""pack.py PAGE.html PAGE.css SCRIPT.js ... MODULE.js MODULE.wasm LIBRARIES OUT.html: all
-in one file, the program and the licences as gzip in base64.  The same input gives the
-same file."""
+"""pack.py PAGE.html PAGE.css SCRIPT.js ... MODULE.js MODULE.wasm FONT.woff LIBRARIES OUT.html:
+all in one file, the program and the licences as gzip in base64.  The same input gives
+the same file."""
 import base64
 import gzip
 import pathlib
 import sys
 
-page, style, *scripts, module, wasm, libraries, out = map(pathlib.Path, sys.argv[1:])
+page, style, *scripts, module, wasm, font, libraries, out = map(pathlib.Path, sys.argv[1:])
 
 # Whose work is in the page, and under which licence.
 DEBIAN = "/usr/share/common-licenses/"
@@ -18,7 +18,8 @@ PARTS = (
     ("FreeType 2.12.1", ["sources/freetype/docs/FTL.TXT"]),
     ("libpng 1.6.39", ["sources/libpng1.6/LICENSE"]),
     ("zlib 1.2.13", ["sources/zlib/zlib.h"]),
-    ("DejaVu 2.37, cut down", ["/usr/share/doc/fonts-dejavu-core/copyright"]),
+    ("DejaVu 2.37 and DejaVu Math TeX Gyre, cut down",
+     ["/usr/share/doc/fonts-dejavu-extra/copyright"]),
     ("musl, and emscripten 3.1.6 (MIT, (c) 2010-2014 its authors)",
      ["/usr/share/emscripten/system/lib/libc/musl/COPYRIGHT"]),
     ("GNU General Public License 2", [DEBIAN + "GPL-2"]),
@@ -56,6 +57,7 @@ for mark, what in (
         ("/*MODULE*/", script(module)),
         ("/*LICENCES*/", packed(notice.encode())),
         ("/*WASM*/", packed(wasm.read_bytes())),
+        ("/*FONT*/", base64.b64encode(font.read_bytes()).decode()),
 ):
     assert text.count(mark) == 1, mark
     text = text.replace(mark, what)

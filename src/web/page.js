@@ -1,20 +1,18 @@
-// page.js - the page's side of the program: canvas, mouse, touch, keys, files,
-// address.  window_web.c and main_web.c are the other side.
-'use strict';
+// page.js - canvas, mouse, touch, keys, files and address of the page, for the
+// program behind window_web.c and main_web.c.
 
 const $ = (id) => document.getElementById(id);
 const canvas = $('canvas');
-let Module = null;
-let FS = null;
+let Module, FS; // the program, and its files
 
 const typeOf = (value) => typeof value;
 const ask = (name, type, ...values) => Module.ccall(name, type, values.map(typeOf), values);
 
-// What a test may ask for.
+// Time of the first frame, ms, and number of frames: tests wait for them.
 const stats = { first: 0, frames: 0 };
 
-// One line to whoever looks at the page; a good one goes by itself.
-let silence = 0;
+// Shows a line below the page; good news (fine) vanishes after three seconds.
+let silence = 0; // timer
 const say = (text, fine) => {
   $('loading').hidden = true;
   $('said').textContent = text;
@@ -30,9 +28,9 @@ const Page = {
   width: () => pixels(canvas.clientWidth),
   height: () => pixels(canvas.clientHeight),
   letter: () => (sheet ? 26 : pixels(bare ? 10 : 12)),
-  // The stage (card -1), or a card of the frame, on its canvas.
+  // Shows pixels at an address of the heap: the picture (card -1) or a card.
   show(heap, at, width, height, card) {
-    const target = sheet?.canvas ?? (card < 0 ? canvas : cards.get(card));
+    const target = sheet?.canvas ?? (card < 0 ? canvas : $('graph' + card));
     drawn ||= card < 0;
     if (target.width !== width || target.height !== height)
       [target.width, target.height] = [width, height];
@@ -49,7 +47,7 @@ const give = (name, blob) => {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 };
 
-// Files of the program's folder become downloads when they are whole, and go.
+// Hands complete files of the program's folder out as downloads and removes them.
 const OUT = '/out';
 const download = (folder = OUT) => {
   for (const name of FS.readdir(folder)) {
@@ -63,7 +61,7 @@ const download = (folder = OUT) => {
   }
 };
 
-// A script that is dropped on the page is played, in the last step of a table a run begins.
+// A dropped script is played; a dropped table gives the state that a run begins with.
 addEventListener('dragover', (event) => event.preventDefault());
 addEventListener('drop', async (event) => {
   event.preventDefault();
@@ -77,61 +75,57 @@ addEventListener('drop', async (event) => {
 
 // ---- the address ------------------------------------------------------------
 
-// #circle+--timestep+0.05&bare: the words of a command line, whose signs may be
-// written as in any address (%20); bare: the picture alone.  The + of 1e+6 is no
-// blank, and a % that begins no sign is itself.
-let line = [];
+// #circle+--timestep+0.05&bare stands for a command line: + is a blank (not in
+// 1e+6), %20 is the sign with this code (a % without a code is itself), and &bare
+// shows the picture alone.
+let line = []; // words of the command line that runs
 let bare = false;
-let shown = ''; // the address that was read or written
-let entry = null; // the page of this entry of the history; null: it comes
-const decoded = (word) => {
-  try {
-    return decodeURIComponent(word);
-  } catch {
-    return word;
-  }
-};
-const fromAddress = () => {
+let shown = ''; // the last address that was read or written
+let entry = null; // page of the newest entry of the history; null: not known yet
+const decode = (word) => new URLSearchParams('=' + word.replace(/\+/g, '%2B')).get('');
+const readAddress = () => {
   shown = location.hash;
   const [text, mark] = location.hash.slice(1).split('&');
   const words = text.split(/(?<!\de)\+/i).filter(Boolean);
   bare = mark === 'bare';
-  return words.length ? words.map(decoded) : ['--lecture'];
+  return words.length ? words.map(decode) : ['--lecture'];
 };
-const toAddress = (words) =>
+const formatAddress = (words) =>
   '#' +
   words.map((word) => encodeURIComponent(word).replace(/%2C/g, ',')).join('+') +
   (bare ? '&bare' : '');
 
-// Scene, page and changed numbers stand in the address; one that waits to be read stays.
-const follow = () => {
-  if (location.hash !== shown) return;
+// Writes scene, page and changed numbers into the address.  Another page of the
+// tour is a new entry of the history, so that Back leads to the page before.
+const updateAddress = () => {
+  if (location.hash !== shown) return; // a new address was not read yet
   const words = ask('web_address', 'string').split('\n').filter(Boolean);
-  if (!words.length || toAddress(words) === shown) return;
-  shown = toAddress(words);
+  if (!words.length || formatAddress(words) === shown) return;
+  shown = formatAddress(words);
   const turns = entry !== null && entry !== field('page', 2);
   entry = field('page', 2);
-  history[turns ? 'pushState' : 'replaceState'](null, '', shown); // Back goes a page back
+  history[turns ? 'pushState' : 'replaceState'](null, '', shown);
 };
 addEventListener('hashchange', () => {
-  if (location.hash !== shown) begin(fromAddress());
+  if (location.hash !== shown) begin(readAddress());
 });
 const copyLink = () => {
-  follow();
+  updateAddress();
   const copied = navigator.clipboard?.writeText(location.href);
   copied?.then(() => say('The link to this is copied.', true)).catch(() => {});
 };
 
 // ---- the loop ---------------------------------------------------------------
 
-// The program says for how many milliseconds nothing is due.
-let [timer, asked, looked] = [0, 0, 0];
-let drawn = false; // since cards and texts were shown
+let timer = 0; // of the next frame, if no frame is due now
+let asked = 0; // request for the next frame, or 0
+let looked = 0; // ms, time of the last updateAddress
+let drawn = false; // the picture was drawn after texts and cards were shown
 const frame = () => {
   asked = 0;
   if (document.hidden && !canvas.hidden) return;
   const start = performance.now();
-  const wait = Module._web_frame();
+  const wait = Module._web_frame(); // ms until the next frame is due
   stats.frames++;
   download();
   if (wait < 0) {
@@ -141,7 +135,7 @@ const frame = () => {
   if (drawn) showDocument(start);
   if (start - looked > 500 && !canvas.hidden) {
     looked = start;
-    follow();
+    updateAddress();
   }
   if (canvas.hidden) timer = setTimeout(frame, 0);
   else if (wait <= 20) asked = requestAnimationFrame(frame);
@@ -157,11 +151,10 @@ const begin = (words) => {
   $('said').textContent = $('summary').textContent = '';
   const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
   const still = calm && !words.some((word) => /^--(paused|steps|script|headless)/.test(word));
-  const all = still ? [...words, '--paused'] : words;
-  const code = ask('web_begin', 'number', all.join('\n'));
+  const code = ask('web_begin', 'number', [...words, still ? '--paused' : ''].join('\n'));
   download();
   if (code > 0 && !line.length && words.join() !== '--lecture') {
-    const why = $('said').textContent; // a wrong address: the tour, and one line
+    const why = $('said').textContent; // a wrong address shows the tour, and why
     begin(['--lecture']);
     return say(why);
   }
@@ -183,8 +176,8 @@ const key = (name, repeats) => {
   wake();
 };
 
-// What view.h calls a key; a letter also on a keyboard that types none of ours;
-// '' for signs and digits, which come as they are, and for what nobody needs.
+// Returns the name of a key in view.h, also on keyboards without Latin letters;
+// '' for signs, digits and keys without a name there.
 const NAMED = /^(Arrow\w+|Page\w+|Home|End|Escape|Enter|Backspace|Delete|F\d+| )$/;
 const nameOf = ({ key, code }) => {
   if (/^[a-z]$/i.test(key)) return key.toUpperCase();
@@ -193,8 +186,8 @@ const nameOf = ({ key, code }) => {
   return key.replace('Arrow', '').replace('Enter', 'Return').replace(' ', 'Space');
 };
 
-// With a modifier, and what leaves or reloads a page, keys are the browser's; no
-// key ends the program.  What stands in the document is opened there.
+// Keys with a modifier and function keys are left to the browser; Q and Escape do
+// nothing.  FOLDS has keys whose list the document shows.
 const FOLDS = { K: 'code', 'Shift+G': 'pages', G: 'scenes', A: 'more', '?': 'keys', F1: 'keys' };
 canvas.addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.isComposing) return;
@@ -208,17 +201,17 @@ canvas.addEventListener('keydown', (event) => {
   if (whole === 'Y') copyLink();
 });
 canvas.addEventListener('blur', () => {
-  if (last.clicks) tell(RELEASE, last); // a drag ends where the keys go elsewhere
+  if (last.clicks) tell(RELEASE, last); // a drag ends with the focus
 });
 
 // ---- mouse, pen and fingers -------------------------------------------------
 
-// Inputs, as in view.h.
+// InputKind and buttons of view.h.
 const [REDRAW, MOVE, PRESS, RELEASE, WHEEL, LEAVE] = [3, 4, 5, 6, 7, 8];
 const [LEFT, MIDDLE, RIGHT] = [1, 2, 3];
 const LONG_TOUCH = 500; // ms
-const ZOOM = 1.15; // of one notch of the wheel
-const STILL = 8; // points that a finger may move and still touch one place
+const ZOOM = 1.15; // factor of one notch of the wheel
+const STILL = 8; // CSS pixels; a finger that moves less touches one place
 
 const tell = (kind, at, button = 0, clicks = 1, amount = 0) => {
   if (!FS) return;
@@ -239,11 +232,11 @@ const press = (event, button) => {
   tell(PRESS, event, button, clicks);
 };
 
-// One finger is the left button once it moves or is lifted, and where it rests
-// the right one; two move and zoom the picture.
-const fingers = new Map();
-let touch = null; // {first, pressed: LEFT, MIDDLE or 0, timer}
-const between = () => {
+// One finger is the left button when it moves or is lifted, the right one after a
+// long touch; two fingers move and zoom the picture.
+const fingers = new Map(); // pointerId -> event
+let touch = null; // {first event, pressed: LEFT, MIDDLE or 0, timer of a long touch}
+const findCentre = () => {
   const [a, b] = [...fingers.values()];
   return {
     clientX: (a.clientX + b.clientX) / 2,
@@ -264,7 +257,7 @@ const touchDown = (event) => {
   } else if (fingers.size === 2 && touch) {
     if (touch.pressed) tell(RELEASE, event, touch.pressed);
     touch.pressed = MIDDLE;
-    touch.at = between();
+    touch.at = findCentre();
     press({ timeStamp: event.timeStamp, ...touch.at }, MIDDLE);
   }
 };
@@ -273,7 +266,7 @@ const touchMove = (event) => {
   fingers.set(event.pointerId, event);
   if (!touch) return;
   if (touch.pressed === MIDDLE && fingers.size === 2) {
-    const now = between();
+    const now = findCentre();
     tell(MOVE, now);
     tell(WHEEL, now, 0, 1, Math.log(now.wide / touch.at.wide) / Math.log(ZOOM));
     touch.at = now;
@@ -315,7 +308,7 @@ canvas.onpointerup = canvas.onpointercancel = (event) => {
 canvas.onpointerleave = (event) => isTouch(event) || tell(LEAVE, event);
 canvas.oncontextmenu = (event) => event.preventDefault();
 canvas.onwheel = (event) => {
-  if (event.ctrlKey || document.activeElement !== canvas) return; // the browser's
+  if (event.ctrlKey || document.activeElement !== canvas) return; // the page scrolls
   tell(WHEEL, event, 0, 1, -event.deltaY / (event.deltaMode ? 1 : 100));
   event.preventDefault();
 };
@@ -334,22 +327,19 @@ $('licences').onclick = async () => {
   $('notice').showModal();
 };
 
-// A module with one function, which returns a vector of 16 zeros.
+// A WebAssembly module with a function that returns a vector of 16 zeros.
 const SIMD = 'AGFzbQEAAAABBQFgAAF7AwIBAAoIAQYAQQD9Dws=';
-const isAble = () => window.DecompressionStream && window.WebAssembly?.validate(bytesOf(SIMD));
 
 const failed = (error) => {
-  const why = /memory/i.test(error)
-    ? 'there is not enough memory for this'
-    : error.message || error;
+  const why = /memory/i.test(error) ? 'there is not enough memory' : error.message || error;
   say(`elasto: ${why}; reload the page.`);
 };
 addEventListener('error', (event) => failed(event.error || event.message));
 addEventListener('unhandledrejection', (event) => failed(event.reason));
 
-// The end of the page has arrived.
+// Called by the last script of the page.
 const start = async () => {
-  if (!isAble())
+  if (!window.DecompressionStream || !window.WebAssembly?.validate(bytesOf(SIMD)))
     return say('elasto needs WebAssembly SIMD: Chrome 105, Firefox 121, Safari 16.4 or newer.');
   document.body.append(make('script', [$('module').textContent]));
   Module = await createElasto({
@@ -362,10 +352,9 @@ const start = async () => {
   FS.chdir(OUT);
   $('loading').hidden = true;
   listDocument();
-  begin(fromAddress());
+  begin(readAddress());
   if (window === top) canvas.focus({ preventScroll: true });
   stats.first = performance.now();
   new ResizeObserver(() => tell(REDRAW, { clientX: 0, clientY: 0 })).observe(canvas);
   document.body.classList.toggle('notes', /[?&]notes/.test(location.search));
-  if (/[?&]print/.test(location.search)) printLecture();
 };

@@ -3,8 +3,10 @@
 # libraries' sources stay in build/web.
 
 W := build/web
+MATH = /usr/share/fonts/truetype/dejavu/DejaVuMathTeXGyre.ttf
 WEB_NEEDS = /usr/bin/emcc:emscripten /usr/bin/pyftsubset:fonttools \
-            /usr/bin/xz:xz-utils /usr/bin/bzip2:bzip2 $(FONTS):fonts-dejavu-core
+            /usr/bin/xz:xz-utils /usr/bin/bzip2:bzip2 \
+            $(FONTS):fonts-dejavu-core $(MATH):fonts-dejavu-extra
 EMCC = NODE_PATH=/usr/share/nodejs emcc -O2 -msimd128 -mbulk-memory
 WEB_CFLAGS = -std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -I$(W)/libraries/include \
              -ffp-contract=off -Wall -Wextra -Wno-missing-field-initializers
@@ -58,7 +60,8 @@ build/elasto.html: src/web/pack.py src/web/page.html src/web/page.css \
                    src/web/markup.js src/web/page.js src/web/document.js \
                    $(W)/elasto.js
 	$(call shown,PACK)
-	$(Q)python3 $^ $(W)/elasto.wasm $(W)/libraries $@
+	$(Q)python3 $^ $(W)/elasto.wasm $(W)/fonts.woff \
+	  $(W)/libraries $@
 
 # In Chromium and Firefox; axe-core, where npm finds it, looks for what a reader
 # of the screen would miss.
@@ -69,12 +72,12 @@ test-web: build/elasto build/elasto.html $(AXE)
 	@failed=0; for check in web document; do \
 	  node tests/web/check_$$check.js $^ || failed=1; done; exit $$failed
 
-# The lecture for print, by Chromium where there is one.
+# The lecture for print, by Chromium where there is one; NOTES=1 adds the
+# presenter's notes.
 handout: build/elasto.html
 	@command -v chromium >/dev/null || { echo 'make handout needs chromium; or \
 	print build/elasto.html in a browser'; exit 1; }
-	@chromium --headless --no-sandbox --no-pdf-header-footer --virtual-time-budget=60000 \
-	  --print-to-pdf=build/handout.pdf 'file://$(CURDIR)/build/elasto.html?print$(if $(NOTES),&notes)' 2>/dev/null
+	$(Q)node tests/web/handout.js $< build/handout.pdf $(if $(NOTES),?notes)
 	@echo build/handout.pdf
 
 -include $(wildcard $(W)/*/*.d)

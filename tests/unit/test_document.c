@@ -1,6 +1,7 @@
 /* Documents: what the page says beside its canvas, on all pages of the lecture
  * and in all scenes. */
 #include "attended.h"
+#include "picture/picture.h"
 #include "scenes/scenes.h"
 #include "test.h"
 #include "web/document.h"
@@ -36,6 +37,7 @@ static void check_lines(void)
         {"claim", 3}, {"notes", 3},  {"code", 2},     {"verdict", 3},
         {"card", 6},  {"words", 4},  {"row", 6},      {"number", 8},
         {"point", 3}, {"switch", 3}, {"picture", 1},  {"event", 1},
+        {"cells", 0}, /* as many as its table has columns */
     };
     assert_true(strlen(text) < DOCUMENT_SIZE - 100);
     for (char *line = text, *end; *line; line = end + 1) {
@@ -52,7 +54,10 @@ static void check_lines(void)
             depth += (*at == '{') - (*at == '}');
             assert_true(depth >= 0 || strncmp(line, "code", 4) == 0);
         }
-        assert_int_equal(fields, words[row].fields);
+        if (strncmp(line, "cells", 5) == 0)
+            assert_in_range(fields, 4, 2 + CARD_COLUMNS);
+        else
+            assert_int_equal(fields, words[row].fields);
         assert_true(depth == 0 || strncmp(line, "code", 4) == 0);
     }
 }
@@ -98,6 +103,21 @@ TEST(an_event_tells_the_updates_of_a_step_and_the_change_of_E)
     CHECK_OK(player_step(&player));
     write_document();
     assert_non_null(strstr(text, "\nevent\tstep 1: 3 updates, E fell by "));
+    end();
+}
+
+TEST(a_table_is_text_after_the_guess)
+{
+    begin("--lecture step");
+    player.given.asks = true;
+    write_document();
+    assert_int_equal(count_lines("cells"), 0);
+    assert_non_null(strstr(text, "prints\tcovered\t"));
+    CHECK_OK(player_answer(&player, NULL));
+    CHECK_OK(player_step(&player));
+    write_document();
+    assert_true(count_lines("cells") > 4); /* heads, updates, the end */
+    assert_non_null(strstr(text, ": the loop ends\t"));
     end();
 }
 
