@@ -96,7 +96,7 @@ static void put_text(Writer *to, const LiveValues *values, const char *word,
  */
 
 /* Writes the page's texts; those that tell the answer after the guess alone. */
-static void put_page(Writer *to, const FrameContent *content)
+static void put_page_texts(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const LiveValues *values = &active_pane(content)->values;
@@ -126,8 +126,8 @@ static void put_page(Writer *to, const FrameContent *content)
  */
 
 /* Writes the known lines of an algorithm. */
-static void put_rows(Writer *to, const FrameContent *content, int card,
-                     const ListingRow *row)
+static void put_algorithm(Writer *to, const FrameContent *content, int card,
+                          const ListingRow *row)
 {
     const Pane *pane = active_pane(content);
     for (; row->shown_if; row++) {
@@ -219,7 +219,7 @@ static void put_card(Writer *to, const FrameContent *content, int index,
     put_text(to, &pane->values, word,
              covered ? "after your guess" : card->words);
     if (card->rows && !covered)
-        put_rows(to, content, index, card->rows);
+        put_algorithm(to, content, index, card->rows);
     if (card->table && !covered)
         put_table(to, content, index, card);
 }
@@ -379,7 +379,7 @@ void document_write(const Player *player, char *text)
     put(to, "step\t%ld\t%ld\t%d\n", content->time_line.step,
         content->time_line.steps, content->time_line.paused);
     if (page)
-        put_page(to, content);
+        put_page_texts(to, content);
     if (content->lecture.verdict && !content->lecture.hides_answer)
         put(to, "verdict\t%s\t%d\t%d\n", content->lecture.verdict,
             content->lecture.right, content->lecture.guesses);

@@ -34,16 +34,17 @@ const part = (words, build) => {
 
 const plain = (text) => text.replace(/[{}^_]/g, '');
 
-// Makes links of the words "page 25".
+// Makes a link of "page 25", and buttons of the keys in "press N" and "Press Space".
+const LINKS = /([Pp]age[ \u00a0]\d+|(?<=[Pp]ress )(?:Space|[A-Z])\b)/;
 const addLinks = (element) => {
+  const makeLink = (text, i) => {
+    const page = i % 2 && lists.pages[text.slice(5) - 1];
+    if (page) return make('a', [text], { href: '#' + page[0] });
+    const button = make('button', [text], { class: 'key' });
+    return i % 2 ? Object.assign(button, { onclick: () => key(text, false) }) : text;
+  };
   for (const node of [...element.childNodes].filter((child) => child.nodeType === Node.TEXT_NODE))
-    node.replaceWith(
-      ...node.textContent.split(/(page[ \u00a0]\d+)/i).map((text, i) => {
-        const words = i % 2 && lists.pages[text.slice(5) - 1]?.[0];
-        return words ? make('a', [text], { href: '#' + words }) : text;
-      }),
-    );
-  return element;
+    node.replaceWith(...node.textContent.split(LINKS).map(makeLink));
 };
 
 const paragraph = ([colour, bold, text], asFormula) => {
@@ -141,7 +142,7 @@ const isDrawn = (kind) => kind === 'graph' || kind === 'star';
 
 const makeCard = ([index, name, kind, closed]) => {
   const graph = isDrawn(kind) && make('canvas', [], { role: 'img', id: 'graph' + index });
-  const box = make('div', graph ? [graph] : [], { class: graph ? 'paper' : 'lines' });
+  const box = make('div', graph ? [graph] : [], { class: 'paper' });
   const card = make('details', [make('summary'), box], { class: kind, id: 'card-' + name });
   card.open = closed === '0';
   card.ontoggle = () => tell(REDRAW, { clientX: 0, clientY: 0 });
@@ -172,11 +173,12 @@ const makeCells = ([, colour, ...texts], i) => {
 
 const cardLines = (lines, index) =>
   ['words', 'row', 'cells'].map((word) => (lines[word] ?? []).filter(([of]) => of === index));
-const makeLines = ([words, rows, cells]) => [
-  ...words.map((line) => paragraph(line.slice(1), true)),
-  make('table', rows.map(makeRow), { class: 'listing' }),
-  make('div', [make('table', cells.map(makeCells))], cells.length ? { tabindex: 0 } : {}),
-];
+const makeLines = ([words, rows, cells]) => {
+  const paragraphs = words.map((line) => paragraph(line.slice(1), true));
+  const listing = make('table', rows.map(makeRow), { class: 'listing' });
+  const table = make('div', [make('table', cells.map(makeCells))], cells.length && { tabindex: 0 });
+  return make('div', [...paragraphs, listing, table], { class: 'lines' });
+};
 
 const showCards = () => {
   const all = now.card ?? [];
@@ -192,7 +194,7 @@ const showCards = () => {
     if (isNew(card, 'lines', [title, texts])) {
       setMarkup(summary, title);
       if (isDrawn(kind)) box.firstChild.ariaLabel = plain(`${title}. ${texts}`);
-      else box.replaceChildren(...makeLines(texts));
+      else box.replaceWith(makeLines(texts));
     }
     if (isDrawn(kind) && box.clientWidth && box.clientHeight)
       Module._web_draw_card(Number(index), pixels(box.clientWidth), pixels(box.clientHeight));
@@ -319,7 +321,7 @@ const makeSheet = ([, topic], index) => {
   const told = parseLines(ask('web_document', 'string'));
   const open = (told.card ?? []).filter(([, , , closed]) => closed === '0');
   const made = open.map(([card, , kind]) =>
-    isDrawn(kind) ? draw(Number(card), 720) : make('div', makeLines(cardLines(told, card))),
+    isDrawn(kind) ? draw(Number(card), 720) : makeLines(cardLines(told, card)),
   );
   const picture = draw(-1, 900);
   Module._web_sheet_cover();

@@ -187,15 +187,14 @@ const formula = (parts) => {
   let depth = 0; // of parentheses
   let bars = 0;
   for (const part of parts) {
-    const side = () => sides[sides.length - 1];
     if (part.of?.some(({ text }) => / /.test(text)))
       sides.push(coloured(make('span', formula(part.of).slice(0, -1)), part.colour), []);
-    else if (part.text === undefined) side().push(part);
+    else if (part.text === undefined) sides.at(-1).push(part);
     else
       part.text.split(SIDES).forEach((text, i) => {
         if (i % 2 && depth === 0 && bars % 2 === 0)
           sides.push(text.length > 1 ? '\u2003' : ' ', []);
-        else if (text) side().push({ text });
+        else if (text) sides.at(-1).push({ text });
         depth += text.split('(').length - text.split(')').length;
         bars += text.split('|').length - 1;
       });

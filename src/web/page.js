@@ -206,7 +206,7 @@ canvas.addEventListener('blur', () => {
 
 // ---- mouse, pen and fingers -------------------------------------------------
 
-// InputKind and buttons of view.h.
+// InputKind and buttons of view.h; a button is one more than the browser's.
 const [REDRAW, MOVE, PRESS, RELEASE, WHEEL, LEAVE] = [3, 4, 5, 6, 7, 8];
 const [LEFT, MIDDLE, RIGHT] = [1, 2, 3];
 const LONG_TOUCH = 500; // ms
@@ -291,19 +291,18 @@ const touchUp = (event) => {
   touch = null;
 };
 
-const BUTTONS = [LEFT, MIDDLE, RIGHT];
 const isTouch = (event) => event.pointerType === 'touch';
 canvas.onpointerdown = (event) => {
   canvas.focus({ preventScroll: true });
   canvas.setPointerCapture(event.pointerId);
   event.preventDefault();
   if (isTouch(event)) touchDown(event);
-  else press(event, BUTTONS[event.button] || 0);
+  else press(event, event.button + 1);
 };
 canvas.onpointermove = (event) => (isTouch(event) ? touchMove(event) : tell(MOVE, event));
 canvas.onpointerup = canvas.onpointercancel = (event) => {
   if (isTouch(event)) touchUp(event);
-  else tell(RELEASE, event, BUTTONS[event.button] || 0);
+  else tell(RELEASE, event, event.button + 1);
 };
 canvas.onpointerleave = (event) => isTouch(event) || tell(LEAVE, event);
 canvas.oncontextmenu = (event) => event.preventDefault();
