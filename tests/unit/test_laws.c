@@ -504,34 +504,6 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
     }
 }
 
-/* Without a line search updates of contact may go round in circles: such a step
- * ends after some hundreds, with its reason. */
-TEST(cycles_without_a_line_search_end)
-{
-    static const char *const lines[] = {
-        "drop --segments 6 --stiffness 8.29e4 --timestep 0.0192 --tolerance "
-        "6e-8 --velocity 0.229,-70.7",
-        "dent --segments 4 --stiffness 1.56e4 --timestep 0.0789 --tolerance "
-        "0.005 --velocity 0.436,-6.82",
-        "dent --segments 5 --stiffness 8.43e6 --timestep 0.342 --tolerance "
-        "6.5e-6 --velocity -0.102,-0.42"};
-    for (int n = 0; n < 3; n++) {
-        Simulation *scene = simulate("%s --line-search none", lines[n]);
-        long made = 0, longest = 0;
-        for (int i = 0; i < 6; i++) {
-            Status status = simulation_step(scene);
-            long now = simulation_sum_counters(scene).iterations;
-            CHECK(!status || status_is_unconverged(status));
-            CHECK(now - made < 6000);
-            longest = status && now - made > longest ? now - made : longest;
-            made = now;
-            for (size_t c = 0; c < scene->run[0].size; c++)
-                CHECK(isfinite(scene->run[0].x[c]));
-        }
-        CHECK(longest >= 490);
-    }
-}
-
 /* The methods of the table, each with every solver that it can have. */
 typedef struct Way {
     const IntegratorMethod *method;

@@ -1,6 +1,6 @@
-/* Pages of the lecture: what they claim that no window shows (the other claims
- * are sessions: tests/data/claims.txt), their code, and frames in which all
- * words can be read. */
+/* Pages of the lecture: claims whose numbers no window shows (the other claims
+ * are sessions, tests/data/claims.txt), the code, and frames in which all words
+ * can be read. */
 #include "test.h"
 
 #include <limits.h>
@@ -161,7 +161,7 @@ TEST(the_race_measures_errors_and_energies)
     for (int i = 0; i < RACE_METHODS; i++) {
         const RacePoint *point =
             &race->point[(RACE_STEP_SIZES - 1) * RACE_METHODS + i];
-        while (point->error < 1e-8) /* where tolerance and reference are seen */
+        while (point->error < 1e-8) /* below 1e-8 the tolerance counts */
             point -= RACE_METHODS;
         /* terms of higher order: a quarter */
         CHECK_NEAR((point - RACE_METHODS)->error / point->error, factor[i],
@@ -221,7 +221,7 @@ TEST(pages_show_their_code)
     }
 }
 
-/* What is asked can be answered. */
+/* Each question has an answer. */
 TEST(pages_ask_what_has_an_answer)
 {
     for (const LecturePage *page = lecture_pages; page->name; page++) {
@@ -236,8 +236,8 @@ TEST(pages_ask_what_has_an_answer)
 
 /* ---- frames -------------------------------------------------------------- */
 
-/* What a frame has: the smallest letters, pixels, those of scripts, too; words
- * that its place cuts, curves that leave their axes, and all texts, with blanks
+/* A frame's smallest letters in pixels, also those of scripts; the number of
+ * words that are cut and of points outside their axes; all texts, with blanks
  * between. */
 static struct {
     int smallest, smallest_code, ellipses, cut, outside;
@@ -292,8 +292,8 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
     __real_plot_curve(plot, count, x, y, width, colour);
 }
 
-/* What a frame of a page has: cards, large cards before and after the answer,
- * code, the list of pages. */
+/* Kinds of frames: cards, large cards before and after the answer, code, the
+ * list of pages. */
 enum { CARDS, LARGE, LARGE_ASKED, CODE, LIST, KINDS };
 
 /* The first line of a page's text that is not all there; NULL: all are. */

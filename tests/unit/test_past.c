@@ -22,7 +22,7 @@ static uint64_t hash_number(uint64_t hash, double number)
     return 31 * hash + bits;
 }
 
-/* Of a state, how late it is there, and its ledger. */
+/* Hashes a state with its time and its ledger. */
 static uint64_t hash_of(const Simulation *simulation, uint64_t hash)
 {
     hash =
@@ -70,7 +70,7 @@ static void edit(CommandKind kind, long number, double x, double y)
 
 enum { STEPS = 48 };
 
-/* hash [to + 1] out: of the steps from ... to. */
+/* Shows the steps from ... to; hash [to + 1] out. */
 static void run(long from, long to, uint64_t *hash)
 {
     for (long step = from; step <= to; step++)
@@ -185,6 +185,20 @@ TEST(states_of_many_edits_have_a_limit)
     past_free(&past);
 }
 
+/* An edit that goes on with its gesture ends what was undone after it. */
+TEST(an_edit_ends_what_was_undone)
+{
+    const Command grab = {.kind = COMMAND_GRAB, .number = 5};
+    const Command add = {.kind = COMMAND_ADD_PANE};
+    begin_past("square --segments 3");
+    CHECK_OK(past_edit(&past, &grab, 0, 1, false, 7));
+    CHECK_OK(past_edit(&past, &add, 0, 0, false, 0));
+    past_undo(&past, -1);
+    CHECK_OK(past_edit(&past, &grab, 0, 1, false, 7));
+    CHECK(!past_undo(&past, 1));
+    past_free(&past);
+}
+
 /* What is written can be read, and is the same. */
 TEST(commands_are_written_as_they_are_read)
 {
@@ -253,7 +267,7 @@ TEST(work_is_what_energy_gains)
             show(step + 1);
             Energies energies = simulation_energies(simulation, 0);
             high = fmax(high, energies.total);
-            /* What Newton's tolerance leaves: measured 2e-9 of the highest. */
+            /* Newton's tolerance leaves 2e-9 of the highest energy. */
             CHECK_NEAR(energies.total - energies.work, start, 1e-7 * high);
         }
         Energies end = simulation_energies(simulation, 0);

@@ -28,7 +28,7 @@ static double way_that_is_left(void)
     return far / sqrt(l2);
 }
 
-/* Asking whether it rests leaves no trace: the same bits as without. */
+/* The test whether the square rests changes no bit of the run. */
 static void compare_with_plain_run(const char *line)
 {
     Simulation plain;
@@ -83,7 +83,8 @@ TEST(the_curve_goes_through_the_step)
         int rough = 0, seen = 0;
         begin(lines[i]);
         for (int step = 0; step < 90; step++) {
-            past_aim(&player.past, step + 1, true); /* all of its lines */
+            past_aim(&player.past, step + 1,
+                     true); /* with all lines of the step */
             Status status = past_finish(&player.past);
             CHECK(!status || status_is_unconverged(status));
             const StepTrace *kept = &machine(0)->trace;

@@ -1,7 +1,6 @@
-/* The table of scenes, and the small ones among them, held to formulas written
- * here once more (what pages say of them: claims.txt); those of contact,
- * inelasticity and fracture from outside: rows of options, starts that are
- * refused, what is held fast, and what changes while they run.
+/* The table of scenes, the landscape and the map held to formulas written here
+ * once more, contact between bodies, and the ledger while hands change a run
+ * (what pages say of scenes: claims.txt).
  */
 #include "test.h"
 
@@ -223,7 +222,7 @@ TEST(blocks_begin_at_the_same_height)
 
 /* ---- the ledger while hands are on ------------------------------------- */
 
-/* What one does to a run between two steps. */
+/* Changes a run between two steps. */
 static Status meddle(Simulation *scene, int deed)
 {
     const double *x = scene->run[0].x + 2 * 7;

@@ -1,5 +1,5 @@
 /* Sessions: tests/data/sessions.txt, what hands do in the window and what they
- * see, as text.  One driver puts each line in as the Input that a window would
+ * see, as text.  This driver turns each line into the Input that a window would
  * send. */
 #include "attended.h"
 #include "oracle.h"
@@ -560,7 +560,8 @@ static double add_masses(const Simulation *simulation)
     return sum;
 }
 
-/* m, height of the lowest and of the highest node of the first body */
+/* The height of the lowest node, and of the highest node of the first body, m
+ */
 static double find_lowest(const Simulation *simulation)
 {
     double low = INFINITY;
@@ -596,7 +597,7 @@ static double find_mean_vy(const Simulation *simulation)
     return sum / add_masses(simulation);
 }
 
-/* Triangles turned over; of a square of springs each cell has four. */
+/* Counts the triangles that are turned over; a cell of springs has four. */
 static double count_turned(const Simulation *simulation)
 {
     int turned = 0, node[3], side[3];
@@ -662,8 +663,9 @@ static const struct {
                {"gap", find_gap},
                {"idle cells", count_idle_cells}};
 
-/* A number by its name: of the table above, of a node, of a record, of the
- * ledger, or one that texts know; NaN: there is none. */
+/* Finds a number by its name: a name of the table above, a coordinate of a
+ * node, a field of a record, a row of the ledger, or a value of texts; NaN:
+ * unknown. */
 static double find_number(const char *name)
 {
     static const char *const fields[] = {"alpha",  "residual", "projected",
@@ -716,7 +718,7 @@ static bool has_digits(double number, const char *digits)
            0.5000001 * pow(10, (e ? atoi(e + 1) : 0) - decimals);
 }
 
-/* "NAME NUMBER" */
+/* Checks a line "NAME NUMBER". */
 static void check_value(const char *line)
 {
     char name[64];
@@ -729,7 +731,7 @@ static void check_value(const char *line)
                  player.past.step, digits);
 }
 
-/* "STEPS NAME NUMBER": it holds after each of the steps. */
+/* Makes steps of a line "STEPS NAME NUMBER"; the number holds after each. */
 static void keep_value(const char *line)
 {
     for (long left = atol(line); left > 0; left--) {
@@ -794,7 +796,8 @@ typedef struct Session {
 } Session;
 
 static Session sessions[SESSIONS + 1]; /* up to one without a name */
-static const char *lines[LINES];       /* of all of them, NULL behind each */
+static const char
+    *lines[LINES]; /* lines of all sessions, each session ends with a NULL */
 static char session_text[1 << 18];
 
 /* Sessions and lines so far. */
@@ -853,10 +856,10 @@ static int end_session(void **unused)
 
 /* ---- a hand on every scene ---------------------------------------------- */
 
-/* What is taken hold of, how far it is dragged, in pixels, and what makes sense
- * there: g the hand pulls, d a point is dragged, p pins, k there is a k, l
- * lines of Algorithm 3, f the projection, s the line search, m other methods.
- */
+/* The place where a drag starts, its length in pixels, and the letters of what
+ * the scene can do: g the hand pulls, d a point is dragged, p pins, k there is
+ * a k, l lines of Algorithm 3, f the projection, s the line search, m other
+ * methods. */
 static const struct Scene_row {
     const char *scene, *start;
     int dx, dy;
@@ -1011,7 +1014,8 @@ static void random_keys_stay_in_their_field(void **unused)
     CHECK(refused > ROUNDS / 10);
 }
 
-/* Goes to each step, back or on: its state is that of the time before. */
+/* Goes to each step, backwards or forwards; its state has the hash of before.
+ */
 static void visit_steps(uint64_t *hash, bool again)
 {
     const long newest = past_newest(&player.past);

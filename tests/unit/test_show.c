@@ -33,7 +33,7 @@ static void sample(void)
     history_add(&history, simulation_time(&simulation), rows, row);
 }
 
-/* In the place of the one before. */
+/* Replaces the simulation of the test before. */
 static void stand_up(const char *line, int steps)
 {
     simulation_free(&simulation);
@@ -78,7 +78,7 @@ static void draw_without_words(void)
     draw();
 }
 
-/* A card alone on white paper. */
+/* Makes a card alone on white paper. */
 static Plot blank_card(int width, int height)
 {
     canvas_clear(&paper.canvas, COLOUR_WHITE);
@@ -111,7 +111,7 @@ static int on_stage(Colour colour)
     return count_colour(layout.stage, colour);
 }
 
-/* What is picked so many pixels beside a point of the world. */
+/* Picks so many pixels beside a point of the world. */
 static Pick pick_at(double x, double y, double right, double down)
 {
     const double world[2] = {x, y};
@@ -396,7 +396,7 @@ TEST(the_mouse_finds_nodes_and_springs)
 /* ---- what is written ------------------------------------------------------
  */
 
-/* Every text of a frame. */
+/* Every text that a frame writes. */
 static char written[500][160];
 static double written_at[500];
 static int writings;

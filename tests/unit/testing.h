@@ -57,8 +57,8 @@ typedef long double Wide;
  * (make test). */
 bool tests_are_long(void);
 
-/* How many of what is random: some, or with all variations all; of these the
- * sanitizers, which are slow, watch a fifth. */
+/* The number of random cases: `some`, or `all` with all variations, of which
+ * sanitizers, which are slow, run a fifth. */
 int tests_many(int all, int some);
 
 /* Random numbers, the same on every machine (SplitMix64). */
