@@ -72,7 +72,6 @@ static Wide log_of(Wide a)
 #define exact_rise        wide_exact_rise
 #define exact_residual    wide_exact_residual
 #define oracle_energy     wide_oracle_energy
-#define oracle_clamping   wide_oracle_clamping
 #define oracle_step       wide_oracle_step
 #define exact_potential   wide_exact_potential
 #define exact_strain      wide_exact_strain

@@ -15,8 +15,6 @@
 #include "model/pull_energy.h"
 #include "model/self_contact.h"
 
-enum { MOST_UNKNOWNS = 512 };
-
 static Jet plus(Jet a, Real factor, Jet b)
 {
     return (Jet){a.f + factor * b.f, a.p + factor * b.p, a.q + factor * b.q,
@@ -606,24 +604,6 @@ static int frame_coordinate(const Frame *frame, int i)
     return 2 * frame->node[i / 2] + i % 2;
 }
 
-/* What clamping one part adds to q H p.  p, q [2n] all 0 */
-static Real clamping(const Spot *spot, int row, const void *data, int part,
-                     double *p, double *q)
-{
-    Frame frame;
-    Real lift[4], rows[4][6], sum = 0;
-    int n = negative_part(spot, row, data, part, p, q, &frame, lift, rows);
-    for (int k = 0; k < n; k++) {
-        Real along_p = 0, along_q = 0;
-        for (int i = 0; i < 6; i++) {
-            along_p += rows[k][i] * spot->p[frame_coordinate(&frame, i)];
-            along_q += rows[k][i] * spot->q[frame_coordinate(&frame, i)];
-        }
-        sum += lift[k] * along_p * along_q;
-    }
-    return sum;
-}
-
 static Outline outline_there(const Spot *spot)
 {
     Spot plain = *spot;
@@ -632,27 +612,6 @@ static Outline outline_there(const Spot *spot)
     for (int c = 0; outline.x && c < 2 * spot->at->system->nodes; c++)
         outline.x[c] = (double)coordinate(&plain, c, false).f;
     return outline;
-}
-
-Real oracle_clamping(Spot *spot)
-{
-    const System *system = spot->at->system;
-    double *zero = calloc(4 * (size_t)system->nodes, sizeof *zero);
-    Outline outline = outline_there(spot);
-    Real sum = 0;
-    CHECK(zero != NULL);
-    spot->outline = &outline;
-    for (int t = 0; t < system->terms; t++) {
-        int row = formula_of(system->term[t].kind);
-        const void *data = system->term[t].data;
-        if (row < 0 || system->term[t].kind->place == PLACE_FRICTION)
-            continue;
-        int count = count_parts(spot, formulas[row].parts, data);
-        for (int i = 0; i < count; i++)
-            sum += clamping(spot, row, data, i, zero, zero + 2 * system->nodes);
-    }
-    free(zero);
-    return spot->at->weight * sum;
 }
 
 Jet oracle_energy(Spot *spot, const TermKind *only)
@@ -697,27 +656,6 @@ Real exact_potential(const System *system, const double *x)
 }
 
 /* ---- of a minimisation ------------------------------------------------- */
-
-void exact_derivatives(const IncrementalPotential *E, const double *u,
-                       const double *x, Real *g, Real *H)
-{
-    int size = 2 * E->system->nodes;
-    double p[MOST_UNKNOWNS] = {0}, q[MOST_UNKNOWNS] = {0};
-    EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
-    Spot spot = {.at = &at, .h = 1, .p = p, .q = q};
-    at.weight = E->weight;
-    CHECK(size <= MOST_UNKNOWNS);
-    for (int i = 0; i < size * (H ? size : 1); i++) {
-        int row = H ? i / size : i, column = i % size;
-        p[row] = q[column] = 1;
-        Jet E_there =
-            u ? oracle_step(&spot, E->u_tilde) : oracle_energy(&spot, NULL);
-        p[row] = q[column] = 0;
-        g[row] = E_there.p;
-        if (H)
-            H[i] = E_there.pq;
-    }
-}
 
 /* The nodes that a part is about; returns how many. */
 static int nodes_of(const Spot *spot, Parts parts, const void *data, int i,
@@ -831,6 +769,22 @@ static void assemble(const Spot *there, const double *u, const double *u_tilde,
             to->H[n * r + c] = to->H[n * c + r] = r == c;
         to->g[r] = to->size[r] = 0;
     }
+}
+
+void exact_derivatives(const IncrementalPotential *E, const double *u,
+                       const double *x, double h, int lifts, Real *g, Real *H)
+{
+    size_t n = 2 * (size_t)E->system->nodes;
+    double *p = calloc(2 * n, sizeof *p);
+    Real *size = calloc(n, sizeof *size);
+    CHECK(p != NULL && size != NULL);
+    EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
+    at.weight = E->weight;
+    const Spot spot = {.at = &at, .h = h};
+    const Assembly to = {g, size, H, p, p + n, (int)n, lifts};
+    assemble(&spot, u, E->u_tilde, &to);
+    free(p);
+    free(size);
 }
 
 /* H becomes L D below and on its diagonal, of L D L^T without pivots; false: a

@@ -150,7 +150,7 @@ TEST(nearly_singular_steps_end_or_say_why_not)
         {2.0 / 3, 1, PROJECTION_CLAMP, STATUS_OK}};
     const double x[4] = {0, 0, 0.5, 0};
     for (int i = 0; i < 3; i++) {
-        Real g[4];
+        Real g[4], H[16];
         const Iterate *at = &newton.at;
         make_pair(1, 1, rows[i].k);
         pair.pinned[0] = 1;
@@ -166,7 +166,7 @@ TEST(nearly_singular_steps_end_or_say_why_not)
         if (rows[i].end)
             continue;
         CHECK(at->u[3] > 0.5);
-        exact_derivatives(&at->E, at->u, at->x, g, NULL);
+        exact_derivatives(&at->E, at->u, at->x, 1, 0, g, H);
         CHECK_NEAR(g[2], 0, 1e-5); /* tolerance times the largest eigenvalue */
         CHECK_NEAR(g[3], 0, 1e-5);
     }

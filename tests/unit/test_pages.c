@@ -82,7 +82,7 @@ static Real update_dense(const Simulation *simulation, int n, double *u)
     Real least = INFINITY;
     for (int i = 0; i < n; i++)
         x[i] = x_n[i] + u[i];
-    exact_derivatives(&E, u, x, g, H);
+    exact_derivatives(&E, u, x, h, 0, g, H);
     exact_eigen(n, H, q);
     for (int k = 0; k < n; k++) {
         Real part = 0, lambda = H[(n + 1) * k];
