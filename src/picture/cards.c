@@ -179,13 +179,7 @@ void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
 {
     const Pane *pane = active_pane(content);
     const Card *row = active_picture(content)->cards[card];
-    const Plot plot = {.paper = paper,
-                       .content = content,
-                       .simulation = pane->simulation,
-                       .box = inside,
-                       .pane = pane,
-                       .has_text = true,
-                       .em = paper->em};
+    const Plot plot = plot_of_box(paper, content, pane, inside, paper->em);
     if (content->cards.covered >> card & 1)
         card_write_hint(&plot, "after your guess");
     else if (row->draw)

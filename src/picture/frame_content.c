@@ -95,10 +95,9 @@ static Box pane_room(const FrameContent *content, const Layout *layout,
 static void find_own_bounds(const FrameContent *content, const Layout *layout,
                             int pane, double bounds[4])
 {
-    const Plot stage = {.content = content,
-                        .pane = &content->pane[pane],
-                        .simulation = content->pane[pane].simulation,
-                        .box = pane_room(content, layout, pane)};
+    const Plot stage =
+        plot_of_box(NULL, content, &content->pane[pane],
+                    pane_room(content, layout, pane), layout->em);
     const Picture *picture = picture_of(stage.simulation->scene);
     if (picture->bounds)
         picture->bounds(&stage, bounds);
@@ -131,16 +130,10 @@ Plot stage_create(Paper *paper, const FrameContent *content,
                   const Layout *layout, int pane)
 {
     const Lens *lens = &content->view->lens;
-    Plot stage = {.paper = paper,
-                  .content = content,
-                  .simulation = content->pane[pane].simulation,
-                  .box = layout->pane[pane],
-                  .revealed =
-                      content->lecture.page && !content->lecture.hides_answer,
-                  .pane = &content->pane[pane],
-                  .has_text = !content->bare,
-                  .em = layout->em};
+    Plot stage = plot_of_box(paper, content, &content->pane[pane],
+                             layout->pane[pane], layout->em);
     double bounds[4];
+    stage.has_text = !content->bare;
     bool stretched = picture_of(stage.simulation->scene)->stretched;
     Box room = pane_room(content, layout, pane);
     Switch switches[SCENE_MAX_SWITCHES];

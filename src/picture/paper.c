@@ -65,10 +65,9 @@ int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
     int air = paper_pixels(paper, 0.35); /* room for superscripts */
     Box room = {box.x, box.y - air, box.width, box.height + 2 * air};
     Box before = canvas_set_clip(&paper->canvas, room);
-    double least = MIN_FIT * size;
-    for (int wide = paper_width(paper, face, size, markup);
-         wide > box.width && size > least;
-         wide = paper_width(paper, face, size, markup))
+    double least = MIN_FIT * size, wide;
+    while ((wide = paper_width(paper, face, size, markup)) > box.width &&
+           size > least)
         size = fmax(least, 0.99 * size * box.width / wide);
     TextStyle style = paper_style(paper, face, size, colour);
     double over = text_extent(paper->text, &style, markup).above -

@@ -37,6 +37,22 @@ typedef struct Plot {
     int legend_at[2]; /* pixels, position of the legend's next words */
 } Plot;
 
+/* Makes the plot of a box in metres.  paper NULL: the plot only computes
+ * positions. */
+static inline Plot plot_of_box(Paper *paper, const FrameContent *content,
+                               const Pane *pane, Box box, double em)
+{
+    return (Plot){.paper = paper,
+                  .content = content,
+                  .pane = pane,
+                  .simulation = pane->simulation,
+                  .revealed =
+                      content->lecture.page && !content->lecture.hides_answer,
+                  .box = box,
+                  .has_text = true,
+                  .em = em};
+}
+
 /* Returns the index of the plot's pane in the frame. */
 static inline int plot_pane_index(const Plot *plot)
 {

@@ -256,18 +256,8 @@ static void draw_direction(const SquarePen *pen)
                 factor == 1 ? "" : format_number(factor).text);
 }
 
-/* Draws the line from a pushed ball to the mouse. */
-static void draw_push(const SquarePen *pen, const Control *hand)
-{
-    const Obstacle *obstacle = &pen->contact->obstacle[hand->push];
-    if (obstacle->kind != OBSTACLE_BALL)
-        return;
-    plot_dashes(pen->stage, obstacle->o, hand->at, 2, NULL, COLOUR_HAND);
-    plot_disc(pen->stage, hand->at, 4, COLOUR_HAND);
-}
-
-/* Marks the node or spring under the mouse, and draws the spring of the hand.
- */
+/* Marks the node or spring under the mouse, and draws a line from the node or
+ * ball in the hand to the mouse. */
 static void draw_mouse(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
@@ -291,14 +281,18 @@ static void draw_mouse(const SquarePen *pen)
         plot_label(stage, 1, pen->x + 2 * (size_t)node, COLOUR_PROJECT, "%d",
                    node);
     }
-    if (hand && hand->push >= 0 && pen->contact)
-        draw_push(pen, hand);
-    if (!hand || hand->hand < 0)
-        return;
-    const double *node = pen->x + 2 * (size_t)hand->hand;
-    plot_dashes(stage, node, hand->at, 2, NULL, COLOUR_HAND);
-    plot_ring(stage, node, pen->radius + 4, 2, COLOUR_HAND);
-    plot_disc(stage, hand->at, 4, COLOUR_HAND);
+    const double *from = NULL;
+    if (hand && hand->push >= 0 && pen->contact &&
+        pen->contact->obstacle[hand->push].kind == OBSTACLE_BALL)
+        from = pen->contact->obstacle[hand->push].o;
+    if (hand && hand->hand >= 0) {
+        from = pen->x + 2 * (size_t)hand->hand;
+        plot_ring(stage, from, pen->radius + 4, 2, COLOUR_HAND);
+    }
+    if (from) {
+        plot_dashes(stage, from, hand->at, 2, NULL, COLOUR_HAND);
+        plot_disc(stage, hand->at, 4, COLOUR_HAND);
+    }
 }
 
 /* ---- layers ------------------------------------------------------------- */
@@ -346,7 +340,8 @@ static void draw_warnings(const SquarePen *pen, int folded)
     }
     if (lost == nodes)
         plot_legend(stage, COLOUR_WARNING,
-                    "no node has a place: beyond all numbers");
+                    "no node has a place: beyond all "
+                    "numbers");
     else if (lost > 0)
         plot_legend(stage, COLOUR_WARNING,
                     "%d of %d nodes are beyond all numbers", lost, nodes);
