@@ -175,7 +175,7 @@ typedef struct Setting {
     char value[VALUE_SIZE]; /* "0.02 s", "backward Euler" */
     int letters;            /* letters of the longest value; 0: of this value */
     bool changed;           /* differs from the scene's default */
-    bool off;               /* a method that is switched off */
+    bool off;               /* is a method that is switched off */
 } Setting;
 
 typedef struct SettingsRow {

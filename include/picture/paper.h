@@ -12,7 +12,7 @@ typedef struct Paper {
     Canvas canvas;
     Text *text;        /* NULL: no font was found; texts are left out */
     double em;         /* pixels */
-    double unit;       /* pixels */
+    double unit;       /* pixels, 1/14 em */
     double min_letter; /* ems; only scripts may be smaller */
 } Paper;
 

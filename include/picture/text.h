@@ -56,8 +56,8 @@ TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
 
-/* The colour with this name of `length` bytes ("warning", "p", "elastic");
- * COLOUR_TEXT for an unknown name. */
+/* Returns the colour with this name of `length` bytes ("warning", "p",
+ * "elastic"); COLOUR_TEXT for an unknown name. */
 Colour colour_find(const char *name, size_t length);
 
 /* Whether this brace of a text belongs to the markup. */

@@ -229,7 +229,7 @@ void energies_draw(const Plot *card)
  * its parts, each of which begins at the end of the last one. */
 void energy_budget_draw(const Plot *card)
 {
-    static const double NAME = 7, VALUE = 5.2; /* ems */
+    static const double NAME = 7, VALUE = 5.2; /* ems, widths of the words */
     Paper *paper = card->paper;
     const Box *box = &card->box;
     Energies energies = simulation_energies(card->simulation, 0);

@@ -26,7 +26,7 @@ static void draw_energy_parts(const Plot *card, const System *system,
         const char *name;
         Colour colour;
         int label_at;        /* index of the point with the label */
-        double label_height; /* height of the label, times the curve */
+        double label_height; /* height of the label, times the value */
     } parts[] = {{"inertia", COLOUR_X_TILDE, 18, 1},
                  {"h\u00b2 P", COLOUR_SHADED, 15, 0.72},
                  {"E", COLOUR_X, 34, 1}};

@@ -105,8 +105,8 @@ Axis energies_axis(const FrameContent *content, double *last);
 /* Whether the picture has a card of this name that is not hidden. */
 bool frame_has_card(const FrameContent *content, const char *name);
 
-/* Returns the text by which lit lines of the page's code are known: in a walk
- * through Algorithm 3 that of the present line, else that of the page. */
+/* Returns the text that marks the lit lines of the page's code: in a walk
+ * through Algorithm 3 that of the present line, else the page's own. */
 const char *lecture_lit_code(const FrameContent *content);
 
 /* Returns the index of the spring that the present step adds to the Hessian, on

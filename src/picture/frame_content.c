@@ -8,9 +8,10 @@
 #include "picture/colour_map.h"
 #include "base/mathematics.h"
 
-static const double LEGEND_ROOM = 1.8;   /* ems, height of a line of words */
-static const double LOW_PANE = 20;       /* ems, lower panes cut off words */
-static const double LEAST_TEXT = 11;     /* ems, lower panes have no words */
+static const double LEGEND_ROOM = 1.8; /* ems, height of a line of words */
+static const double LOW_PANE = 20; /* ems, lower panes have a place for words */
+static const double LEAST_TEXT =
+    11; /* ems, least height of a pane with words */
 static const double HANDLE_REACH = 14;   /* pixels, a handle is hit within */
 static const double SWITCH_WIDTH = 13;   /* ems */
 static const double SWITCH_HEIGHT = 1.8; /* ems */

@@ -417,7 +417,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
     Paper *paper = card->paper;
     Box box = card->box;
     double height = 0, size = 1;
-    if (card->content->lecture.page) /* is read from far away */
+    if (card->content->lecture.page) /* pages are read from afar */
         size = box.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {

@@ -13,12 +13,12 @@ enum {
     EIGEN_PIECES = 200 /* pieces of the eigenvalues' path over h */
 };
 
-static const double MASS_REACH = 1.9;    /* m, half a side of the view */
-static const double CIRCLE_REACH = 1.75; /* m, half a side of the view */
-static const double CIRCLE_MAX = 4;      /* m, the view follows a run so far */
+static const double MASS_REACH = 1.9;    /* m, least half side of the view */
+static const double CIRCLE_REACH = 1.75; /* m, least half side of the view */
+static const double CIRCLE_MAX = 4; /* m, distance up to which the view grows */
 static const double TWO_PI = 6.283185307179586;
-static const double EIGEN_REACH = 1.35; /* half a side of the complex plane */
-static const double EIGEN_MAX = 5; /* the view follows an eigenvalue so far */
+static const double EIGEN_REACH = 1.35; /* least half side of the plane */
+static const double EIGEN_MAX = 5;      /* size up to which the view grows */
 /* Room for the numbers, ems. */
 static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12;
 static const double origin[2] = {0, 0};

@@ -10,7 +10,7 @@
 enum { HALVED = 4 }; /* columns of the table for halved time steps */
 static const double NAMES_WIDTH = 45;    /* ems, width of a plot with names */
 static const double TARGET_ERROR = 0.01; /* m, error of the runs compared */
-static const double REFERENCE_ERROR = 1e-8; /* m, accuracy of the reference */
+static const double REFERENCE_ERROR = 1e-8; /* m, error of the reference */
 
 /* Returns bounds in powers of ten. */
 void race_bounds(const Plot *stage, double bounds[4])

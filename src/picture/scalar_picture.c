@@ -10,7 +10,7 @@
 
 enum { ROOT_UPDATES = 60, ITERATE_TEXT = 48 };
 
-static const double TANGENT_REACH = 3; /* m, x is seen from -3 to 3, at least */
+static const double TANGENT_REACH = 3;    /* m, least half range of x */
 static const double ITERATES_WIDE = 11.5; /* ems */
 
 /* An update with its model q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2, whose

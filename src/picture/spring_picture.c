@@ -10,9 +10,9 @@
 
 enum { SPRING_COILS = 12 };
 
-static const double SPRING_REACH = 1.7;   /* m, half a side of the view */
+static const double SPRING_REACH = 1.7;   /* m, least half side of the view */
 static const double SPRING_ARROW = 0.005; /* m/N, scale of the force */
-static const double SPRING_GAP = 0.13;    /* m, from the spring to its force */
+static const double SPRING_GAP = 0.13;    /* m, gap between spring and force */
 static const double origin[2] = {0, 0};
 
 void spring_bounds(const Plot *stage, double bounds[4])

@@ -13,8 +13,8 @@
 
 enum { GHOST_SPRINGS = 700 }; /* the most springs of a ghost with springs */
 
-static const double FLOWN = 30; /* a larger view, times the side: flown apart */
-static const double NODE = 0.1; /* radius of a node, times their distance */
+static const double FLOWN = 30; /* larger views, in sides: flown apart */
+static const double NODE = 0.1; /* radius of a node, times the spacing */
 static const double FACE = 4;   /* pixels, smallest side of a face */
 
 /* ---- sizes and colours -------------------------------------------------- */

@@ -20,8 +20,8 @@ enum {
 
 static const double MIN_ARROW = 1.5; /* ems, the longest arrow of p, at least */
 static const double MAX_VIEW = 1e303; /* largest view, times the first view */
-static const double ROOM = 1.14;      /* size of the stage, times the square */
-static const double BARE_ROOM = 1.75; /* size of a bare stage, likewise */
+static const double ROOM = 1.14; /* size of the stage, in sides of the square */
+static const double BARE_ROOM = 1.75; /* size of a bare stage, in sides */
 static const double MAGNIFIER = 12;   /* ems, side of the magnifier, at most */
 static const double BALL_REACH = 4;   /* reach for balls, times the view */
 static const double GROUND_REACH = 2; /* reach for grounds, times the view */
