@@ -269,10 +269,9 @@ typedef struct FrameContent {
     int active; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_PANES];
     const View *view;
-    const struct Control
-        *hand;         /* hand that pulls in the active pane, or NULL */
-    bool shows_strain; /* springs are coloured by strain */
-    bool bare;         /* the picture of the slide and nothing else */
+    const struct Control *hand; /* pulls in the active pane, or NULL */
+    bool shows_strain;          /* springs are coloured by strain */
+    bool bare;                  /* the picture of the slide and nothing else */
     bool in_document;  /* the stage alone: a web page beside it has the rest */
     struct Text *text; /* measures a page's words; NULL: widths are guessed */
     double min_em;     /* pixels; 0: the usual minimum */

@@ -14,10 +14,9 @@ static const double MAX_AXIS_RATIO = 1000;
 /* The axis becomes logarithmic when the energy has grown by LOG_GROWTH; then
  * the ends of the axis are at most these times the energy at the start. */
 static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
-static const double MIN_VISIBLE =
-    2e-3;                             /* times the largest energy: seen as 0 */
-static const double ROUNDING = 1e-20; /* times k side^2: is rounding */
-static const double LEGEND_SIZE = 0.85;  /* ems, letters of the legend */
+static const double MIN_VISIBLE = 2e-3; /* visible part of the largest energy */
+static const double ROUNDING = 1e-20;   /* times k side^2: is rounding */
+static const double LEGEND_SIZE = 0.85; /* ems, letters of the legend */
 static const double CROWDED_SIZE = 0.75; /* ems, with more than four curves */
 static const double MIN_HEIGHT = 8;      /* ems, height of the card */
 static const double ROW_HEIGHT = 2.4;    /* ems more for two rows of legend */

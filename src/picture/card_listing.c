@@ -9,8 +9,7 @@
 
 static const double PAGE_PITCH = 2.1; /* ems, height of a line on a page */
 static const double PITCH = 1.75;     /* ems, height of a line elsewhere */
-static const double PRINT_WIDTH =
-    36; /* ems, width of printed lines in size 1 */
+static const double PRINT_WIDTH = 36; /* ems, width of a printed line */
 
 ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
 {

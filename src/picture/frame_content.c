@@ -10,8 +10,7 @@
 
 static const double LEGEND_ROOM = 1.8; /* ems, height of a line of words */
 static const double LOW_PANE = 20; /* ems, lower panes have a place for words */
-static const double LEAST_TEXT =
-    11; /* ems, least height of a pane with words */
+static const double MIN_TEXT = 11; /* ems, height of a pane with words */
 static const double HANDLE_REACH = 14;   /* pixels, a handle is hit within */
 static const double SWITCH_WIDTH = 13;   /* ems */
 static const double SWITCH_HEIGHT = 1.8; /* ems */
@@ -370,7 +369,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
     const Picture *picture = picture_of(stage.simulation->scene);
     const Pick *hover = &content->view->hover;
     Box before = canvas_set_clip(&paper->canvas, stage.box);
-    if (content->lecture.page && stage.box.height < LEAST_TEXT * paper->em)
+    if (content->lecture.page && stage.box.height < MIN_TEXT * paper->em)
         stage.has_text = false;
     picture->draw(&stage);
     TextLine line = text_begin(&stage.pane->values, picture->legend);

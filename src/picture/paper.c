@@ -10,8 +10,7 @@
 
 enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 
-static const double MIN_FIT =
-    0.6; /* least size of letters that shrink to fit */
+static const double MIN_FIT = 0.6; /* letters shrink at most to this part */
 
 Status paper_create(int width, int height, Paper *paper)
 {

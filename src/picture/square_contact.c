@@ -10,8 +10,7 @@
 
 static const double SLAB = 1;        /* ems, depth of a slab */
 static const double FORCE_ARROW = 4; /* ems, arrow of the force in the legend */
-static const double MIN_FORCE =
-    0.02; /* smallest drawn force, times the largest */
+static const double MIN_FORCE = 0.02; /* drawn part of the largest force */
 
 ElementIterator square_contacts(const SquarePen *pen)
 {

@@ -14,10 +14,9 @@
 enum { WORDS_TEXT = 512 }; /* bytes of a label */
 
 static const double LEGEND_SIZE = 0.92; /* ems */
-static const double SCALE_PART =
-    0.08;                           /* least length, times the stage's width */
-static const double FARTHEST = 1e6; /* pixels, labels beyond are left out */
-static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
+static const double SCALE_PART = 0.08;  /* least part of the stage's width */
+static const double FARTHEST = 1e6;     /* pixels, labels beyond are left out */
+static const double LINE_HEIGHT = 1.3;  /* ems, height of a label */
 /* Costs of a label's place: fully covered by ink, fully outside of the plot,
  * and for each better place in the list. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_LATER = 0.08;
