@@ -17,7 +17,7 @@ enum { LINES_WALKED = 9 };
 
 /* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
 typedef struct LecturePage {
-    const char *name;    /* one word, for --lecture */
+    const char *name;    /* name for --lecture, one word */
     const char *topic;   /* title of the slide */
     const char *section; /* heading above the page in the list, or NULL */
     bool extra;          /* whether the 80 minutes leave the page out */
@@ -35,15 +35,14 @@ typedef struct LecturePage {
                           */
     const char *star;    /* name of the enlarged card, or NULL */
     const char *law;     /* name of the curve in the card `law`, or NULL */
-    const char *notes;   /* what a lecturer may say */
-    double minutes;      /* duration in the lecture */
+    const char *notes;   /* text for the lecturer */
     const char *file;    /* path of the source shown by K */
     const char *function;    /* functions shown by K, separated by ',' */
     const char *const *code; /* lines of these functions, ended by NULL */
     const char *lit;         /* part of each code line that is lit */
     const char *const *walk; /* [LINES_WALKED] part of each code line that is
                                 lit at a line of Algorithm 3; NULL: lit */
-    const char *claim;       /* what a test checks */
+    const char *claim;       /* statement that a test checks */
     unsigned flips;          /* bit s: switch s of the scene is turned over */
     int picture;             /* step that the printed page shows */
     double speed;            /* steps for each frame; 0: as in the scene */
@@ -52,7 +51,7 @@ typedef struct LecturePage {
     int lines;               /* presses of N before the printed page; 0: picture
                               */
     unsigned layers;         /* bits of Layer: additions to the picture */
-    NextAction next;         /* what N does after the answer */
+    NextAction next;         /* effect of the key N after the answer */
     int pause;               /* step at which a run pauses; 0: none */
 } LecturePage;
 
@@ -70,8 +69,8 @@ extern const Letter lecture_letters[];
 /* Number of all pages. */
 int lecture_count(void);
 
-/* Returns the page with this name, or with this number from 1; NULL: there is no
- * such page. */
+/* Returns the page with this name, or with this number from 1; NULL: no such
+ * page. */
 const LecturePage *lecture_find(const char *text);
 
 /* Whether the page asks for a click on the picture.  page may be NULL. */

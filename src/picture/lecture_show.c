@@ -1,25 +1,23 @@
-/* lecture_show.c - the code and the columns that pages of the lecture show.
- */
-#include <math.h>
+/* lecture_show.c - the lists of pages and letters, and what a page shows
+ * besides its scene. */
 #include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
 
-_Static_assert((int)LINE_COUNT == LINES_WALKED, "a page has all lines");
+_Static_assert((int)LINE_COUNT == LINES_WALKED,
+               "walk has a text for each line");
 
 const char *lecture_lit_code(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const Trace *trace = active_pane(content)->trace;
-    const Options *options = &active_pane(content)->simulation->options;
-    bool whole = options->line_search == LINE_SEARCH_NONE;
-    bool walks = page->walk && trace && trace->line != LINE_NONE && !whole;
+    bool walks = page->walk && trace && trace->line != LINE_NONE;
     return walks ? page->walk[trace->line] : page->lit;
 }
 
-/* Lists all pages of the lecture, each section below its heading.
- *   marked  page that gets a mark: the open one, or the one last open */
+/* Lists all pages of the lecture, and a heading before each section.
+ *   marked  page with a mark: the open page, or the page that was open last */
 static void list_pages(const LecturePage *marked, FrameContent *content)
 {
     ListRow *row = content->list.row;
