@@ -169,7 +169,8 @@ double updates_needed_height(const FrameContent *content, double wide,
     return UPDATE_PITCH * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
 }
 
-/* Draws the heads of the table and the newest updates that fit. */
+/* Draws the heads of the table, and if not all updates fit, update 1 and the
+ * newest updates. */
 void updates_draw(const Plot *card)
 {
     static const double right[] = {0.05, 0.25, 0.52, 0.63, 1};
@@ -180,7 +181,7 @@ void updates_draw(const Plot *card)
         rows++;
     int skipped = rows - 1 > room ? rows - 1 - room : 0;
     for (int i = 0; i < rows - skipped; i++) {
-        updates_fill_row(card->content, i ? i + skipped : 0, &cells);
+        updates_fill_row(card->content, i > 1 ? i + skipped : i, &cells);
         for (int c = i == 0; c < cells.columns; c++)
             paper_write(card->paper, i ? FACE_REGULAR : FACE_BOLD, 1,
                         COLOUR_TEXT, card->box.x + right[c] * card->box.width,
