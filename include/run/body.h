@@ -30,9 +30,10 @@ Status body_update(Simulation *simulation, int run);
 /* Creates a scene with one run of the body of the options. */
 Status create_square(Simulation *simulation);
 
-/* Returns the name of a term or feature that works only with backward Euler,
- * whose step ends at the minimiser; NULL: the options have none. */
-const char *body_needs_end_of_step(const Options *options);
+/* Checks that the integrator works with all terms of the body.  Most terms need
+ * backward Euler, whose step ends at the minimiser.
+ * Returns OK, or INVALID_INPUT with a message. */
+Status body_check_method(const Options *options, Message message);
 
 /* Checks that the body can start: obstacles have possible numbers, no body
  * overlaps an obstacle or another body, no cell is turned over.

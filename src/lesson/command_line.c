@@ -160,18 +160,6 @@ static Status check_scene(const Options *options, const OptionRow *row,
                         scene->name, missing);
 }
 
-/* Checks that the integrator works with all terms of the body. */
-static Status check_integrator(const Options *options, Message message)
-{
-    const char *term = body_needs_end_of_step(options);
-    const IntegratorMethod *method = options_method(options);
-    return !term || method->at_end
-               ? STATUS_OK
-               : refuse(message,
-                        "--integrator: '%s' has no %s; only backward-euler has",
-                        method->name, term);
-}
-
 /* Checks a changed option together with the others: the integrator, and the
  * start of the body if the option changes the start. */
 static Status check_change(const Options *options, const OptionRow *row,
@@ -180,7 +168,7 @@ static Status check_change(const Options *options, const OptionRow *row,
     bool is_start = row->effect == EFFECT_START &&
                     (row->needs & NEEDS_SQUARE) &&
                     (options->scene->needs & NEEDS_BODY);
-    Status status = check_integrator(options, message);
+    Status status = body_check_method(options, message);
     return status || !is_start ? status : body_check(options, message);
 }
 
@@ -451,7 +439,7 @@ static Status check_body(Line *line)
     if (!(options->scene->needs & NEEDS_BODY))
         return STATUS_OK;
     if (check_pins(options, line->message) ||
-        check_integrator(options, line->message))
+        body_check_method(options, line->message))
         return STATUS_INVALID_INPUT;
     if (is_solid &&
         (options->yield > 0 || options->tear > 0 || options->damping > 0))

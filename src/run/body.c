@@ -174,14 +174,6 @@ static int list_obstacles(const Options *options,
     return count;
 }
 
-/* Whether the options give an obstacle the same place as before, so that the
- * obstacle stays where the mouse has moved it. */
-static bool has_same_place(const Obstacle *old, const Obstacle *new)
-{
-    return old->kind == new->kind && old->given[0] == new->given[0] &&
-           old->given[1] == new->given[1];
-}
-
 /* Returns the barrier of the options; by default kappa = 4 k and d_hat =
  * side/100.  A node counts for one segment of the boundary. */
 static Barrier make_barrier(const Options *options)
@@ -195,23 +187,21 @@ static Barrier make_barrier(const Options *options)
     return (Barrier){d_hat, 0.5 * area * d_hat * kappa};
 }
 
-/* Sets contact and friction.  The ceiling and the scene's obstacle, which are
- * the last ones, stay where they have moved.  A ground or ball stays where the
- * mouse has moved it, unless the options give it a new place. */
+/* Sets contact and friction.  An obstacle that the system has stays where it
+ * has moved, unless the options give it a new place. */
 static Status set_obstacles(const Options *options, System *system)
 {
     const Barrier barrier = make_barrier(options);
-    const Contact *old = contact_of(system);
+    const Contact *contact = contact_of(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
-    int fixed = (int)(options->grounds + options->balls);
     int count = list_obstacles(options, list);
-    int old_count = old ? old->obstacles : 0;
-    for (int k = 1; k <= count - fixed && k <= old_count; k++)
-        memcpy(list[count - k].o, old->obstacle[old_count - k].o,
-               sizeof list->o);
-    for (int k = 0; k < fixed && k < old_count; k++)
-        if (has_same_place(&old->obstacle[k], &list[k]))
-            memcpy(list[k].o, old->obstacle[k].o, sizeof list->o);
+    for (int i = 0; contact && i < contact->obstacles; i++) {
+        const Obstacle *old = &contact->obstacle[i];
+        for (int k = 0; k < count; k++)
+            if (memcmp(old->given, list[k].given, sizeof old->given) == 0 &&
+                memcmp(old->n, list[k].n, sizeof old->n) == 0)
+                memcpy(list[k].o, old->o, sizeof old->o);
+    }
     Status status = contact_set(system, &barrier, count, list);
     return status ? status
                   : friction_set(system, &friction_energy,
@@ -368,13 +358,19 @@ Status create_square(Simulation *simulation)
     return body_create(simulation, 0);
 }
 
-const char *body_needs_end_of_step(const Options *options)
+Status body_check_method(const Options *options, Message message)
 {
+    const IntegratorMethod *method = options_method(options);
+    const char *term = options->scene->body.moving_pins ? "moving pins" : NULL;
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->term && row->term->backward_euler_only &&
+        if (!term && row->term && row->term->backward_euler_only &&
             option_is_on(row, options))
-            return row->term->name;
-    return options->scene->body.moving_pins ? "moving pins" : NULL;
+            term = row->term->name;
+    return !term || method->at_end
+               ? STATUS_OK
+               : refuse(message,
+                        "--integrator: '%s' has no %s; only backward-euler has",
+                        method->name, term);
 }
 
 /* Writes the name of an obstacle for a message: "the ball", or "ball 2" if

@@ -46,9 +46,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
                                .observer = observer,
                                .user = user};
     Status status = options->scene->create(simulation);
-    Switch list[SCENE_MAX_SWITCHES];
-    int switches = status ? 0 : exhibit_list_switches(simulation, list);
-    for (int i = 0; i < switches; i++)
+    for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
         if ((unsigned)options->flips >> i & 1)
             exhibit_flip(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
@@ -108,16 +106,6 @@ static double find_energy_less_work(const Simulation *simulation, int run,
     return now.total - now.work;
 }
 
-/* Begins the step of the present run. */
-static Status begin_run(Simulation *simulation)
-{
-    double abs_sum;
-    int run = simulation->stepping;
-    simulation->energy_before =
-        find_energy_less_work(simulation, run, &abs_sum);
-    return time_integrator_begin(&simulation->run[run]);
-}
-
 /* Books the energy that backward Euler has gained in a step of the present run.
  * A gain below 1e-9 of all energies is due to rounding and the tolerance. */
 static void book_gain(Simulation *simulation)
@@ -139,8 +127,12 @@ Status simulation_advance(Simulation *simulation)
     while (simulation->stepping < simulation->runs) {
         TimeIntegrator *run = &simulation->run[simulation->stepping];
         Status status = run->status;
-        if (status != STATUS_RUNNING)
-            status = begin_run(simulation);
+        if (status != STATUS_RUNNING) {
+            double abs_sum;
+            simulation->energy_before = find_energy_less_work(
+                simulation, simulation->stepping, &abs_sum);
+            status = time_integrator_begin(run);
+        }
         if (status == STATUS_RUNNING)
             status = time_integrator_advance(run);
         if (status == STATUS_RUNNING)
