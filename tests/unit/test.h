@@ -1,5 +1,6 @@
 /* test.h - TEST(name) { ... } is a test.  Those of a file run in their order;
- * TESTS(setup, teardown) ends it: both run once around all, or are NULL.
+ * TESTS(setup, teardown) ends it: both run once around all, or are NULL.  An
+ * argument chooses tests by name, with * for any letters.
  * What a test begins (testing.h) is freed after it.
  */
 #ifndef ELASTO_TEST_H
@@ -26,8 +27,10 @@ static size_t test_count;
     static void name(void)
 
 #define TESTS(setup, teardown)                                                 \
-    int main(void)                                                             \
+    int main(int argc, char **argv)                                            \
     {                                                                          \
+        if (argc > 1)                                                          \
+            cmocka_set_test_filter(argv[1]);                                   \
         return _cmocka_run_group_tests(__BASE_FILE__, test_list, test_count,   \
                                        setup, teardown);                       \
     }
