@@ -13,11 +13,10 @@
  * of the shortest spring since they were computed. */
 static const double NEARBY = 0.02;
 
-/* Tiles relax after DIRECTIONS directions, if the gradient's bound falls by
- * less than the factor STALLS.  A sweep of a tile is worth it if it lowers E by
- * more than PACE of the last direction's decrease for each tile. */
-enum { DIRECTIONS = 2 };
-static const double STALLS = 0.3, PACE = 0.5;
+/* Tiles relax once a direction lowers the gradient's bound by less than the
+ * factor STALLS.  A sweep of a tile is worth it if it lowers E by more than
+ * PACE of the last direction's decrease for each tile. */
+static const double STALLS = 0.3, PACE = 0.15;
 
 /* Iterations after which Newton takes over; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };
@@ -41,7 +40,6 @@ struct Multigrid {
     Quartic along;     /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;  /* System.version of the numbers in the grid */
     double weight;     /* s^2, of P, for which the grid has the numbers */
-    int directions;    /* number of directions in this step */
     bool stalls;       /* tiles relax in each iteration */
     bool hidden;       /* rounding hides what the last iteration changed */
 };
@@ -137,7 +135,7 @@ static Status read_problem(Newton *newton)
         return status;
     Multigrid *mg = newton->multigrid;
     mg->stalls = mg->hidden = false;
-    mg->largest = mg->directions = 0;
+    mg->largest = 0;
     incremental_potential_inertia(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
         grid_read_system(&mg->grid, at, m);
@@ -232,10 +230,8 @@ static Status grid_update(Newton *newton)
     const int tiles = mg->tiles.high * mg->tiles.wide;
     grid_move(&mg->grid, record->alpha, mg->p);
     mg->moved += record->alpha * record->residual * newton->settings.h;
-    mg->directions++;
     newton->counters.iterations++;
-    mg->stalls = mg->stalls || (mg->directions > DIRECTIONS &&
-                                mg->bound > STALLS * mg->last_bound);
+    mg->stalls = mg->stalls || mg->bound > STALLS * mg->last_bound;
     if (mg->stalls && !newton->passes) {
         double pace = PACE * record->change * unit / tiles;
         record->change += tiles_relax(&mg->tiles, pace) / unit;

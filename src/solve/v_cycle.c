@@ -486,7 +486,7 @@ enum { MAX_CYCLES = 60 };
  * times its bound.  While p is longer than HOPEFUL of what passes, the next
  * direction will have to: then a remainder of LOOSE times the gradient, in the
  * norm of M^-1, is small enough.  Single precision reaches LEAST of it. */
-static const double MARGIN = 4, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
+static const double MARGIN = 2, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
 
 FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                         double longest, double *p, double *largest)
