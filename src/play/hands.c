@@ -12,8 +12,8 @@
 #include "run/scene.h"
 
 enum {
-    CLICK_ROOM = 4,  /* pixels that the mouse may move in a click */
-    PACE_PIXELS = 24 /* pixels of a drag for each pace of a number */
+    CLICK_ROOM = 4,   /* pixels that the mouse may move in a click */
+    NOTCH_PIXELS = 24 /* pixels of a drag for each notch of a number */
 };
 
 static const double WHEEL_ZOOM = 1.15; /* factor for each notch */
@@ -71,11 +71,11 @@ static Status order_set(Player *player, const OptionRow *row, double value)
     return player_obey(player, &command);
 }
 
-/* Raises a number by some paces. */
-static Status raise_number(Player *player, const OptionRow *row, int paces)
+/* Changes a number by some notches. */
+static Status raise_number(Player *player, const OptionRow *row, int notches)
 {
     double value;
-    Status status = player_find_paced(player, row, paces, &value);
+    Status status = player_turn_wheel(player, row, notches, &value);
     return status ? status : order_set(player, row, value);
 }
 
@@ -150,18 +150,18 @@ static Status drag_number(Player *player, const Under *under)
     bool edge = mouse->index < 0;
     const OptionRow *row =
         edge ? option_find("stretch") : player->hands.selected;
-    double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
+    double notches = (mouse->x - mouse->from[0]) / NOTCH_PIXELS;
     double wanted = fmax(rint(200 * fabs(under->at[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
         return raise_number(player, row, 1); /* refuses several numbers */
     if (row->display.increment > 0 || row->kind == OPTION_NAME)
-        paces = rint(paces);
-    else if (paces == rint(paces))
-        paces += 1e-9; /* whole paces would give round values */
+        notches = rint(notches);
+    else if (notches == rint(notches))
+        notches += 1e-9; /* whole notches would give round values */
     if (!edge)
-        wanted = option_turn_wheel(row, &mouse->options, paces);
+        wanted = option_turn_wheel(row, &mouse->options, notches);
     return now.number[row->slot] == wanted ? STATUS_OK
                                            : order_set(player, row, wanted);
 }

@@ -172,13 +172,13 @@ Status obey_set(Player *player, const Command *command)
     return player_edit(player, &change, from, to, false);
 }
 
-Status player_find_paced(Player *player, const OptionRow *row, int paces,
+Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
                          double *value)
 {
     const Options now = player_numbers(player);
     if (row->count > 1)
         return player_refuse(player, "several numbers: type them");
-    *value = option_turn_wheel(row, &now, paces);
+    *value = option_turn_wheel(row, &now, notches);
     return STATUS_OK;
 }
 
@@ -193,9 +193,9 @@ Status obey_raise(Player *player, const Command *command)
     player->hands.selected =
         player->hands.selected ? player->hands.selected : number[0];
     double value;
-    int paces = command->kind == COMMAND_RAISE ? 1 : -1;
+    int notches = command->kind == COMMAND_RAISE ? 1 : -1;
     Status status =
-        player_find_paced(player, player->hands.selected, paces, &value);
+        player_turn_wheel(player, player->hands.selected, notches, &value);
     if (!status)
         player_enqueue_set(player, player->hands.selected, value);
     return status;

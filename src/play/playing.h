@@ -154,9 +154,9 @@ int player_visible_options(const Player *player, bool all,
 /* Returns why a number has no effect now, or NULL. */
 const char *player_idle_reason(const Player *player, const OptionRow *row);
 
-/* Computes the value of a number some turns of the wheel above the present one.
+/* Computes the value of a number after some notches of the wheel.
  */
-Status player_find_paced(Player *player, const OptionRow *row, int paces,
+Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
                          double *value);
 
 /* ---- sheet.c (panes.c and bodies.c only have functions of commands) ------ */
