@@ -131,7 +131,7 @@ typedef struct Past {
     long booked;  /* last step whose energies in the tables are valid: an edit
                      after a step changes them, too */
     size_t bytes, limit; /* memory of states, and its limit */
-    int line;            /* pane in which E along p is drawn; -1: none */
+    int line_pane;       /* pane in which E along p is drawn; -1: none */
     Work work;           /* stage of the work that leads to `aim` */
     long aim;            /* step that is to be shown */
     long from;           /* step that machines are brought to by WORK_LOADS */
@@ -192,7 +192,7 @@ Status past_finish(Past *past);
 /* Prepares to make the shown step once more if E along p is to be drawn at this
  * place of its trace (-1: the end) but was not sampled.  past_iterate follows.
  */
-void past_complete(Past *past, int place);
+void past_sample_line_energy(Past *past, int place);
 
 /* Undoes one gesture (-1) or redoes it (1); past_iterate follows.  Returns the
  * edit that was undone or redone, or NULL. */

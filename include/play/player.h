@@ -21,8 +21,6 @@
 #include "play/recording.h"
 #include "play/view.h"
 
-/* ---- the command line ---------------------------------------------------- */
-
 /* The command line, and the session that it begins. */
 typedef struct Given {
     Options options[OPTIONS_MAX_PANES]; /* options of each pane */
@@ -34,8 +32,6 @@ typedef struct Given {
                        and go back */
     bool asks;      /* pages wait for a guess before they show the answer */
 } Given;
-
-/* ---- time ---------------------------------------------------------------- */
 
 enum {
     SPEED_LEAST = -6, /* lowest speed: a step every 64 frames, about 1 s */
@@ -79,8 +75,6 @@ typedef struct Time {
     bool gained;  /* a rise of the total energy was reported */
 } Time;
 
-/* ---- commands ------------------------------------------------------------ */
-
 enum { QUEUE_MOST = 16 };
 
 /* Commands that wait until the present one is obeyed and no step is being made:
@@ -106,8 +100,7 @@ typedef struct Orders {
     bool refused;        /* a line of the script was refused */
 } Orders;
 
-/* ---- tour ---------------------------------------------------------------- */
-
+/* The guided tour, page by page. */
 typedef struct Tour {
     const LecturePage *left;     /* page that was last open, or NULL */
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
@@ -115,8 +108,6 @@ typedef struct Tour {
     int guesses, right;          /* number of all guesses, of the right ones */
     bool opens;                  /* opening commands of a page are obeyed */
 } Tour;
-
-/* ---- screen -------------------------------------------------------------- */
 
 enum { LABEL_SIZE = 64 }; /* bytes */
 
@@ -133,6 +124,7 @@ typedef struct Frame {
     const OptionRow *number[OPTIONS_MAX_ROWS];
 } Frame;
 
+/* How the window or the frames show the past. */
 typedef struct Screen {
     bool draws;  /* frames are drawn, for a window or for files */
     bool window; /* a window is open */
@@ -154,8 +146,7 @@ typedef struct Screen {
     Frame frame;
 } Screen;
 
-/* ---- hands --------------------------------------------------------------- */
-
+/* The mouse and what it drags. */
 typedef struct Mouse {
     double x, y;      /* pixels */
     bool placed;      /* the position is known */
@@ -170,6 +161,7 @@ typedef struct Mouse {
     Options options; /* values at the start of a drag of a number */
 } Mouse;
 
+/* The hands of the user: held, selected and typed things. */
 typedef struct Hands {
     Mouse mouse;
     bool holds;  /* a node or an obstacle is held */
@@ -179,8 +171,6 @@ typedef struct Hands {
     bool typing;               /* a field is open: keys go into `typed` */
     char typed[28];            /* typed value, answer, or line of a list */
 } Hands;
-
-/* ---- all of it ----------------------------------------------------------- */
 
 typedef struct Player {
     Given given;
@@ -245,7 +235,8 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE]);
 uint64_t player_hash(const Player *player);
 
 /* Copies the present options of all panes.  Returns the number of panes. */
-int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
+int player_copy_options(const Player *player,
+                        Options options[OPTIONS_MAX_PANES]);
 
 /* Finishes the files and closes the window; the past can still be read.
  *   status  in, last status of the run; after a failure files stay NAME.part

@@ -26,7 +26,7 @@ typedef struct Records {
 } Records;
 
 /* Reserves memory for so many records.  Returns false if memory is missing. */
-bool records_fit(Records *records, int count);
+bool records_reserve(Records *records, int count);
 
 /* A Newton iteration and its line search. */
 typedef struct Round {
@@ -70,7 +70,7 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
 /* Whether E along p of the round at a place was not sampled, but would be in a
  * trace with `all`.
  *   place  index of the place; -1: the last round */
-bool step_trace_lacks_line(const StepTrace *trace, int place);
+bool step_trace_lacks_samples(const StepTrace *trace, int place);
 
 /* Adds the round of a Newton iteration, or only its record if memory is
  * missing.

@@ -69,7 +69,7 @@ static void fill_settings(const Player *player, Frame *frame)
 {
     FrameContent *content = &frame->content;
     const Hit *mouse = &player->screen.view.over;
-    const Options shown = player_numbers(player), *options = &shown;
+    const Options shown = player_shown_options(player), *options = &shown;
     const OptionRow *all[OPTIONS_MAX_ROWS];
     content->settings.selected = -1;
     frame->numbers = player_visible_options(player, false, frame->number);
@@ -108,7 +108,7 @@ static void fill_settings(const Player *player, Frame *frame)
 static void fill_options(const Player *player, FrameContent *content)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
-    const Options options = player_numbers(player);
+    const Options options = player_shown_options(player);
     content->list.rows = player_visible_options(player, true, all);
     for (int i = 0; i < content->list.rows; i++) {
         ListRow *row = &content->list.row[i];
@@ -369,7 +369,7 @@ static void update_hover(Player *player)
     view->hover = frame_pick(content, &layout, mouse->x, mouse->y);
 }
 
-void player_fill(Player *player)
+void player_fill_frame(Player *player)
 {
     fill_frame(player, &player->screen.frame);
     update_hover(player);
@@ -406,9 +406,9 @@ Paper *player_paper(Player *player)
     return paper;
 }
 
-void player_paint(Player *player, Paper *paper)
+void player_paint_frame(Player *player, Paper *paper)
 {
-    player_fill(player);
+    player_fill_frame(player);
     if (player->screen.blank)
         canvas_clear(&paper->canvas, 0xff000000u);
     else

@@ -146,7 +146,7 @@ static Status enter_typed(Player *player)
 static Status drag_number(Player *player, const Under *under)
 {
     const Mouse *mouse = &player->hands.mouse;
-    const Options now = player_numbers(player);
+    const Options now = player_shown_options(player);
     bool edge = mouse->index < 0;
     const OptionRow *row =
         edge ? option_find("stretch") : player->hands.selected;
@@ -339,7 +339,7 @@ static Status go_on_dragging(Player *player)
 
 /* Notes what is under the mouse for the next frame; shows a cell of the
  * envelope at once. */
-static Status hover(Player *player)
+static Status note_hover(Player *player)
 {
     View *view = &player->screen.view;
     Under under = find_under_mouse(player);
@@ -375,7 +375,7 @@ static Status press_number(Player *player, int index, int clicks)
                      player->hands.selected - option_rows);
     mouse->drag = COMMAND_SET;
     mouse->index = index;
-    mouse->options = player_numbers(player);
+    mouse->options = player_shown_options(player);
     return STATUS_OK;
 }
 
@@ -524,7 +524,7 @@ static Status use_mouse(Player *player, const Input *input)
         return turn_wheel(player, input->amount);
     if (mouse->drag != COMMAND_NONE)
         return go_on_dragging(player);
-    return rests ? STATUS_OK : hover(player);
+    return rests ? STATUS_OK : note_hover(player);
 }
 
 /* A drag is one gesture, and so are successive turns of the wheel. */

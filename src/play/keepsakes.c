@@ -12,8 +12,8 @@
 enum { NOTE_LINE = 100 }; /* longest command line of a note, bytes */
 
 /* Finds a name that no file has: elasto_SCENE_000012.png, ..._2.png, ... */
-static void free_name(const Player *player, const char *end, char *name,
-                      size_t size)
+static void find_free_name(const Player *player, const char *end, char *name,
+                           size_t size)
 {
     char number[16] = "";
     for (int i = 2; i < 100000; i++) {
@@ -33,9 +33,9 @@ Status obey_shot(Player *player, const Command *command)
     Paper *paper = player_paper(player);
     Status status = paper ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     player->screen.draws = draws;
-    free_name(player, ".png", name, sizeof name);
+    find_free_name(player, ".png", name, sizeof name);
     if (paper) {
-        player_paint(player, paper);
+        player_paint_frame(player, paper);
         status = png_file_write(name, NULL, &paper->canvas);
     }
     if (status)
@@ -52,7 +52,7 @@ Status obey_film(Player *player, const Command *command)
     bool ends = film_runs(film);
     if (!player->screen.draws)
         return player_refuse(player, "nothing is drawn that could be filmed");
-    free_name(player, ".mp4", name, sizeof name);
+    find_free_name(player, ".mp4", name, sizeof name);
     film->output.message = message;
     Status status =
         ends ? film_close(film, KEEP_WHOLE) : film_open(name, message, film);
@@ -108,7 +108,7 @@ static void put_word(FILE *file, const char *word)
  * if memory is missing.
  *   script  in, name of the script of the session; NULL: no commands were given
  */
-static char *make_line(const Player *player, const char *script)
+static char *write_command_line(const Player *player, const char *script)
 {
     char *line = NULL;
     size_t size;
@@ -152,8 +152,8 @@ Status obey_hash(Player *player, const Command *command)
 {
     char name[80], hash[64];
     bool commands = player->orders.journal.count > 0;
-    free_name(player, ".script", name, sizeof name);
-    char *line = make_line(player, commands ? name : NULL);
+    find_free_name(player, ".script", name, sizeof name);
+    char *line = write_command_line(player, commands ? name : NULL);
     Status status = line ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     if (!status && commands)
         status = write_journal(player, name, line);

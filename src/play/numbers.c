@@ -11,7 +11,7 @@
 /* ---- the row ------------------------------------------------------------- */
 
 /* Returns the option of a command, or NULL. */
-static const OptionRow *row_of(const Command *command)
+static const OptionRow *find_row(const Command *command)
 {
     return command->number < 0 ? NULL : &option_rows[command->number];
 }
@@ -26,7 +26,7 @@ static bool is_number(const Player *player, const OptionRow *row)
 int player_visible_options(const Player *player, bool all,
                            const OptionRow *found[OPTIONS_MAX_ROWS])
 {
-    const Options options = player_numbers(player);
+    const Options options = player_shown_options(player);
     int own = all ? 0 : options_list_fields(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool more = all || player->hands.added >> (row - option_rows) & 1;
@@ -62,7 +62,7 @@ const char *player_idle_reason(const Player *player, const OptionRow *row)
 /* Adds a number to the row and selects it. */
 Status obey_add(Player *player, const Command *command)
 {
-    const OptionRow *row = row_of(command);
+    const OptionRow *row = find_row(command);
     if (!row || !is_number(player, row))
         return player_refuse(player, "this scene has no such number");
     const char *idle = player_idle_reason(player, row);
@@ -136,7 +136,7 @@ static Status put_value(Player *player, int pane, const Command *command,
  * it or a page opens.  Begins new runs if the option needs a new start. */
 Status obey_set(Player *player, const Command *command)
 {
-    const OptionRow *row = row_of(command);
+    const OptionRow *row = find_row(command);
     const Simulation *simulation = player_simulation(player);
     Options options[OPTIONS_MAX_PANES];
     if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE ||
@@ -149,7 +149,7 @@ Status obey_set(Player *player, const Command *command)
     bool one = player->tour.opens || player_panes_differ(player, row);
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);
-    player_options(player, options);
+    player_copy_options(player, options);
     double old = options[player->active].number[row->slot];
     Status status = STATUS_OK;
     for (int p = from; p < to && !status; p++)
@@ -175,7 +175,7 @@ Status obey_set(Player *player, const Command *command)
 Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
                          double *value)
 {
-    const Options now = player_numbers(player);
+    const Options now = player_shown_options(player);
     if (row->count > 1)
         return player_refuse(player, "several numbers: type them");
     *value = option_turn_wheel(row, &now, notches);
@@ -204,14 +204,14 @@ Status obey_raise(Player *player, const Command *command)
 /* Sets an option to its value on the page, the command line or in the scene. */
 Status obey_default(Player *player, const Command *command)
 {
-    const OptionRow *row = row_of(command);
+    const OptionRow *row = find_row(command);
     const Options *now = &past_start(&player->past, 0)->options;
     Options options[OPTIONS_MAX_PANES];
     int count;
     if (!row || !row->label)
         return player_refuse(player, "there is no such number");
-    Status status = player_default_options(player, now->scene->name, now->page,
-                                           options, &count);
+    Status status = player_find_defaults(player, now->scene->name, now->page,
+                                         options, &count);
     if (!status)
         player_enqueue_set(player, row, options->number[row->slot]);
     return status;

@@ -71,7 +71,7 @@ static Status check_number(Player *player, const Command *command)
 
 /* Returns the command that a key stands for now, with which a script leads to
  * the same state. */
-static Command command_meant(const Player *player, const Command *asked)
+static Command resolve_command(const Player *player, const Command *asked)
 {
     const double *x = player_simulation(player)->run[0].x;
     Command meant = *asked;
@@ -92,7 +92,7 @@ static bool reveals_answer(Player *player, const Command *command,
     if (!player_hides_answer(player) ||
         (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
         return false;
-    *status = player_reveal(player, NULL);
+    *status = player_reveal_answer(player, NULL);
     return true;
 }
 
@@ -153,7 +153,7 @@ Status player_obey_page(Player *player)
 
 Status player_answer(Player *player, const char *typed)
 {
-    Status status = player_reveal(player, typed);
+    Status status = player_reveal_answer(player, typed);
     return status ? status : obey_queue(player, false);
 }
 
@@ -213,7 +213,7 @@ static bool waits_for_step(Player *player, const Command *command)
 Status player_obey(Player *player, const Command *asked)
 {
     Past *past = &player->past;
-    Command command = command_meant(player, asked);
+    Command command = resolve_command(player, asked);
     const unsigned flags = command_rows[command.kind].flags;
     long step = past->step, newest = past_newest(past);
     int now = past->now;
@@ -238,7 +238,8 @@ Status player_obey(Player *player, const Command *asked)
                    player->orders.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_works(past);
-    player_complete_line(player); /* a card with E along p may be open now */
+    player_sample_line_energy(
+        player); /* a card with E along p may be open now */
     if (past_works(past) && (!worked || !(flags & SCREEN))) {
         Status shown = player_work(player);
         status = status ? status : shown;
@@ -251,8 +252,6 @@ Status player_obey(Player *player, const Command *asked)
     status = player_tolerate_failure(player, status);
     return status ? status : obey_queue(player, false);
 }
-
-/* ---- steps --------------------------------------------------------------- */
 
 Status player_continue(Player *player)
 {

@@ -33,8 +33,6 @@ Status output_report_failure(const Output *output, const char *why)
                          why);
 }
 
-/* ---- files --------------------------------------------------------------- */
-
 Status output_open(const char *name, char *message, Output *output)
 {
     struct stat info;
@@ -72,8 +70,6 @@ Status output_close(Output *output, Keep keep)
     output->file = NULL;
     return whole ? STATUS_OK : output_report_failure(output, NULL);
 }
-
-/* ---- rows ---------------------------------------------------------------- */
 
 void table_columns(Table *table, const char *names)
 {

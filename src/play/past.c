@@ -30,7 +30,7 @@ long past_newest(const Past *past)
 
 /* Returns the pane of the branch below that a pane continues; a pane that was
  * added continues the last one. */
-static int pane_below(const Branch *branch, int pane)
+static int find_pane_below(const Branch *branch, int pane)
 {
     int last = branch[-1].panes - 1;
     return pane < last ? pane : last;
@@ -39,10 +39,10 @@ static int pane_below(const Branch *branch, int pane)
 /* Returns the entry of a step in a branch, or for steps before the branch in a
  * branch below; after the last step the entry that is being made.  NULL: no
  * such step. */
-static Entry *branch_entry(const Branch *branch, int pane, long step)
+static Entry *find_branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first && !branch->fresh; branch--)
-        pane = pane_below(branch, pane);
+        pane = find_pane_below(branch, pane);
     long i = step - branch->first;
     return i < 0 || i >= branch->room
                ? NULL
@@ -51,7 +51,7 @@ static Entry *branch_entry(const Branch *branch, int pane, long step)
 
 static Entry *find_entry(const Past *past, int pane, long step)
 {
-    return branch_entry(present_branch(past), pane, step);
+    return find_branch_entry(present_branch(past), pane, step);
 }
 
 const Entry *past_entry(const Past *past, int pane, long step)
@@ -68,7 +68,7 @@ const Control *past_start(const Past *past, int pane)
 {
     const Branch *branch = present_branch(past);
     for (; !branch->fresh; branch--)
-        pane = pane_below(branch, pane);
+        pane = find_pane_below(branch, pane);
     return branch->entry[pane].control;
 }
 
@@ -243,8 +243,8 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     return STATUS_OK;
 }
 
-/* Leaves the step of a machine.  Its state was stored at least until now, since
- * edits may need it. */
+/* Leaves the step of a machine.  The state was stored for edits; only now it
+ * can be dropped. */
 static void machine_leave_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
@@ -293,8 +293,8 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     for (int p = 0; p < branch->panes && !branch->fresh; p++)
         for (int i = 0; i < branch->given; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
-            *to = *branch_entry(branch - 1, pane_below(branch, p),
-                                branch->first + i);
+            *to = *find_branch_entry(branch - 1, find_pane_below(branch, p),
+                                     branch->first + i);
             control_retain(to->control);
             to->sample = NULL;
             if (i > 0)
@@ -312,7 +312,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 /* ---- machines ------------------------------------------------------------ */
 
 /* Time step, s; 1 in scenes without time. */
-static double timestep_of(const Machine *machine)
+static double machine_timestep(const Machine *machine)
 {
     const Simulation *simulation = &machine->simulation;
     return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
@@ -321,7 +321,7 @@ static double timestep_of(const Machine *machine)
 
 /* Returns the Newton object of the first run that has one, whose iterations are
  * traced; NULL while another run makes its step. */
-static const Newton *traced_newton(const Simulation *simulation)
+static const Newton *find_traced_newton(const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
@@ -339,11 +339,11 @@ static bool observe_newton(void *user, const NewtonRecord *record)
     machine->outcome.updates += record->alpha != 0;
     if (machine->simulation.scene->step) /* each step is one update */
         machine->outcome.change = record->change;
-    const Newton *newton = traced_newton(&machine->simulation);
+    const Newton *newton = find_traced_newton(&machine->simulation);
     if (newton && machine->trace.size > 0 && record->iteration >= 0)
         step_trace_add(&machine->trace, newton, record);
     Records *records = &machine->records;
-    if (records_fit(records, records->count + 1))
+    if (records_reserve(records, records->count + 1))
         records->row[records->count++] = *record;
     else
         records->lost = true;
@@ -589,7 +589,8 @@ static Status machine_advance(Past *past, int pane, Status status)
     machine->substeps += moved;
     if (past_makes(past) && status)
         past->worst = status;
-    double middle = simulation_time(simulation) + 0.5 * timestep_of(machine);
+    double middle =
+        simulation_time(simulation) + 0.5 * machine_timestep(machine);
     const Entry *to = past_entry(past, pane, machine->step + 1);
     bool more = to ? machine->substeps < to->substeps
                    : moved && middle < past->target &&
@@ -618,7 +619,7 @@ static Status machine_work(Past *past, int pane)
         return machine_end_pane(past, pane, to->outcome.status);
     if (past->keeps)
         step_trace_begin(&machine->trace, &machine->simulation, past->walks,
-                         pane == past->line);
+                         pane == past->line_pane);
     machine->before = machine->simulation.steps;
     machine->iterating = true;
     return machine_advance(past, pane, simulation_begin(&machine->simulation));
@@ -632,7 +633,7 @@ static Status begin_new_step(Past *past)
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
-        double pace = timestep_of(machine);
+        double pace = machine_timestep(machine);
         if (pace <= longest || has_ended(past_entry(past, p, machine->step)))
             continue;
         longest = pace;
@@ -728,13 +729,13 @@ void past_aim(Past *past, long step, bool again)
     leave_all_steps(past);
 }
 
-void past_complete(Past *past, int place)
+void past_sample_line_energy(Past *past, int place)
 {
-    bool whole = past->work == WORK_DONE && past->line >= 0;
+    bool whole = past->work == WORK_DONE && past->line_pane >= 0;
     for (int p = 0; p < past_panes(past); p++)
         whole = whole && !past->machine[p].failed;
-    if (whole && past->machine[past->line].known &&
-        step_trace_lacks_line(&past->machine[past->line].trace, place))
+    if (whole && past->machine[past->line_pane].known &&
+        step_trace_lacks_samples(&past->machine[past->line_pane].trace, place))
         past_aim(past, past->step, true);
 }
 
@@ -814,8 +815,9 @@ static bool changes_state(const Command *edit)
 
 /* Returns the control after an edit, or NULL if memory is missing.
  *   simulation  in, at the step that is edited */
-static const Control *edited_control(const Control *from, const Command *edit,
-                                     const Simulation *simulation)
+static const Control *make_edited_control(const Control *from,
+                                          const Command *edit,
+                                          const Simulation *simulation)
 {
     char message[256];
     Control *control = control_copy(from);
@@ -852,7 +854,7 @@ static Status edit_entry(Past *past, int pane, const Command *edit,
     Simulation *simulation = &past->machine[pane].simulation;
     if (!is_state_edit(edit)) {
         const Control *control =
-            edited_control(entry->control, edit, simulation);
+            make_edited_control(entry->control, edit, simulation);
         if (!control)
             return STATUS_OUT_OF_MEMORY;
         control_release(entry->control);
@@ -934,7 +936,7 @@ void past_create(bool keeps, bool goes_on, Past *past)
                    .written = -1,
                    .booked = -1,
                    .limit = PAST_BYTES,
-                   .line = -1};
+                   .line_pane = -1};
 }
 
 void past_free(Past *past)

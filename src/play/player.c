@@ -35,7 +35,7 @@ Status player_draw(Player *player)
     bool fresh = player->screen.drawn != player->past.step;
     bool filmed = film_runs(&player->recording.film);
     player->screen.drawn = player->past.step;
-    player_paint(player, paper);
+    player_paint_frame(player, paper);
     Status status =
         player->screen.size[0] ? STATUS_OK : window_show(&paper->canvas);
     int slow = player->time.speed < 0 ? -player->time.speed : 0;

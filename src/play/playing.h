@@ -23,15 +23,15 @@ const Options *player_settings(const Player *player);
 
 /* Returns the options of the active pane, with the time step of its simulation,
  * which some scenes change by themselves. */
-Options player_numbers(const Player *player);
+Options player_shown_options(const Player *player);
 
 /* Finds the default options of a page or, if it is NULL, of a scene; for the
  * scene of the command line these are the options given there.
  *   options  [OPTIONS_MAX_PANES] out
  *   count    out, number of panes */
-Status player_default_options(Player *player, const char *scene,
-                              const LecturePage *page, Options *options,
-                              int *count);
+Status player_find_defaults(Player *player, const char *scene,
+                            const LecturePage *page, Options *options,
+                            int *count);
 
 /* Whether the panes have different values of this option. */
 bool player_panes_differ(const Player *player, const OptionRow *row);
@@ -44,7 +44,7 @@ bool player_is_slow(const Player *player);
 
 /* If a card draws E along p, has it sampled from now on, and the shown step
  * made once more if it was not sampled there; player_work follows. */
-void player_complete_line(Player *player);
+void player_sample_line_energy(Player *player);
 
 /* Returns the speed at the start of a run, SPEED_LEAST ... SPEED_MOST: from the
  * options; else from the scene, if the run is attended; else a step a frame. */
@@ -142,7 +142,7 @@ bool player_hides_answer(const Player *player);
 /* Shows the answer of the page, judges the guess, and puts the page's commands
  * for the answer into the queue.
  *   typed  in, the guess, or NULL */
-Status player_reveal(Player *player, const char *typed);
+Status player_reveal_answer(Player *player, const char *typed);
 
 /* ---- numbers.c ----------------------------------------------------------- */
 
@@ -173,14 +173,14 @@ void sheet_close(Player *player);
 /* ---- frame.c ------------------------------------------------------------- */
 
 /* Fills player->screen.frame, and finds what is now under the mouse. */
-void player_fill(Player *player);
+void player_fill_frame(Player *player);
 
 /* Returns the paper in the present size; NULL if the player does not draw, or
  * memory is missing. */
 Paper *player_paper(Player *player);
 
 /* Fills and draws the frame on a paper. */
-void player_paint(Player *player, Paper *paper);
+void player_paint_frame(Player *player, Paper *paper);
 
 /* ---- screen.c, keepsakes.c, and functions of commands -------------------- */
 
@@ -199,7 +199,8 @@ Status player_obey_page(Player *player);
 /* Obeys lines of a script, separated by ;, or none for NULL. */
 Status player_obey_lines(Player *player, const char *lines);
 
-/* Shows the answer of the page, as player_reveal, and obeys its commands. */
+/* Shows the answer of the page, as player_reveal_answer, and obeys its
+ * commands. */
 Status player_answer(Player *player, const char *typed);
 
 /* Obeys the commands in the queue, up to one that must wait for the end of a

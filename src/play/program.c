@@ -73,7 +73,7 @@ static int print_information(const Options *options)
 }
 
 /* Returns advice for the user after a failure. */
-static const char *failure_advice(const Player *player, Status status)
+static const char *find_advice(const Player *player, Status status)
 {
     bool time = player->given.options[0].scene->needs & NEEDS_TIME;
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE
@@ -110,9 +110,9 @@ static int report_failure(const Player *player, Status status)
     if (p < panes)
         return print_error(code, "%sstep %ld failed: %s%s", pane,
                            player->past.machine[p].simulation.steps + 1,
-                           status_text(status), failure_advice(player, status));
+                           status_text(status), find_advice(player, status));
     return print_error(code, "%s%s", status_text(status),
-                       failure_advice(player, status));
+                       find_advice(player, status));
 }
 
 /* ---- summary ------------------------------------------------------------- */

@@ -68,7 +68,7 @@ static void add_energies(Table *table, const Moment *at)
 }
 
 /* Returns the text of a number in a column of the log. */
-static const char *text_in_log(const char *column, int number)
+static const char *find_log_text(const char *column, int number)
 {
     static const char *const kinds[] = {"value", "estimate"};
     return strcmp(column, "status") == 0   ? status_name((Status)number)
@@ -140,8 +140,6 @@ Status png_file_write(const char *name, char *message, const Canvas *canvas)
     return status;
 }
 
-/* ---- frames of an earlier run -------------------------------------------- */
-
 /* Finds the frames that are in the folder before the first one is written. */
 static void find_old_frames(Recording *recording)
 {
@@ -172,7 +170,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
         return STATUS_OK;
     recording->standard = recording->standard || output_is_standard(name);
     recording->tables = true;
-    table->text = text_in_log;
+    table->text = find_log_text;
     table_columns(table, kinds[t].columns);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (t == RECORDING_ENERGIES && row->term) {

@@ -82,8 +82,8 @@ Status obey_quit(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Closes the topmost open thing.  If nothing is open, a second Escape ends the
- * program, unless there is work to lose. */
+/* Closes the topmost open thing.  With everything closed a second Escape ends
+ * the program, if there is no work to lose. */
 Status obey_escape(Player *player, const Command *command)
 {
     bool asked = player->orders.leaving == COMMAND_ESCAPE;
@@ -121,7 +121,7 @@ Status obey_camera(Player *player, const Command *command)
         *lens = LENS_FITS;
     if (command->kind == COMMAND_FIT || !paper)
         return STATUS_OK;
-    player_fill(player);
+    player_fill_frame(player);
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
     Camera camera = camera_of_pane(content, &layout, player->active);
@@ -141,7 +141,7 @@ Status obey_camera(Player *player, const Command *command)
 Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
-    player_fill(player);
+    player_fill_frame(player);
     bool closed = player->screen.frame.content.cards.closed >> card & 1;
     if (command->kind == COMMAND_CARD || closed)
         player->screen.closed ^= 1u << card;
@@ -163,7 +163,7 @@ Status obey_choose(Player *player, const Command *command)
     int way = up || strcmp(key, "Left") == 0 ? -1 : 1, i = *chosen + way;
     if (!paper)
         return STATUS_OK;
-    player_fill(player);
+    player_fill_frame(player);
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
     const Box *cell = layout.cell, *now = &cell[*chosen];

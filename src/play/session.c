@@ -33,14 +33,15 @@ const Options *player_settings(const Player *player)
     return &past_control(&player->past, player->active)->options;
 }
 
-Options player_numbers(const Player *player)
+Options player_shown_options(const Player *player)
 {
     Options options = *player_settings(player);
     options.timestep = player_simulation(player)->options.timestep;
     return options;
 }
 
-int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
+int player_copy_options(const Player *player,
+                        Options options[OPTIONS_MAX_PANES])
 {
     const Past *past = &player->past;
     for (int p = 0; p < past_panes(past); p++) {
@@ -50,9 +51,9 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
     return past_panes(past);
 }
 
-Status player_default_options(Player *player, const char *scene,
-                              const LecturePage *page, Options *options,
-                              int *count)
+Status player_find_defaults(Player *player, const char *scene,
+                            const LecturePage *page, Options *options,
+                            int *count)
 {
     const Options *given = &player->given.options[0];
     *count = 1;
@@ -102,13 +103,13 @@ bool player_is_slow(const Player *player)
            simulation->system.nodes > SLOW_NODES;
 }
 
-void player_complete_line(Player *player)
+void player_sample_line_energy(Player *player)
 {
     bool is_drawn = player->screen.draws && !player->screen.bare &&
                     cards_need_line_energy(player_simulation(player),
                                            player->screen.closed);
-    player->past.line = is_drawn ? player->active : -1;
-    past_complete(&player->past, player->side[player->active].place);
+    player->past.line_pane = is_drawn ? player->active : -1;
+    past_sample_line_energy(&player->past, player->side[player->active].place);
 }
 
 int player_initial_speed(const Player *player, const Options *options)

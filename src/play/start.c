@@ -23,7 +23,7 @@ Status obey_scene(Player *player, const Command *command)
     int count;
     bool runs = player->time.mode >= MODE_END || !player_is_stopped(player);
     Status status =
-        player_default_options(player, command->text, NULL, options, &count);
+        player_find_defaults(player, command->text, NULL, options, &count);
     if (!status)
         status = player_begin_runs(player, options, count, command);
     if (status)
@@ -125,7 +125,7 @@ Status player_begin_again(Player *player, const Options *options, int panes,
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
-    int panes = player_options(player, options);
+    int panes = player_copy_options(player, options);
     for (int p = 0; p < panes; p++)
         if (clear_start(player, p, &options[p]))
             return STATUS_INVALID_INPUT;
@@ -178,7 +178,7 @@ static void judge_guess(Player *player, bool right, const char *format, ...)
 }
 
 /* A guess may be wrong by two percent, since it is calculated on paper. */
-Status player_reveal(Player *player, const char *typed)
+Status player_reveal_answer(Player *player, const char *typed)
 {
     const LecturePage *page = player_settings(player)->page;
     const OptionRow any = {
@@ -234,7 +234,7 @@ Status obey_page(Player *player, const Command *command)
     } else {
         page = &lecture_pages[0];
     }
-    Status status = player_default_options(player, "", page, &options, &count);
+    Status status = player_find_defaults(player, "", page, &options, &count);
     if (status)
         return status;
     status = player_begin_runs(player, &options, 1, command);
@@ -266,14 +266,12 @@ Status obey_predict(Player *player, const Command *command)
         return STATUS_OK;
     double way = math_hypot(guess->end[0] - at[0], guess->end[1] - at[1]);
     bool right = guess->distance <= 0.1 * way;
-    Status status = player_reveal(player, NULL);
+    Status status = player_reveal_answer(player, NULL);
     judge_guess(player, right,
                 right ? "Your click is right." : "Your click is %s off.",
                 format_number(guess->distance).text);
     return status;
 }
-
-/* ---- the envelope -------------------------------------------------------- */
 
 Status obey_cell(Player *player, const Command *command)
 {

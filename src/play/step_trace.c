@@ -10,7 +10,7 @@
 /* A line search with fewer trials is walked through trial by trial. */
 enum { TRIALS_WALKED = 12 };
 
-bool records_fit(Records *records, int count)
+bool records_reserve(Records *records, int count)
 {
     if (count <= records->room)
         return true;
@@ -74,7 +74,7 @@ static bool reserve_round(StepTrace *trace)
         trace->round = round;
         trace->room = 2 * count;
     }
-    return records_fit(&trace->records, count);
+    return records_reserve(&trace->records, count);
 }
 
 /* ---- rounds -------------------------------------------------------------- */
@@ -104,7 +104,7 @@ static void store_line(StepTrace *trace, const Iterate *at)
         sample_line(round, at);
 }
 
-bool step_trace_lacks_line(const StepTrace *trace, int place)
+bool step_trace_lacks_samples(const StepTrace *trace, int place)
 {
     int last = trace->records.count - 1;
     int i = place < 0 ? last : trace->place[place].round;

@@ -271,7 +271,7 @@ static void detect_rest(Player *player)
 
 /* Shows a line of Algorithm 3 in each pane whose step has some: the first line,
  * the last one, or the update at which E was highest in an explosion. */
-static void enter_lines(Player *player, AfterWork after)
+static void enter_line_walk(Player *player, AfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         const StepTrace *trace = &player->past.machine[p].trace;
@@ -421,7 +421,7 @@ static Status finish_work(Player *player, Status status, long before, bool made)
     else if (!status && after == AFTER_COMPARE)
         compare_outcomes(player);
     else if (!status && after != AFTER_NOTHING)
-        enter_lines(player, after);
+        enter_line_walk(player, after);
     return status;
 }
 
@@ -431,7 +431,7 @@ Status player_work(Player *player)
     double begin = clock_now();
     if (player->time.began == 0)
         player->time.began = begin;
-    player_complete_line(player);
+    player_sample_line_energy(player);
     while (past_works(past) && !player->quit) {
         long before = past->step;
         bool made = past_makes(past);
@@ -440,7 +440,7 @@ Status player_work(Player *player)
             status = finish_work(player, status, before, made);
             if (status)
                 return status;
-            player_complete_line(player);
+            player_sample_line_energy(player);
         }
         player->quit = player->quit || *player->given.stop;
         bool begins = past_makes(past) && !made && player_is_slow(player);
@@ -533,7 +533,7 @@ Status obey_back(Player *player, const Command *command)
     if (player->side[player->active].place < 0 && step > 0) {
         if (!player_machine(player)->known)
             return player_seek(player, step, AFTER_LEAVE);
-        enter_lines(player, AFTER_LEAVE);
+        enter_line_walk(player, AFTER_LEAVE);
     }
     if (player->side[player->active].place >= 0 && walk_lines(player, -1))
         return STATUS_OK;

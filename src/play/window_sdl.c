@@ -120,9 +120,8 @@ static void find_scale(double scale[2])
 
 double window_letter(void)
 {
-    double scale[2] = {1, 1};
-    if (window)
-        find_scale(scale);
+    double scale[2];
+    find_scale(scale);
     return 9 * scale[0];
 }
 

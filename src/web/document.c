@@ -255,7 +255,7 @@ static void put_numbers(Writer *to, const Player *player)
                                   ? NULL
                                   : player->screen.frame.content.lecture.page;
     const OptionRow *row[OPTIONS_MAX_ROWS];
-    const Options now = player_numbers(player);
+    const Options now = player_shown_options(player);
     int count = player_visible_options(player, true, row);
     for (int i = 0; i < count; i++) {
         char value[COMMAND_TEXT_SIZE], unit[16];

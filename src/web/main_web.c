@@ -72,12 +72,12 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
     words[0] = '\0';
     if (!plays)
         return words;
-    int count, panes = player_options(player, now);
+    int count, panes = player_copy_options(player, now);
     bool same = now->page == given->page && now->scene == given->scene;
     base[0] = *given; /* options that are left out where they have this value */
     if ((panes != given->panes && !now->page) ||
-        (!same && player_default_options(player, now->scene->name, now->page,
-                                         base, &count)))
+        (!same && player_find_defaults(player, now->scene->name, now->page,
+                                       base, &count)))
         return words;
     for (int i = 0; same && (i = player_next_argument(player, i + 1));)
         append(words, sizeof words, "%s\n", player->given.words[i]);
@@ -205,7 +205,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
     if (!status && !row->lines)
         player_run(player);
     player->screen.window = true; /* from here on as in the page */
-    player_fill(player);
+    player_fill_frame(player);
 }
 
 /* Draws the picture of the printed page (card -1) or a card, and shows it on
@@ -217,7 +217,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
     player->screen.size[1] = height;
     Paper *paper = player_paper(player);
     if (paper && card < 0)
-        player_paint(player, paper);
+        player_paint_frame(player, paper);
     else if (paper)
         frame_draw_card(paper, &player->screen.frame.content, card);
     if (paper)
@@ -229,7 +229,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_cover(void)
 {
     session->player.given.asks = true;
     session->player.tour.revealed = NULL;
-    player_fill(&session->player);
+    player_fill_frame(&session->player);
 }
 
 /* ---- the loop ----------------------------------------------------------- */

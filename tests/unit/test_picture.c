@@ -349,7 +349,7 @@ static void frame_of(const char *line, int step, Canvas frame[2])
             text_free(paper.text);
             paper.text = NULL;
         }
-        player_paint(&player, &paper);
+        player_paint_frame(&player, &paper);
         frame[plain] = paper.canvas;
         paper.canvas = (Canvas){0};
         paper_free(&paper);

@@ -63,7 +63,7 @@ TEST(rest_is_reported_where_nothing_moves)
         run_until_it_pauses();
         CHECK(player.time.mode == MODE_REST);
         CHECK(strncmp(player.note, "at rest", 7) == 0);
-        player_fill(&player);
+        player_fill_frame(&player);
         CHECK(strcmp(player.screen.frame.content.strip.state, "at rest") == 0);
         compare_with_plain_run(lines[i]);
         CHECK_AT_MOST(way_that_is_left(), 0.002);

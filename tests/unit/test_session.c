@@ -38,7 +38,7 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
 /* Where the nodes of the active pane are drawn. */
 static uint64_t shape_shown(void)
 {
-    player_fill(&player);
+    player_fill_frame(&player);
     const Pane *pane =
         &player.screen.frame.content.pane[player.screen.frame.content.active];
     const unsigned char *byte = (const unsigned char *)pane_x(pane);
@@ -95,7 +95,7 @@ static void read_words(const char *verb, const char *words)
     const char *among = strcmp(verb, "list") == 0 ? listed : written;
     bool wanted = strcmp(verb, "lacks") != 0;
     written[0] = listed[0] = '\0';
-    player_fill(&player);
+    player_fill_frame(&player);
     column = layout_now().column;
     CHECK_STATUS(player_draw(&player), STATUS_OK);
     if ((strstr(among, words) != NULL) != wanted)
@@ -154,7 +154,7 @@ static void press_letter(char letter)
 
 static const Setting *number_shown(const char *name, int *place)
 {
-    player_fill(&player);
+    player_fill_frame(&player);
     for (int i = 0; i < player.screen.frame.content.settings.count; i++)
         if (strcmp(player.screen.frame.content.settings.item[i].name, name) ==
                 0 ||
@@ -227,7 +227,7 @@ static void point_at(const char *place)
 {
     double x, y;
     int i = 0;
-    player_fill(&player);
+    player_fill_frame(&player);
     Layout layout = layout_now();
     if (sscanf(place, "%lf %lf", &x, &y) == 2) {
         mouse[0] += x;
@@ -264,7 +264,7 @@ static double scale_before;
 
 static double scale_now(void)
 {
-    player_fill(&player);
+    player_fill_frame(&player);
     Layout layout = layout_now();
     return camera_of_pane(&player.screen.frame.content, &layout, 0).scale[0];
 }
@@ -491,7 +491,7 @@ static void look(const char *line)
 {
     static char copy[sizeof facts];
     bool found = false;
-    player_fill(&player);
+    player_fill_frame(&player);
     collect_facts();
     memcpy(copy, facts, sizeof copy);
     for (char *at = strtok(copy, "\n"); at && !found; at = strtok(NULL, "\n")) {
@@ -724,7 +724,7 @@ static void check_value(const char *line)
     char name[64];
     const char *digits = strrchr(line, ' ') + 1;
     snprintf(name, sizeof name, "%.*s", (int)(digits - line) - 1, line);
-    player_fill(&player);
+    player_fill_frame(&player);
     double number = find_number(name);
     if (!has_digits(number, digits))
         fail_msg("%s is %.12g at step %ld, not %s", name, number,
@@ -953,7 +953,7 @@ static void grips_go_where_they_are_dragged(void **unused)
 static uint64_t all_but(int place)
 {
     uint64_t hash = seen("state") + (uint64_t)player.past.step;
-    player_fill(&player);
+    player_fill_frame(&player);
     for (int i = 0; i < player.screen.frame.content.settings.count; i++)
         for (const char *c = player.screen.frame.content.settings.item[i].value;
              i != place && *c; c++)
