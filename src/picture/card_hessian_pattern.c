@@ -112,7 +112,8 @@ void hessian_pattern_draw(const Plot *card)
     for (int k = 0; k < 2; k++) {
         int x = inside.x + k * (side + gap);
         paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
-                    ALIGN_LEFT, k ? "order of elimination" : "rows 2i, 2i + 1");
+                    ALIGN_LEFT,
+                    k ? "order of elimination" : "node i: rows 2i, 2i + 1");
         draw_matrix(card, (Box){x, inside.y + line, side, side}, !k, springs);
     }
     Plot rest = *card; /* room below, for the newest spring's block of H */
