@@ -33,9 +33,6 @@ static int put_words(Paper *paper, Box inside, int y, double size, double room,
     TextLine line = text_begin(&active_pane(content)->values, words->text);
     if (words->head) {
         int width = paper_pixels(paper, room * size);
-        if (draw)
-            paper_write(paper, FACE_BOLD, size, words->colour, box.x, y,
-                        ALIGN_LEFT, "%s", words->head);
         box.x += width;
         box.width -= width;
     }
@@ -45,6 +42,9 @@ static int put_words(Paper *paper, Box inside, int y, double size, double room,
             box.y += paper_paragraph(paper, FACE_REGULAR, letters, COLOUR_TEXT,
                                      box, draw ? lines : 0, line.words);
     }
+    if (draw && words->head && box.y > y)
+        paper_write(paper, FACE_BOLD, size, words->colour, inside.x, y,
+                    ALIGN_LEFT, "%s", words->head);
     return box.y + (box.y > y ? (int)(GAP * text_line(size * paper->em)) : 0);
 }
 

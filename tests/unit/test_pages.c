@@ -6,6 +6,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/fracture.h"
@@ -237,10 +238,12 @@ TEST(pages_ask_what_has_an_answer)
 /* ---- frames -------------------------------------------------------------- */
 
 /* A frame's smallest letters in pixels, also those of scripts; the number of
- * words that are cut and of points outside their axes; all texts, with blanks
- * between. */
+ * words that are cut, of words in the column or numbers over others, and of
+ * points outside their axes; all texts, with blanks between. */
+enum { WORDS = 512 };
 static struct {
-    int smallest, smallest_code, ellipses, cut, outside;
+    int smallest, smallest_code, ellipses, cut, over, outside, words;
+    Box column, word[WORDS];
     char texts[1 << 15];
 } seen;
 
@@ -278,6 +281,18 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                 left + wide > place->x + place->width + 1.5 ||
                 y + style->size > place->y + place->height + 1.5;
     snprintf(seen.texts + used, sizeof seen.texts - used, "%s ", markup);
+    Box word = {(int)left + 1, (int)y, (int)wide - 2, (int)(0.4 * style->size)};
+    char *end;
+    strtod(markup, &end);
+    /* words of a picture may touch */
+    bool counts = !*end || box_contains(seen.column, left + 1, y);
+    for (int i = 0; i < seen.words && counts; i++)
+        seen.over += word.x < seen.word[i].x + seen.word[i].width &&
+                     seen.word[i].x < word.x + word.width &&
+                     abs(word.y - seen.word[i].y) < word.height;
+    assert_true(seen.words < WORDS);
+    seen.word[seen.words] = word;
+    seen.words += counts;
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
@@ -339,6 +354,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     frame_describe(&content);
     memset(&seen, 0, sizeof seen);
     seen.smallest = seen.smallest_code = INT_MAX;
+    seen.column = layout_create(&content, width, height).column;
     frame_draw(paper, &content);
     bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
     if (kind == CODE) { /* the picture and a star stay */
@@ -355,18 +371,21 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     if (kind < CODE)
         missing = missing_words(&content, kind == LARGE);
     if (!good || missing || (large && seen.ellipses > 0) ||
-        (kind != LIST && seen.cut > 0) || (!cuts && seen.outside > 0))
-        fail_msg("page %s, step %ld, at %d x %d, %d: letters of %d, of code "
-                 "%d, %d cut, %d outside, %d beyond the axes, no '%s'",
-                 page->name, simulation->steps, width, height, kind,
-                 seen.smallest, seen.smallest_code, seen.ellipses, seen.cut,
-                 seen.outside, missing ? missing : "");
+        (kind != LIST && seen.cut > 0) || seen.over > 0 ||
+        (!cuts && seen.outside > 0))
+        fail_msg(
+            "page %s, step %ld, at %d x %d, %d: letters of %d, of code "
+            "%d, %d cut, %d outside, %d over others, %d beyond the axes, no "
+            "'%s'",
+            page->name, simulation->steps, width, height, kind, seen.smallest,
+            seen.smallest_code, seen.ellipses, seen.cut, seen.over,
+            seen.outside, missing ? missing : "");
 }
 
 /* On every page, as it opens and later, letters have a 55th of the height, in
  * large type a 35th, and no text of it is cut off; code of lecture.c, whose
- * lines have up to 80 letters, a 50th.  No word is outside its card, no curve
- * outside its axes. */
+ * lines have up to 80 letters, a 50th.  No word is outside its card or over
+ * another one, no curve outside its axes. */
 TEST(pages_are_read_from_the_back_row)
 {
     static const int sizes[][2] = {{1280, 800}, {1366, 768}, {1920, 1080}};
@@ -391,7 +410,8 @@ TEST(pages_are_read_from_the_back_row)
     CHECK(layout_create(&content, 1280, 800).em > 800 / 40);
 }
 
-/* Nor is a word outside its place in any scene, in windows of several sizes. */
+/* Nor is a word outside its place, or over another one, in any scene, in
+ * windows of several sizes. */
 TEST(scenes_keep_their_words_in_place)
 {
     static const int sizes[][2] = {{900, 900}, {800, 600}, {1280, 800}};
@@ -404,11 +424,14 @@ TEST(scenes_keep_their_words_in_place)
             frame_create(simulation, &content);
             frame_describe(&content);
             memset(&seen, 0, sizeof seen);
+            seen.column =
+                layout_create(&content, sizes[s][0], sizes[s][1]).column;
             frame_draw(&paper, &content);
             paper_free(&paper);
-            if (seen.cut > 0)
-                fail_msg("%s at %d x %d: %d words cut", scenes[i].name,
-                         sizes[s][0], sizes[s][1], seen.cut);
+            if (seen.cut > 0 || seen.over > 0)
+                fail_msg("%s at %d x %d: %d words cut, %d over others",
+                         scenes[i].name, sizes[s][0], sizes[s][1], seen.cut,
+                         seen.over);
         }
         free_all_begun();
     }

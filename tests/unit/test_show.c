@@ -242,27 +242,29 @@ TEST(states_show_what_they_are)
     }
 }
 
-/* Cells below five pixels are faces: inside the outline each pixel is covered;
- * what has folded over is dark, and stands above the rest. */
+/* Cells below five pixels are faces with a blue outline, inside which each
+ * pixel is covered; what has folded over is dark, and stands above the rest. */
 TEST(fine_squares_are_faces)
 {
     stand_up("square --segments 90 --turn 17 --stretch 1.3", 0);
     set_size(400, 400);
     content.bare = true;
     draw();
-    int white = 0, covered = 0;
+    int white = 0, covered = 0, blue = 0;
     for (int j = 0; j < 400; j++) {
         int left = 0, right = 399;
         while (left < 400 && pixel(left, j) == COLOUR_WHITE)
             left++;
         while (right > left && pixel(right, j) == COLOUR_WHITE)
             right--;
-        for (int i = left; i < right; i++)
+        for (int i = left; i < right; i++) {
             white += pixel(i, j) == COLOUR_WHITE;
+            blue += (pixel(i, j) >> 16 & 255) < 150;
+        }
         covered += right > left ? right - left + 1 : 0;
     }
     double width = 400 / 1.75; /* of the side; a pixel of outline around it */
-    CHECK(white == 0);
+    CHECK(white == 0 && blue > 3 * width);
     CHECK_NEAR(covered, width * width / 1.3, 8 * width);
     CHECK(on_stage(COLOUR_FOLDED) == 0);
     double *x = simulation.run[0].x;
