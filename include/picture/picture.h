@@ -13,12 +13,12 @@ typedef struct Plot Plot; /* drawing area with its coordinates (plot.h) */
 
 enum { CARD_COLUMNS = 9, CARD_CELL = 96 };
 
-/* A row of the table in a card. */
-typedef struct TableRow {
+/* A row of the table that a card shows. */
+typedef struct CardTableRow {
     int columns;
-    Colour colour;                      /* of the first cell */
+    Colour colour;                      /* colour of the first cell */
     char cell[CARD_COLUMNS][CARD_CELL]; /* markup; "": not known yet */
-} TableRow;
+} CardTableRow;
 
 /* A box of the column with numbers or a graph about the active pane. */
 typedef struct Card {
@@ -38,13 +38,13 @@ typedef struct Card {
     bool only_in_lecture;   /* is hidden outside of the lecture */
     const char *words;      /* text, all known lines of which are shown */
     const struct ListingRow *rows; /* algorithm line by line (cards.h) */
-    /* Fills row 0 of a table, which has the heads, 1, ...  Returns false after
-     * the last row. */
-    bool (*table)(const FrameContent *content, int row, TableRow *cells);
-    /* Draws the content: curves, unless has_no_curves is set, and words and
-     * table, unless a document shows these.  NULL: words or rows are drawn. */
+    /* Fills row 0, 1, ... of the card's table; row 0 has the heads.  Returns
+     * false after the last row.  NULL: the card has no table. */
+    bool (*table)(const FrameContent *content, int row, CardTableRow *cells);
+    /* Draws the content: curves, words and table; in a document only curves.
+     * NULL: words or rows are drawn. */
     void (*draw)(const Plot *card);
-    bool has_no_curves;
+    bool has_no_curves; /* a document has all of the content as text */
 } Card;
 
 typedef struct Picture {

@@ -77,14 +77,13 @@ static int put_rows(const FrameContent *content, const ListingRow *row,
     return count;
 }
 
-/* Height of a row in ems; an audience reads the rows of a page from far away.
- */
+/* Returns the height of a row, ems; the rows of a page are read from afar. */
 static double row_pitch(const FrameContent *content)
 {
     return content->lecture.page ? PAGE_PITCH : PITCH;
 }
 
-/* Height in ems, with title and margin. */
+/* Returns the height of the card, ems. */
 double listing_needed_height(const FrameContent *content, double wide,
                              double em)
 {
@@ -103,11 +102,11 @@ void card_write_rows(const Plot *card, const ListingRow *row)
     put_rows(card->content, row, card, line);
 }
 
-/* Fills a row for each update of the step, and one that says where the loop
- * ends. */
-bool prints_fill_row(const FrameContent *content, int row, TableRow *cells)
+/* Fills a row for each update of the step, and a last row about the end of the
+ * loop. */
+bool prints_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
-    static const TableRow heads = {
+    static const CardTableRow heads = {
         4,
         COLOUR_TEXT,
         {"iteration", "residual, m/s", "step size", "divided by"}};
@@ -142,7 +141,7 @@ void prints_draw(const Plot *card)
     Paper *paper = card->paper;
     Plot below = *card;
     Box inside = card->box;
-    TableRow cells;
+    CardTableRow cells;
     const Trace *trace = card->pane->update;
     bool star = inside.height > 14 * paper->em;
     double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);

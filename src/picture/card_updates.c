@@ -123,13 +123,13 @@ void step_energy_draw(const Plot *card)
 
 /* Fills a row for each update so far; the row of the current update has the
  * cells that are known at this line. */
-bool updates_fill_row(const FrameContent *content, int row, TableRow *cells)
+bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
-    static const TableRow heads = {5,
-                                   COLOUR_TEXT,
-                                   {"update", "projected",
-                                    "\u2016{p}\u2016_{\u221e}/h, m/s",
-                                    "{alpha}", "change of E, J s\u00b2"}};
+    static const CardTableRow heads = {5,
+                                       COLOUR_TEXT,
+                                       {"update", "projected",
+                                        "\u2016{p}\u2016_{\u221e}/h, m/s",
+                                        "{alpha}", "change of E, J s\u00b2"}};
     const Trace *trace = active_pane(content)->trace;
     *cells = heads;
     if (!trace || row == 0)
@@ -159,8 +159,8 @@ bool updates_fill_row(const FrameContent *content, int row, TableRow *cells)
 
 static const double UPDATE_PITCH = 1.45; /* ems, height of a row of the table */
 
-/* Height in ems of a table of the updates so far, six at least, with its
- * header, the title and margins. */
+/* Returns the height of the card, ems, with a row for each update so far, at
+ * least six. */
 double updates_needed_height(const FrameContent *content, double wide,
                              double em)
 {
@@ -176,7 +176,7 @@ void updates_draw(const Plot *card)
     static const double right[] = {0.05, 0.25, 0.52, 0.63, 1};
     double pitch = UPDATE_PITCH * card->em, y = card->box.y + 0.2 * card->em;
     int room = (int)(card->box.height / pitch - 1), rows = 0;
-    TableRow cells;
+    CardTableRow cells;
     while (updates_fill_row(card->content, rows, &cells))
         rows++;
     int skipped = rows - 1 > room ? rows - 1 - room : 0;

@@ -42,7 +42,8 @@ typedef void StageAddValues(const Simulation *simulation, LiveValues *values);
 typedef void StagePick(const Plot *stage, double x, double y, Pick *pick);
 typedef int StageSample(const Simulation *simulation, Energy *row);
 typedef void CardDraw(const Plot *card);
-typedef bool CardTable(const FrameContent *content, int row, TableRow *cells);
+typedef bool CardTable(const FrameContent *content, int row,
+                       CardTableRow *cells);
 typedef double CardNeeds(const FrameContent *content, double wide, double em);
 extern StageBounds square_bounds, circle_bounds, mass_bounds, tangent_bounds,
     spring_bounds, race_bounds;

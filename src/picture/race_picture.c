@@ -157,12 +157,12 @@ static void put_cell(char cell[CARD_CELL], const char *sign, double value,
 /* Fills the row of a method: error, quotient of errors each time h is halved
  * (or epsilon below the reference's error), energy left after a second, longest
  * stable h, run time. */
-bool race_fill_row(const FrameContent *content, int row, TableRow *cells)
+bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
-    static const TableRow heads = {CARD_COLUMNS,
-                                   COLOUR_TEXT,
-                                   {"", "error, m", "h/2", "h/4", "h/8", "h/16",
-                                    "energy", "stable h", "time"}};
+    static const CardTableRow heads = {CARD_COLUMNS,
+                                       COLOUR_TEXT,
+                                       {"", "error, m", "h/2", "h/4", "h/8",
+                                        "h/16", "energy", "stable h", "time"}};
     const Race *race = &active_pane(content)->simulation->exhibit.race;
     int method = row - 1;
     *cells = heads;
@@ -221,7 +221,7 @@ void race_table_draw(const Plot *card)
     const int *next = order[card->simulation->exhibit.switches != 0];
     Paper *paper = card->paper;
     Box inside = card->box;
-    TableRow cells;
+    CardTableRow cells;
     double wide[CARD_COLUMNS], gap = 0.8 * paper->em, rest = inside.width;
     double line = fmin(3.6 * paper->em, inside.height / (RACE_METHODS + 1.0));
     bool shown[CARD_COLUMNS] = {false};

@@ -264,9 +264,11 @@ static void write_digits(double x, char text[ITERATE_TEXT])
 
 /* Fills a row for each iterate; the digits that differ from those of the zero
  * of g are grey. */
-bool iterates_fill_row(const FrameContent *content, int row, TableRow *cells)
+bool iterates_fill_row(const FrameContent *content, int row,
+                       CardTableRow *cells)
 {
-    static const TableRow heads = {2, COLOUR_TEXT, {"iterate", "its digits"}};
+    static const CardTableRow heads = {
+        2, COLOUR_TEXT, {"iterate", "its digits"}};
     const Simulation *simulation = active_pane(content)->simulation;
     char root[ITERATE_TEXT], x[ITERATE_TEXT];
     int right = 0;
@@ -290,7 +292,7 @@ static void draw_iterates(const Plot *card)
     Paper *paper = card->paper;
     int rows = (int)(card->box.height / (pitch * paper->em));
     int first = count > rows ? count - rows : 0;
-    TableRow cells;
+    CardTableRow cells;
     for (int i = first; iterates_fill_row(card->content, i + 1, &cells); i++) {
         int y = card->box.y + paper_pixels(paper, pitch * (i - first));
         int right = (int)strcspn(cells.cell[1], "#");

@@ -173,7 +173,7 @@ static void put_table(Writer *to, const FrameContent *content, int index,
     enum { MOST_ROWS = 40 };
     const TextLine hint =
         text_first_line(&active_pane(content)->values, text_undrawn);
-    TableRow row;
+    CardTableRow row;
     int rows = 0;
     while (card->table(content, rows, &row))
         rows++;
