@@ -32,10 +32,10 @@ const part = (words, build) => {
 
 // ---- texts ------------------------------------------------------------------
 
-const plain = (text) => text.replace(/[{}^_]/g, '');
+const plain = (text) => text.replace(/#[\w-]+\*?(?=\{)|[{}_]/g, '');
 
-// Makes a link of "page 25", and buttons of the keys in "press N" and "Press Space".
-const LINKS = /([Pp]age[ \u00a0]\d+|(?<=[Pp]ress )(?:Space|[A-Z])\b)/;
+// Makes a link of "page 25", and buttons of keys: "Press Space", "press R and N".
+const LINKS = /([Pp]age[ \u00a0]\d+|(?<=[Pp]ress )(?:Space|[A-Z])\b|(?<=(?:then|and) )[NR]\b)/;
 const addLinks = (element) => {
   const makeLink = (text, i) => {
     const page = i % 2 && lists.pages[text.slice(5) - 1];
@@ -228,7 +228,7 @@ const showGuess = ([[kind, coordinates] = []]) => {
   $('typed').hidden = kind === 'words';
   $('second').hidden = kind !== 'place' || coordinates === '1';
   $('how').textContent = kind === 'place' ? 'Click in the picture, or x' : 'Your answer';
-  if (had && !kind) $('verdict').focus({ preventScroll: true }); // the form is hidden
+  if (had && !kind) $('look').focus({ preventScroll: true }); // the form is hidden
 };
 
 // Called after a frame.  Texts of a run that goes on change every LIVE ms.

@@ -133,11 +133,14 @@ const tourByKeys = async (browser) => {
       !/trust|race|order/.test(name)
     )
       wrong.push(`${name}: the picture has no words`);
-    // An answer, by Tab and Enter: N shows it.
+    // N shows the answer.
     await tab.key('n');
     await tab
       .until(`!field('asks')`, 20000)
       .catch(() => wrong.push(`${name}: N does not show the answer`));
+    const named = /[Pp]ress (Space|[A-Z])\b/.test(await tab.run(`$('try').textContent`));
+    if (named && !(await tab.run(`$('try').querySelectorAll('.key').length`)))
+      wrong.push(`${name}: Try names a key that is no button`);
     if (i + 1 < PAGES.length) await tab.key('PageDown');
     await tab.until(`field('page', 2) === '${PAGES[Math.min(i + 1, PAGES.length - 1)]}'`);
   }
@@ -165,6 +168,7 @@ const tourByKeys = async (browser) => {
   await tab.until(`field('verdict')`, 20000).catch(() => wrong.push('digits are no answer'));
   if (!/72 is right/.test(await tab.run(`$('verdict').textContent`)))
     wrong.push('72 is not judged');
+  if ((await tab.run('document.activeElement.id')) !== 'look') wrong.push('the focus is lost');
   await tab.run(`canvas.focus()`);
   for (const key of ['q', 'Escape', 'Escape']) await tab.key(key);
   const frames = await tab.run('stats.frames');
