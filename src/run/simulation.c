@@ -94,26 +94,17 @@ static Status finish_step(Simulation *simulation, Status status)
     return status;
 }
 
-/* Returns the energy of a run less the work done so far, J.
- *   abs_sum  out, J, sum of the absolute values of all energies */
-static double find_energy_less_work(const Simulation *simulation, int run,
-                                    double *abs_sum)
-{
-    Energies now = simulation_energies(simulation, run);
-    *abs_sum = fabs(now.work);
-    for (int i = 1; i < now.rows; i++)
-        *abs_sum += fabs(now.row[i].value);
-    return now.total - now.work;
-}
-
 /* Books the energy that backward Euler has gained in a step of the present run.
  * A gain below 1e-9 of all energies is due to rounding and the tolerance. */
 static void book_gain(Simulation *simulation)
 {
     int run = simulation->stepping;
-    double abs_sum, now = find_energy_less_work(simulation, run, &abs_sum);
-    double gained = now - simulation->energy_before;
+    const Energies now = simulation_energies(simulation, run);
+    double gained = now.total - now.work - simulation->energy_before;
+    double abs_sum = fabs(now.work);
     bool backward_euler = simulation->run[run].method->at_end;
+    for (int i = 1; i < now.rows; i++)
+        abs_sum += fabs(now.row[i].value);
     if (!backward_euler || !(gained > 1e-9 * abs_sum))
         return;
     simulation->ledger[run].gain.steps++;
@@ -128,9 +119,9 @@ Status simulation_advance(Simulation *simulation)
         TimeIntegrator *run = &simulation->run[simulation->stepping];
         Status status = run->status;
         if (status != STATUS_RUNNING) {
-            double abs_sum;
-            simulation->energy_before = find_energy_less_work(
-                simulation, simulation->stepping, &abs_sum);
+            const Energies now =
+                simulation_energies(simulation, simulation->stepping);
+            simulation->energy_before = now.total - now.work;
             status = time_integrator_begin(run);
         }
         if (status == STATUS_RUNNING)

@@ -24,11 +24,11 @@ static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
 /* s, time steps of the dial: from 1e-3 to 10, ten for each factor of 10. */
 static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 
-static const double DIAL_SHORT_P = 1e-6;  /* m; a shorter p changes E by less
-                                             than rounding, and there is no line
-                                             search */
-static const double DIAL_OFF_LINE = 1e-9; /* m, smallest distance of a start
-                                             from the line through the pins */
+/* m; a shorter p changes E by less than rounding and needs no line search. */
+static const double DIAL_SHORT_P = 1e-6;
+
+/* m, smallest distance of a start from the line through the pins. */
+static const double DIAL_OFF_LINE = 1e-9;
 
 enum { DIAL_MAX_UPDATES = 100 };
 
@@ -387,8 +387,9 @@ void dial_restart(Simulation *simulation)
     minimise(simulation, h, simulation->descent.point);
     memcpy(simulation->run[0].x, simulation->descent.point, sizeof point);
     simulation->descent.value =
-        landscape_evaluate_parts(simulation, PART_BOTH, simulation->run[0].x[0],
-                                 simulation->run[0].x[1]);
+        landscape_at(simulation, PART_BOTH, h, PROJECTION_NONE,
+                     simulation->descent.point)
+            .value;
 }
 
 Status create_dial(Simulation *simulation)
