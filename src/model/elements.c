@@ -65,7 +65,7 @@ enum { PARTS = 6 };
 static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
                                    {0, 1}, {0, 2}, {1, 2}};
 
-/* Returns the number of triplets of a block; all blocks have equally many. */
+/* Returns the number of triplets of a block, the same for every block. */
 static int entries_of_a_block(const EvalPoint *at)
 {
     int node[3], nodes = at->term->kind->element->block_nodes(at, 0, node);

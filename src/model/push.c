@@ -54,9 +54,9 @@ static bool is_pressed(const Contact *contact, const System *system,
     return false;
 }
 
-/* Whether the obstacle may move to o [2].  It may not come nearer than KEPT to
- * a pinned node without contact, unless it was nearer before, and the centre of
- * a ball may not enter a cell. */
+/* Whether the obstacle may move to o [2].  The obstacle may not come nearer
+ * than KEPT to a pinned node without contact, unless it was nearer before, and
+ * the centre of a ball may not enter a cell. */
 static bool has_room(const Contact *contact, const System *system,
                      const double *x, const double o[2])
 {

@@ -219,9 +219,10 @@ static void pair_gradient(const EvalPoint *at, const Element *element,
 }
 
 /* With w = dq - r de, the unit vector t along the edge and e_n = n.de, the
- * second derivative is W'' w_n^2 >= 0, plus F (2 w_t e_n/|e| + d e_n^2/|e|^2)
- * if p is beside the edge, -F/d w_t^2                         if p is beyond an
- * end. This sum is a 2x2 matrix in (w_t, e_n), which is projected. */
+ * second derivative is W'' w_n^2 >= 0, plus
+ *     F (2 w_t e_n/|e| + d e_n^2/|e|^2)   if p is beside the edge,
+ *     -F/d w_t^2                          if p is beyond an end.
+ * The sum is a 2x2 matrix in (w_t, e_n), which is projected. */
 static bool pair_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])
 {
@@ -297,7 +298,7 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
 
 /* Finds the first alpha > 0 at which p lies on the edge: e x q = 0, a quadratic
  * equation, and r in [0, 1].  If p moves along the line of the edge, no root
- * shows the contact with its end; another edge at this end does. */
+ * shows the contact with its end; the other edge at this end has the root. */
 static double pair_max_step(const EvalPoint *at, const Element *element,
                             const double P[4])
 {

@@ -124,8 +124,8 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     return at;
 }
 
-/* The nodes of a band, LANES at once, with `at`; or each Pair of them, `e` of
- * so many. */
+/* EACH_RUN_OF loops over the nodes of a band, LANES of a row at once in `at`;
+ * EACH_NODE_OF also over their Pairs, counted by `e`. */
 #define EACH_RUN_OF(grid, band)                                                \
     for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
          i++)                                                                  \

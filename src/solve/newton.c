@@ -187,9 +187,9 @@ static const NewtonPhases newton_phases = {find_direction, find_step_length,
  *         x = x + alpha p
  *     while |p|_inf / h > tolerance
  *
- * The last p is used.  Its computation is done, and its use makes the result
- * ten to 1e11 times more accurate.  The course's Python tests p before it uses
- * p, and throws the last p away. */
+ * The last p is used: p is known, and its use makes the result ten to 1e11
+ * times more accurate.  The course's Python tests p before it uses p, and
+ * throws the last p away. */
 Status newton_minimise(Newton *newton)
 {
     NewtonRecord *record = &newton->record;

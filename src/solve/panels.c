@@ -13,7 +13,7 @@
 enum { GROUP = 4 };
 
 /* Two and four numbers side by side, an extension of C that gcc and clang
- * share; they may begin at any number of an array. */
+ * share.  The first number may be any number of an array. */
 enum { TWO = 2, FOUR = 4 };
 typedef double Two
     __attribute__((vector_size(TWO * sizeof(double)), aligned(sizeof(double))));
@@ -32,8 +32,8 @@ typedef double Four __attribute__((vector_size(FOUR * sizeof(double)),
 /* An unrolled loop of at most four passes. */
 #define EACH(i, count) _Pragma("GCC unroll 4") for (int i = 0; i < (count); i++)
 
-/* C [m, n] = A [m, k] B^T or, if is_subtracted, C -= A B^T, with B [n, k]
- * and n at most 4; and then, where there is L [n, n], C = C L^-T.  All are
+/* C [m, n] = A [m, k] B^T or, if is_subtracted, C -= A B^T, with B [n, k] and n
+ * at most 4.  If L [n, n] is not NULL, C = C L^-T follows.  The matrices are
  * stored by columns, lda, ldb, ldc, ldl numbers apart. */
 typedef struct Product {
     int m, n, k;
@@ -45,7 +45,8 @@ typedef struct Product {
     int ldl;
 } Product;
 
-/* Rows of C's n columns, from row i on: so many (`wide`) Lanes. */
+/* Defines a function that computes `wide` Lanes of rows of C's n columns, from
+ * row i on. */
 #define ROWS(rows, Lanes, wide)                                                \
     INLINE void rows(const Product *at, int i, int n, const double *inverse)   \
     {                                                                          \

@@ -6,9 +6,9 @@
  * 4 x 16 nodes relax by vertex block descent (Chen, Liu, Yang, Yuksel 2024):
  * each node in turn makes Newton's step for itself alone, with its 2x2 block of
  * the Hessian as it is.  Where E bends up there, a fold is followed that the
- * clamped Hessian sees as flat.  What E does along such a step is a quartic
- * with known coefficients, so the step may be longer by a factor and E never
- * rises; and a tile knows by how much it fell.
+ * clamped Hessian sees as flat.  Along such a step E is a quartic with known
+ * coefficients.  The step may therefore be longer by a factor without a rise of
+ * E, and the decrease of E in each tile is known.
  */
 #ifndef ELASTO_TILES_H
 #define ELASTO_TILES_H

@@ -141,8 +141,8 @@ INLINE void split(const Rows *rows, int I, int first, const float *line,
     }
 }
 
-/* Of the finer rows around coarse row I, from its column `first` on: columns
- * that coarse ones stand for, and those dj + 1/2 coarse columns from them. */
+/* Numbers of the finer rows around coarse row I, from column `first` on: EVEN
+ * those at the coarse columns, ODD those dj + 1/2 coarse columns further. */
 #define FINER(from)                                                            \
     const float *const a = (from) + place_of(&fine, 2 * I, 0) + first
 #define EVEN(di)    a[(di)*fine.pitch + e]
@@ -245,9 +245,9 @@ typedef enum Visit {
     PRODUCT /* w = A x, and the parts of x.b and x.w are added up */
 } Visit;
 
-/* One colour of row i: 2 for odd rows, and 1 for odd columns.  Springs lead to
- * earlier colours along the row from odd columns, and across rows from odd
- * ones. */
+/* Visits one colour of row i: 2 for odd rows, plus 1 for odd columns.  Springs
+ * lead to earlier colours along the row from odd columns, and across rows from
+ * odd ones. */
 INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
                       float *xb, float *xw)
 {
@@ -330,7 +330,7 @@ INLINE void product_row(const Level *level, int i, double *sums)
     sums[1] += row[1];
 }
 
-/* One plane of row i: to += P from; 0 stays where nodes are held. */
+/* Adds P from to one plane of row i; 0 stays where nodes are held. */
 INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
                         const float *from, float *to)
 {

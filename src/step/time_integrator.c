@@ -68,11 +68,11 @@ void time_integrator_free(TimeIntegrator *run)
 
 /* ---- a step -------------------------------------------------------------
  *
- * The slides' step_forward, for all methods:
+ * The slides' step_forward, here with the formulas of backward Euler:
  *
- *     x_tilde = x + h v                      method->set_target, for backward
- * Euler x = argmin of E                        newton_minimise v = (x - x_n) /
- * h                      method->finish
+ *     x_tilde = x + h v        method->set_target
+ *     x = argmin of E          newton_minimise
+ *     v = (x - x_n) / h        method->finish
  */
 
 /* Counts a step of h. */
