@@ -65,7 +65,7 @@ typedef struct Side {
 /* How steps follow each other. */
 typedef struct Time {
     Mode mode;
-    int fine; /* unit of "next": 0 a step, 1 an update, 2 a line */
+    TimeUnit unit; /* unit of "next" and "back" */
     AfterWork after;
     TracePlace place; /* place to show again after an edit; round -1: none */
     int speed;  /* s: 2^s steps a frame, or a frame lasts 2^-s times as long */

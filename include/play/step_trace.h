@@ -40,6 +40,9 @@ typedef struct Round {
     double *value;     /* [ROUND_VALUES] J s^2, samples of E along p */
 } Round;
 
+/* Units in which a user goes through time. */
+typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
+
 /* A place is where the walk through a step can stop. */
 typedef struct TracePlace {
     int round;  /* index of the round */
@@ -86,9 +89,9 @@ void step_trace_clear(StepTrace *trace);
 void step_trace_free(StepTrace *trace);
 
 /* Finds the next place (way 1) or the one before (-1).
- *   fine  1: only ends of updates, 2: each line
+ *   unit  in, UNIT_UPDATE: places at ends of updates; UNIT_LINE: all places
  * Returns its index, or `place` if the walk ends there. */
-int step_trace_walk(const StepTrace *trace, int fine, int place, int way);
+int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way);
 
 /* Returns the index of the last place of a round up to a line; without this
  * round that of the last place of the step. */

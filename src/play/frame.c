@@ -163,7 +163,7 @@ static void fill_chips(const Player *player, Frame *frame)
         return;
     }
     add_chip(frame, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
-    int next = nears ? 4 : newton ? player->time.fine : time ? 0 : 3;
+    int next = nears ? 4 : newton ? (int)player->time.unit : time ? 0 : 3;
     add_chip(frame, COMMAND_NEXT, next, false);
     add_chip(frame, COMMAND_BACK, 0, false);
     if (options->page) {
@@ -176,7 +176,7 @@ static void fill_chips(const Player *player, Frame *frame)
     }
     add_chip(frame, COMMAND_RESTART, 0, ended);
     if (newton)
-        add_chip(frame, COMMAND_FINER, player->time.fine, false);
+        add_chip(frame, COMMAND_FINER, (int)player->time.unit, false);
     if (simulation_has_projection(simulation))
         add_chip(frame, COMMAND_PROJECTION,
                  options->projection == PROJECTION_NONE, false);

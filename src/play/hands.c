@@ -19,24 +19,24 @@ enum {
 static const double WHEEL_ZOOM = 1.15; /* factor for each notch */
 
 /* The parts of window and scene under the mouse. */
-typedef struct Under {
+typedef struct UnderMouse {
     Layout layout; /* layout of the last frame */
     Hit hit;       /* part of the window */
     int pane;
     double at[2]; /* m, point in the world of this pane */
     Pick pick;    /* part of the scene */
-} Under;
+} UnderMouse;
 
-static Under find_under_mouse(Player *player)
+static UnderMouse find_under_mouse(Player *player)
 {
     const Mouse *mouse = &player->hands.mouse;
     const Paper *paper = player_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     Held *held = &player->screen.view.held;
-    Under under = {.layout =
-                       layout_create(content, paper ? paper->canvas.width : 1,
-                                     paper ? paper->canvas.height : 1),
-                   .pane = player->active};
+    UnderMouse under = {
+        .layout = layout_create(content, paper ? paper->canvas.width : 1,
+                                paper ? paper->canvas.height : 1),
+        .pane = player->active};
     under.hit = layout_hit(&under.layout, mouse->x, mouse->y);
     int pane = held->on                       ? held->pane
                : under.hit.zone == ZONE_STAGE ? under.hit.index
@@ -143,7 +143,7 @@ static Status enter_typed(Player *player)
 
 /* Sets the dragged number by the distance to the start of the drag; a dragged
  * edge of the square sets the stretch, in hundredths. */
-static Status drag_number(Player *player, const Under *under)
+static Status drag_number(Player *player, const UnderMouse *under)
 {
     const Mouse *mouse = &player->hands.mouse;
     const Options now = player_shown_options(player);
@@ -197,7 +197,7 @@ static bool drags_place(const Player *player)
 }
 
 /* Begins a drag of the thing under the mouse, or obeys a click on it. */
-static Status take_under_mouse(Player *player, const Under *under)
+static Status take_under_mouse(Player *player, const UnderMouse *under)
 {
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_settings(player)->page;
@@ -293,7 +293,7 @@ static Status go_on_dragging(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
-    Under under = find_under_mouse(player);
+    UnderMouse under = find_under_mouse(player);
     double dx = mouse->x - mouse->from[0], dy = mouse->y - mouse->from[1];
     Status status = STATUS_OK;
     mouse->moved = mouse->moved || math_hypot(dx, dy) > CLICK_ROOM;
@@ -342,7 +342,7 @@ static Status go_on_dragging(Player *player)
 static Status note_hover(Player *player)
 {
     View *view = &player->screen.view;
-    Under under = find_under_mouse(player);
+    UnderMouse under = find_under_mouse(player);
     Pick pick = under.pick;
     bool same =
         under.hit.zone == view->over.zone &&
@@ -379,7 +379,7 @@ static Status press_number(Player *player, int index, int clicks)
     return STATUS_OK;
 }
 
-static Status press_left(Player *player, const Under *under, int clicks)
+static Status press_left(Player *player, const UnderMouse *under, int clicks)
 {
     char line[16];
     int index = under->hit.index;
@@ -432,7 +432,7 @@ static Status press_left(Player *player, const Under *under, int clicks)
 static Status press_button(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
-    Under under = find_under_mouse(player);
+    UnderMouse under = find_under_mouse(player);
     bool stage = under.hit.zone == ZONE_STAGE;
     const Scene *scene = player_simulation(player)->scene;
     bool nodes = (scene->needs & NEEDS_MESH) && !scene->step;
@@ -490,7 +490,7 @@ static Status release_button(Player *player)
 
 static Status turn_wheel(Player *player, double amount)
 {
-    Under under = find_under_mouse(player);
+    UnderMouse under = find_under_mouse(player);
     if (under.hit.zone == ZONE_SETTING &&
         under.hit.index < player->screen.frame.numbers)
         return raise_number(player,

@@ -163,7 +163,8 @@ Status obey_set(Player *player, const Command *command)
         (row->effect == EFFECT_AGAIN ||
          (player_settings(player)->law && player->past.step > 0 &&
           player_is_stopped(player)) ||
-         (player->time.fine > 0 && player->side[player->active].place >= 0));
+         (player->time.unit != UNIT_STEP &&
+          player->side[player->active].place >= 0));
     if (simulation_find_effect(simulation, row) == EFFECT_START)
         return player_begin_again(player, options, past_panes(&player->past),
                                   command);

@@ -107,7 +107,8 @@ Status player_begin_again(Player *player, const Options *options, int panes,
     const Control *before = control_retain(past_control(&player->past, 0));
     bool opens = edit->kind == COMMAND_RESTART && opens_again(player, options);
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
-    player->time.fine = opens ? 0 : player->time.fine;
+    if (opens)
+        player->time.unit = UNIT_STEP;
     if (!status && opens &&
         player->given.asks) { /* scripts repeat these commands themselves */
         player->orders.queue.pins = before;
@@ -243,7 +244,7 @@ Status obey_page(Player *player, const Command *command)
     player->tour.revealed = NULL;
     player->tour.verdict[0] = '\0';
     player->screen.column = COLUMN_CARDS;
-    player->time.fine = 0;
+    player->time.unit = UNIT_STEP;
     sheet_close(player);
     if (status || !player->given.asks)
         return status;

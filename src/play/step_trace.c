@@ -235,11 +235,11 @@ void step_trace_end(StepTrace *trace, const Options *options)
     add_place(trace, count, LINE_END, 0);
 }
 
-int step_trace_walk(const StepTrace *trace, int fine, int place, int way)
+int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
 {
     for (int i = place + way; 0 <= i && i < trace->places; i += way) {
         Line line = trace->place[i].line;
-        if (fine == 2 || line == LINE_START || line == LINE_TEST ||
+        if (unit == UNIT_LINE || line == LINE_START || line == LINE_TEST ||
             line == LINE_END)
             return i;
     }

@@ -306,7 +306,7 @@ static bool walk_lines(Player *player, int way)
         int *place = &player->side[p].place;
         if (*place < 0)
             continue;
-        int next = step_trace_walk(trace, player->time.fine, *place, way);
+        int next = step_trace_walk(trace, player->time.unit, *place, way);
         moved = moved || next != *place;
         *place = next;
     }
@@ -369,7 +369,7 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     bool failed = machine->failed;
     long step = past->step + failed;
     player->time.place = (TracePlace){.round = -1};
-    if (side->place >= 0 && player->time.fine > 0)
+    if (side->place >= 0 && player->time.unit != UNIT_STEP)
         player->time.place = machine->trace.place[side->place];
     player_forget_step(player);
     describe_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
@@ -497,9 +497,9 @@ Status obey_pause(Player *player, const Command *command)
 
 Status obey_next(Player *player, const Command *command)
 {
-    AfterWork after = command->kind == COMMAND_STEP ? AFTER_NOTHING
-                      : player->time.fine > 0       ? AFTER_ENTER
-                                                    : AFTER_PEAK;
+    AfterWork after = command->kind == COMMAND_STEP    ? AFTER_NOTHING
+                      : player->time.unit != UNIT_STEP ? AFTER_ENTER
+                                                       : AFTER_PEAK;
     player_pause(player);
     if (after == AFTER_ENTER && walk_lines(player, 1))
         return STATUS_OK;
@@ -528,7 +528,7 @@ Status obey_back(Player *player, const Command *command)
     player_pause(player);
     if (step == 0)
         player_note(player, "this is step 0: nothing was before it");
-    if (player->time.fine == 0 || !has_updates(player))
+    if (player->time.unit == UNIT_STEP || !has_updates(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
     if (player->side[player->active].place < 0 && step > 0) {
         if (!player_machine(player)->known)
@@ -546,13 +546,13 @@ Status obey_finer(Player *player, const Command *command)
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
     if (player_settings(player)->next == NEXT_NEARER ||
-        (!has_updates(player) && player->time.fine == 0))
+        (!has_updates(player) && player->time.unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
-    player->time.fine = (player->time.fine + 1) % 3;
+    player->time.unit = (player->time.unit + 1) % UNITS;
     player_pause(player);
-    if (player->time.fine == 0)
+    if (player->time.unit == UNIT_STEP)
         end_line_walk(player);
-    player_note(player, "N and \u2190 go by %s", paces[player->time.fine]);
+    player_note(player, "N and \u2190 go by %s", paces[player->time.unit]);
     return STATUS_OK;
 }
 
