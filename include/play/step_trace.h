@@ -89,7 +89,7 @@ void step_trace_clear(StepTrace *trace);
 void step_trace_free(StepTrace *trace);
 
 /* Finds the next place (way 1) or the one before (-1).
- *   unit  in, UNIT_UPDATE: places at ends of updates; UNIT_LINE: all places
+ *   unit  in, UNIT_UPDATE stops at ends of updates, UNIT_LINE at each place
  * Returns its index, or `place` if the walk ends there. */
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way);
 
