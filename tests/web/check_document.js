@@ -36,7 +36,7 @@ const CUT = `(() => {
   for (const element of document.querySelectorAll(
     'h1, h2, p, summary, label, button, input, select, math, output, #bar > *, td')) {
     const box = element.getBoundingClientRect();
-    if (!box.width || element.closest('.unseen, dialog, #handout') || element.closest('[hidden]')) continue;
+    if (!box.width || element.closest('.unseen, dialog, #handout, [tabindex] > table') || element.closest('[hidden]')) continue;
     const words = element.id || element.className || element.textContent.slice(0, 30);
     if (box.left < -1 || box.right > wide + 1) wrong.push(element.localName + ' ' + words + ' beyond the window');
     if (/^(p|h1|summary|button|label|output)$/.test(element.localName) && element.clientWidth && element.scrollWidth > element.clientWidth + 1)
