@@ -205,6 +205,8 @@ void energies_draw(const Plot *card)
             energies_value_at(one->simulation, one->history, one->series,
                               simulation_time(one->simulation));
         char name[SENTENCE_SIZE], sum[60];
+        if (fabs(value) < find_energy_rounding(one->simulation))
+            value = 0;
         snprintf(name, sizeof name, "%s", one->name ? one->name : "");
         snprintf(sum, sizeof sum, " %s J", format_number(value).text);
         paper_shorten(card->paper, size,
