@@ -48,8 +48,8 @@ typedef struct LecturePage {
     double speed;            /* steps for each frame; 0: as in the scene */
     const char *open;        /* commands at the opening, separated by ';' */
     const char *tell;        /* commands at the answer, separated by ';' */
-    int lines;               /* presses of N before the printed page; 0: picture
-                              */
+    int lines;               /* presses of N before the page is printed; 0: it
+                                is printed at the step `picture` */
     unsigned layers;         /* bits of Layer: additions to the picture */
     NextAction next;         /* effect of the key N after the answer */
     int pause;               /* step at which a run pauses; 0: none */

@@ -29,7 +29,7 @@ double friction_slope(double y, double e);
 
 /* A contact with a normal force in this step. */
 typedef struct Slide {
-    Element element; /* v is t in (a, b), r is mu lambda, N */
+    Element element; /* v: t for its parts a, b; r: mu lambda, N */
     double carry;    /* m, h t.v_wall: travel of the obstacle along t */
 } Slide;
 

@@ -344,8 +344,8 @@ void frame_add_lecture(Column column, const struct LecturePage *left,
 /* Fills the values of all panes. */
 void frame_fill_values(FrameContent *content);
 
-/* Fills the values, and from those of the active pane topic, sentence, method
- * and state, unless they are set.  Must come last before drawing. */
+/* Fills the values of all panes.  Fills topic, sentence, method and state where
+ * they are empty, for the active pane.  Must come last before drawing. */
 void frame_describe(FrameContent *content);
 
 /* Returns the number with this name in the active pane; NaN: unknown. */

@@ -45,7 +45,7 @@ typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
 
 /* A place is where the walk through a step can stop. */
 typedef struct TracePlace {
-    int round;  /* index of the round */
+    int round;  /* index of the Newton iteration in StepTrace */
     Line line;  /* line of Algorithm 3 */
     int trials; /* trials of the line search so far */
 } TracePlace;

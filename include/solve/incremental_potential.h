@@ -98,7 +98,7 @@ static inline double quartic_value(const Quartic *quartic, double alpha)
 typedef struct LineEnergy {
     Quartic smooth;
     const Iterate *at;
-    bool rough; /* has a term with a remainder or with forbidden points */
+    bool rough; /* some term is no polynomial along p, or forbids points */
 } LineEnergy;
 
 /* Prepares the difference from u, x, g, p of the iterate. */

@@ -58,7 +58,7 @@ TextLine text_first_line(const LiveValues *values, const char *text);
 bool text_has_line(const LiveValues *values, const char *text);
 
 /* Writes all known lines of a text into a card, as large as they fit: at most
- * as plain text, 1.2 times that on a page, 1.6 times as a page's star. */
+ * as plain text, 1.2 times that on a page, 1.6 times in its enlarged card. */
 void card_write_text(const Plot *card, const LiveValues *values,
                      const char *text);
 

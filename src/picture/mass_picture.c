@@ -9,7 +9,7 @@
 enum {
     TRAIL = 256,       /* steps that are drawn of a path */
     MASS_GUESSES = 6,  /* fixed-point iterates of a step */
-    MASS_AHEAD = 50,   /* next points of a step that explodes */
+    MASS_AHEAD = 50,   /* next steps that are drawn where h is unstable */
     EIGEN_PIECES = 200 /* pieces of the eigenvalues' path over h */
 };
 

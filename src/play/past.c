@@ -751,7 +751,7 @@ static void invalidate_tables(Past *past, long step, bool changed)
         past->booked = step - 1;
 }
 
-/* Brings all machines to the step that is shown. */
+/* Brings the simulations of all panes to the step that is shown. */
 static Status past_settle(Past *past)
 {
     past_aim(past, past->step, false);

@@ -80,7 +80,7 @@ static const char *find_log_text(const char *column, int number)
 static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* columns of each table */
-    const char *pane;    /* column with several panes, or NULL */
+    const char *pane;    /* column for tables of several panes, or NULL */
     void (*add)(Table *table, const Moment *at); /* NULL for the log */
 } kinds[RECORDING_TABLES] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",

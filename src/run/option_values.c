@@ -112,7 +112,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
 
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
-    if (row && row->kind == OPTION_NAME) { /* -1, the scene's own: the first */
+    if (row && row->kind == OPTION_NAME) { /* -1: the first name */
         snprintf(text, size, "%s", names_at(row->names, (int)fmax(value, 0)));
         return;
     }

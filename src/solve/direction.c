@@ -155,7 +155,7 @@ static double dot(int n, const double *a, const double *b)
  * matrix has lost to rounding. */
 typedef struct ConjugateGradients {
     Projection projection;
-    double enough;    /* part of the first r.z at which they end */
+    double enough;    /* the iteration ends when r.z is this part of the first */
     double rz, first; /* r.z, squared size of the residual, and the first */
 } ConjugateGradients;
 

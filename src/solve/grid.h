@@ -63,8 +63,9 @@ typedef struct Grid {
     Rows rows;
     int segments, bands;
     double length, mass, energy; /* units of the grid: 1/m, 1/kg, 1/(J s^2) */
-    /* Rows with the same masses, or the same springs, share one place: numbers
-     * of row i stand shift[i + 1] further than its nodes. */
+    /* Rows with the same masses, or the same springs, share one place: masses of
+     * row i stand node_shift[i] further than its nodes, springs of row i
+     * spring_shift[i + 1] further. */
     int *node_shift, *spring_shift; /* [nodes + 1] */
     double *c[KINDS];               /* [plane] 0: no spring */
     double *l2[KINDS];              /* [plane] */

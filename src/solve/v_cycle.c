@@ -76,8 +76,8 @@ INLINE Few narrow(Pair low, Pair high)
 #endif
 }
 
-/* Computes the tensors of the springs that start in row i, with iso and along
- * clamped (psd.h). */
+/* Computes the tensors of the springs that start in row i, with negative
+ * eigenvalues replaced by 0 (CLAMPED in grid_spring.h). */
 INLINE void tensor_row(const VCycle *cycle, int i)
 {
     const Grid grid = *cycle->grid;
@@ -353,8 +353,9 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
         }
 }
 
-/* From x = 0 forward, and b of the coarser level: even rows, then odd ones, of
- * each the even columns, then the odd ones. */
+/* Makes one forward Gauss-Seidel pass from x = 0, and restricts the residual to
+ * b of the coarser level.  Even rows come before odd rows, and in each row even
+ * columns before odd columns. */
 FAST static void descend(const Level *l)
 {
     const int nodes = l->rows.nodes, rows = rows_for_both(l);
@@ -482,10 +483,10 @@ bool v_cycle_passes(const Grid *grid, double largest, double square,
 /* Most V-cycles for one direction. */
 enum { MAX_CYCLES = 60 };
 
-/* Conjugate gradients end where p passes the test though its error were MARGIN
- * times its bound.  While p is longer than HOPEFUL of what passes, the next
- * direction will have to: then a remainder of LOOSE times the gradient, in the
- * norm of M^-1, is small enough.  Single precision reaches LEAST of it. */
+/* Conjugate gradients end when p passes the test even with MARGIN times the
+ * bound of its error.  A p longer than HOPEFUL times the longest that passes
+ * needs a further direction anyway: for it a residual of LOOSE times the
+ * gradient is enough, in the norm of M^-1.  Single precision reaches LEAST. */
 static const double MARGIN = 2, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
 
 FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,

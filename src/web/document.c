@@ -95,7 +95,7 @@ static void put_text(Writer *to, const LiveValues *values, const char *word,
 /* ---- the page of the lecture ----------------------------------------------
  */
 
-/* Writes the page's texts; those that tell the answer after the guess alone. */
+/* Writes the texts of the page; while the answer is hidden, no look and try. */
 static void put_page_texts(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
