@@ -34,9 +34,9 @@ typedef struct Card {
     bool half_width_on_page; /* fits into half of a column with a page's text */
     bool starts_closed;
     bool needs_line_energy; /* draws E along p, which play then computes */
-    bool below_picture;     /* as a star is below the picture, not beside it */
+    bool below_picture;     /* stands below the picture if a page enlarges it */
     bool only_in_lecture;   /* is hidden outside of the lecture */
-    const char *words;      /* text, all known lines of which are shown */
+    const char *words;      /* text; lines with unknown numbers are left out */
     const struct ListingRow *rows; /* algorithm line by line (cards.h) */
     /* Fills row 0, 1, ... of the card's table; row 0 has the heads.  Returns
      * false after the last row.  NULL: the card has no table. */

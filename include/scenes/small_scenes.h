@@ -68,8 +68,8 @@ typedef struct SpringValues {
     double along;       /* eigenvalue of P's Hessian along d, J/m^2 */
     double across;      /* eigenvalue of P's Hessian across d, J/m^2 */
     double root_energy; /* P_root, J */
-    double root_along, root_across; /* eigenvalues of P_root, J/m^2; root_across
-                                       is -infinity at d = 0 */
+    double root_along, root_across; /* as above, of P_root; root_across is
+                                       -infinity at d = 0 */
 } SpringValues;
 
 /* Evaluates a spring; d [2] m, l2 m^2, k J/m^2. */
@@ -137,7 +137,8 @@ Status race_measure(Simulation *simulation, const IntegratorMethod *method,
                     double time, long steps, TimeIntegrator *run,
                     RacePoint *point);
 
-/* Run 0 is the start; run 1 is the reference, at its end. */
+/* Makes run[0], the start of each measured run, and run[1], the end of the exact
+ * motion. */
 Status create_race(Simulation *simulation);
 
 /* Makes the next run.  The methods take turns, each from its longest time step

@@ -71,7 +71,7 @@ struct TimeIntegrator {
     double weight; /* s^2, factor of P in E */
     double left;   /* part of the prescribed way that is not done yet */
     int part;      /* parts of the prescribed way so far */
-    long before;   /* Newton's iterations before the first part */
+    long before;   /* Newton's iterations before this step */
     bool blocked;  /* walls and pins cannot move on: a body is in their way */
 };
 

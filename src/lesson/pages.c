@@ -36,7 +36,7 @@ Status lecture_options(const LecturePage *page, Options *options,
 {
     Status status = options_parse_line(page->line, options, message);
     const char *pin = strstr(page->line, "--pin ");
-    if (pin) /* the line's last option: its text stays */
+    if (pin) /* the last option, in text that outlives the call */
         options->pin = pin + strlen("--pin ");
     lecture_enter(page, options);
     options->flips = page->flips;

@@ -31,7 +31,7 @@ typedef struct Plot {
     bool revealed;                /* is on a page whose answer is shown */
     Box box;                      /* pixels, without the numbers of the axes */
     Camera camera;    /* maps the logarithm where an axis is logarithmic */
-    Axis x, y;        /* low = high = 0: no axes, metres */
+    Axis x, y;        /* low = high = 0: metres without axes */
     bool has_text;    /* has room for words */
     double em;        /* pixels */
     int legend_at[2]; /* pixels, position of the legend's next words */

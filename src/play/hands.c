@@ -166,8 +166,8 @@ static Status drag_number(Player *player, const UnderMouse *under)
                                            : order_set(player, row, wanted);
 }
 
-/* Opens the square with the numbers of a cell of the envelope, by commands that
- * a script can repeat. */
+/* Opens the scene `square` with h, k and stretch of a cell of the map, by
+ * commands that a script can repeat. */
 static Status open_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;

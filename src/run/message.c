@@ -16,8 +16,8 @@ static bool is_control(long letter)
            (letter >= 0x2066 && letter <= 0x2069);
 }
 
-/* Returns how many bytes the first character of a text has; 0: the text does
- * not begin with UTF-8, or with a control character. */
+/* Returns how many bytes the first character of a text has; 0: the text
+ * begins with a control character, or with what is not UTF-8. */
 static int count_bytes(const char *text)
 {
     /* [bytes]: smallest character that needs so many bytes */

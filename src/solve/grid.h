@@ -32,7 +32,8 @@ enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
 /* Nodes at once in double and in single precision. */
 enum { LANES = 8, WIDE_LANES = 16 };
 
-/* Half a row is a multiple of so many; a page leaves out lanes behind it. */
+/* The nodes of half a row are padded to a multiple of PADDED, for whole vectors;
+ * in a browser vectors are shorter. */
 #ifdef __wasm_simd128__
 enum { PADDED = LANES };
 #else
@@ -87,8 +88,8 @@ typedef struct Memory {
  * cache, so each starts some lines further than the one before. */
 void *memory_take(Memory *memory, size_t bytes);
 
-/* Zeros for all pieces that were counted, in large pages where there are some.
- * Returns OK, OUT_OF_MEMORY; the caller frees base. */
+/* Allocates zeroed memory for all pieces that memory_take counted, in large
+ * pages of the system if it has them.  Returns OK, OUT_OF_MEMORY; the caller frees base. */
 Status memory_create(Memory *memory);
 
 /* Arrays for segments x segments cells, everything else 0. */

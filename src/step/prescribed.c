@@ -158,7 +158,7 @@ static bool make_part(TimeIntegrator *run, double part)
 /* Makes the largest part of the rest of the way that there is room for.
  *   part      in, the first one that is tried
  *   halvings  in, how many are tried, each half the one before
- *   parts     in, most parts of the whole way
+ *   parts     in, limit of the parts of a step so far
  * Returns the part, or 0 if there was no room. */
 static double make_most(TimeIntegrator *run, double part, int halvings,
                         int parts)
