@@ -137,8 +137,8 @@ Status race_measure(Simulation *simulation, const IntegratorMethod *method,
                     double time, long steps, TimeIntegrator *run,
                     RacePoint *point);
 
-/* Makes run[0], the start of each measured run, and run[1], the end of the exact
- * motion. */
+/* Makes run[0], the start of each measured run, and run[1], the end of the
+ * exact motion. */
 Status create_race(Simulation *simulation);
 
 /* Makes the next run.  The methods take turns, each from its longest time step

@@ -117,8 +117,8 @@ int find_newest_spring(const Simulation *simulation);
 /* Returns the box inside a card, below the title; em in pixels. */
 Box card_inner_box(Box card, double em);
 
-/* Writes the first line of a text whose numbers are all known into the middle of
- * an empty card. */
+/* Writes the first line of a text whose numbers are all known into the middle
+ * of an empty card. */
 void card_write_hint(const Plot *card, const char *text);
 
 /* Returns what a row of a listing shows. */

@@ -19,9 +19,9 @@ static const double MIN_PAIR = 28; /* width of a column for cards in pairs */
 
 static const double BOLD = 1.12;        /* width of a bold letter, in letters */
 static const double STAR_REST = 0.4;    /* part of the stage below a star */
-static const double BELOW_FACTOR = 1.3; /* least height of a star, in heights of its card */
+static const double BELOW_FACTOR = 1.3; /* height of a star, in card heights */
 static const double FOLDS = 1.15;       /* cards fold in less of their height */
-static const double LOW_ROW = 0.75;     /* of the width of a low window: settings */
+static const double LOW_ROW = 0.75;     /* settings: part of a low window */
 
 /* The column's part of the width; at most WIDE_PART for code, or for lists of
  * more than MOST_ROWS rows. */

@@ -285,8 +285,8 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
     return STATUS_OK;
 }
 
-/* Makes run[1], the state from which the run of each cell begins.  run[0] is the
- * run of the shown cell. */
+/* Makes run[1], the state from which the run of each cell begins.  run[0] is
+ * the run of the shown cell. */
 Status create_envelope(Simulation *simulation)
 {
     const Options *options = &simulation->options;

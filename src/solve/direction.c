@@ -155,7 +155,7 @@ static double dot(int n, const double *a, const double *b)
  * matrix has lost to rounding. */
 typedef struct ConjugateGradients {
     Projection projection;
-    double enough;    /* the iteration ends when r.z is this part of the first */
+    double enough;    /* the iteration ends at this part of the first r.z */
     double rz, first; /* r.z, squared size of the residual, and the first */
 } ConjugateGradients;
 

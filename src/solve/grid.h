@@ -32,8 +32,8 @@ enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
 /* Nodes at once in double and in single precision. */
 enum { LANES = 8, WIDE_LANES = 16 };
 
-/* The nodes of half a row are padded to a multiple of PADDED, for whole vectors;
- * in a browser vectors are shorter. */
+/* The nodes of half a row are padded to a multiple of PADDED, for whole
+ * vectors; in a browser vectors are shorter. */
 #ifdef __wasm_simd128__
 enum { PADDED = LANES };
 #else
@@ -64,8 +64,8 @@ typedef struct Grid {
     Rows rows;
     int segments, bands;
     double length, mass, energy; /* units of the grid: 1/m, 1/kg, 1/(J s^2) */
-    /* Rows with the same masses, or the same springs, share one place: masses of
-     * row i stand node_shift[i] further than its nodes, springs of row i
+    /* Rows with the same masses, or the same springs, share one place: masses
+     * of row i stand node_shift[i] further than its nodes, springs of row i
      * spring_shift[i + 1] further. */
     int *node_shift, *spring_shift; /* [nodes + 1] */
     double *c[KINDS];               /* [plane] 0: no spring */
@@ -89,7 +89,8 @@ typedef struct Memory {
 void *memory_take(Memory *memory, size_t bytes);
 
 /* Allocates zeroed memory for all pieces that memory_take counted, in large
- * pages of the system if it has them.  Returns OK, OUT_OF_MEMORY; the caller frees base. */
+ * pages of the system if it has them.  Returns OK or OUT_OF_MEMORY;
+ * the caller frees base. */
 Status memory_create(Memory *memory);
 
 /* Arrays for segments x segments cells, everything else 0. */

@@ -9,8 +9,8 @@
 
 #include "solve/grid_loops.h"
 
-/* The numbers of a spring in a loop: d = x_i - x_j, d2 = |d|^2, s = d2 - l^2, its
- * force factor c, and f = c s. */
+/* The numbers of a spring in a loop: d = x_i - x_j, d2 = |d|^2, s = d2 - l^2,
+ * its force factor c, and f = c s. */
 typedef struct Spring {
     Pair dx, dy, d2, s, c, f;
 } Spring;
