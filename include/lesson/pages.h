@@ -71,7 +71,7 @@ int lecture_count(void);
 
 /* Returns the page with this name, or with this number from 1; NULL: no such
  * page. */
-const LecturePage *lecture_find(const char *text);
+const LecturePage *lecture_find_page(const char *text);
 
 /* Whether the page asks for a click on the picture.  page may be NULL. */
 bool page_wants_click(const LecturePage *page);

@@ -28,10 +28,10 @@ double friction_slope(double y, double e);
 /* ---- the term -------------------------------------------------------- */
 
 /* A contact with a normal force in this step. */
-typedef struct Slide {
+typedef struct SlidingContact {
     Element element; /* v: t for its parts a, b; r: mu lambda, N */
     double carry;    /* m, h t.v_wall: travel of the obstacle along t */
-} Slide;
+} SlidingContact;
 
 /* The data of the term is a struct of this type. */
 typedef struct Friction {
@@ -39,7 +39,7 @@ typedef struct Friction {
     double e;          /* m, eps_v h */
     int slides;        /* number of contacts with a normal force in this step */
     int room;          /* allocated contacts */
-    Slide slide[];     /* [room] contacts of this step */
+    SlidingContact slide[]; /* [room] contacts of this step */
 } Friction;
 
 /* The sum of W over the contacts of the step's start: with obstacles

@@ -80,7 +80,7 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
 
 /* Whether triangle t is one of the two halves of its cell.  The cut is ac if
  * column + row is even, else bd. */
-bool square_mesh_is_half(const SquareMesh *shape, int t);
+bool square_mesh_triangle_is_half(const SquareMesh *shape, int t);
 
 /* Writes the corners of the patch of cells x cells cells whose lower left cell
  * is c; patches at the right and upper side may be smaller.  The patches cover

@@ -187,7 +187,7 @@ void past_aim(Past *past, long step, bool again);
 Status past_iterate(Past *past);
 
 /* Repeats past_iterate while it returns RUNNING; returns its last status. */
-Status past_finish(Past *past);
+Status past_finish_work(Past *past);
 
 /* Prepares to make the shown step once more if E along p is to be drawn at this
  * place of its trace (-1: the end) but was not sampled.  past_iterate follows.

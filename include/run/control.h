@@ -27,7 +27,7 @@ Control *control_of(const Simulation *simulation);
 Control *control_copy(const Control *from);
 
 /* Whether the mouse holds a node or an obstacle. */
-bool control_holds(const Control *control);
+bool control_hand_holds(const Control *control);
 
 /* Finds the present place of an obstacle of a run, less the lift of the run
  * (RunVariant).

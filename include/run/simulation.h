@@ -152,8 +152,8 @@ Effect simulation_find_effect(const Simulation *simulation,
 
 /* Checks that obstacles of changed options overlap no body at its present
  * place.  Returns OK, or INVALID_INPUT with a message. */
-Status simulation_has_room(const Simulation *simulation, const Options *options,
-                           Message message);
+Status simulation_check_room(const Simulation *simulation,
+                             const Options *options, Message message);
 
 /* Returns the part of the straight way to a point that an obstacle of these
  * options can move: 1 if there is room at the end, else the part up to the

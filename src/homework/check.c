@@ -85,7 +85,7 @@ static void report(const char *format, ...)
 static unsigned long long random_state;
 
 /* Returns the next random number from -1 to 1. */
-static double draw_number(void)
+static double random_number(void)
 {
     random_state = random_state * 6364136223846793005u + 1442695040888963407u;
     return (double)(random_state >> 33) / (1u << 30) - 1;
@@ -96,7 +96,7 @@ static Vec2 *draw_points(int n, double size)
 {
     Vec2 *x = allocate(n, sizeof(Vec2));
     for (int i = 0; i < n; i++)
-        x[i] = (Vec2){size * draw_number(), size * draw_number()};
+        x[i] = (Vec2){size * random_number(), size * random_number()};
     return x;
 }
 
@@ -139,11 +139,11 @@ static void draw_solid(int case_number, Solid *solid)
     for (int i = 0; i < solid->nodes; i++) {
         solid->x[i] = add(solid->x[i], mul(0.2, draw_points(1, 1)[0]));
         solid->v[i] = draw_points(1, 0.5)[0];
-        solid->m[i] *= 1.5 + 0.5 * draw_number();
+        solid->m[i] *= 1.5 + 0.5 * random_number();
     }
     for (int s = 0; s < solid->springs; s++) {
-        solid->e[s].k *= 1.5 + 0.5 * draw_number();
-        solid->e[s].l2 *= 1.2 + 0.2 * draw_number();
+        solid->e[s].k *= 1.5 + 0.5 * random_number();
+        solid->e[s].l2 *= 1.2 + 0.2 * random_number();
     }
 }
 
@@ -155,7 +155,7 @@ static void draw_start(int case_number, Case *c)
     c->tol = case_number ? 1e-4 : 1e-2;
     for (int i = 0; i < c->solid.nodes; i++) {
         c->solid.x[i].x *= case_number ? 0.4 : 1.4;
-        c->solid.x[i].y += case_number ? 0.05 * draw_number() : 0;
+        c->solid.x[i].y += case_number ? 0.05 * random_number() : 0;
         c->solid.v[i] = draw_points(1, 1)[0];
     }
 }
@@ -184,7 +184,7 @@ static void draw_case(const Task *task, int case_number, Case *c)
         for (int k = 0; k <= r; k++)
             c->block[r][k] = c->block[k][r] =
                 scale[case_number] *
-                (300 * draw_number() + (r == k) * shift[case_number]);
+                (300 * random_number() + (r == k) * shift[case_number]);
     c->h = 0.02;
     if (task->number == TASK_step_forward)
         draw_start(case_number, c);

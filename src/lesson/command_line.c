@@ -135,7 +135,7 @@ static Status apply_word(const Line *line, const Word *word)
     case OPTION_TEXT:
         return apply_text(line, word);
     case OPTION_PAGE:
-        options->page = lecture_find(word->text[0] ? word->text : "1");
+        options->page = lecture_find_page(word->text[0] ? word->text : "1");
         return options->page ? STATUS_OK : refuse_value(line, word, 1);
     default:
         return apply_numbers(line, word);

@@ -10,7 +10,7 @@ int lecture_count(void)
     return names_count(NAMES_OF(lecture_pages));
 }
 
-const LecturePage *lecture_find(const char *text)
+const LecturePage *lecture_find_page(const char *text)
 {
     int place = names_find_or_number(NAMES_OF(lecture_pages), text);
     return place < 0 ? NULL : &lecture_pages[place];

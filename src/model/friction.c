@@ -78,7 +78,7 @@ static double tangent_part(const Element *row, const double vectors[4])
     return sum;
 }
 
-static double slip_of(const Slide *slide, const double *u)
+static double slip_of(const SlidingContact *slide, const double *u)
 {
     double vectors[4];
     element_vectors(&slide->element, u, vectors);
@@ -106,7 +106,7 @@ static Status friction_begin_step(const TermStep *step)
     friction->slides = 0;
     for (ElementIterator walk = elements_begin(&at, NULL, 0);
          elements_next(&walk);) {
-        Slide slide = {walk.element, 0};
+        SlidingContact slide = {walk.element, 0};
         slide.element.r = walk.kind->friction_limit(
             &at, &walk.element, slide.element.v, &slide.carry);
         slide.element.factor = 1;
@@ -133,7 +133,7 @@ static void friction_end_step(const TermStep *step)
 {
     const Friction *friction = step->term->data;
     for (int i = 0; i < friction->slides; i++) {
-        const Slide *slide = &friction->slide[i];
+        const SlidingContact *slide = &friction->slide[i];
         double vectors[4];
         element_vectors(&slide->element, step->v, vectors);
         double y =
@@ -148,15 +148,16 @@ static const Friction *friction_of(const EvalPoint *at)
     return at->term->data;
 }
 
-static int slide_count(const EvalPoint *at)
+static int slip_count(const EvalPoint *at)
 {
     return friction_of(at)->slides;
 }
 
 /* s is the slip y.  Outside a step (u NULL) friction has no energy. */
-static bool slide_get(const EvalPoint *at, int i, double way, Element *element)
+static bool slip_element(const EvalPoint *at, int i, double way,
+                         Element *element)
 {
-    const Slide *slide = &friction_of(at)->slide[i];
+    const SlidingContact *slide = &friction_of(at)->slide[i];
     (void)way;
     if (!at->u)
         return false;
@@ -166,25 +167,25 @@ static bool slide_get(const EvalPoint *at, int i, double way, Element *element)
 }
 
 /* The Hessian of friction has the same blocks as that of its contact term. */
-static int slide_block_count(const EvalPoint *at)
+static int slip_block_count(const EvalPoint *at)
 {
     EvalPoint source = point_of_contact_term(at);
     return source.term->kind->element->block_count(&source);
 }
 
-static int slide_block_nodes(const EvalPoint *at, int block, int node[3])
+static int slip_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     EvalPoint source = point_of_contact_term(at);
     return source.term->kind->element->block_nodes(&source, block, node);
 }
 
-static double slide_value(const EvalPoint *at, const Element *element)
+static double slip_value(const EvalPoint *at, const Element *element)
 {
     return element->r * friction_value(element->s, friction_of(at)->e);
 }
 
-static void slide_gradient(const EvalPoint *at, const Element *element,
-                           double g[4])
+static void slip_gradient(const EvalPoint *at, const Element *element,
+                          double g[4])
 {
     double force = at->weight * element->r *
                    friction_slope(element->s, friction_of(at)->e);
@@ -193,8 +194,8 @@ static void slide_gradient(const EvalPoint *at, const Element *element,
 }
 
 /* H = mu lambda f0'' t t^T, which has no negative eigenvalue. */
-static bool slide_hessian(const EvalPoint *at, const Element *element,
-                          Projection projection, double H[4][4])
+static bool slip_hessian(const EvalPoint *at, const Element *element,
+                         Projection projection, double H[4][4])
 {
     double bend = at->weight * element->r *
                   friction_curvature(element->s, friction_of(at)->e);
@@ -205,8 +206,8 @@ static bool slide_hessian(const EvalPoint *at, const Element *element,
     return false;
 }
 
-static double slide_line_remainder(const EvalPoint *at, const Element *element,
-                                   const double P[4], double alpha)
+static double slip_line_remainder(const EvalPoint *at, const Element *element,
+                                  const double P[4], double alpha)
 {
     return element->r * friction_remainder(element->s,
                                            alpha * tangent_part(element, P),
@@ -214,14 +215,14 @@ static double slide_line_remainder(const EvalPoint *at, const Element *element,
 }
 
 static const ElementKind slides = {
-    .count = slide_count,
-    .get = slide_get,
-    .block_nodes = slide_block_nodes,
-    .value = slide_value,
-    .gradient = slide_gradient,
-    .hessian = slide_hessian,
-    .line_remainder = slide_line_remainder,
-    .block_count = slide_block_count,
+    .count = slip_count,
+    .get = slip_element,
+    .block_nodes = slip_block_nodes,
+    .value = slip_value,
+    .gradient = slip_gradient,
+    .hessian = slip_hessian,
+    .line_remainder = slip_line_remainder,
+    .block_count = slip_block_count,
 };
 
 const TermKind friction_energy = {
@@ -251,7 +252,7 @@ double friction_work_of_obstacles(const System *system, const double *u)
     const Friction *friction = system_term_data(system, &friction_energy);
     double sum = 0;
     for (int i = 0; friction && i < friction->slides; i++) {
-        const Slide *slide = &friction->slide[i];
+        const SlidingContact *slide = &friction->slide[i];
         double y = slip_of(slide, u);
         sum -= slide->element.r * friction_slope(y, friction->e) * slide->carry;
     }

@@ -195,7 +195,7 @@ static Status neo_hookean_set(System *system, const SquareMesh *mesh,
     data->area = 0.5 * mesh->spacing * mesh->spacing;
     data->node = (int(*)[3])(data + 1);
     for (int c = 0; c < mesh->cells; c++) {
-        int node[4], spring[6], odd = square_mesh_is_half(mesh, 4 * c);
+        int node[4], spring[6], odd = square_mesh_triangle_is_half(mesh, 4 * c);
         square_mesh_get_cell(mesh, c, node, spring);
         system->k[spring[odd ? 4 : 5]] = 0;
         for (int t = 2 * c; t < 2 * c + 2; t++)

@@ -112,7 +112,7 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
     return -1;
 }
 
-bool square_mesh_is_half(const SquareMesh *shape, int t)
+bool square_mesh_triangle_is_half(const SquareMesh *shape, int t)
 {
     int c = t / 4;
     body_of(shape, shape->cells, &c);

@@ -104,7 +104,8 @@ void card_write_rows(const Plot *card, const ListingRow *row)
 
 /* Fills a row for each update of the step, and a last row about the end of the
  * loop. */
-bool prints_fill_row(const FrameContent *content, int row, CardTableRow *cells)
+bool residuals_fill_row(const FrameContent *content, int row,
+                        CardTableRow *cells)
 {
     static const CardTableRow heads = {
         4,
@@ -162,7 +163,7 @@ void prints_draw(const Plot *card)
         card_write_hint(card, text_undrawn);
     for (int i = 0; i < room; i++) {
         double y = inside.y + i * pitch;
-        if (!prints_fill_row(card->content, first + i + 1, &cells))
+        if (!residuals_fill_row(card->content, first + i + 1, &cells))
             return;
         if (first + i == count) {
             paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x, y,

@@ -59,7 +59,7 @@ extern CardDraw page_draw, prints_draw, line_energy_draw, residual_draw,
     step_energy_draw, updates_draw, energies_draw, energy_budget_draw,
     radius_draw, relief_draw, step_matrix_draw, tangent_numbers_draw, law_draw,
     hessian_pattern_draw, spring_profile_draw, race_table_draw;
-extern CardTable prints_fill_row, updates_fill_row, iterates_fill_row,
+extern CardTable residuals_fill_row, updates_fill_row, iterates_fill_row,
     race_fill_row;
 extern CardNeeds page_needed_height, listing_needed_height,
     energies_needed_height, updates_needed_height;

@@ -19,7 +19,7 @@ typedef struct ScalarUpdate {
     const Simulation *simulation;
     double x0, x1, f, slope, curvature;
     double alpha; /* step length; 0: unknown, or all lengths were refused */
-    int refusals; /* number of lengths 1, 1/2, ... that were refused */
+    int refused_lengths; /* number of lengths 1, 1/2, ... that were refused */
     int number;   /* number of the iterate x0 */
     bool is_made;
     bool slopes; /* curve_at and model_at return f' and its tangent */
@@ -41,7 +41,7 @@ static ScalarUpdate find_update(const Simulation *simulation, int i)
         const NewtonRecord *record = &descent->record[i];
         update.x0 = record->from[0];
         update.alpha = record->alpha;
-        update.refusals = record->trials - (record->alpha > 0);
+        update.refused_lengths = record->trials - (record->alpha > 0);
         update.number = i;
         update.is_made = true;
     }
@@ -109,7 +109,7 @@ static void draw_search(const Plot *plot, const ScalarUpdate *update,
         plot_label(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
                    right ? "" : "\u2190 ", format_number(x1).text,
                    right ? " \u2192" : "");
-    for (int i = 0; i < update->refusals; i++, alpha *= 0.5) {
+    for (int i = 0; i < update->refused_lengths; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (x1 - update->x0);
         plot_hollow_disc(plot, (double[2]){x, curve_at(update, x)}, 5, 3.2,
                          COLOUR_WARNING);
@@ -167,7 +167,7 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "tangent", tangent);
     values_add(values, "number", update.number);
     values_add(values, "next number", update.number + 1);
-    values_add_flag(values, "refused lengths", update.refusals > 0);
+    values_add_flag(values, "refused lengths", update.refused_lengths > 0);
     values_add(values, "iterate", x);
     values_add(values, "next", next);
     values_add(values, "double sinh", sinh(2 * x));

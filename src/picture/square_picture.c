@@ -372,7 +372,7 @@ static void draw_origin(const SquarePen *pen)
 }
 
 /* Adds the meaning of the colours to the legend. */
-static void draw_colours(const SquarePen *pen)
+static void add_colour_legend(const SquarePen *pen)
 {
     double percent = 100 * pen->colour_range;
     if (pen->shows_plastic) {
@@ -600,7 +600,7 @@ void square_draw(Plot *stage)
     if (stage->revealed && layers & LAYER_NUMBERS && system->nodes <= NUMBERED)
         draw_numbers(pen);
     if (pen->colour_range > 0)
-        draw_colours(pen);
+        add_colour_legend(pen);
     draw_slide(stage);
     draw_magnifier(pen);
 }

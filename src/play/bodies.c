@@ -84,14 +84,14 @@ Status obey_obstacle(Player *player, const Command *command)
     at[1] = command->y;
     Status status = STATUS_OK;
     for (int p = 0; p < past_panes(&player->past) && !status; p++)
-        status = simulation_has_room(&player->past.machine[p].simulation,
-                                     &moved, MESSAGE(player->message));
+        status = simulation_check_room(&player->past.machine[p].simulation,
+                                       &moved, MESSAGE(player->message));
     return status ? status : edit_all_panes(player, command);
 }
 
 Status obey_drag(Player *player, const Command *command)
 {
-    if (!control_holds(past_control(&player->past, player->active)))
+    if (!control_hand_holds(past_control(&player->past, player->active)))
         return player_refuse(player, "the hand holds nothing");
     player->hands.holds = command->kind == COMMAND_DRAG;
     player->hands.pulled = player->past.step;

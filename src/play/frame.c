@@ -318,7 +318,7 @@ static void fill_frame(const Player *player, Frame *frame)
     fill_settings(player, frame);
     fill_chips(player, frame);
     const Control *control = past_control(past, active);
-    if (control_holds(control) && player->side[active].place < 0)
+    if (control_hand_holds(control) && player->side[active].place < 0)
         content->hand = control;
     content->time_line.steps = past->keeps ? past_newest(past) : 0;
     content->time_line.bar = find_bar;

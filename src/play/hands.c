@@ -85,7 +85,7 @@ static Status raise_number(Player *player, const OptionRow *row, int notches)
 static Keyboard find_keyboard(const Player *player)
 {
     bool number = player->hands.selected;
-    bool list = player_has_list(player);
+    bool list = player_shows_list(player);
     bool asks = player_hides_answer(player);
     return player->hands.typing && (number || list || asks) ? AT_FIELD
            : player->screen.sheet                           ? AT_SHEET
@@ -120,7 +120,7 @@ static Status enter_typed(Player *player)
     const OptionRow *row = player->hands.selected;
     Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
-    if (!row && player_has_list(player)) {
+    if (!row && player_shows_list(player)) {
         status = choose_line(player, player->hands.typed);
         player->hands.typing = player->hands.typing && status;
         return status;

@@ -92,7 +92,7 @@ Status obey_select(Player *player, const Command *command)
 Status obey_type(Player *player, const Command *command)
 {
     char *typed = player->hands.typed;
-    bool list = player_has_list(player),
+    bool list = player_shows_list(player),
          shift = strncmp(command->text, "Shift+", 6) == 0;
     const char *key = command->text + (shift ? 6 : 0);
     if (!player->hands.typing)
@@ -128,8 +128,8 @@ static Status put_value(Player *player, int pane, const Command *command,
                                 MESSAGE(player->message));
     return status || !row->max_times
                ? status
-               : simulation_has_room(&player->past.machine[pane].simulation,
-                                     options, MESSAGE(player->message));
+               : simulation_check_room(&player->past.machine[pane].simulation,
+                                       options, MESSAGE(player->message));
 }
 
 /* Sets an option in all panes, or only in the active one if the panes differ in

@@ -312,7 +312,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 /* ---- machines ------------------------------------------------------------ */
 
 /* Time step, s; 1 in scenes without time. */
-static double machine_timestep(const Machine *machine)
+static double pane_timestep(const Machine *machine)
 {
     const Simulation *simulation = &machine->simulation;
     return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
@@ -589,8 +589,7 @@ static Status machine_advance(Past *past, int pane, Status status)
     machine->substeps += moved;
     if (past_makes(past) && status)
         past->worst = status;
-    double middle =
-        simulation_time(simulation) + 0.5 * machine_timestep(machine);
+    double middle = simulation_time(simulation) + 0.5 * pane_timestep(machine);
     const Entry *to = past_entry(past, pane, machine->step + 1);
     bool more = to ? machine->substeps < to->substeps
                    : moved && middle < past->target &&
@@ -633,7 +632,7 @@ static Status begin_new_step(Past *past)
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
-        double pace = machine_timestep(machine);
+        double pace = pane_timestep(machine);
         if (pace <= longest || has_ended(past_entry(past, p, machine->step)))
             continue;
         longest = pace;
@@ -685,7 +684,7 @@ Status past_iterate(Past *past)
     return goal < past->aim ? begin_new_step(past) : end_work(past);
 }
 
-Status past_finish(Past *past)
+Status past_finish_work(Past *past)
 {
     Status status = STATUS_RUNNING;
     while (status == STATUS_RUNNING)
@@ -755,7 +754,7 @@ static void invalidate_tables(Past *past, long step, bool changed)
 static Status past_settle(Past *past)
 {
     past_aim(past, past->step, false);
-    return past_finish(past);
+    return past_finish_work(past);
 }
 
 Status past_begin(Past *past, const Options *options, int panes, int gesture,

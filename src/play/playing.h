@@ -51,7 +51,7 @@ void player_sample_line_energy(Player *player);
 int player_initial_speed(const Player *player, const Options *options);
 
 /* Whether a list is open whose lines have numbers. */
-bool player_has_list(const Player *player);
+bool player_shows_list(const Player *player);
 
 /* Deselects the number and closes the field. */
 void player_deselect(Player *player);

@@ -19,7 +19,7 @@ typedef struct Moment {
     const Simulation *simulation;
     const TimeIntegrator *run;
     double step, time;
-    int number;               /* index of the run in its simulation */
+    int run_index;            /* index of the run in its simulation */
     int pane;                 /* number of the pane, from 1 */
     int runs, nodes, springs; /* counts in all runs before this one */
 } Moment;
@@ -57,7 +57,8 @@ static void add_springs(Table *table, const Moment *at)
 /* An energy that the run does not have is 0. */
 static void add_energies(Table *table, const Moment *at)
 {
-    const Energies energies = simulation_energies(at->simulation, at->number);
+    const Energies energies =
+        simulation_energies(at->simulation, at->run_index);
     double row[TABLE_COLUMNS] = {at->step, at->time};
     for (int c = 2; c < table->columns; c++)
         for (int r = 0; r < energies.rows; r++)
@@ -227,7 +228,7 @@ Status recording_states(Recording *recording, bool energies_only,
             at.simulation = simulation[i];
             at.run = &simulation[i]->run[r];
             at.time = simulation_time(simulation[i]);
-            at.number = r;
+            at.run_index = r;
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLES; t++)
                 if (kinds[t].add && recording->table[t].output.file &&

@@ -124,7 +124,7 @@ int player_initial_speed(const Player *player, const Options *options)
 
 /* ---- the window ---------------------------------------------------------- */
 
-bool player_has_list(const Player *player)
+bool player_shows_list(const Player *player)
 {
     return player->screen.column == COLUMN_PAGES ||
            player->screen.column == COLUMN_OPTIONS || player->screen.sheet;

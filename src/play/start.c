@@ -220,7 +220,7 @@ Status obey_page(Player *player, const Command *command)
     const LecturePage *page = player_settings(player)->page;
     bool on = command->kind == COMMAND_PAGE_ON;
     if (command->kind == COMMAND_PAGE) {
-        page = lecture_find(command->text);
+        page = lecture_find_page(command->text);
         if (!page)
             return player_refuse(player,
                                  "there is no page '%s', they are 1 ... %d",

@@ -142,7 +142,7 @@ static double *copy_array(const StepTrace *trace, const double *from)
 /* Stores x, u and p of the newest round, if there is memory.  After an update
  * x_trial and u_trial are the iterate before it.  Multigrid's update is not a
  * step along p: p becomes the whole update, and alpha is 1. */
-static void store_round(StepTrace *trace, const Newton *newton)
+static void store_iteration(StepTrace *trace, const Newton *newton)
 {
     Round *round = &trace->round[trace->records.count];
     NewtonRecord *record = &trace->records.row[trace->records.count];
@@ -185,7 +185,7 @@ void step_trace_add(StepTrace *trace, const Newton *newton,
     if (!reserve_round(trace))
         return;
     trace->records.row[trace->records.count] = *record;
-    store_round(trace, newton);
+    store_iteration(trace, newton);
     trace->records.count++;
     free(trace->end);
     trace->end = copy_array(trace, newton->at.x);

@@ -81,13 +81,13 @@ Status player_write_remaining(Player *player)
            !*player->given.stop) {
         long next = past->booked + 1;
         past_aim(past, next, again);
-        status = past_finish(past);
+        status = past_finish_work(past);
         if (!status || status_is_unconverged(status))
             status = record_step(player);
         again = past->booked < next;
     }
     past_aim(past, shown, false);
-    past_finish(past);
+    past_finish_work(past);
     return status;
 }
 
@@ -248,7 +248,8 @@ static void detect_rest(Player *player)
         going++;
         ended = ended && (simulation->done || machine->failed);
         rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
-                simulation->runs == 1 && !control_holds(machine->control) &&
+                simulation->runs == 1 &&
+                !control_hand_holds(machine->control) &&
                 simulation_is_at_rest(simulation);
         bad = bad || machine->outcome.status;
     }
@@ -459,7 +460,8 @@ static Status release_old_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
     int gesture = player->orders.gesture, panes = past_panes(&player->past);
-    if (!control_holds(past_control(&player->past, 0)) || player->hands.holds)
+    if (!control_hand_holds(past_control(&player->past, 0)) ||
+        player->hands.holds)
         return STATUS_OK;
     player->orders.gesture = ++player->orders.gestures;
     Status status = player_edit(player, &release, 0, panes, false);

@@ -499,8 +499,8 @@ static Status check_room(const Simulation *simulation, const Options *options,
     return status;
 }
 
-Status simulation_has_room(const Simulation *simulation, const Options *options,
-                           Message message)
+Status simulation_check_room(const Simulation *simulation,
+                             const Options *options, Message message)
 {
     return check_room(simulation, options, 0, -1, message);
 }

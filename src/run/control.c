@@ -56,7 +56,7 @@ Control *control_copy(const Control *from)
     return control;
 }
 
-bool control_holds(const Control *control)
+bool control_hand_holds(const Control *control)
 {
     return control->hand >= 0 || control->push >= 0;
 }

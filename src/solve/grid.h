@@ -127,6 +127,6 @@ void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
 double grid_keep_momentum(const Grid *grid);
 
 /* x += a p */
-void grid_move(const Grid *grid, double a, const double *p);
+void grid_add_step(const Grid *grid, double a, const double *p);
 
 #endif

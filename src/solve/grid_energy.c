@@ -159,7 +159,7 @@ FAST double grid_keep_momentum(const Grid *of)
     return -0.5 * (moment[0] * moment[0] + moment[1] * moment[1]) / mass;
 }
 
-FAST void grid_move(const Grid *grid, double a, const double *p)
+FAST void grid_add_step(const Grid *grid, double a, const double *p)
 {
     double *const away = grid->away, *const x = grid->x;
     const double *const x_tilde = grid->x_tilde;

@@ -228,7 +228,7 @@ static Status grid_update(Newton *newton)
     NewtonRecord *record = &newton->record;
     const double unit = mg->grid.energy;
     const int tiles = mg->tiles.high * mg->tiles.wide;
-    grid_move(&mg->grid, record->alpha, mg->p);
+    grid_add_step(&mg->grid, record->alpha, mg->p);
     mg->moved += record->alpha * record->residual * newton->settings.h;
     newton->counters.iterations++;
     mg->stalls = mg->stalls || mg->bound > STALLS * mg->last_bound;

@@ -96,7 +96,7 @@ INLINE void columns(const Product *at, int n, bool avx)
         one_row(at, i, n, inverse);
 }
 
-INLINE void multiply_with(const Product *at, bool avx)
+INLINE void multiply_in_groups(const Product *at, bool avx)
 {
     switch (at->n) {
     case 1:
@@ -115,7 +115,7 @@ INLINE void multiply_with(const Product *at, bool avx)
 
 AVX static void multiply_avx(const Product *at)
 {
-    multiply_with(at, true);
+    multiply_in_groups(at, true);
 }
 
 static void multiply(const Product *at)
@@ -123,7 +123,7 @@ static void multiply(const Product *at)
     if (HAS_AVX())
         multiply_avx(at);
     else
-        multiply_with(at, false);
+        multiply_in_groups(at, false);
 }
 
 static int least(int a, int b)

@@ -55,7 +55,7 @@ INLINE bool has_row(int rows, int i)
 
 /* Number of a level's rows; if it is even and a coarser level exists, plus one
  * row outside of the grid, so that the last coarse row lies on a row, too. */
-INLINE int rows_for_both(const Level *level)
+INLINE int rows_with_coarse(const Level *level)
 {
     int nodes = level->rows.nodes;
     return level->coarse ? nodes | 1 : nodes;
@@ -194,7 +194,7 @@ INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
 FAST static void set_up(VCycle *cycle)
 {
     for (const Level *l = cycle->level; l && !cycle->set_up; l = l->coarse) {
-        const int nodes = l->rows.nodes, rows = rows_for_both(l);
+        const int nodes = l->rows.nodes, rows = rows_with_coarse(l);
         for (int row = 0; row < rows + 2; row++) {
             if (l == cycle->level && has_row(nodes, row))
                 tensor_row(cycle, row);
@@ -358,7 +358,7 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
  * columns before odd columns. */
 FAST static void descend(const Level *l)
 {
-    const int nodes = l->rows.nodes, rows = rows_for_both(l);
+    const int nodes = l->rows.nodes, rows = rows_with_coarse(l);
     for (int row = 0; row < rows + 3; row++) {
         int i = row;
         if (i % 2 == 0 && has_row(nodes, i)) {

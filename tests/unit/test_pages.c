@@ -18,7 +18,7 @@
 /* The scene of a page as it is set up, with more options behind its own. */
 static Simulation *open_page(const char *name, const char *more)
 {
-    const LecturePage *page = lecture_find(name);
+    const LecturePage *page = lecture_find_page(name);
     assert_non_null(page);
     Simulation *simulation = simulate("%s %s", page->line, more);
     lecture_enter(page, &simulation->options);

@@ -56,7 +56,7 @@ static void begin_past(const char *line)
 static uint64_t show(long step)
 {
     past_aim(&past, step, false);
-    Status status = past_finish(&past);
+    Status status = past_finish_work(&past);
     CHECK(!status || status_is_unconverged(status));
     CHECK(past.step == step);
     return hash_now();
@@ -158,7 +158,8 @@ TEST(a_pane_that_has_ended_comes_back)
         past.limit = few ? 5 * past.bytes : PAST_BYTES;
         for (long step = 0; step <= STEPS; step++) {
             past_aim(&past, step, false);
-            CHECK((past_finish(&past) == STATUS_NOT_FINITE) == (step == 12));
+            CHECK((past_finish_work(&past) == STATUS_NOT_FINITE) ==
+                  (step == 12));
             CHECK(!few || hash[step] == hash_now());
             hash[step] = hash_now();
         }
@@ -363,7 +364,7 @@ static bool jerked_step(bool descends)
     long before = past.step;
     memcpy(v, run->v, (size_t)size * sizeof *v);
     past_aim(&past, before + 1, false);
-    Status status = past_finish(&past);
+    Status status = past_finish_work(&past);
     if (status && !status_is_unconverged(status)) {
         CHECK(!run->newton && status == STATUS_NOT_FINITE);
         CHECK_SAME_BITS(run->v, v, size);

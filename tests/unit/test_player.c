@@ -85,7 +85,7 @@ TEST(the_curve_goes_through_the_step)
         for (int step = 0; step < 90; step++) {
             past_aim(&player.past, step + 1,
                      true); /* with all lines of the step */
-            Status status = past_finish(&player.past);
+            Status status = past_finish_work(&player.past);
             CHECK(!status || status_is_unconverged(status));
             const StepTrace *kept = &machine(0)->trace;
             for (int place = 0; place < kept->places; place++) {

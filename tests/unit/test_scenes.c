@@ -147,9 +147,9 @@ TEST(obstacles_have_room_in_what_was_torn)
     Simulation *beam = simulate("bend --segments 16");
     beam->run[0].x[0] = 0;
     beam->run[0].x[1] = 0.42;
-    CHECK_OK(simulation_has_room(beam, &beam->options, MESSAGE(message)));
+    CHECK_OK(simulation_check_room(beam, &beam->options, MESSAGE(message)));
     beam->run[0].x[1] = -1;
-    CHECK_STATUS(simulation_has_room(beam, &beam->options, MESSAGE(message)),
+    CHECK_STATUS(simulation_check_room(beam, &beam->options, MESSAGE(message)),
                  STATUS_INVALID_INPUT);
 }
 
