@@ -68,7 +68,7 @@ typedef struct SpringValues {
     double along;       /* eigenvalue of P's Hessian along d, J/m^2 */
     double across;      /* eigenvalue of P's Hessian across d, J/m^2 */
     double root_energy; /* P_root, J */
-    double root_along, root_across; /* as above, of P_root; root_across is
+    double root_along, root_across; /* eigenvalues for P_root; root_across is
                                        -infinity at d = 0 */
 } SpringValues;
 

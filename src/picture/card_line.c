@@ -9,7 +9,7 @@ enum { LINE_POINTS = 161 };
 
 static const double AXIS_END = 1.42;   /* end of the axis, times first trial */
 static const double MAX_ABOVE = 2.2;   /* axis above 0, times that below 0 */
-static const double MAX_UPHILL = 10;   /* the same, if p points uphill */
+static const double MAX_UPHILL = 10;   /* limit where p points uphill */
 static const double WORD_SIZE = 0.88;  /* ems, letters of the words */
 static const double ROW_HEIGHT = 1.25; /* ems, height of a row of words */
 static const double WORDS_WIDTH = 28;  /* ems, width of all words in one row */
