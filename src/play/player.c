@@ -127,7 +127,7 @@ Status player_frame(Player *player)
     if (!status && !past_works(&player->past))
         status = obey_script(player);
     double now = player->screen.window ? clock_now() : 0;
-    if (player->screen.drawn < 0) /* nothing was drawn of the new run yet */
+    if (player->screen.drawn < 0) /* a new run is drawn before its first step */
         player->time.due = now + period;
     bool due = !player->screen.window || now >= player->time.due - EARLY;
     bool first = player->screen.drawn < 0 && player->screen.draws;
