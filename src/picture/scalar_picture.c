@@ -284,7 +284,7 @@ bool iterates_fill_row(const FrameContent *content, int row,
     return true;
 }
 
-/* Writes the newest iterates that fit, the right digits on a light ground. */
+/* Writes the newest iterates that fit, the correct digits on a light ground. */
 static void draw_iterates(const Plot *card)
 {
     const double size = 0.95, pitch = 1.38; /* ems */
