@@ -672,7 +672,7 @@ static double find_number(const char *name)
                                          "change", "slope",    "to"};
     const Pane *pane = active_pane(&player.screen.frame.content);
     const Simulation *simulation = pane->simulation;
-    const NewtonRecord *row;
+    const NewtonRecord *row = NULL;
     char field[16];
     int i = 0, k = 0;
     for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
