@@ -38,7 +38,7 @@ typedef struct LecturePage {
     const char *notes;   /* text for the lecturer */
     const char *file;    /* path of the source shown by K */
     const char *function;    /* functions shown by K, separated by ',' */
-    const char *const *code; /* lines of these functions, ended by NULL */
+    const char *const *code; /* code lines of `function`, then NULL */
     const char *lit;         /* part of each code line that is lit */
     const char *const *walk; /* [LINES_WALKED] part of each code line that is
                                 lit at a line of Algorithm 3; NULL: lit */

@@ -26,7 +26,7 @@ typedef struct EvalPoint {
     double weight;     /* s^2, factor on everything that is added to an array;
                           h^2 for implicit Euler */
     const double *x_n; /* [2n] m, positions at the start of the step */
-    const double *u;   /* [2n] m, displacement since then; NULL: no step */
+    const double *u;   /* [2n] m, displacement x - x_n; NULL: no step */
     const double *x;   /* [2n] m, current positions, x_n + u */
     const struct Damping *damping; /* damping of this step; NULL: none */
     const double *k;  /* [springs] J/m^2, stiffness in this step (damping.h) */
@@ -73,7 +73,7 @@ struct TermKind {
         PLACE_CONTACT,
         PLACE_FRICTION,
         PLACE_CELLS,
-        PLACE_FRACTURE, /* last: books the energy that all others lose */
+        PLACE_FRACTURE, /* books the energy that all those before lose */
         PLACE_HAND,
     } place;
 
@@ -113,7 +113,7 @@ struct TermKind {
 
     /* Adds the coefficients of alpha^2, alpha^3 and alpha^4 of weight
      * P(x + alpha p) to q [3].  NULL: no part of P is a polynomial of degree
-     * four or less along a line. */
+     * 2 to 4 along a line. */
     void (*line_polynomial)(const EvalPoint *at, const double *p, double q[3]);
 
     /* Returns weight (P(x + alpha p) - P(x) - alpha grad P.p), less what

@@ -71,7 +71,7 @@ typedef struct Picture {
     int (*sample)(const Simulation *simulation, Energy *row);
 } Picture;
 
-/* Returns the picture of a scene, and that of the active pane's scene. */
+/* Return the picture of a scene, or of the active pane's scene. */
 const Picture *picture_of(const struct Scene *scene);
 
 static inline const Picture *active_picture(const FrameContent *content)

@@ -27,7 +27,7 @@ typedef struct Output {
                       failure; or NULL */
 } Output;
 
-/* The end of a file. */
+/* How a file ends. */
 typedef enum Keep {
     KEEP_WHOLE,  /* the file gets its name and replaces an old one */
     KEEP_PART,   /* NAME.part stays */

@@ -67,7 +67,7 @@ typedef struct Outcome {
 typedef struct Entry {
     const Control *control; /* control of the next step; NULL: this step is not
                                made yet */
-    State *state;   /* state after the step, before the control; NULL: not
+    State *state;   /* state after the step, before `control`; NULL: not
                        stored */
     Sample *sample; /* sample of the state under the control, or NULL */
     int substeps; /* steps of the simulation in this step; 0: the scene is over,
@@ -171,7 +171,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
  *   from,to  panes from ... to - 1 are edited
  *   again    past_iterate makes the shown step, which is not step 0, once more
  *            with the edit
- *   gesture  id, or 0; edits of one gesture share a branch
+ *   gesture  id, or 0; edits of one gesture are undone together
  * Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture);

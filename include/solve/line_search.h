@@ -12,7 +12,7 @@
 
 typedef enum LineSearch {
     LINE_SEARCH_BACKTRACK, /* Algorithm 2 */
-    LINE_SEARCH_NONE,      /* alpha = 1, whatever happens */
+    LINE_SEARCH_NONE,      /* alpha = 1, or as much as the terms allow */
     LINE_SEARCH_COUNT
 } LineSearch;
 

@@ -112,8 +112,8 @@ typedef struct Rounding {
     double shortest; /* m, the shortest spring at rest; 1 without springs */
     bool stiff;      /* w stiffest > 1e5 lightest, with w the weight of P in E:
                         a decrease of E is checked by a second computation */
-    bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
-    double first;    /* J s^2, E at the start; NAN: E cannot rise */
+    bool blurred;    /* w stiffest > 1e10 lightest: H's factor is inexact */
+    double first;    /* J s^2, E at the start; NAN: not needed */
     double most;     /* J s^2, upper limit of E: its value at the start plus
                         rounding; INFINITY: no limit */
     double E;        /* J s^2, E at the iterate; NAN: not evaluated yet */
@@ -167,7 +167,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
 
 /* Runs the loop of Algorithm 3 from newton_start or a pause to the end or the
  * next pause.  At least one update is made, if one lowers E.  u and x are the
- * last iterate, where E is not higher than at the start.
+ * last iterate; with a line search E is not higher there than at the start.
  * Returns RUNNING after a pause; OK if the last p passed the test and was used,
  * or if the next p is negligible; otherwise how the minimisation failed. */
 Status newton_minimise(Newton *newton);

@@ -14,11 +14,12 @@ static const double MAX_AXIS_RATIO = 1000;
 /* The axis becomes logarithmic when the energy has grown by LOG_GROWTH; then
  * the ends of the axis are at most these times the energy at the start. */
 static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
-static const double MIN_VISIBLE = 2e-3; /* visible part of the largest energy */
+static const double MIN_VISIBLE = 2e-3; /* times the largest energy: is drawn */
 static const double ROUNDING = 1e-20;   /* times k side^2: is rounding */
 static const double LEGEND_SIZE = 0.85; /* ems, letters of the legend */
 static const double CROWDED_SIZE = 0.75; /* ems, with more than four curves */
 static const double MIN_HEIGHT = 8;      /* ems, height of the card */
+static const double PAGE_HEIGHT = 11;    /* ems, height beside a page's text */
 static const double ROW_HEIGHT = 2.4;    /* ems more for two rows of legend */
 
 /* A quantity of a history over time. */
@@ -125,9 +126,10 @@ double energies_needed_height(const FrameContent *content, double wide,
     (void)wide;
     (void)em;
     int count = find_curves(content).count;
-    return MIN_HEIGHT + (count <= 4           ? 0
-                         : content->panes > 1 ? 2 * ROW_HEIGHT
-                                              : ROW_HEIGHT);
+    double least = content->lecture.page ? PAGE_HEIGHT : MIN_HEIGHT;
+    return least + (count <= 4           ? 0
+                    : content->panes > 1 ? 2 * ROW_HEIGHT
+                                         : ROW_HEIGHT);
 }
 
 /* Returns the energy below which all is rounding, J. */

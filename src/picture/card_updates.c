@@ -66,8 +66,8 @@ static void draw_energy_parts(const Plot *card, const System *system,
     }
 }
 
-/* Draws E before each update, less E at x, on a logarithmic axis: the sum of
- * the changes from this update on. */
+/* Draws E before each update, less E at the end, on a logarithmic axis: the sum
+ * of the decreases from this update on. */
 static void draw_excess(const Plot *card, const Trace *trace)
 {
     int made = count_added_updates(trace);

@@ -78,7 +78,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values);
 typedef struct LawGap {
     double foot[2]; /* m, nearest point of the wall or edge */
     double node[2]; /* m */
-    double d;       /* m, distance */
+    double d;       /* m, the gap */
     double d_hat;   /* m, distance at which the force begins */
 } LawGap;
 

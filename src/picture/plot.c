@@ -9,7 +9,7 @@
 
 enum {
     PLOT_INTERVALS = 4,   /* most intervals between the numbers of y */
-    PLOT_MOST_LINES = 40, /* most numbers of an axis */
+    PLOT_MOST_LINES = 40, /* most ticks of an axis */
     PLOT_POINTS = 400,    /* points of a graph */
     PLOT_CORNERS = 120    /* corners of an ellipse */
 };

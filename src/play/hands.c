@@ -231,7 +231,7 @@ static Status take_under_mouse(Player *player, const UnderMouse *under)
         mouse->drag = COMMAND_START;
         return order_at(player, COMMAND_START, mouse->index, under->pick.point);
     default:
-        if (under->pick.kind != PICK_NODE) /* a spring near the node */
+        if (under->pick.kind != PICK_NODE) /* a spring is not marked any more */
             player->screen.view.hover.kind = PICK_NONE;
         mouse->index = under->pick.nearest_node;
         mouse->drag = mouse->index < 0 ? COMMAND_PAN

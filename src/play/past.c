@@ -692,7 +692,7 @@ Status past_finish_work(Past *past)
     return status;
 }
 
-/* Whether the trace of the aim is missing and can be made in a short time. */
+/* Whether the trace of the step `aim` is missing, and is quick to make. */
 static bool can_trace_aim(const Past *past)
 {
     enum { SHORT = 400000 }; /* nodes times updates */

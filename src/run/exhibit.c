@@ -72,7 +72,7 @@ int exhibit_list_switches(const Simulation *simulation,
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
-    /* a page on which N moves a spring shows this spring alone */
+    /* switches are hidden where N shortens a spring and nothing is flipped */
     bool none = options->next == NEXT_NEARER && !options->flips;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)

@@ -1,4 +1,4 @@
-/* state.c - saves, is_restoring and hashes the state of a simulation. */
+/* state.c - saves, restores and hashes the state of a simulation. */
 #include "run/control.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@ typedef struct Cursor {
     size_t used;          /* bytes visited so far */
 } Cursor;
 
-/* Saves, is_restoring or counts a piece of the state. */
+/* Saves, restores or counts a piece of the state. */
 static void visit(Cursor *cursor, void *piece, size_t size)
 {
     unsigned char *at = cursor->bytes ? cursor->bytes + cursor->used : NULL;

@@ -5,7 +5,7 @@
 #include "scenes/contact_scenes.h"
 #include "scenes/small_scenes.h"
 
-/* A body that any integrator can move. */
+/* Picture and parts of every scene with a body. */
 #define SQUARE PICTURE_SQUARE, NEEDS_SQUARE
 
 /* Options of scenes in which a body of springs falls. */

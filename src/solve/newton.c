@@ -85,7 +85,7 @@ double turn_free_body(Newton *newton)
         new_x[i] = newton->at.E.x_n[i] + new_u[i];
     }
     if (!incremental_potential_allowed(&newton->at.E, new_u, new_x))
-        return 0; /* rounding of a tiny gap */
+        return 0; /* rounding closed a gap */
     memcpy(u, new_u, (size_t)size * sizeof *u);
     memcpy(x, new_x, (size_t)size * sizeof *x);
     newton->has_gradient = false;
@@ -214,7 +214,7 @@ Status newton_minimise(Newton *newton)
         if (status == STATUS_OK)
             status = phases->update(newton);
 
-        /* Test p */
+        /* End the loop?  find_direction has tested p */
         record->status = newton->status = phases->test(newton, status);
 
         newton->change_sum += record->change;
