@@ -39,7 +39,7 @@ EvalPoint eval_point_at(const System *system, const double *x_n,
 
 /* Selects term t of the system's list and returns its kind.  A loop over
  * 0 <= t < system->terms evaluates all terms. */
-const TermKind *eval_point_term(EvalPoint *at, int t);
+const TermKind *eval_point_select_term(EvalPoint *at, int t);
 
 /* begin_step and end_step have this argument. */
 typedef struct TermStep {

@@ -129,7 +129,7 @@ EvalPoint eval_point_at(const System *system, const double *x_n,
                        .l2 = damped ? damped->l2 : system->l2};
 }
 
-const TermKind *eval_point_term(EvalPoint *at, int t)
+const TermKind *eval_point_select_term(EvalPoint *at, int t)
 {
     at->term = &at->system->term[t];
     return at->term->kind;
@@ -150,7 +150,7 @@ Status system_check(const System *system, const double *x)
                 (k == 0 || (is_positive(k) && is_positive(k / l2)));
     }
     for (int t = 0; valid && t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         valid = !kind->is_feasible || kind->is_feasible(&at);
     }
     return valid && isfinite(system_curvature_bound(system))
@@ -162,7 +162,7 @@ double system_max_step(EvalPoint at, const double *p, bool internal)
 {
     double reach = INFINITY;
     for (int t = 0; t < at.system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->max_step && (kind->internal || !internal))
             reach = fmin(reach, kind->max_step(&at, p));
     }
@@ -199,7 +199,7 @@ double system_potential(const System *system, const double *x)
     EvalPoint at = eval_point_at(system, x, NULL, x);
     double sum = 0;
     for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->value)
             sum += kind->value(&at);
     }
@@ -244,7 +244,7 @@ void system_acceleration(const System *system, const double *x, double *a)
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
     for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->gradient)
             kind->gradient(&at, a);
     }
@@ -258,7 +258,7 @@ double system_curvature_bound(const System *system)
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
     double most = 0;
     for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->curvature_bound)
             most = max_or_nan(most, kind->curvature_bound(&at));
     }

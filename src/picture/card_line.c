@@ -67,7 +67,7 @@ static void draw_trial(const Plot *plot, double alpha, double value,
     Colour colour = accepted ? COLOUR_ALPHA : COLOUR_WARNING;
     double at[2], unit = paper->unit;
     bool inside = value <= plot->y.high && value >= plot->y.low;
-    plot_pixel(plot, (double[2]){alpha, inside ? value : plot->y.high}, at);
+    plot_to_pixel(plot, (double[2]){alpha, inside ? value : plot->y.high}, at);
     if (inside && accepted)
         plot_disc(plot, point, 5.5, colour);
     else if (inside)

@@ -35,8 +35,8 @@ static Box envelope_box(const Plot *stage, int column, int row)
     double y = log10(envelope_stiffness(row));
     const double low[2] = {x - 0.25, y - 0.5}, high[2] = {x + 0.25, y + 0.5};
     double p[2], q[2];
-    plot_pixel(stage, low, p);
-    plot_pixel(stage, high, q);
+    plot_to_pixel(stage, low, p);
+    plot_to_pixel(stage, high, q);
     int left = pixel_from(ceil(p[0])), top = pixel_from(ceil(q[1]));
     return (Box){left, top, pixel_from(ceil(q[0])) - left - 1,
                  pixel_from(ceil(p[1])) - top - 1};

@@ -219,8 +219,8 @@ static void draw_guess(const Plot *stage)
     double unit = stage->paper->unit, arm = 7 * unit, at[2], came[2], point[2];
     if (!guess->made || stage->content->bare)
         return;
-    plot_pixel(stage, guess->at, at);
-    plot_pixel(stage, guess->end, came);
+    plot_to_pixel(stage, guess->at, at);
+    plot_to_pixel(stage, guess->end, came);
     if (simulation_find_point(stage->simulation, point) == 1) {
         canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
                     1.5 * unit, COLOUR_HAND);

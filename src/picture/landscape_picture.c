@@ -112,7 +112,7 @@ static void name_levels(const Plot *plot)
     for (double gone = 0; gone < 3; gone += pace) {
         const Point x = point_along(simulation->exhibit.target, gone, ray);
         double value = energy_at(simulation, x.at).value / e;
-        plot_pixel(plot, x.at, place);
+        plot_to_pixel(plot, x.at, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
                 gone > last + space &&
@@ -197,7 +197,7 @@ static void draw_directions(const Plot *plot, bool both)
     double length = vector_length(p) * plot->camera.scale[0], tip[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
     const Point place[2] = {point_along(from, 1, p), point_along(from, far, p)};
-    plot_pixel(plot, place->at, tip);
+    plot_to_pixel(plot, place->at, tip);
     if (other && box_contains(plot->box, tip[0], tip[1]))
         plot_label(plot, 2, place->at, colour, "%s (slope %s)",
                    raw ? "with projection" : "without",

@@ -43,7 +43,7 @@ static double axis_coordinate(const Axis *axis, double value)
     return axis->log ? log10(value) : value;
 }
 
-void plot_pixel(const Plot *plot, const double *at, double pixel[2])
+void plot_to_pixel(const Plot *plot, const double *at, double pixel[2])
 {
     const double on[2] = {axis_coordinate(&plot->x, at[0]),
                           axis_coordinate(&plot->y, at[1])};
@@ -120,7 +120,7 @@ static void draw_axes(const Plot *plot)
     int thin = (int)fmax(1, paper->unit);
     for (int i = 0; i < count; i++) {
         bool zero = !plot->y.log && fabs(ticks[i]) < 1e-12 * plot->y.high;
-        plot_pixel(plot, (double[2]){plot->x.low, ticks[i]}, at);
+        plot_to_pixel(plot, (double[2]){plot->x.low, ticks[i]}, at);
         canvas_fill(&paper->canvas,
                     (Box){box->x, (int)floor(at[1] + 1e-9), box->width, thin},
                     zero ? COLOUR_BORDER : COLOUR_GRID);
@@ -138,7 +138,7 @@ static void draw_axes(const Plot *plot)
     count = find_ticks(&plot->x, false, box->width / em, ticks);
     for (int i = 0; i < count; i++) {
         Number number = format_tick(&plot->x, ticks[i]);
-        plot_pixel(plot, (double[2]){ticks[i], plot->y.low}, at);
+        plot_to_pixel(plot, (double[2]){ticks[i], plot->y.low}, at);
         if (at[0] + measure_tick(paper, number.text) / 2 <= end)
             write_tick(plot, COLOUR_FAINT, at[0], below, ALIGN_CENTRE,
                        number.text);
@@ -237,8 +237,8 @@ void plot_line(const Plot *plot, const double *a, const double *b, double width,
                Colour colour)
 {
     double p[2], q[2];
-    plot_pixel(plot, a, p);
-    plot_pixel(plot, b, q);
+    plot_to_pixel(plot, a, p);
+    plot_to_pixel(plot, b, q);
     draw_line(plot, p, q, width, colour);
 }
 
@@ -248,8 +248,8 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
     Canvas *canvas = &plot->paper->canvas;
     double p[2], q[2];
     Box before = canvas_set_clip(canvas, plot->box);
-    plot_pixel(plot, a, p);
-    plot_pixel(plot, b, q);
+    plot_to_pixel(plot, a, p);
+    plot_to_pixel(plot, b, q);
     canvas_dashes(canvas, p, q, line_pixels(plot, width), plot->paper->unit,
                   phase, colour);
     canvas_set_clip(canvas, before);
@@ -284,7 +284,7 @@ void plot_quad(const Plot *plot, const double *const corner[4], Colour colour)
 {
     double p[8];
     for (int k = 0; k < 4; k++)
-        plot_pixel(plot, corner[k], p + 2 * k);
+        plot_to_pixel(plot, corner[k], p + 2 * k);
     const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
     canvas_triangle(&plot->paper->canvas, p, false, colour);
     canvas_triangle(&plot->paper->canvas, half, false, colour);
@@ -299,7 +299,7 @@ void plot_curve(const Plot *plot, int count, const double *x, const double *y,
     double p[2] = {NAN, NAN};
     for (int i = 0; i < count; i++) {
         double q[2];
-        plot_pixel(plot, (double[2]){x[i], y[i]}, q);
+        plot_to_pixel(plot, (double[2]){x[i], y[i]}, q);
         if (isfinite(p[0] + p[1]) && isfinite(q[0] + q[1])) {
             const double d[2] = {q[0] - p[0], q[1] - p[1]};
             if (fabs(d[0]) < 1 && fabs(d[1]) < 1 && i + 1 < count)
@@ -331,7 +331,7 @@ void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
 /* Maps a point to pixels.  Returns whether the point is visible. */
 static bool find_visible_pixel(const Plot *plot, const double *at, double p[2])
 {
-    plot_pixel(plot, at, p);
+    plot_to_pixel(plot, at, p);
     return !has_axes(plot) || (at[0] >= plot->x.low && at[0] <= plot->x.high &&
                                at[1] >= plot->y.low && at[1] <= plot->y.high);
 }
@@ -367,7 +367,7 @@ void plot_pin(const Plot *plot, const double *at, double radius)
 {
     Canvas *canvas = &plot->paper->canvas;
     double p[2], size = fmax(radius, 3) * plot->paper->unit * 1.15;
-    plot_pixel(plot, at, p);
+    plot_to_pixel(plot, at, p);
     if (!(fabs(p[0]) < 1e6 && fabs(p[1]) < 1e6))
         return;
     Box box = {(int)floor(p[0] - size + 0.5), (int)floor(p[1] - size + 0.5),
@@ -384,8 +384,8 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
     const double b[2] = {a[0] + factor * d[0], a[1] + factor * d[1]};
     double p[2], q[2];
     Box before = canvas_set_clip(&paper->canvas, plot->box);
-    plot_pixel(plot, a, p);
-    plot_pixel(plot, b, q);
+    plot_to_pixel(plot, a, p);
+    plot_to_pixel(plot, b, q);
     canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
                  line_pixels(plot, width), HEAD * paper->em, colour);
     canvas_set_clip(&paper->canvas, before);
@@ -398,7 +398,7 @@ bool plot_pick_point(const Plot *plot, int count, const double *at,
     bool found = false;
     for (int i = count - 1; i >= 0; i--) {
         double p[2];
-        plot_pixel(plot, at + 2 * i, p);
+        plot_to_pixel(plot, at + 2 * i, p);
         double distance = math_hypot(p[0] - x, p[1] - y);
         if (!(distance < reach))
             continue;

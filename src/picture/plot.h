@@ -103,7 +103,7 @@ Plot plot_create(const Plot *card, Axis x, Axis y);
 Plot plot_on_stage(const Plot *stage, Axis x, Axis y);
 
 /* Maps a point to pixels, not finite ones if the point has no logarithm. */
-void plot_pixel(const Plot *plot, const double *at, double pixel[2]);
+void plot_to_pixel(const Plot *plot, const double *at, double pixel[2]);
 
 /* Picks the point nearest to pixel (x, y), the last one of equal distances.
  * Returns false if no point lies within `reach` pixels.

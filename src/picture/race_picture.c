@@ -36,7 +36,7 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
     double row = plot->box.y + line; /* below the legend */
     double last = plot->box.y + plot->box.height - line;
     for (int i = 0; i < RACE_METHODS; i++) {
-        plot_pixel(plot, point[i], at[i]);
+        plot_to_pixel(plot, point[i], at[i]);
         bool left = over_h || !race_method(i)->implicit;
         at[i][1] = left == on_left ? at[i][1] : NAN;
         last -= isnan(at[i][1]) ? 0 : line;

@@ -120,7 +120,7 @@ static void draw_search(const Plot *plot, const ScalarUpdate *update,
         const double at[2] = {x, curve_at(update, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         bool seen = plot_disc(plot, at, last ? 7 : 5.5, colour);
-        plot_pixel(plot, at, p);
+        plot_to_pixel(plot, at, p);
         if (!seen || !plot->has_text ||
             fabs(p[0] - used[i % 2]) < 1.5 * plot->em)
             continue;

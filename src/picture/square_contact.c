@@ -91,7 +91,7 @@ void square_contact_slope(const SquarePen *pen)
         return;
     from[0] += 2 * em / stage->camera.scale[0];
     from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
-    plot_pixel(stage, from, at);
+    plot_to_pixel(stage, from, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
     low = fmax(low, 0); /* pixels below the stage: words move up the wall */
     snprintf(words, sizeof words, "\u03bc = %s tan %s\u00b0",

@@ -36,8 +36,8 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     for (int s = 0; s < springs; s++) {
         const int *e = system->e + 2 * s;
         double p[2], q[2], t = 0;
-        plot_pixel(stage, at + 2 * e[0], p);
-        plot_pixel(stage, at + 2 * e[1], q);
+        plot_to_pixel(stage, at + 2 * e[0], p);
+        plot_to_pixel(stage, at + 2 * e[1], q);
         double dx = q[0] - p[0], dy = q[1] - p[1], length2 = dx * dx + dy * dy;
         if (length2 > 0)
             t = fmin(fmax(((x - p[0]) * dx + (y - p[1]) * dy) / length2, 0), 1);
@@ -88,7 +88,7 @@ static void draw_note(const Plot *stage, const LiveValues *values,
                                 line.words) +
                 paper_pixels(paper, 0.2 * size);
     }
-    plot_pixel(stage, stage->content->view->hover.point, mouse);
+    plot_to_pixel(stage, stage->content->view->hover.point, mouse);
     box->width = (int)wide + 2 * margin;
     box->height = (int)high + 2 * margin;
     box->x += mouse[0] > middle ? 0 : stage->box.width - box->width;
@@ -113,7 +113,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     LiveValues values = {0};
     at.weight = -1;
     for (int t = 0; f && t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->gradient)
             kind->gradient(&at, f);
     }

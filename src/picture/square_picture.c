@@ -334,7 +334,7 @@ static void draw_warnings(const SquarePen *pen, int folded)
     double at[2];
     for (int i = 0; i < nodes; i++) {
         const double *x = pen->x + 2 * (size_t)i;
-        plot_pixel(stage, x, at);
+        plot_to_pixel(stage, x, at);
         lost += !isfinite(x[0]) || !isfinite(x[1]);
         seen = seen || box_contains(stage->box, at[0], at[1]);
     }
@@ -358,10 +358,10 @@ static void draw_origin(const SquarePen *pen)
     const Plot *stage = pen->stage;
     const Box *box = &stage->box;
     double em = stage->em, origin[2], p[2];
-    plot_pixel(stage, (double[2]){0, 0}, origin);
+    plot_to_pixel(stage, (double[2]){0, 0}, origin);
     double low = origin[1] + 2 * em, least = box->y + box->height - 4 * em;
     for (int i = 0; i < pen->system->nodes; i++) {
-        plot_pixel(stage, pen->x + 2 * i, p);
+        plot_to_pixel(stage, pen->x + 2 * i, p);
         low = p[1] < least ? fmax(low, p[1]) : low;
     }
     low = fmin(low + 2.5 * em, box->y + box->height - 1.5 * em);
@@ -394,7 +394,7 @@ static void draw_numbers(const SquarePen *pen)
     char number[16];
     for (int i = 0; i < pen->system->nodes; i++) {
         snprintf(number, sizeof number, "%d", i);
-        plot_pixel(pen->stage, pen->x + 2 * i, at);
+        plot_to_pixel(pen->stage, pen->x + 2 * i, at);
         const Box *box = &pen->stage->box;
         bool low = at[1] + 2.3 * em > box->y + box->height;
         bool right = at[0] + 3.2 * em > box->x + box->width;

@@ -130,7 +130,7 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
     for (int i = 0; i < 8 * points; i++) {
         const int *to = side[i % 8];
         double p[2];
-        plot_pixel(plot, at + i / 8 * 2, p);
+        plot_to_pixel(plot, at + i / 8 * 2, p);
         if (!(fabs(p[0]) < FARTHEST && fabs(p[1]) < FARTHEST))
             continue;
         double apart = (i % 8 < 4 ? APART : 0.7 * APART) * paper->em;

@@ -82,7 +82,7 @@ static Status raise_number(Player *player, const OptionRow *row, int notches)
 /* ---- the keyboard -------------------------------------------------------- */
 
 /* Returns the part of the window that gets the keys now. */
-static Keyboard find_keyboard(const Player *player)
+static Keyboard find_focus(const Player *player)
 {
     bool number = player->hands.selected;
     bool list = player_shows_list(player);
@@ -97,7 +97,7 @@ static Keyboard find_keyboard(const Player *player)
 
 /* Opens the page, or adds the number, that a line of the open list has.
  *   line  in, its number or the page's name */
-static Status choose_line(Player *player, const char *line)
+static Status choose_list_line(Player *player, const char *line)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
     Command page = {.kind = COMMAND_PAGE, .joins = true};
@@ -121,7 +121,7 @@ static Status enter_typed(Player *player)
     Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
     if (!row && player_shows_list(player)) {
-        status = choose_line(player, player->hands.typed);
+        status = choose_list_line(player, player->hands.typed);
         player->hands.typing = player->hands.typing && status;
         return status;
     }
@@ -407,11 +407,11 @@ static Status press_left(Player *player, const UnderMouse *under, int clicks)
     case ZONE_LIST: /* a line of a list */
         index = frame_find_row(&player->screen.frame.content, &under->layout,
                                player->hands.mouse.x, player->hands.mouse.y);
-        if (find_keyboard(player) != AT_LIST || index < 0)
+        if (find_focus(player) != AT_LIST || index < 0)
             return STATUS_OK;
         key = player->screen.frame.content.list.row[index].key;
         snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
-        return key[0] ? choose_line(player, line) : STATUS_OK;
+        return key[0] ? choose_list_line(player, line) : STATUS_OK;
     case ZONE_CELL:
         player->screen.view.chosen = index;
         return order(player, COMMAND_OPEN, 0);
@@ -551,7 +551,7 @@ Status player_input(Player *player, const Input *input)
     switch (input->kind) {
     case INPUT_KEY:
         command =
-            command_from_key(input->key, input->repeats, find_keyboard(player));
+            command_from_key(input->key, input->repeats, find_focus(player));
         command.joins = true;
         if (command.kind)
             status = player_obey(player, &command);

@@ -268,7 +268,7 @@ int program_end(Player *player, Status status)
 }
 
 /* Returns the file or folder that an option names, or NULL. */
-static const char *file_of(const Options *options, const OptionRow *row)
+static const char *file_of_option(const Options *options, const OptionRow *row)
 {
     return row->kind == OPTION_TEXT && row->offset != offsetof(Options, pin)
                ? *(char *const *)((const char *)options + row->offset)
@@ -281,8 +281,8 @@ static Status check_files(const Options *options, Message message)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
         for (const OptionRow *other = option_rows; other < row; other++) {
-            const char *one = file_of(options, other);
-            const char *two = file_of(options, row);
+            const char *one = file_of_option(options, other);
+            const char *two = file_of_option(options, row);
             if (one && two &&
                 (output_is_standard(one)
                      ? output_is_standard(two)

@@ -10,7 +10,7 @@
 #include "run/scene.h"
 
 /* Whether the session has edits, or a run of a minute, that could be lost. */
-static bool has_work(const Player *player)
+static bool could_lose_work(const Player *player)
 {
     static const double LONG = 60; /* s */
     const Past *past = &player->past;
@@ -74,7 +74,7 @@ Status obey_column(Player *player, const Command *command)
 Status obey_quit(Player *player, const Command *command)
 {
     bool key = command->text[0] != '\0', asked = player->orders.leaving;
-    player->quit = !key || asked || !has_work(player);
+    player->quit = !key || asked || !could_lose_work(player);
     player->orders.leaving = COMMAND_QUIT;
     if (!player->quit)
         player_note(player, "Q once more ends the program; Y saves first a "
@@ -100,7 +100,7 @@ Status obey_escape(Player *player, const Command *command)
         player->screen.column = COLUMN_CARDS;
     else if (player->screen.window && window_is_full())
         window_set_full(false);
-    else if (has_work(player))
+    else if (could_lose_work(player))
         player_note(player, "nothing is open; Q ends the program");
     else if (asked)
         player->quit = true;

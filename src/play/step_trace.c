@@ -90,7 +90,7 @@ static void sample_line(Round *round, const Iterate *at)
 }
 
 /* Stores E along p of the newest round. */
-static void store_line(StepTrace *trace, const Iterate *at)
+static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
     Round *round = &trace->round[trace->records.count];
     const NewtonRecord *record = &trace->records.row[trace->records.count];
@@ -173,7 +173,7 @@ static void store_iteration(StepTrace *trace, const Newton *newton)
     }
     at.g = g;
     incremental_potential_gradient(&at.E, at.u, at.x, g);
-    store_line(trace, &at);
+    store_line_energy(trace, &at);
     record->slope = round->along.q[0];
     round->alpha = record->alpha;
     round->change = record->change;

@@ -422,7 +422,7 @@ static Status check_places(const Options *options, const System *system,
     const SquareMesh shape = body_make_mesh(options);
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
     for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (!kind->element || !kind->element->max_step)
             continue;
         ElementIterator walk = elements_begin(&at, NULL, 0);

@@ -131,7 +131,8 @@ static void book_external_work(Simulation *simulation, const double *before)
 
 /* Gives a run the changed options.  With another method a new integrator takes
  * over the state of the run. */
-static Status update_run(Simulation *simulation, int r, const Options *before)
+static Status update_run_options(Simulation *simulation, int r,
+                                 const Options *before)
 {
     const Options *options = &simulation->options;
     TimeIntegrator *run = &simulation->run[r], old = *run;
@@ -168,7 +169,7 @@ static Status apply_options(Simulation *simulation, const Options *options)
     Status status = STATUS_OK;
     simulation->options = *options;
     for (int r = 0; r < simulation->runs && !status; r++)
-        status = update_run(simulation, r, &before);
+        status = update_run_options(simulation, r, &before);
     if (options->stiffness != before.stiffness ||
         options->integrator != before.integrator)
         simulation->prediction = (Prediction){0};

@@ -297,7 +297,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
             mode[i] /= sqrt(length2);
         double image[ROOM] = {0}; /* M^-1 H mode, 1/s^2 */
         for (int t = 0; t < system->terms; t++) {
-            const TermKind *kind = eval_point_term(&at, t);
+            const TermKind *kind = eval_point_select_term(&at, t);
             if (kind->hessian)
                 kind->hessian(&at, PROJECTION_NONE, NULL, mode, image);
         }

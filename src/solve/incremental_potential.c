@@ -23,7 +23,7 @@ double incremental_potential_value(const IncrementalPotential *E,
     EvalPoint at = eval_point_of(E, u, x);
     double P = 0;
     for (int t = 0; t < E->system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->value)
             P += kind->value(&at);
     }
@@ -37,7 +37,7 @@ double incremental_potential_scale(const IncrementalPotential *E,
     EvalPoint at = eval_point_of(E, u, x);
     double P = 0;
     for (int t = 0; t < E->system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->value)
             P += fabs(kind->value(&at));
     }
@@ -54,7 +54,7 @@ void incremental_potential_gradient(const IncrementalPotential *E,
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
     for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->gradient)
             kind->gradient(&at, g);
     }
@@ -72,14 +72,14 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
     *A = (Sparse){0};
     *slot = NULL;
     for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         count += kind->entries ? kind->entries(&at) : 0;
     }
     Status status = triplets_create(masses, count, &triplets);
     for (int i = 0; i < system->nodes && !status; i++)
         term_add_diagonal(system, i, &triplets);
     for (int t = 0; t < system->terms && !status; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->pattern)
             kind->pattern(&at, &triplets);
     }
@@ -108,7 +108,7 @@ static int add_hessians(const Iterate *iterate, Projection projection,
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     int projected = 0;
     for (int t = 0; t < at.system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (!kind->hessian)
             continue;
         projected += kind->hessian(&at, projection, slot, q, out);
@@ -124,7 +124,7 @@ Status incremental_potential_grow(const Iterate *iterate, bool *grown)
     Status status = STATUS_OK;
     *grown = false;
     for (int t = 0; t < at.system->terms && !status; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->grow)
             status = kind->grow(&at, grown);
     }
@@ -165,7 +165,7 @@ LineEnergy incremental_potential_on_line(const Iterate *iterate)
         q[1] += 0.5 * system->m[i / 2] * p[i] * p[i];
     }
     for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->line_polynomial)
             kind->line_polynomial(&at, p, q + 1);
         along.rough = along.rough || kind->line_remainder || kind->is_feasible;
@@ -182,7 +182,7 @@ double line_energy_difference(const void *function, double alpha)
     const Iterate *iterate = along->at;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     for (int t = 0; t < at.system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->line_remainder)
             sum += kind->line_remainder(&at, iterate->p, alpha);
     }
@@ -200,7 +200,7 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
 {
     EvalPoint at = eval_point_of(E, u, x);
     for (int t = 0; t < E->system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->is_feasible && !kind->is_feasible(&at))
             return false;
     }
@@ -219,7 +219,7 @@ void incremental_potential_inertia(const Iterate *iterate, double *m,
         iterate->p[i] = 1;
     }
     for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_term(&at, t);
+        const TermKind *kind = eval_point_select_term(&at, t);
         if (!kind->diagonal)
             continue;
         kind->gradient(&at, iterate->g);

@@ -243,7 +243,7 @@ double prescribed_work(const TimeIntegrator *run, double weight)
         inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,
                                 g);
         for (int t = 0; t < system->terms; t++) {
-            const TermKind *kind = eval_point_term(&at, t);
+            const TermKind *kind = eval_point_select_term(&at, t);
             if (kind->gradient)
                 kind->gradient(&at, g);
         }

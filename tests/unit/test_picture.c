@@ -191,8 +191,8 @@ TEST(axes_name_their_values)
             canvas_clear(&one.canvas, COLOUR_WHITE);
             paper_write(&one, FACE_REGULAR, 0.82, COLOUR_FAINT, 99, 99,
                         ALIGN_LEFT, "%s", format_number(value).text);
-            plot_pixel(&plot, (double[2]){up ? 0.5 : value, up ? value : 0.5},
-                       place);
+            plot_to_pixel(
+                &plot, (double[2]){up ? 0.5 : value, up ? value : 0.5}, place);
             int x = (int)place[0], y = (int)place[1];
             Box there = up ? (Box){0, y - wide, left, 2 * wide}
                            : (Box){x - 2 * wide, low, 4 * wide, SIZE - low};

@@ -479,7 +479,8 @@ TEST(maps_have_levels_and_pulls)
     const double *target = simulation.exhibit.target;
     for (int k = 0; k < 3; k++) {
         double far = sqrt(2 * levels[k]), at[2], near = INFINITY;
-        plot_pixel(&stage, (double[]){target[0] + 0.62 * far, target[1]}, at);
+        plot_to_pixel(&stage, (double[]){target[0] + 0.62 * far, target[1]},
+                      at);
         for (int i = 0; i < writings && i < 500; i++)
             if (strtod(written[i], NULL) == levels[k])
                 near = fmin(near, fabs(written_at[i] - at[0]));
@@ -490,14 +491,14 @@ TEST(maps_have_levels_and_pulls)
     for (int k = 0; k < 3; k++) { /* the contour itself lies there, too */
         double at[2], far = sqrt(2 * levels[k]);
         int darkest = -9;
-        plot_pixel(&stage, (double[]){target[0] - far, target[1]}, at);
+        plot_to_pixel(&stage, (double[]){target[0] - far, target[1]}, at);
         for (int i = -9; i < 9; i++)
             if ((pixel((int)at[0] + i, (int)at[1]) & 255) <
                 (pixel((int)at[0] + darkest, (int)at[1]) & 255))
                 darkest = i;
         CHECK_AT_MOST(abs(darkest), 1);
     }
-    plot_pixel(&stage, (double[]){0.4, 0.6}, middle);
+    plot_to_pixel(&stage, (double[]){0.4, 0.6}, middle);
     CHECK(count_colour((Box){(int)middle[0] - 3, (int)middle[1] - 3, 7, 7},
                        COLOUR_X_TILDE) > 3);
 }

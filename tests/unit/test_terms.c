@@ -536,7 +536,7 @@ static void row_is_right(void **state)
         static Case c;
         make_case(row, &random, &c);
         for (int t = 0; t < c.system.terms; t++) {
-            const TermKind *kind = eval_point_term(&c.at, t);
+            const TermKind *kind = eval_point_select_term(&c.at, t);
             if (!kind->value)
                 continue;
             derivatives(&c, kind);
