@@ -44,8 +44,7 @@ static double remainder_on_side(double y, double t, double e)
         return 0;
     if (y > e) /* into [0, e]: from y to e, f0 is linear and adds 0 */
         return remainder_on_piece(e, z - e, z, e);
-    /* from inside to outside: beyond e the slope is 1; at y it is 1 - missing^2
-     */
+    /* out of [0, e]: beyond e the slope is 1, at y it is 1 - missing^2 */
     double missing = 1 - y / e;
     return remainder_on_piece(y, e - y, e, e) + missing * missing * (z - e);
 }

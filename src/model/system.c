@@ -213,12 +213,21 @@ void system_clear_pinned(const System *system, double *g)
             g[2 * i] = g[2 * i + 1] = 0;
 }
 
+/* Whether P stays the same when all nodes move together, or turn together. */
+static bool terms_are_internal(const System *system, bool turn)
+{
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = system->term[t].kind;
+        if (!kind->internal || (turn && kind->depends_on_start))
+            return false;
+    }
+    return true;
+}
+
 bool system_falls_freely(const System *system)
 {
-    for (int t = 0; t < system->terms; t++)
-        if (!system->term[t].kind->internal)
-            return false;
-    return !memchr(system->pinned, 1, (size_t)system->nodes);
+    return terms_are_internal(system, false) &&
+           !memchr(system->pinned, 1, (size_t)system->nodes);
 }
 
 bool system_turns_freely(const System *system, int *pivot)
@@ -230,11 +239,7 @@ bool system_turns_freely(const System *system, int *pivot)
             pins++;
             *pivot = i;
         }
-    for (int t = 0; t < system->terms; t++)
-        if (!system->term[t].kind->internal ||
-            system->term[t].kind->depends_on_start)
-            return false;
-    return pins <= 1;
+    return pins <= 1 && terms_are_internal(system, true);
 }
 
 void system_acceleration(const System *system, const double *x, double *a)

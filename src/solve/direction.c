@@ -340,16 +340,6 @@ static double largest_movement(const Newton *newton, double norm)
     return sqrt(2 / newton->rounding.lightest) * norm;
 }
 
-bool turns_may_follow(const Newton *newton)
-{
-    const Iterate *at = &newton->at;
-    double torque = 0;
-    for (int i = 0; i < 2 * newton->system->nodes; i++)
-        torque += fabs(at->p[i] * at->g[i]);
-    return torque > newton->tolerance * newton->settings.h *
-                        newton->rounding.lightest * newton->rounding.shortest;
-}
-
 /* Computes the residual of p, and tests it.
  *   exact  whether p solves H p = -g up to rounding.  Otherwise the bound of
  *          its error must pass the test, too.  Rounding of g itself is not in
@@ -384,15 +374,15 @@ static void evaluate_gradient(Newton *newton)
     newton->has_gradient = true;
 }
 
-/* The projected Hessian is M plus something positive semi-definite, so
- * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  Projection on demand is
- * judged as if it projected here. */
 double negligible_direction(const Newton *newton)
 {
     return fmin(newton->tolerance * newton->settings.h,
                 NEGLIGIBLE * newton->rounding.shortest);
 }
 
+/* The projected Hessian is M plus something positive semi-definite, so
+ * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  Projection on demand is
+ * judged as if it projected here. */
 bool next_direction_is_negligible(Newton *newton)
 {
     if (newton->settings.projection == PROJECTION_NONE)

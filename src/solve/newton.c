@@ -3,10 +3,8 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/clock.h"
-#include "base/mathematics.h"
 #include "solve/multigrid.h"
 
 void newton_start(Newton *newton, const double *x_n, const double *u,
@@ -40,58 +38,6 @@ void swap_iterates(Newton *newton)
     at->x = newton->x_trial;
     newton->u_trial = u;
     newton->x_trial = x;
-}
-
-double turn_free_body(Newton *newton)
-{
-    const System *system = newton->system;
-    const int size = 2 * system->nodes;
-    const double *m = system->m, *u_tilde = newton->u_tilde;
-    double *u = newton->at.u, *x = newton->at.x;
-    double mass = 0, centre[2] = {0}, moved[2] = {0}, along = 0, across = 0;
-    int pivot;
-    bool turns =
-        newton->rounding.stiff || (newton->passes && turns_may_follow(newton));
-    if (!turns || !system_turns_freely(system, &pivot))
-        return 0;
-    for (int i = 0; i < size; i++) {
-        mass += 0.5 * m[i / 2];
-        centre[i % 2] += m[i / 2] * x[i];
-        moved[i % 2] += m[i / 2] * (u_tilde[i] - u[i]);
-    }
-    for (int c = 0; c < 2; c++) {
-        centre[c] = pivot < 0 ? centre[c] / mass : x[2 * pivot + c];
-        moved[c] = pivot < 0 ? moved[c] / mass : 0;
-    }
-    /* Arms of the nodes: d of x, d + b of x_tilde. */
-    for (int i = 0; i < size; i += 2) {
-        double dx = x[i] - centre[0], dy = x[i + 1] - centre[1];
-        double bx = u_tilde[i] - u[i] - moved[0];
-        double by = u_tilde[i + 1] - u[i + 1] - moved[1];
-        along += m[i / 2] * (dx * (dx + bx) + dy * (dy + by));
-        across += m[i / 2] * (dx * by - dy * bx);
-    }
-    double both = math_hypot(along, across);
-    double change =
-        along > 0 ? -across * across / (both + along) : along - both;
-    if (!(change < 0))
-        return 0;
-    double sine = across / both, cosine_less_1 = change / both;
-    double *new_u = newton->search.r, *new_x = newton->search.b;
-    for (int i = 0; i < size; i++) {
-        int other = i ^ 1;
-        double arm = x[i] - centre[i % 2], side = x[other] - centre[other % 2];
-        new_u[i] = u[i] + cosine_less_1 * arm + (i % 2 ? sine : -sine) * side;
-        new_x[i] = newton->at.E.x_n[i] + new_u[i];
-    }
-    if (!incremental_potential_allowed(&newton->at.E, new_u, new_x))
-        return 0; /* rounding closed a gap */
-    memcpy(u, new_u, (size_t)size * sizeof *u);
-    memcpy(x, new_x, (size_t)size * sizeof *x);
-    newton->has_gradient = false;
-    newton->search.moved = INFINITY;
-    newton->rounding.E = NAN;
-    return change;
 }
 
 /* u += alpha p, x = x_n + u, as the line search has tried them.  The iterate

@@ -10,7 +10,8 @@
  * writes the iterate newton->at and the record newton->record. */
 typedef struct NewtonPhases {
     /* g and p at x, the residual of p, and newton->passes: whether it is at
-     * most the tolerance.  Returns OK or a failure. */
+     * most the tolerance, and no turn may follow that turn.c does not make.
+     * Returns OK or a failure. */
     Status (*find_direction)(Newton *newton);
     /* alpha, trials, slope and change; u_trial and x_trial.  Returns OK, or why
      * no step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT,
@@ -32,11 +33,6 @@ void direction_free_matrix(SearchDirection *search);
 
 Status find_direction(Newton *newton);
 
-/* Whether the next direction may turn nodes by more than the tolerance although
- * p passes.  Forces g at x resist a turn; at x + p most of them are gone, and
- * the masses alone resist it, against a torque of at most sum |p_i| |g_i|. */
-bool turns_may_follow(const Newton *newton);
-
 /* Largest |p_x| + |p_y| of a negligible direction, m, which passes the test and
  * is at most a millionth of the shortest spring. */
 double negligible_direction(const Newton *newton);
@@ -52,6 +48,13 @@ Status find_step_length(Newton *newton);
 
 /* Exchanges the iterate and the trial. */
 void swap_iterates(Newton *newton);
+
+/* ---- turn.c: turns of free bodies, which Newton's directions cannot make */
+
+/* Whether the next direction may turn nodes by more than the tolerance although
+ * p passes.  Forces g at x resist a turn; at x + p most of them are gone, and
+ * the masses alone resist it, against a torque of at most sum |p_i| |g_i|. */
+bool turns_may_follow(const Newton *newton);
 
 /* Turns all nodes to the angle at which E is lowest, where P stays the same
  * (system_turns_freely), in stiff scenes or after a last p that needs it.  Then
