@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/mathematics.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
@@ -101,8 +100,11 @@ static int find_point(const History *history, double time)
     return at;
 }
 
-double energies_value_at(const Simulation *simulation, const History *history,
-                         int series, double time)
+/* Returns an energy at the last point of the history up to this time, J; 0 if
+ * the value is rounding beside the other energies; infinity if the present
+ * energies are not finite; NaN without a point. */
+static double energies_value_at(const Simulation *simulation,
+                                const History *history, int series, double time)
 {
     int point = find_point(history, time), last = history->count - 1;
     bool runs = series_are_runs(simulation);
@@ -140,17 +142,20 @@ static double find_energy_rounding(const Simulation *simulation)
            options->side;
 }
 
-Axis energies_axis(const FrameContent *content, double *last)
+/* Makes the axis of the energies.  The axis covers the whole run, unless the
+ * energies so far would then be too small to see, and is logarithmic if the
+ * energy has grown a millionfold.
+ *   last  out, s, upper limit of the times of the curves */
+static Axis energies_axis(const Simulation *simulation, const Curves *all,
+                          double *last)
 {
-    const Simulation *simulation = active_pane(content)->simulation;
-    const Curves all = find_curves(content);
     double first = 0, least = INFINITY, low = 0, high = 0;
     double lowest = 0, highest = 0; /* like low, high, in the whole run */
     *last = 100 * simulation->options.timestep;
-    for (const Curve *curve = all.curve; curve < all.curve + all.count;
+    for (const Curve *curve = all->curve; curve < all->curve + all->count;
          curve++) {
         const History *history = curve->history;
-        int point = find_point(history, all.now);
+        int point = find_point(history, all->now);
         for (int i = 0; i < history->count; i++) {
             double value = history->value[curve->series][i];
             lowest = fmin(lowest, value);
@@ -194,8 +199,7 @@ static void draw_curves(const Plot *plot, const Curves *all)
 /* Draws the curves with their names and present values above. */
 void energies_draw(const Plot *card)
 {
-    const FrameContent *content = card->content;
-    const Curves all = find_curves(content);
+    const Curves all = find_curves(card->content);
     Plot rest = *card;
     int at[2] = {0, 0}, used = 0;
     double size = fmax(all.count > 4 ? CROWDED_SIZE : LEGEND_SIZE,
@@ -219,7 +223,7 @@ void energies_draw(const Plot *card)
         used = card_flow_words(card, at, size, 1.05 * size, &line);
     }
     box_cut_off(&rest.box, EDGE_TOP, used);
-    Axis energy = energies_axis(content, &last);
+    Axis energy = energies_axis(card->simulation, &all, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
     if (all.now < plot.x.high)
@@ -278,20 +282,18 @@ void radius_draw(const Plot *card)
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
     double most = 0.4; /* powers of ten */
-    for (int r = 0; r < simulation->runs; r++) {
-        const double *x = simulation->run[r].x;
-        most = fmax(most, 1.1 * fabs(log10(math_hypot(x[0], x[1]))));
-    }
+    for (int r = 0; r < simulation->runs; r++)
+        most =
+            fmax(most, 1.1 * fabs(log10(vector_length(simulation->run[r].x))));
     Plot plot = plot_create(
         card, (Axis){0, plot_round_up(last), false, false, "t in s"},
         (Axis){pow(10, -most), pow(10, most), true, false, NULL});
-    double steps =
-        values_find_number(&active_pane(content)->values, "doubling");
+    double steps = values_find_number(&card->pane->values, "doubling");
     const double twice[2] = {steps * simulation->options.timestep, 2};
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,
                 COLOUR_GREY);
     draw_curves(&plot, &all);
-    const History *history = active_pane(content)->history;
+    const History *history = card->pane->history;
     double end = history ? history->time[history->count - 1] : 0;
     double even = content->time_line.steps * simulation->options.timestep;
     bool changed = fabs(end - even) > 1e-9 * even;

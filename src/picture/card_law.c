@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/mathematics.h"
 #include "model/fracture.h"
 #include "model/friction.h"
 #include "model/neo_hookean.h"
@@ -211,7 +210,7 @@ static bool flowed_one_way(const LawPoint *now, double from[2], double to[2])
     return ep != 0 && fabs(away) <= 1e-9 * most;
 }
 
-bool law_find_slide(const Simulation *simulation, double way[2])
+bool law_find_slide(const Simulation *simulation, double distance[2])
 {
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
@@ -219,11 +218,11 @@ bool law_find_slide(const Simulation *simulation, double way[2])
     double v = options->body[last][3], sum = 0;
     for (int i = last * nodes; i < mesh->nodes; i++)
         sum += simulation->run[0].x[2 * i];
-    way[0] = sum / nodes - options->body[last][0];
-    way[0] = fabs(way[0]) < 1e-9 ? 0 : way[0];
+    distance[0] = sum / nodes - options->body[last][0];
+    distance[0] = fabs(distance[0]) < 1e-9 ? 0 : distance[0];
     double mu =
         options->self_friction < 0 ? options->friction : options->self_friction;
-    way[1] = v * v / (2 * mu * options->gravity);
+    distance[1] = v * v / (2 * mu * options->gravity);
     return options->law && strcmp(options->law, "rub") == 0;
 }
 

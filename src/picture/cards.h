@@ -28,7 +28,7 @@ typedef struct ShownRow {
 
 /* Tables and texts generated from cards.txt, as far as sources use them. */
 extern const Picture pictures[PICTURE_COUNT];
-extern const Card card_law, card_listing, card_matrix, card_tangent_numbers,
+extern const Card card_law, card_matrix, card_tangent_numbers,
     card_hessian_pattern;
 extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
@@ -90,18 +90,6 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap);
  * would slide.  Returns false if the page is not about sliding.
  *   distance  [2] m, out */
 bool law_find_slide(const Simulation *simulation, double distance[2]);
-
-/* Returns an energy at the last point of the history up to this time, J; 0 if
- * the value is rounding beside the other energies; infinity if the present
- * energies are not finite; NaN without a point. */
-double energies_value_at(const Simulation *simulation, const History *history,
-                         int series, double time);
-
-/* Makes the axis of the energies.  The axis covers the whole run, unless the
- * energies so far would then be too small to see, and is logarithmic if the
- * energy has grown a millionfold.
- *   last  out, s, upper limit of the times of the curves */
-Axis energies_axis(const FrameContent *content, double *last);
 
 /* Whether the picture has a card of this name that is not hidden. */
 bool frame_has_card(const FrameContent *content, const char *name);

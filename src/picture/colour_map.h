@@ -29,7 +29,7 @@
 #define COLOUR_X        0xff0000ffu /* positions, springs; as on the slides */
 #define COLOUR_FOLDED   0xff0a0a3cu /* faces of cells that have turned over */
 #define COLOUR_X_TILDE  0xff8e3fb0u /* end of the step without forces */
-#define COLOUR_P        0xffc96a00u /* search direction and its quadratic model */
+#define COLOUR_P        0xffc96a00u /* search direction, its quadratic model */
 #define COLOUR_ALPHA    0xff00796bu /* step lengths */
 #define COLOUR_PROJECT  0xffd3156bu /* springs whose block was changed */
 #define COLOUR_GHOST    0xffb08d57u /* the outcome with other settings */

@@ -6,7 +6,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "base/mathematics.h"
 
 static const double LEGEND_ROOM = 1.8; /* ems, height of a line of words */
 static const double LOW_PANE = 20; /* ems, lower panes have a place for words */

@@ -48,10 +48,10 @@ void values_add_point(LiveValues *values, const char *name,
 }
 
 void values_add_matrix(LiveValues *values, const char *const names[3],
-                       const double H[3], double none)
+                       const double H[3], double tiny)
 {
     for (int k = 0; k < 3; k++)
-        values_add(values, names[k], fabs(H[k]) < none ? 0 : H[k]);
+        values_add(values, names[k], fabs(H[k]) < tiny ? 0 : H[k]);
 }
 
 /* Adds the values of the lecture and of the window. */
@@ -64,7 +64,7 @@ static void add_window_values(const FrameContent *content, LiveValues *values)
     values_add(values, "pages", lecture_count());
     values_add(values, "panes", content->panes > 1 ? content->panes : NAN);
     values_add_flag(values, "paused", content->time_line.paused);
-    values_add_flag(values, lecture->hides_answer ? "asked" : "told", true);
+    values_add_flag(values, "told", !lecture->hides_answer);
     values_add_flag(values, "guessed", lecture->guesses > 0);
     values_add(values, "guesses", lecture->guesses);
     values_add(values, "right", lecture->right);

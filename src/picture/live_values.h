@@ -8,7 +8,7 @@
  *     / to write 1/4 instead of 0.25, ' to put a negative number in
  *     parentheses.  Braces of the markup (text.h) stay markup.
  *   - "#warning " before a line sets its colour, "#warning* " makes it bold,
- * too.
+ *     too.
  *   - Lines after a line "@" are repeated with the values of the runs 1, 2, 3;
  *     "#run " is the run's colour.
  */

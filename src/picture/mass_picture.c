@@ -69,7 +69,7 @@ int mass_sample(const Simulation *simulation, Energy *row)
     for (int r = 0; r < runs; r++) {
         const double *x = simulation->run[r].x, *v = simulation->run[r].v;
         row[r] = (Energy){simulation->run[r].method->label,
-                          circle ? hypot(x[0], x[1]) : mass_energy(x, v)};
+                          circle ? vector_length(x) : mass_energy(x, v)};
         for (int k = 0; k < 2; k++)
             row[runs + 2 * r + k] = (Energy){places[2 * r + k], x[k]};
     }

@@ -109,27 +109,24 @@ void race_draw(Plot *stage)
         name_points(&plot, named, over_h, on_left);
 }
 
-/* Adds the fastest runs with the target error: a stable explicit one, an
- * implicit one, and an explicit one that explodes later. */
+/* Adds the fastest stable runs with the target error: an explicit one and an
+ * implicit one. */
 void race_add_values(const Simulation *simulation, LiveValues *values)
 {
-    static const char *const names[3][3] = {
-        {"explicit", "explicit ms", "explicit h"},
-        {"implicit", "implicit ms", "implicit h"},
-        {"hollow", "hollow ms", "hollow h"}};
+    static const char *const names[2][2] = {{"explicit", "explicit ms"},
+                                            {"implicit", "implicit ms"}};
     const Race *race = &simulation->exhibit.race;
     bool all = race->count == RACE_METHODS * RACE_STEP_SIZES;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 2; i++) {
         const RacePoint *best = NULL, *at = race->point;
         for (; at < race->point + race->count; at++)
-            if (at->method->implicit == (i == 1) && at->stable == (i < 2) &&
+            if (at->method->implicit == (i == 1) && at->stable &&
                 at->error <= TARGET_ERROR &&
                 (!best || at->seconds < best->seconds))
                 best = at;
         values_add_words(values, names[i][0],
                          best ? best->method->label : NULL);
         values_add(values, names[i][1], best ? 1e3 * best->seconds : NAN);
-        values_add(values, names[i][2], best ? 1e3 * best->h : NAN);
         values_add_flag(values, i ? "" : "no explicit", !best && all);
     }
     bool failed = false; /* a run of the table failed */

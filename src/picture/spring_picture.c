@@ -2,7 +2,6 @@
  * length.
  */
 #include <math.h>
-#include <string.h>
 
 #include "model/spring_law.h"
 #include "picture/cards.h"
@@ -120,7 +119,6 @@ static void add_differences(const Simulation *simulation, LiveValues *values)
             values_add(values, names[i + k],
                        (at[0].force[k] - at[1].force[k]) / (2 * step));
     }
-    values_add(values, "apart", 1e3 * step);
     values_add_point(values, "force too", force);
 }
 

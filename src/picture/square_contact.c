@@ -6,19 +6,29 @@
 #include "model/friction.h"
 #include "picture/colour_map.h"
 #include "picture/square_pen.h"
-#include "base/mathematics.h"
 
 static const double SLAB = 1;        /* ems, depth of a slab */
 static const double FORCE_ARROW = 4; /* ems, arrow of the force in the legend */
 static const double MIN_FORCE = 0.02; /* drawn part of the largest force */
 
-ElementIterator square_contacts(const SquarePen *pen)
+typedef struct ContactForce {
+    int node;
+    double force[2]; /* N, force on the node, with friction */
+    bool has_friction;
+    bool slides; /* slips faster than eps_v */
+} ContactForce;
+
+/* Iterates over the contacts of a run. */
+static ElementIterator square_contacts(const SquarePen *pen)
 {
     return pen->contact ? elements_begin(&pen->contact_at, NULL, 0)
                         : (ElementIterator){0};
 }
 
-ContactForce square_contact_force(const SquarePen *pen, const Element *element)
+/* Computes the force of a contact from positions and velocities alone, so that
+ * a step of the past is drawn as when it was new. */
+static ContactForce square_contact_force(const SquarePen *pen,
+                                         const Element *element)
 {
     const Term *term = system_find_term(pen->system, &friction_energy);
     const double *n = element->n, h = pen->simulation->options.timestep;

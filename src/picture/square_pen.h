@@ -57,21 +57,6 @@ void square_outline(const SquarePen *pen, const double *x, bool dashed,
  * are not many. */
 void square_ghost(const SquarePen *pen, const double *x, Colour colour);
 
-/* Iterates over the contacts of a run:
- *     for (ElementIterator at = square_contacts(pen); elements_next(&at);)
- *         square_contact_force(pen, &at.element);
- * Forces follow from positions and velocities alone, so that a step of the past
- * is drawn as when it was new. */
-ElementIterator square_contacts(const SquarePen *pen);
-
-typedef struct ContactForce {
-    int node;
-    double force[2]; /* N, force on the node, with friction */
-    bool has_friction;
-    bool slides; /* slips faster than eps_v */
-} ContactForce;
-ContactForce square_contact_force(const SquarePen *pen, const Element *element);
-
 /* Draws walls and balls of a run.  With several runs walls are thin slabs,
  * which do not cover each other. */
 void square_contact_obstacles(const SquarePen *pen);

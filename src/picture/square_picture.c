@@ -8,7 +8,6 @@
 #include "model/fracture.h"
 #include "model/spring_law.h"
 #include "picture/square_pen.h"
-#include "base/mathematics.h"
 #include "run/control.h"
 
 enum {

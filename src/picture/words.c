@@ -9,7 +9,6 @@
 #include "picture/colour_map.h"
 #include "picture/live_values.h"
 #include "picture/plot.h"
-#include "base/mathematics.h"
 
 enum { WORDS_TEXT = 512 }; /* bytes of a label */
 
