@@ -32,7 +32,8 @@
 #include "play/step_trace.h"
 #include "run/control.h"
 
-/* Memory for states, bytes; if more is needed every second state is dropped. */
+/* Memory for states and samples, bytes; if more is needed every second state is
+ * dropped. */
 #define PAST_BYTES ((size_t)256 << 20)
 
 /* Largest extent of a state that a picture can show, relative to the extent
@@ -130,7 +131,7 @@ typedef struct Past {
                      Edits lower it, the player writes rows and raises it */
     long booked;  /* last step whose energies in the tables are valid: an edit
                      after a step changes them, too */
-    size_t bytes, limit; /* memory of states, and its limit */
+    size_t bytes, limit; /* memory of states and samples, and its limit */
     int line_pane;       /* pane in which E along p is drawn; -1: none */
     Work work;           /* stage of the work that leads to `aim` */
     long aim;            /* step that is to be shown */

@@ -3,9 +3,7 @@
  */
 #include "play/past.h"
 
-#include <limits.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -116,6 +114,8 @@ static void drop_state(Past *past, Entry *entry)
         control_release(state->control);
         free(state);
     }
+    if (entry->sample)
+        past->bytes -= sizeof *entry->sample;
     free(entry->sample);
     entry->state = NULL;
     entry->sample = NULL;
@@ -230,8 +230,9 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     const Machine *machine = &past->machine[pane];
     const Simulation *simulation = &machine->simulation;
     size_t size = sizeof *entry->state + state_save(simulation, NULL);
+    size_t both = size + sizeof *entry->sample; /* the sample follows */
     drop_state(past, entry);
-    while (past->bytes + size > past->limit && thin_states(past))
+    while (past->bytes + both > past->limit && thin_states(past))
         continue;
     State *state = malloc(size);
     if (!state)
@@ -403,8 +404,10 @@ static Status machine_set_step(Past *past, int pane, long step)
     machine->has_state = !status;
     if (status || !samples)
         return status;
-    if (!entry->sample)
+    if (!entry->sample) {
         entry->sample = malloc(sizeof *entry->sample);
+        past->bytes += entry->sample ? sizeof *entry->sample : 0;
+    }
     if (entry->sample) {
         entry->sample->time = simulation_time(&machine->simulation);
         entry->sample->rows =
