@@ -111,7 +111,7 @@ typedef struct Tour {
 
 enum { LABEL_SIZE = 64 }; /* bytes */
 
-/* Contents of the last frame; the show points to the other fields. */
+/* Contents of the last frame; `content` points to the other fields. */
 typedef struct Frame {
     FrameContent content;
     History history[LAYOUT_PANES];

@@ -83,7 +83,7 @@ typedef struct Recording {
 
 /* Opens the frames, film and tables that the options ask for; makes the folder.
  *   panes      in, number of panes
- *   recording  out; close it in any case
+ *   recording  out; free it in any case
  * Returns OK, FILE_FAILED, OUT_OF_MEMORY, as all functions here do, or
  * INVALID_INPUT; the message says why. */
 Status recording_open(const Options *options, int panes, Recording *recording);
@@ -106,6 +106,8 @@ Status recording_iteration(Recording *recording, const NewtonRecord *record,
 /* Closes all files.  If one of them fails, or has failed, none gets its name.
  */
 Status recording_close(Recording *recording, Keep keep);
+
+/* Frees a recording; files that were not closed are removed. */
 void recording_free(Recording *recording);
 
 /* Writes a picture as a PNG file, whole or not at all (output.h).

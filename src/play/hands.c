@@ -118,7 +118,6 @@ static Status choose_list_line(Player *player, const char *line)
 static Status enter_typed(Player *player)
 {
     const OptionRow *row = player->hands.selected;
-    Command made = {.kind = COMMAND_SET, .joins = true};
     Status status;
     if (!row && player_shows_list(player)) {
         status = choose_list_line(player, player->hands.typed);
@@ -126,7 +125,7 @@ static Status enter_typed(Player *player)
         return status;
     }
     if (row) {
-        made.number = row - option_rows;
+        Command made = command_of_set(row, 0);
         if (row->count > 1 ||
             !option_read(row, 1, player->hands.typed, &made.x))
             memcpy(made.text, player->hands.typed, sizeof player->hands.typed);

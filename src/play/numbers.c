@@ -1,8 +1,5 @@
 /* numbers.c - the row of numbers: adds, selects, types and sets numbers. */
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "play/playing.h"

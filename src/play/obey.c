@@ -1,6 +1,5 @@
 /* obey.c - obeys a command and those in the queue; writes the journal. */
 #include <limits.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -238,8 +237,7 @@ Status player_obey(Player *player, const Command *asked)
                    player->orders.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_works(past);
-    player_sample_line_energy(
-        player); /* a card with E along p may be open now */
+    player_sample_line_energy(player); /* a card may draw E along p now */
     if (past_works(past) && (!worked || !(flags & SCREEN))) {
         Status shown = player_work(player);
         status = status ? status : shown;

@@ -1,6 +1,4 @@
 /* panes.c - changes the method of a pane; adds and closes panes. */
-#include <stdio.h>
-
 #include "play/playing.h"
 #include "run/scene.h"
 

@@ -93,6 +93,17 @@ void player_enqueue_set(Player *player, const OptionRow *row, double value);
  * Returns OK, INVALID_INPUT. */
 Status player_enqueue_lines(Player *player, const char *lines);
 
+/* ---- sheet.c ------------------------------------------------------------- */
+
+/* Makes steps of the scenes on the sheet, for a part of a frame's time. */
+void sheet_advance(Player *player);
+
+/* Fills what a frame shows of the open sheet. */
+void sheet_fill(const Player *player, FrameContent *content);
+
+/* Closes the sheet if it is open. */
+void sheet_close(Player *player);
+
 /* ---- steps.c ------------------------------------------------------------- */
 
 /* Begins new runs with these options at step 0; tables begin again.
@@ -159,17 +170,6 @@ const char *player_idle_reason(const Player *player, const OptionRow *row);
 Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
                          double *value);
 
-/* ---- sheet.c (panes.c and bodies.c only have functions of commands) ------ */
-
-/* Makes steps of the scenes on the sheet, for a part of a frame's time. */
-void sheet_advance(Player *player);
-
-/* Fills what a frame shows of the open sheet. */
-void sheet_fill(const Player *player, FrameContent *content);
-
-/* Closes the sheet if it is open. */
-void sheet_close(Player *player);
-
 /* ---- frame.c ------------------------------------------------------------- */
 
 /* Fills player->screen.frame, and finds what is now under the mouse. */
@@ -182,7 +182,7 @@ Paper *player_paper(Player *player);
 /* Fills and draws the frame on a paper. */
 void player_paint_frame(Player *player, Paper *paper);
 
-/* ---- screen.c, keepsakes.c, and functions of commands -------------------- */
+/* ---- panes.c, bodies.c, screen.c, keepsakes.c: functions of commands ----- */
 
 /* A function that obeys a command.  Returns as player_obey. */
 typedef Status CommandFunction(Player *player, const Command *command);

@@ -7,7 +7,6 @@
 #include <poll.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -229,15 +228,16 @@ static void print_old_frames(const Recording *recording)
             first = count++ == 0 ? step : first;
             last = step;
         }
+    if (count == 0) /* the folder may be NULL */
+        return;
     bool several = count > 1;
     snprintf(folder, sizeof folder, "%s", recording->folder);
     make_one_line(folder);
     if (several)
         snprintf(range, sizeof range, " ... frame_%06ld.png", last);
-    if (count > 0)
-        fprintf(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s\n",
-                folder, count, several ? "frames" : "frame",
-                several ? "stay" : "stays", first, range);
+    fprintf(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s\n",
+            folder, count, several ? "frames" : "frame",
+            several ? "stay" : "stays", first, range);
 }
 
 /* ---- the end ------------------------------------------------------------- */

@@ -1,7 +1,5 @@
 /* screen.c - commands for the screen: speed, camera, cards, lists; the end. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"

@@ -12,8 +12,8 @@ enum {
     CELL_PAUSE = 24  /* frames between two steps in scenes without time */
 };
 
-static const double STEP_TIME =
-    0.008; /* s, longest time of a frame for steps */
+/* Longest time of a frame for steps, s. */
+static const double STEP_TIME = 0.008;
 
 /* The first cell shows the pages of the tour in turn, each other cell a scene.
  */

@@ -2,7 +2,6 @@
  * stops runs that have ended; goes on and back by steps, Newton's updates or
  * lines of Algorithm 3; makes the shown step once more; undoes edits.
  */
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* window_web.c - the window in a web page: shows the paper in the page's
  * canvas, and queues the inputs of mouse, touch and keys.  A page makes no
- * films. src/web/page.js has the object Page.
+ * films.  src/web/page.js has the object Page.
  */
 #include <emscripten.h>
 #include <stdio.h>
