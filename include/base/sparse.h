@@ -21,12 +21,11 @@ typedef struct Triplets {
 } Triplets;
 
 typedef struct Sparse {
-    int size;    /* rows = columns */
-    int entries; /* stored entries */
-    int *start;  /* [size+1] column c is start[c] ... start[c+1]-1 */
-    int *row;    /* [entries] row of each entry, ascending in each column */
-    double
-        *value; /* [entries+1] value[entries] is the sum of dropped entries */
+    int size;      /* rows = columns */
+    int entries;   /* stored entries */
+    int *start;    /* [size+1] column c is start[c] ... start[c+1]-1 */
+    int *row;      /* [entries] row of each entry, ascending in each column */
+    double *value; /* [entries+1] value[entries] sums the dropped entries */
 } Sparse;
 
 /* Allocates memory for `capacity` triplets.  Returns OK, TOO_LARGE or

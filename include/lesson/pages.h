@@ -17,27 +17,26 @@ enum { LINES_WALKED = 9 };
 
 /* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
 typedef struct LecturePage {
-    const char *name;    /* name for --lecture, one word */
-    const char *topic;   /* title of the slide */
-    const char *section; /* heading above the page in the list, or NULL */
-    bool extra;          /* whether the 80 minutes leave the page out */
-    const char *text;    /* text: what the page is about */
-    const char *formula; /* text: formulas in large letters, one on a line; or
-                            NULL */
-    const char *line;    /* scene and settings, as on the command line */
-    const char *cards;   /* names of the open cards, separated by blanks */
-    const char *look;    /* text: the answer, and what to look at */
-    const char *touch;   /* text: what to change, and what will happen */
-    const char *ask;     /* text: the question before the answer, or NULL */
-    const char *answer;  /* live value that is the right number; "click": the
-                            end of the next step; NULL: the answer is words */
-    const char *veils;   /* names of the cards hidden before the answer, or NULL
-                          */
-    const char *star;    /* name of the enlarged card, or NULL */
-    const char *law;     /* name of the curve in the card `law`, or NULL */
-    const char *notes;   /* text for the lecturer */
-    const char *file;    /* path of the source shown by K */
-    const char *function;    /* functions shown by K, separated by ',' */
+    const char *name;     /* name for --lecture, one word */
+    const char *topic;    /* title of the slide */
+    const char *section;  /* heading above the page in the list, or NULL */
+    bool extra;           /* whether the 80 minutes leave the page out */
+    const char *text;     /* text: what the page is about */
+    const char *formula;  /* text: formulas in large letters, one on a line; or
+                             NULL */
+    const char *line;     /* scene and settings, as on the command line */
+    const char *cards;    /* names of the open cards, separated by blanks */
+    const char *look;     /* text: the answer, and what to look at */
+    const char *touch;    /* text: what to change, and what will happen */
+    const char *ask;      /* text: the question before the answer, or NULL */
+    const char *answer;   /* live value that is the right number; "click": the
+                             end of the next step; NULL: the answer is words */
+    const char *veils;    /* names of cards hidden before the answer, or NULL */
+    const char *star;     /* name of the enlarged card, or NULL */
+    const char *law;      /* name of the curve in the card `law`, or NULL */
+    const char *notes;    /* text for the lecturer */
+    const char *file;     /* path of the source shown by K */
+    const char *function; /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `function`, then NULL */
     const char *lit;         /* part of each code line that is lit */
     const char *const *walk; /* [LINES_WALKED] part of each code line that is

@@ -110,8 +110,7 @@ typedef struct EnvelopeMap {
     int column, row; /* cell whose run is shown; -1: none */
 } EnvelopeMap;
 
-/* ---- data of all scenes, points and switches ------------------------------
- */
+/* ---- data of all scenes, points and switches ----------------------------- */
 
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct Exhibit {

@@ -4,7 +4,6 @@
 #ifndef ELASTO_MESSAGE_H
 #define ELASTO_MESSAGE_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/status.h"

@@ -179,20 +179,18 @@ typedef struct OptionRow {
     size_t offset;         /* OPTION_TEXT: offset of the field in Options */
     bool is_table;         /* OPTION_TEXT: the file is a CSV table */
     int count;             /* numbers in a value; 0: one */
-    unsigned short_counts; /* bit n: a value may have only the first n numbers
-                            */
-    const double *
-        omitted; /* [count] numbers for those that a shorter value leaves out */
-    char separator;       /* separator of the numbers; 0: a comma */
-    int max_times;        /* how often the option may be repeated; 0: the last
-                             value counts */
-    int counter;          /* max_times > 0: slot with the number of
-                             repetitions, whose values follow each other from
-                             `slot` on */
-    double default_value; /* default, as on the slides */
-    double low, high;     /* range, both ends included */
-    const char *unit;     /* unit of the numbers, or "" */
-    Names names;          /* OPTION_NAME: the values */
+    unsigned short_counts; /* bit n: the first n numbers are a value, too */
+    const double *omitted; /* [count] numbers that a shorter value leaves out */
+    char separator;        /* separator of the numbers; 0: a comma */
+    int max_times;         /* how often the option may be repeated; 0: the last
+                              value counts */
+    int counter;           /* max_times > 0: slot with the number of
+                              repetitions, whose values follow each other from
+                              `slot` on */
+    double default_value;  /* default, as on the slides */
+    double low, high;      /* range, both ends included */
+    const char *unit;      /* unit of the numbers, or "" */
+    Names names;           /* OPTION_NAME: the values */
     unsigned needs; /* enum SceneNeeds: the scene must have one of these */
     /* Returns why the option has no effect beside the others; NULL: it has one.
      * The function is NULL for options that always have one. */

@@ -105,10 +105,10 @@ static Status create_motion(const Motion *motion, int segments,
  * or is accurate enough.
  *
  * Tolerance: the last direction p of a step changes velocities by at most the
- * tolerance, so all steps change positions by at most steps * tolerance * time
- * /
- * 2.  The bound may equal the expected error of the method: a step applies the
- * last p, and the remaining error is a hundredth of p or less. */
+ * tolerance, so all steps change positions by at most
+ * steps * tolerance * time / 2.  The bound may equal the expected error of the
+ * method: a step applies the last p, and the remaining error is a hundredth of
+ * p or less. */
 static Status measure_method(bool quick, const Motion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method,
@@ -214,7 +214,7 @@ typedef struct ProgramResults {
     long unconverged;      /* steps of all starts that did not converge */
 } ProgramResults;
 
-/* ProgramResults a program from one start and stores its results. */
+/* Runs a program from one start and stores its results. */
 static Status measure_start(Program program, int segments, int start, int steps,
                             ProgramResults *runs)
 {

@@ -4,7 +4,6 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -353,8 +352,8 @@ static Status fill_defaults(Line *line)
     Status status = split_words(options->scene->line, copy, sizeof copy, &own);
     for (int i = 0; i < own.words && !status; i++)
         status = apply_word(&own, &own.word[i]);
-    if (!find_word(line,
-                   "body")) /* --body replaces the scene's body and its pins */
+    /* --body replaces the scene's body, and with the body its pins */
+    if (!find_word(line, "body"))
         options->pin = options->scene->pin;
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->max_times && find_word(line, row->name))

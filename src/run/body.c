@@ -13,7 +13,6 @@
 #include "model/elements.h"
 #include "model/friction.h"
 #include "model/self_contact.h"
-#include "run/control.h"
 #include "base/mathematics.h"
 
 /* ---- pins --------------------------------------------------------------- */

@@ -82,8 +82,8 @@ void control_store_obstacle(Control *control, int number,
                             const Simulation *simulation)
 {
     static const double SAME = 1e-9; /* sides; smallest difference of places */
-    double *at = options_obstacle_at(&control->options, number), place[2],
-           other[2];
+    double *at = options_obstacle_at(&control->options, number);
+    double place[2], other[2];
     simulation_find_obstacle(simulation, 0, number, place);
     for (int r = 1; r < simulation->runs; r++) {
         simulation_find_obstacle(simulation, r, number, other);
@@ -108,8 +108,7 @@ void control_release(const Control *control)
         free(own);
 }
 
-/* ---- applying a control ---------------------------------------------------
- */
+/* ---- applying a control -------------------------------------------------- */
 
 /* Stores the energy that each run has dissipated so far.
  *   out  [runs] J */

@@ -1,4 +1,5 @@
-/* message.c - makes texts from outside safe to print in a line of a message.
+/* message.c - writes messages, and makes texts from outside safe to print in
+ * one line.
  */
 #include "run/message.h"
 

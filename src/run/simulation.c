@@ -7,10 +7,8 @@
 
 #include "model/cells.h"
 #include "model/contact.h"
-#include "model/friction.h"
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
-#include "base/mathematics.h"
 
 /* Limit of Newton iterations in a step.  The largest squares, of 1024 segments,
  * need some thousands. */

@@ -99,8 +99,8 @@ void mass_find_exact(const Simulation *simulation, double t, double x[2])
 SpringValues spring_evaluate(const double d[2], double l2, double k)
 {
     double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
-    double s = spring_eigenvalue_across(d2, l2) / l2,
-           pull = spring_gradient_factor(k, s);
+    double s = spring_eigenvalue_across(d2, l2) / l2;
+    double pull = spring_gradient_factor(k, s);
     double c = spring_hessian_factor(l2, k);
     return (SpringValues){
         .length = r,
