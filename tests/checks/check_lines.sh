@@ -5,12 +5,10 @@
 work_apart
 
 # ---- what is refused ---------------------------------------------------------
-# k.csv has a link; d is a folder; jump is a script: nothing else is there,
-# and nothing is made or changed.  Code, words of the one line on standard error,
-# arguments.
+# k.csv is a file, d a folder, jump a script: nothing else is there, and nothing
+# is made or changed.  Code, words of the one line on standard error, arguments.
 refusals() {
     echo precious >k.csv
-    ln -s k.csv link
     mkdir d
     echo '0 jump' >jump
     ls -A >../before.$$

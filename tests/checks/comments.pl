@@ -6,7 +6,8 @@
 #   subject   a sentence begins with a pronoun
 #   twins     two files define functions of one name
 # Without arguments, lists all finds.  With limits (leans=N subject=N twins=N),
-# prints a line for each kind that has more finds than its limit.  The limits are the lowest counts so far: lower them, never raise them.
+# prints a line for each kind that has more finds than its limit.  The limits are
+# the lowest counts so far: lower them, never raise them.
 use strict;
 use warnings;
 

@@ -113,16 +113,16 @@ TEST(small_windows_leave_parts_out)
         CHECK(l.chips - l.chips_left_out >= 7);
         CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
     }
+    /* shorter labels move the chips together */
     for (int i = 0; i < content.chips.count; i++)
-        content.chips.item[i]
-            .label++; /* shorter labels move the chips together */
+        content.chips.item[i].label++;
     CHECK(layout_create(&content, 900, 900).chips_left_out == 0);
     Layout small = layout_create(&content, 400, 300);
     CHECK(small.cards == 0 && small.settings == 0);
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
     CHECK(small.stage.width == 400 && small.stage.height > 200);
-    content.settings.item[0].letters =
-        400; /* wider than the window: the first line */
+    /* wider than the window: the first line */
+    content.settings.item[0].letters = 400;
     Layout wide = layout_create(&content, 900, 900);
     CHECK(wide.settings > 1 && wide.setting[1].y > wide.setting[0].y);
     CHECK(wide.setting[0].y < wide.settings_row.y + wide.em);

@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/fracture.h"
 #include "picture/cards.h"
 #include "picture/font.h"
 #include "picture/plot.h"
@@ -169,8 +168,8 @@ TEST(the_race_measures_errors_and_energies)
                    0.25 * factor[i]);
         point = &race->point[RACE_SHOWN_ROW * RACE_METHODS + i];
         CHECK_NEAR(point->h, 0.004, 1e-15);
-        CHECK(isnan(point->energy_after_second) ==
-              (i == 0)); /* forward Euler explodes */
+        /* forward Euler explodes */
+        CHECK(isnan(point->energy_after_second) == (i == 0));
         Simulation *again =
             simulate("square --stretch 1.1 --tolerance 1e-8 --timestep 0.004 "
                      "--integrator %s",
@@ -336,6 +335,17 @@ static const char *missing_words(const FrameContent *content, bool brief)
     return missing;
 }
 
+/* Draws a frame, of which `seen` is then filled anew. */
+static void see_frame(const FrameContent *content, Paper *paper)
+{
+    memset(&seen, 0, sizeof seen);
+    seen.smallest = seen.smallest_code = INT_MAX;
+    seen.column =
+        layout_create(content, paper->canvas.width, paper->canvas.height)
+            .column;
+    frame_draw(paper, content);
+}
+
 static void check_frame(const LecturePage *page, Simulation *simulation,
                         int kind, Paper *paper)
 {
@@ -352,10 +362,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     content.lecture.hides_answer = kind == LARGE_ASKED && page->ask;
     frame_add_lecture(column[kind], NULL, &content);
     frame_describe(&content);
-    memset(&seen, 0, sizeof seen);
-    seen.smallest = seen.smallest_code = INT_MAX;
-    seen.column = layout_create(&content, width, height).column;
-    frame_draw(paper, &content);
+    see_frame(&content, paper);
     bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
     if (kind == CODE) { /* the picture and a star stay */
         Layout beside = layout_create(&content, width, height);
@@ -423,10 +430,7 @@ TEST(scenes_keep_their_words_in_place)
             CHECK_OK(paper_create(sizes[s][0], sizes[s][1], &paper));
             frame_create(simulation, &content);
             frame_describe(&content);
-            memset(&seen, 0, sizeof seen);
-            seen.column =
-                layout_create(&content, sizes[s][0], sizes[s][1]).column;
-            frame_draw(&paper, &content);
+            see_frame(&content, &paper);
             paper_free(&paper);
             if (seen.cut > 0 || seen.over > 0)
                 fail_msg("%s at %d x %d: %d words cut, %d over others",

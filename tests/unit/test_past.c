@@ -9,38 +9,16 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/contact.h"
 #include "model/pull_energy.h"
 #include "play/past.h"
 
 static Past past;
 
-static uint64_t hash_number(uint64_t hash, double number)
-{
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    return 31 * hash + bits;
-}
-
-/* Hashes a state with its time and its ledger. */
-static uint64_t hash_of(const Simulation *simulation, uint64_t hash)
-{
-    hash =
-        hash_number(state_hash(simulation, hash), simulation_time(simulation));
-    for (int r = 0; r < simulation->runs; r++) {
-        const Energies ledger = simulation_energies(simulation, r);
-        for (int i = 0; i < ledger.rows; i++)
-            hash = hash_number(hash, ledger.row[i].value);
-        hash = hash_number(hash, simulation->ledger[r].gain.energy);
-    }
-    return hash;
-}
-
 static uint64_t hash_now(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_panes(&past); p++)
-        hash = hash_of(&past.machine[p].simulation, hash);
+        hash = hash_with_ledger(&past.machine[p].simulation, hash);
     return hash;
 }
 
@@ -130,7 +108,7 @@ TEST(states_come_back)
         CHECK((past.branch[0].stride >= STEPS / 8) == thinned);
         simulation_from_line(lines[i % LINES], NULL, NULL, &plain);
         for (int step = 0; step <= STEPS; step++) {
-            CHECK(hash_of(&plain, STATE_HASH_SEED) == hash[step]);
+            CHECK(hash_with_ledger(&plain, STATE_HASH_SEED) == hash[step]);
             simulation_step(&plain);
         }
         simulation_free(&plain);

@@ -83,8 +83,8 @@ TEST(the_curve_goes_through_the_step)
         int rough = 0, seen = 0;
         begin(lines[i]);
         for (int step = 0; step < 90; step++) {
-            past_aim(&player.past, step + 1,
-                     true); /* with all lines of the step */
+            /* with all lines of the step */
+            past_aim(&player.past, step + 1, true);
             Status status = past_finish_work(&player.past);
             CHECK(!status || status_is_unconverged(status));
             const StepTrace *kept = &machine(0)->trace;
@@ -155,8 +155,8 @@ TEST(a_long_step_is_made_in_slices)
     CHECK(player.past.step == 1 && past_newest(&player.past) == 1);
     CHECK(player_hash(&player) == state_hash(&plain, STATE_HASH_SEED));
     obey_all((const char *const[]){"grab 0", "next", "drag 0.2 0.3", NULL});
-    CHECK(
-        past_works(&player.past)); /* the hand follows as soon as it is there */
+    /* the hand follows as soon as it is there */
+    CHECK(past_works(&player.past));
     work_off();
     CHECK(player.past.step == 2 && past_control(&player.past, 0)->at[0] == 0.2);
     obey_all((const char *const[]){"undo", NULL});

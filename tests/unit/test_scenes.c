@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/damping.h"
 #include "model/self_contact.h"
 
 /* Steps until the scene is done, at most `limit`; the status of the last. */
@@ -250,14 +249,6 @@ static Status meddle(Simulation *scene, int deed)
     }
 }
 
-static int broken_springs(const Simulation *scene)
-{
-    int count = 0;
-    for (int s = 0; s < scene->system.springs; s++)
-        count += spring_is_broken(&scene->system, s);
-    return count;
-}
-
 /* A hand, a pin, another time step, stiffness, mu or eta is booked as work:
  * nothing that is lost changes with it, in the steps after it all that is lost
  * grows, and no broken spring heals. */
@@ -277,14 +268,14 @@ TEST(what_hands_do_is_work)
         int blocked = 0; /* the ceiling, by the node that is pinned */
         for (int n = 0; n < 24 * 5; n++) {
             Energies before = simulation_energies(scene, 0);
-            int broken = broken_springs(scene);
+            int broken = count_broken_springs(scene);
             Status status =
                 n % 5 ? simulation_step(scene) : meddle(scene, n / 5);
             Energies after = simulation_energies(scene, 0);
             double size = fabs(before.total) + fabs(after.total) +
                           fabs(after.work) + fabs(before.dissipated) + 1;
             blocked += status == STATUS_BLOCKED;
-            CHECK(broken_springs(scene) >= broken);
+            CHECK(count_broken_springs(scene) >= broken);
             CHECK(status == STATUS_OK || (i == 2 && status == STATUS_BLOCKED));
             for (int k = 0; k < 4; k++) {
                 double had = energies_of(&before, lost[k]);

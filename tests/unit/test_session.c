@@ -3,7 +3,6 @@
  * send. */
 #include "attended.h"
 #include "oracle.h"
-#include "model/fracture.h"
 #include "picture/live_values.h"
 #include "picture/text.h"
 
@@ -18,11 +17,13 @@ static double mouse[2];       /* pixels */
 static bool open_player;
 static char folder[] = "/tmp/elasto-session-XXXXXX";
 
+/* What the window shows, as player_fill_frame filled it last. */
+static const FrameContent *const content = &player.screen.frame.content;
+
 static Layout layout_now(void)
 {
     const Canvas *canvas = &player_paper(&player)->canvas;
-    return layout_create(&player.screen.frame.content, canvas->width,
-                         canvas->height);
+    return layout_create(content, canvas->width, canvas->height);
 }
 
 static uint64_t hash_box(const Canvas *canvas, Box box)
@@ -39,8 +40,7 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
 static uint64_t shape_shown(void)
 {
     player_fill_frame(&player);
-    const Pane *pane =
-        &player.screen.frame.content.pane[player.screen.frame.content.active];
+    const Pane *pane = active_pane(content);
     const unsigned char *byte = (const unsigned char *)pane_x(pane);
     size_t size = 2 * sizeof(double) * (size_t)pane->simulation->system.nodes;
     uint64_t hash = STATE_HASH_SEED;
@@ -155,12 +155,11 @@ static void press_letter(char letter)
 static const Setting *number_shown(const char *name, int *place)
 {
     player_fill_frame(&player);
-    for (int i = 0; i < player.screen.frame.content.settings.count; i++)
-        if (strcmp(player.screen.frame.content.settings.item[i].name, name) ==
-                0 ||
+    for (int i = 0; i < content->settings.count; i++)
+        if (strcmp(content->settings.item[i].name, name) == 0 ||
             strcmp(name, "first") == 0) {
             *place = i;
-            return &player.screen.frame.content.settings.item[i];
+            return &content->settings.item[i];
         }
     fail_msg("the row has no %s", name);
     return NULL;
@@ -176,8 +175,7 @@ static void point_into(Box box, bool corner)
 /* Whether the mouse is on this grip. */
 static bool is_grip(const Layout *layout, int grip)
 {
-    Pick pick =
-        frame_pick(&player.screen.frame.content, layout, mouse[0], mouse[1]);
+    Pick pick = frame_pick(content, layout, mouse[0], mouse[1]);
     return pick.kind == PICK_HANDLE && pick.index == grip;
 }
 
@@ -186,7 +184,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
 {
     const char *of = strstr(place, " of ");
     int i = 0, p = of ? atoi(of + 4) : 0;
-    const Pane *pane = &player.screen.frame.content.pane[p];
+    const Pane *pane = &content->pane[p];
     double at[2], grip[SCENE_MAX_HANDLES][2];
     if (sscanf(place, "grip %d", &i) == 1) {
         assert_true(i < exhibit_list_handles(pane->simulation, grip));
@@ -195,7 +193,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
         memcpy(at, pane_x(pane) + 2 * i, sizeof at);
     else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) != 2)
         return false;
-    Camera camera = camera_of_pane(&player.screen.frame.content, layout, p);
+    Camera camera = camera_of_pane(content, layout, p);
     camera_pixel(&camera, at, mouse);
     if (place[0] == 'g' &&
         !is_grip(layout, i)) /* the grip lies on a curve above the axis */
@@ -207,18 +205,16 @@ static bool point_in_pane(const char *place, const Layout *layout)
 /* The chip with this key, or the cell of the sheet with this scene; -1: none */
 static int find_chip(const char *key)
 {
-    int i = player.screen.frame.content.chips.count - 1;
-    while (i >= 0 &&
-           strcmp(player.screen.frame.content.chips.item[i].key, key) != 0)
+    int i = content->chips.count - 1;
+    while (i >= 0 && strcmp(content->chips.item[i].key, key) != 0)
         i--;
     return i;
 }
 
 static int find_cell(const char *scene)
 {
-    int i = player.screen.frame.content.sheet.cells - 1;
-    while (i >= 0 &&
-           strcmp(player.screen.frame.content.sheet.cell[i].name, scene) != 0)
+    int i = content->sheet.cells - 1;
+    while (i >= 0 && strcmp(content->sheet.cell[i].name, scene) != 0)
         i--;
     return i;
 }
@@ -236,8 +232,7 @@ static void point_at(const char *place)
         long step = atol(place + 5);
         mouse[0] = layout.bars.x;
         mouse[1] = layout.time_line.y + layout.time_line.height / 2;
-        while (frame_find_step(&player.screen.frame.content, &layout,
-                               mouse[0]) < step &&
+        while (frame_find_step(content, &layout, mouse[0]) < step &&
                mouse[0] < layout.width)
             mouse[0]++;
     } else if (strcmp(place, "strip") == 0) {
@@ -266,7 +261,7 @@ static double scale_now(void)
 {
     player_fill_frame(&player);
     Layout layout = layout_now();
-    return camera_of_pane(&player.screen.frame.content, &layout, 0).scale[0];
+    return camera_of_pane(content, &layout, 0).scale[0];
 }
 
 /* Returns false if this is nothing that a mouse does. */
@@ -406,8 +401,7 @@ static const char *text_or(const char *text)
 
 /* Whether all nodes of a pane are in its part of the window, and more than a
  * dot. */
-static bool pane_has_all(const FrameContent *content, const Layout *layout,
-                         int p)
+static bool pane_has_all(const Layout *layout, int p)
 {
     const Pane *pane = &content->pane[p];
     const Box *box = &layout->pane[p];
@@ -424,12 +418,12 @@ static bool pane_has_all(const FrameContent *content, const Layout *layout,
 }
 
 /* Adds the facts of panes, numbers, chips and cards. */
-static void collect_parts(const FrameContent *content)
+static void collect_parts(void)
 {
     Layout layout = layout_now();
     for (int p = 0; p < content->panes; p++) {
         const Trace *trace = content->pane[p].trace;
-        fact("inside %d %d", p, pane_has_all(content, &layout, p));
+        fact("inside %d %d", p, pane_has_all(&layout, p));
         fact("label %d\t%s", p, text_or(content->pane[p].label));
         fact("line %d %d", p, trace ? (int)trace->line : 0);
     }
@@ -455,7 +449,6 @@ static void collect_facts(void)
     static const char *const kinds[] = {"none",     "node",  "spring",
                                         "obstacle", "other", "other",
                                         "other",    "other", "other"};
-    const FrameContent *content = &player.screen.frame.content;
     const LecturePage *page = content->lecture.page;
     const Trace *trace = content->pane[content->active].trace;
     facts[0] = '\0';
@@ -483,7 +476,7 @@ static void collect_facts(void)
     fact("time\t%s", text_or(content->time_line.text));
     fact("sentence\t%s", text_or(content->strip.sentence));
     fact("method\t%s", text_or(content->strip.method));
-    collect_parts(content);
+    collect_parts();
 }
 
 /* Whether this line is one of the facts, or some words of a text. */
@@ -510,8 +503,7 @@ static void look(const char *line)
  * many there are. */
 static int find_records(const Simulation *simulation, const NewtonRecord **row)
 {
-    const Records *made =
-        &player.past.machine[player.screen.frame.content.active].records;
+    const Records *made = &player.past.machine[content->active].records;
     bool descends = simulation->scene->step == step_descent;
     *row = descends ? simulation->descent.record : made->row;
     return descends ? simulation->descent.count : made->count;
@@ -614,10 +606,7 @@ static double count_turned(const Simulation *simulation)
 
 static double count_broken(const Simulation *simulation)
 {
-    int broken = 0;
-    for (int s = 0; s < simulation->system.springs; s++)
-        broken += spring_is_broken(&simulation->system, s);
-    return broken;
+    return count_broken_springs(simulation);
 }
 
 static double count_crossings(const Simulation *simulation)
@@ -645,6 +634,17 @@ static double count_idle_cells(const Simulation *simulation)
     return idle;
 }
 
+/* Steps of the run that did not converge, and updates of all its steps. */
+static double count_unconverged(const Simulation *simulation)
+{
+    return (double)simulation->unconverged;
+}
+
+static double count_updates(const Simulation *simulation)
+{
+    return (double)simulation_sum_counters(simulation).iterations;
+}
+
 static const struct {
     const char *name;
     double (*find)(const Simulation *simulation);
@@ -661,7 +661,9 @@ static const struct {
                {"crossings", count_crossings},
                {"flattest", find_flattest},
                {"gap", find_gap},
-               {"idle cells", count_idle_cells}};
+               {"idle cells", count_idle_cells},
+               {"unconverged", count_unconverged},
+               {"all updates", count_updates}};
 
 /* Finds a number by its name: a name of the table above, a coordinate of a
  * node, a field of a record, a row of the ledger, or a value of texts; NaN:
@@ -670,7 +672,7 @@ static double find_number(const char *name)
 {
     static const char *const fields[] = {"alpha",  "residual", "projected",
                                          "change", "slope",    "to"};
-    const Pane *pane = active_pane(&player.screen.frame.content);
+    const Pane *pane = active_pane(content);
     const Simulation *simulation = pane->simulation;
     const NewtonRecord *row = NULL;
     char field[16];
@@ -678,10 +680,6 @@ static double find_number(const char *name)
     for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
         if (strcmp(numbers[n].name, name) == 0)
             return numbers[n].find(simulation);
-    if (strcmp(name, "unconverged") == 0)
-        return (double)simulation->unconverged;
-    if (strcmp(name, "all updates") == 0)
-        return (double)simulation_sum_counters(simulation).iterations;
     if (sscanf(name, "rise %d", &i) == 1)
         return find_rise(simulation, i);
     if (sscanf(name, "radius %d", &i) == 1)
@@ -796,8 +794,8 @@ typedef struct Session {
 } Session;
 
 static Session sessions[SESSIONS + 1]; /* up to one without a name */
-static const char
-    *lines[LINES]; /* lines of all sessions, each session ends with a NULL */
+/* Lines of all sessions; each session ends with a NULL. */
+static const char *lines[LINES];
 static char session_text[1 << 18];
 
 /* Sessions and lines so far. */
@@ -954,9 +952,9 @@ static uint64_t all_but(int place)
 {
     uint64_t hash = seen("state") + (uint64_t)player.past.step;
     player_fill_frame(&player);
-    for (int i = 0; i < player.screen.frame.content.settings.count; i++)
-        for (const char *c = player.screen.frame.content.settings.item[i].value;
-             i != place && *c; c++)
+    for (int i = 0; i < content->settings.count; i++)
+        for (const char *c = content->settings.item[i].value; i != place && *c;
+             c++)
             hash = (hash ^ (unsigned char)*c) * 1099511628211u;
     return hash;
 }
@@ -993,9 +991,7 @@ static void random_keys_stay_in_their_field(void **unused)
                 press_letter((char)(' ' + random_below(&random, 95)));
             else
                 press_letter("0123456789.,e-/ms"[random_below(&random, 17)]);
-        bool mesh =
-            strcmp(player.screen.frame.content.settings.item[place].name,
-                   "segments") == 0;
+        bool mesh = strcmp(content->settings.item[place].name, "segments") == 0;
         bool enter = !mesh && random_below(&random, 2) == 0;
         if (enter)
             press_key("Return");
@@ -1014,25 +1010,12 @@ static void random_keys_stay_in_their_field(void **unused)
     CHECK(refused > ROUNDS / 10);
 }
 
-static uint64_t hash_number(uint64_t hash, double number)
-{
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    return 31 * hash + bits;
-}
-
 /* Hash of the states, the times and the ledgers of all panes. */
 static uint64_t hash_run(void)
 {
-    uint64_t hash = player_hash(&player);
-    for (int p = 0; p < past_panes(&player.past); p++) {
-        const Simulation *simulation = &machine(p)->simulation;
-        const Energies ledger = simulation_energies(simulation, 0);
-        hash = hash_number(hash, simulation_time(simulation));
-        hash = hash_number(hash, ledger.work);
-        for (int i = 0; i < ledger.rows; i++)
-            hash = hash_number(hash, ledger.row[i].value);
-    }
+    uint64_t hash = STATE_HASH_SEED;
+    for (int p = 0; p < past_panes(&player.past); p++)
+        hash = hash_with_ledger(&machine(p)->simulation, hash);
     return hash;
 }
 
@@ -1046,8 +1029,9 @@ static void visit_steps(uint64_t *hash, bool again)
         long step = again ? i : newest - i;
         snprintf(line, sizeof line, "goto %ld", step);
         show_result(obey(line));
-        CHECK(!again || hash[step] == hash_run());
-        hash[step] = hash_run();
+        const uint64_t now = hash_run();
+        CHECK(!again || hash[step] == now);
+        hash[step] = now;
     }
 }
 

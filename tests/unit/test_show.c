@@ -7,7 +7,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/square_pen.h"
 #include "test.h"
 
 /* ---- a scene after some steps, and what a player would show of it -------- */

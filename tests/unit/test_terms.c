@@ -570,7 +570,7 @@ static void accelerations_are_forces_over_masses(void **unused)
     system_free(&system);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static Row all[ROWS + OPTIONS_MAX_ROWS];
     static struct CMUnitTest tests[ROWS + OPTIONS_MAX_ROWS + 1] = {
@@ -586,6 +586,8 @@ int main(void)
     for (int i = 0; i < count; i++)
         tests[1 + i] =
             (struct CMUnitTest){all[i].name, row_is_right, NULL, NULL, &all[i]};
+    if (argc > 1)
+        cmocka_set_test_filter(argv[1]);
     return _cmocka_run_group_tests("terms", tests, 1 + (size_t)count, NULL,
                                    NULL);
 }

@@ -262,6 +262,35 @@ double energy_now(const Simulation *simulation, int run, const char *name)
     return energies_of(&energies, name);
 }
 
+static uint64_t hash_number(uint64_t hash, double number)
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    return 31 * hash + bits;
+}
+
+uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash)
+{
+    hash =
+        hash_number(state_hash(simulation, hash), simulation_time(simulation));
+    for (int r = 0; r < simulation->runs; r++) {
+        const Energies ledger = simulation_energies(simulation, r);
+        hash = hash_number(hash, ledger.work);
+        for (int i = 0; i < ledger.rows; i++)
+            hash = hash_number(hash, ledger.row[i].value);
+        hash = hash_number(hash, simulation->ledger[r].gain.energy);
+    }
+    return hash;
+}
+
+int count_broken_springs(const Simulation *simulation)
+{
+    int count = 0;
+    for (int s = 0; s < simulation->system.springs; s++)
+        count += spring_is_broken(&simulation->system, s);
+    return count;
+}
+
 double *rest_of(const Simulation *simulation)
 {
     static double rest[2 * 2048];

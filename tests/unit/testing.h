@@ -123,6 +123,12 @@ Simulation *make_steps(Simulation *simulation, int count);
 double energies_of(const Energies *energies, const char *name);
 double energy_now(const Simulation *simulation, int run, const char *name);
 
+/* Hash of the states of all runs, the time and the ledgers; `hash` is
+ * STATE_HASH_SEED or the hash of the pane before. */
+uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash);
+
+int count_broken_springs(const Simulation *simulation);
+
 /* Rest positions of the mesh, [2n] m; valid until the next call */
 double *rest_of(const Simulation *simulation);
 
