@@ -131,10 +131,11 @@ static void put_algorithm(Writer *to, const FrameContent *content, int card,
 {
     const Pane *pane = active_pane(content);
     for (; row->shown_if; row++) {
+        if (!text_has_line(&pane->values, row->shown_if))
+            continue;
         const ShownRow now = listing_show_row(pane, row);
-        if (text_has_line(&pane->values, row->shown_if))
-            put(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.lit, now.struck,
-                row->indented, now.text.words, now.value.words);
+        put(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.lit, now.struck,
+            row->indented, now.text.words, now.value.words);
     }
 }
 
@@ -333,8 +334,7 @@ static void put_picture(Writer *to, const Player *player)
         put_energies(to, simulation);
         put(to, ".");
     }
-    for (TextLine line =
-             text_begin(values, picture_of(simulation->scene)->legend);
+    for (TextLine line = text_begin(values, active_picture(content)->legend);
          text_next_line(&line);)
         put(to, " %s.", line.words);
     put(to, "\n");
@@ -345,7 +345,7 @@ static void put_event(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Trace *trace = active_pane(content)->update;
-    const Outcome *outcome = &player->past.machine[player->active].outcome;
+    const Outcome *outcome = &player_machine(player)->outcome;
     const char *turn = player_simulation(player)->scene->step_name;
     put(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
     if (trace && trace->line != LINE_NONE) {

@@ -37,14 +37,14 @@ const plain = (text) => text.replace(/#[\w-]+\*?(?=\{)|[{}_]/g, '');
 // Makes a link of "page 25", and buttons of keys: "Press Space", "press R and N".
 const LINKS = /([Pp]age[ \u00a0]\d+|(?<=[Pp]ress )(?:Space|[A-Z])\b|(?<=(?:then|and) )[NR]\b)/;
 const addLinks = (element) => {
-  const makeLink = (text, i) => {
-    const page = i % 2 && lists.pages[text.slice(5) - 1];
+  const makeLink = (text) => {
+    const page = lists.pages[text.slice(5) - 1];
     if (page) return make('a', [text], { href: '#' + page[0] });
     const button = make('button', [text], { class: 'key' });
-    return i % 2 ? Object.assign(button, { onclick: () => key(text, false) }) : text;
+    return Object.assign(button, { onclick: () => key(text, false) });
   };
   for (const node of [...element.childNodes].filter((child) => child.nodeType === Node.TEXT_NODE))
-    node.replaceWith(...node.textContent.split(LINKS).map(makeLink));
+    node.replaceWith(...node.data.split(LINKS).map((text, i) => (i % 2 ? makeLink(text) : text)));
 };
 
 const paragraph = ([colour, bold, text], asFormula) => {
@@ -189,16 +189,16 @@ const showCards = () => {
   }
   for (const [index, name, kind, , title, description] of all) {
     const texts = isDrawn(kind) ? description : cardLines(now, index);
-    const card = $('card-' + name);
-    const [summary, box] = card.children;
-    if (isNew(card, 'lines', [title, texts])) {
-      setMarkup(summary, title);
-      if (isDrawn(kind)) box.firstChild.ariaLabel = plain(`${title}. ${texts}`);
-      else box.replaceWith(makeLines(texts));
-    }
-    if (isDrawn(kind) && box.clientWidth && box.clientHeight)
-      Module._web_draw_card(Number(index), pixels(box.clientWidth), pixels(box.clientHeight));
+    const [summary, box] = $('card-' + name).children;
+    if (!isNew(summary, 'lines', [title, texts])) continue;
+    setMarkup(summary, title);
+    if (isDrawn(kind)) box.firstChild.ariaLabel = plain(`${title}. ${texts}`);
+    else box.replaceWith(makeLines(texts));
   }
+  // Sizes are read after all texts have changed, so that the page is laid out once.
+  for (const { id, parentNode: box } of document.querySelectorAll('#graphs canvas'))
+    if (box.clientWidth && box.clientHeight)
+      Module._web_draw_card(Number(id.slice(5)), pixels(box.clientWidth), pixels(box.clientHeight));
 };
 
 // ---- all of it --------------------------------------------------------------

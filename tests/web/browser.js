@@ -96,6 +96,12 @@ const launch = async () => {
       await ask('Input.dispatchKeyEvent', { type: 'keyDown', text, ...key });
       await ask('Input.dispatchKeyEvent', { type: 'keyUp', ...key });
     };
+    // Returns the printed lecture as a PDF.
+    tab.print = async () => {
+      await tab.run('printLecture()');
+      const { data } = await ask('Page.printToPDF', { preferCSSPageSize: true });
+      return Buffer.from(data, 'base64');
+    };
     tab.downloads = (folder) =>
       send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder });
     tab.close = () => send('Target.closeTarget', { targetId });

@@ -282,9 +282,7 @@ const print = async (browser) => {
     ['?notes', Math.ceil(PAGES.length / 2) + 7],
   ]) {
     const tab = await browser.open(at('', query));
-    await tab.run('printLecture()');
-    const { data } = await tab.ask('Page.printToPDF', { preferCSSPageSize: true });
-    const pdf = Buffer.from(data, 'base64');
+    const pdf = await tab.print();
     const sheets = pdf.toString('latin1').match(/\/Type\s*\/Page\b(?!s)/g).length;
     if (sheets > most) wrong.push(`${sheets} sheets${query}`);
     const { stdout, error } = spawnSync('pdftotext', ['-', '-'], {

@@ -10,8 +10,6 @@ const [page, out, query = ''] = process.argv.slice(2);
 (async () => {
   const browser = await launch();
   const tab = await browser.open(`file://${path.resolve(page)}${query}`);
-  await tab.run('printLecture()');
-  const { data } = await tab.ask('Page.printToPDF', { preferCSSPageSize: true });
-  fs.writeFileSync(out, Buffer.from(data, 'base64'));
+  fs.writeFileSync(out, await tab.print());
   await browser.close();
 })();
