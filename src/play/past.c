@@ -73,8 +73,7 @@ const Control *past_start(const Past *past, int pane)
 /* Whether the outcome of an entry is a failure, which has ended its pane. */
 static bool is_failure(const Entry *entry)
 {
-    Status status = entry->outcome.status;
-    return status && !status_is_unconverged(status);
+    return status_is_failure(entry->outcome.status);
 }
 
 /* Whether a pane has no part in the step of an entry, since a failure has ended

@@ -83,11 +83,10 @@ void sheet_advance(Player *player)
     for (int i = 0; i < sheet->cells && clock_now() - begin < STEP_TIME; i++) {
         int cell = sheet->next, age = sheet->age[cell]++;
         Simulation *simulation = &sheet->simulation[cell];
-        Status status = simulation->status;
         if (age % CELL_LIFE == 0)
             begin_cell(sheet, cell);
         else if (simulation->scene && !simulation->done &&
-                 (!status || status_is_unconverged(status)) &&
+                 !status_is_failure(simulation->status) &&
                  ((simulation->scene->needs & NEEDS_TIME) ||
                   age % CELL_PAUSE == 0))
             simulation_step(simulation);

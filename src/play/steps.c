@@ -81,7 +81,7 @@ Status player_write_remaining(Player *player)
         long next = past->booked + 1;
         past_aim(past, next, again);
         status = past_finish_work(past);
-        if (!status || status_is_unconverged(status))
+        if (!status_is_failure(status))
             status = record_step(player);
         again = past->booked < next;
     }
@@ -396,7 +396,7 @@ static Status finish_work(Player *player, Status status, long before, bool made)
     const Past *past = &player->past;
     AfterWork after = player->time.after;
     bool runs = made && after == AFTER_NOTHING && !player_is_stopped(player);
-    bool failed = status && !status_is_unconverged(status);
+    bool failed = status_is_failure(status);
     player->time.after = AFTER_NOTHING;
     player->screen.changed = true;
     if (failed && past->step == before) {

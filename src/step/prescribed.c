@@ -216,7 +216,7 @@ bool prescribed_goes_on(TimeIntegrator *run, Status *status)
 {
     const Newton *newton = run->newton;
     long updates = newton->counters.iterations - run->before;
-    if (*status && !status_is_unconverged(*status))
+    if (status_is_failure(*status))
         return false;
     if (run->blocked && !*status)
         *status = STATUS_BLOCKED;

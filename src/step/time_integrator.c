@@ -148,7 +148,7 @@ static Status end_step(TimeIntegrator *run, Status status)
 {
     size_t both = 2 * run->size; /* v is behind x, new_v behind new_x */
     run->status = status;
-    if (status && !status_is_unconverged(status))
+    if (status_is_failure(status))
         return status;
     if (!all_finite(run->new_x, both)) {
         run->memory_h = 0;
@@ -197,7 +197,7 @@ Status time_integrator_advance(TimeIntegrator *run)
             prescribed_start(run);
             continue;
         }
-        if (status && !status_is_unconverged(status))
+        if (status_is_failure(status))
             return end_step(run, status);
         run->worst = status ? status : run->worst;
 
