@@ -414,7 +414,7 @@ static bool pane_has_all(const Layout *layout, int p)
             return false;
         far = fmax(far, hypot(at[0] - first[0], at[1] - first[1]));
     }
-    return far > 0.03 * box->width;
+    return far > 0.05 * box->width;
 }
 
 /* Adds the facts of panes, numbers, chips and cards. */
