@@ -46,11 +46,11 @@ typedef enum Keyboard {
 } Keyboard;
 
 enum {
-    REPEATS = 1, /* is repeated while the key is held down */
-    KEPT = 2,    /* is written into the script of a session */
-    SCREEN = 4,  /* does not abandon a step that is being made */
-    LATEST = 8,  /* replaces the same command before it in a drag */
-    QUIET = 16   /* leaves the message below the picture */
+    REPEATS = 1,    /* is repeated while the key is held down */
+    IN_SCRIPT = 2,  /* is written into the script of a session */
+    KEEPS_STEP = 4, /* does not abandon a step that is being made */
+    REPLACES = 8,   /* replaces the same command before it in a drag */
+    KEEPS_NOTE = 16 /* leaves the message below the picture */
 };
 
 typedef struct CommandRow {
@@ -76,7 +76,7 @@ extern const CommandRow command_rows[COMMAND_KINDS];
 Command command_from_key(const char *key, bool repeats, Keyboard keyboard);
 
 /* Prints the text of --help commands. */
-void commands_help(FILE *file);
+void commands_print_help(FILE *file);
 
 /* Reads the line of a command, such as "goto 12".
  *   message  out, reason of INVALID_INPUT

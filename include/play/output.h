@@ -59,8 +59,8 @@ bool output_is_standard(const char *name);
 /* ---- tables -------------------------------------------------------------- */
 
 enum {
-    TABLE_COLUMNS = 32, /* columns at most */
-    TABLE_LETTERS = 16  /* bytes of a name */
+    TABLE_COLUMNS = 32,  /* columns at most */
+    TABLE_NAME_SIZE = 16 /* bytes of a name */
 };
 
 /* A CSV file: a line of names, then a line for each row of numbers.  Numbers
@@ -69,7 +69,7 @@ typedef struct Table {
     Output output;
     int columns;
     struct {
-        char name[TABLE_LETTERS];
+        char name[TABLE_NAME_SIZE];
         char kind; /* 'w': whole number, 't': text, 0: number */
     } column[TABLE_COLUMNS];
     /* Returns the text that a number stands for in a column of kind 't'. */
@@ -79,13 +79,13 @@ typedef struct Table {
 /* Adds columns that are new.
  *   names  in, separated by commas, or NULL.  "name:whole" is a column of whole
  *          numbers, left empty below 0; "name:text" a column of texts */
-void table_columns(Table *table, const char *names);
+void table_add_columns(Table *table, const char *names);
 
 /* Opens a table, and writes the line of names.  Returns as output_open. */
 Status table_open(const char *name, char *message, Table *table);
 
 /* Adds a row, value [columns]; table_check reports a failure of it. */
-void table_add(Table *table, const double *value);
+void table_add_row(Table *table, const double *value);
 
 /* Returns FILE_FAILED (message) if a write has failed; OK also if the table is
  * not open. */

@@ -82,8 +82,8 @@ typedef struct Branch {
     long first;  /* step of entry 0 */
     long count;  /* number of entries, at least 1 */
     long room;   /* entries that memory is reserved for */
-    int given;   /* entries that were copied from the branch below: 1, or 2 if
-                    the branch begins before the edited step */
+    int copied;  /* entries that were copied from the branch below: 1, or 2 if
+                   the branch begins before the edited step */
     long shown;  /* step that was shown when the user left the branch */
     long stride; /* each stride-th state is stored */
     int panes;
@@ -93,7 +93,7 @@ typedef struct Branch {
 } Branch;
 
 /* The simulation of a pane, and how far it is in the present branch. */
-typedef struct Machine {
+typedef struct PaneRun {
     Simulation simulation;
     const Control *start;   /* control at step 0 of the run, or NULL */
     const Control *control; /* control of the simulation */
@@ -108,7 +108,7 @@ typedef struct Machine {
     bool known;      /* trace and records belong to `step`, or to the step
                         that failed after it */
     Records records; /* Newton's records of the last step, for the log */
-} Machine;
+} PaneRun;
 
 /* Stages of the work that leads to the step that is to be shown. */
 typedef enum Work {
@@ -124,9 +124,9 @@ typedef struct Past {
     int branches, room; /* number of branches; memory is reserved for room */
     int now;            /* index of the present branch; higher ones: undone */
     long step;          /* step that is shown in all panes */
-    Machine machine[OPTIONS_MAX_PANES];
-    bool keeps;   /* states are stored: the user may go back */
-    bool goes_on; /* a pane that fails ends alone; the others go on */
+    PaneRun pane[OPTIONS_MAX_PANES];
+    bool stores_states;    /* states are stored: the user may go back */
+    bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
     long written; /* last step whose rows in the tables are valid; -1: none.
                      Edits lower it, the player writes rows and raises it */
     long booked;  /* last step whose energies in the tables are valid: an edit
@@ -136,7 +136,7 @@ typedef struct Past {
     Work work;           /* stage of the work that leads to `aim` */
     long aim;            /* step that is to be shown */
     long from;           /* step that machines are brought to by WORK_LOADS */
-    bool walks;          /* E along p is sampled in each iteration of the aim */
+    bool samples_line;   /* E along p is sampled in each iteration of the aim */
     double target;       /* s, end of the new step */
     Status worst;        /* worst status of the panes in the new step */
 } Past;
@@ -153,13 +153,13 @@ static inline bool past_makes(const Past *past)
     return past->work >= WORK_MAKES;
 }
 
-void past_create(bool keeps, bool goes_on, Past *past);
+void past_create(bool stores_states, bool panes_fail_alone, Past *past);
 void past_free(Past *past);
 
 /* Begins new runs side by side at step 0.  Returns as simulation_create; after
  * a failure past_iterate leads back to the step that was shown. */
-Status past_begin(Past *past, const Options *options, int panes, int gesture,
-                  const Command *edit);
+Status past_begin_runs(Past *past, const Options *options, int panes,
+                       int gesture, const Command *edit);
 
 /* Edits the shown step in a new branch; the branch below keeps the old steps.
  *   edit     in, checked by the caller: COMMAND_SET with a row of the options
@@ -180,7 +180,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
 /* Sets the step to be shown, 0 ... newest + 1, and abandons the present work.
  *   again  the step is made once more, however long that takes, and E along p
  *          is sampled in each of its iterations */
-void past_aim(Past *past, long step, bool again);
+void past_choose_step(Past *past, long step, bool again);
 
 /* Does a part of the work: makes a Newton iteration, or begins a step.  Returns
  * RUNNING while there is more work; OK or an unconverged status when the aim is
@@ -212,19 +212,19 @@ const Entry *past_entry(const Past *past, int pane, long step);
 const Control *past_control(const Past *past, int pane);
 
 /* The control with which the run was started. */
-const Control *past_start(const Past *past, int pane);
+const Control *past_start_control(const Past *past, int pane);
 
 /* Whether the shown state was set by a start or a drag, not made by a step. */
 bool past_is_state_set(const Past *past);
 
 /* The last step that a pane has made, if a failure has ended it before `step`;
  * else -1. */
-long past_end_step(const Past *past, int pane, long step);
+long past_find_end_step(const Past *past, int pane, long step);
 
 /* The last step up to this one whose extent is at most PAST_EXPLODED. */
-long past_last_seen(const Past *past, int pane, long step);
+long past_find_drawable_step(const Past *past, int pane, long step);
 
 /* Fills the energies over time that plots of a pane show. */
-void past_history(const Past *past, int pane, History *history);
+void past_fill_history(const Past *past, int pane, History *history);
 
 #endif

@@ -6,7 +6,7 @@
  *   this function: edits the past, or chooses the step to be shown
  *   player_work: past_iterate until it is shown      (steps.c)
  *
- * From a key to Newton's method: player_input, player_obey, player_work,
+ * From a key to Newton's method: player_obey_input, player_obey, player_work,
  * past_iterate, simulation_advance, time_integrator_advance, newton_minimise.
  */
 #ifndef ELASTO_PLAYER_H
@@ -49,18 +49,18 @@ typedef enum Mode {
 /* Action after the work that leads to a step. */
 typedef enum AfterWork {
     AFTER_NOTHING,
-    AFTER_ENTER,  /* show the step's first line of Algorithm 3 */
-    AFTER_LEAVE,  /* show the step's last line of Algorithm 3 */
-    AFTER_PEAK,   /* show the peak of E, if E exploded in the step */
-    AFTER_COMPARE /* compare the outcomes before and after an edit */
+    AFTER_SHOW_FIRST, /* show the step's first line of Algorithm 3 */
+    AFTER_SHOW_LAST,  /* show the step's last line of Algorithm 3 */
+    AFTER_SHOW_PEAK,  /* show the peak of E, if E exploded in the step */
+    AFTER_COMPARE     /* compare the outcomes before and after an edit */
 } AfterWork;
 
 /* How a pane shows the present step. */
-typedef struct Side {
+typedef struct PaneView {
     int place;             /* index in the step's trace; -1: the whole step */
     double *ghost;         /* [2n] m, positions before an edit, or NULL */
     char ghost_label[256]; /* the edited setting, and the outcome before it */
-} Side;
+} PaneView;
 
 /* How steps follow each other. */
 typedef struct Time {
@@ -89,7 +89,7 @@ typedef struct Queue {
 } Queue;
 
 /* The order in which commands are obeyed and undone. */
-typedef struct Orders {
+typedef struct Commands {
     Queue queue;
     int gesture;         /* id of the present gesture, which is undone as one */
     int gestures;        /* number of gestures so far, the id of the newest */
@@ -98,11 +98,11 @@ typedef struct Orders {
     CommandKind leaving; /* COMMAND_ESCAPE or COMMAND_QUIT, if a second one ends
                             the program */
     bool refused;        /* a line of the script was refused */
-} Orders;
+} Commands;
 
 /* The guided tour, page by page. */
 typedef struct Tour {
-    const LecturePage *left;     /* page that was last open, or NULL */
+    const LecturePage *last_page; /* page that was last open, or NULL */
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right;          /* number of all guesses, of the right ones */
@@ -140,7 +140,7 @@ typedef struct Screen {
                             not, and the other way round */
     bool bare;           /* the picture is shown without texts and cards */
     bool blank;          /* a black screen is shown */
-    unsigned closed;     /* bit c: card c was opened or closed by the user */
+    unsigned toggled_cards; /* bit c: card c was opened or closed by the user */
     int large;           /* index of the enlarged card; -1: none */
     View view;
     Frame frame;
@@ -149,14 +149,14 @@ typedef struct Screen {
 /* The mouse and what it drags. */
 typedef struct Mouse {
     double x, y;      /* pixels */
-    bool placed;      /* the position is known */
+    bool has_position; /* the position is known */
     CommandKind drag; /* command of a drag; COMMAND_NONE: no button is down */
     int index; /* index of the dragged node, point, number; -1: the stretch */
     double from[2];  /* pixels, start of the drag; while panning last place */
     bool moved;      /* the mouse has moved farther than a click may */
     double grip[2];  /* m, from the mouse to the dragged point */
-    bool pins;       /* the dragged node is pinned again after the drag */
-    bool turns;      /* the last input was a turn of the wheel */
+    bool repins;     /* the dragged node is pinned again after the drag */
+    bool was_wheel;  /* the last input was a turn of the wheel */
     int gesture;     /* id of the last key, click or turn of the wheel */
     Options options; /* values at the start of a drag of a number */
 } Mouse;
@@ -175,11 +175,11 @@ typedef struct Hands {
 typedef struct Player {
     Given given;
     Past past;
-    Side side[OPTIONS_MAX_PANES];
+    PaneView view_of_pane[OPTIONS_MAX_PANES];
     int active; /* index of the pane whose numbers are shown */
     Recording recording;
     Time time;
-    Orders orders;
+    Commands commands;
     Tour tour;
     Screen screen;
     Hands hands;
@@ -203,14 +203,14 @@ Status player_create(const Options *options, int count, char *const *words,
 
 /* Makes the next step, known or new, and records it; in a window it may only
  * begin.  Returns OK also for a step that did not converge. */
-Status player_step(Player *player);
+Status player_make_step(Player *player);
 
 /* Obeys a command, then the commands in the queue.  Returns OK, INVALID_INPUT
  * with the reason in player->message, or a failure. */
 Status player_obey(Player *player, const Command *command);
 
 /* Obeys an input as commands.  Returns as player_obey. */
-Status player_input(Player *player, const Input *input);
+Status player_obey_input(Player *player, const Input *input);
 
 /* Draws, shows and records a frame, if the player draws. */
 Status player_draw(Player *player);
@@ -223,7 +223,7 @@ Status player_run(Player *player);
 Status player_frame(Player *player);
 
 /* Returns the time until the next frame is due, ms. */
-int player_wait(const Player *player);
+int player_find_wait_time(const Player *player);
 
 /* Whether the run is over. */
 bool player_ended(const Player *player);

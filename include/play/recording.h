@@ -89,19 +89,19 @@ typedef struct Recording {
 Status recording_open(const Options *options, int panes, Recording *recording);
 
 /* Writes the frame of a step to the folder, and some times to the film. */
-Status recording_frame(Recording *recording, const Canvas *canvas, long step,
-                       int times);
+Status recording_write_frame(Recording *recording, const Canvas *canvas,
+                             long step, int times);
 
 /* Writes the states, springs and energies of all panes at a step.
  *   energies_only  in, only the energies are written
  *   simulation     [count] in, simulation of each pane */
-Status recording_states(Recording *recording, bool energies_only,
-                        const Simulation *const *simulation, int count,
-                        long step);
+Status recording_write_states(Recording *recording, bool energies_only,
+                              const Simulation *const *simulation, int count,
+                              long step);
 
 /* Writes a Newton iteration of a pane, from 1, to the log. */
-Status recording_iteration(Recording *recording, const NewtonRecord *record,
-                           int pane);
+Status recording_write_iteration(Recording *recording,
+                                 const NewtonRecord *record, int pane);
 
 /* Closes all files.  If one of them fails, or has failed, none gets its name.
  */

@@ -31,9 +31,9 @@ bool records_reserve(Records *records, int count);
 /* A Newton iteration and its line search. */
 typedef struct Round {
     double *x, *p, *u; /* [size] m, x^i, p^i, x^i - x_n; NULL: not stored */
-    double first;      /* alpha, first trial of the line search */
-    Quartic along;     /* polynomial part of E(x + alpha p) - E(x), J s^2 */
-    bool rough;        /* E along p is more than its polynomial part */
+    double first_trial; /* alpha, first trial of the line search */
+    Quartic polynomial; /* polynomial part of E(x + alpha p) - E(x), J s^2 */
+    bool has_remainder; /* E along p is more than its polynomial part */
     bool sampled;      /* `value` has E along p */
     double alpha;      /* step length that was taken */
     double change;     /* change of E at alpha, J s^2 */
@@ -78,8 +78,8 @@ bool step_trace_lacks_samples(const StepTrace *trace, int place);
 /* Adds the round of a Newton iteration, or only its record if memory is
  * missing.
  */
-void step_trace_add(StepTrace *trace, const Newton *newton,
-                    const NewtonRecord *record);
+void step_trace_add_round(StepTrace *trace, const Newton *newton,
+                          const NewtonRecord *record);
 
 /* Ends the trace of a step: lists its places. */
 void step_trace_end(StepTrace *trace, const Options *options);
@@ -95,7 +95,7 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way);
 
 /* Returns the index of the last place of a round up to a line; without this
  * round that of the last place of the step. */
-int step_trace_find(const StepTrace *trace, int round, Line line);
+int step_trace_find_place(const StepTrace *trace, int round, Line line);
 
 /* Returns the index of the place where E was highest, if E exploded, that is
  * rose by ten times the change in the whole step; else -1. */
@@ -104,6 +104,6 @@ int step_trace_peak(const StepTrace *trace);
 /* Fills what a picture shows at a place; place -1: after the step.  Pointers of
  * `shown` lead into the rounds.  Returns the positions to draw, [size] m; NULL:
  * the positions after the step. */
-const double *step_trace_at(const StepTrace *trace, int place, Trace *shown);
+const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown);
 
 #endif

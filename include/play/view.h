@@ -40,10 +40,10 @@ bool window_open(const char *title, const int size[2], bool full);
 void window_close(void);
 
 /* Finds the size of a paper that fills the window, pixels. */
-void window_size(int size[2]);
+void window_find_size(int size[2]);
 
 /* Returns the size of letters that are well read, pixels. */
-double window_letter(void);
+double window_find_font_size(void);
 
 /* Whether texts, numbers, keys and cards are elements of a web page. */
 bool window_has_document(void);
@@ -64,9 +64,9 @@ bool window_is_full(void);
 
 /* Returns the next input, or INPUT_NONE.  A movement before another movement is
  * skipped. */
-Input window_input(void);
+Input window_read_input(void);
 
 /* Waits for an input, at most for this time. */
-void window_wait(int milliseconds);
+void window_wait_for_input(int milliseconds);
 
 #endif

@@ -23,7 +23,7 @@ typedef struct Control {
 
 /* Return the present control of a simulation, or a copy of a control.  The only
  * user may change the new control until others share it.  NULL: no memory. */
-Control *control_of(const Simulation *simulation);
+Control *control_from_simulation(const Simulation *simulation);
 Control *control_copy(const Control *from);
 
 /* Whether the mouse holds a node or an obstacle. */

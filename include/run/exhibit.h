@@ -136,7 +136,7 @@ int exhibit_list_switches(const struct Simulation *simulation,
 unsigned exhibit_find_flips(const struct Simulation *simulation);
 
 /* Whether the switches are the kinds of springs, which a page asks for. */
-bool exhibit_has_kinds(const struct Simulation *simulation);
+bool exhibit_has_kind_switches(const struct Simulation *simulation);
 
 /* Returns the kind of a spring: 0 horizontal, 1 vertical, 2 and 3 the
  * diagonals. */
@@ -144,10 +144,10 @@ int exhibit_spring_kind(const struct Simulation *simulation, int spring);
 
 /* Moves a point to (x, y), m, and begins the scene again from there; without
  * effect if x or y is not finite. */
-void exhibit_drag(struct Simulation *simulation, int handle, double x,
-                  double y);
+void exhibit_drag_handle(struct Simulation *simulation, int handle, double x,
+                         double y);
 
 /* Turns a switch on or off. */
-void exhibit_flip(struct Simulation *simulation, int number);
+void exhibit_flip_switch(struct Simulation *simulation, int number);
 
 #endif

@@ -145,7 +145,7 @@ int names_find(Names names, const char *name);
 
 /* Returns the index of a text that is a name or the number of a name from 1;
  * -1: the text is neither. */
-int names_find_or_number(Names names, const char *text);
+int names_find_or_parse(Names names, const char *text);
 
 int names_count(Names names);
 
@@ -249,8 +249,8 @@ void option_write_unit(const OptionRow *row, char *text, size_t size);
 /* Lists the options that the window's row of numbers shows, in order.
  *   found  [OPTIONS_MAX_ROWS] out
  * Returns how many there are. */
-int options_list_fields(const Options *options,
-                        const OptionRow *found[OPTIONS_MAX_ROWS]);
+int options_list_visible(const Options *options,
+                         const OptionRow *found[OPTIONS_MAX_ROWS]);
 
 /* Returns the value of an option after notches of the wheel: up, or down if the
  * number of notches is negative.  A notch adds the row's increment.  Without an

@@ -110,9 +110,9 @@ void options_fill_newton_settings(const Options *options,
                                   NewtonSettings *settings);
 
 /* Creates a run of a scene at x, v; for Scene.create. */
-Status simulation_start(Simulation *simulation, int run,
-                        const IntegratorMethod *method, System *system,
-                        const double *x, const double *v);
+Status simulation_start_run(Simulation *simulation, int run,
+                            const IntegratorMethod *method, System *system,
+                            const double *x, const double *v);
 
 /* Makes one step: a time step of every run, or one Newton iteration; a scene
  * that is done makes none.  The result depends only on the state (control.h)
@@ -125,7 +125,7 @@ Status simulation_step(Simulation *simulation);
  * for one: call begin, then advance while it returns RUNNING; the last status
  * is as from simulation_step.  A step that is left before its end must be
  * followed by state_restore. */
-Status simulation_begin(Simulation *simulation);
+Status simulation_begin_step(Simulation *simulation);
 Status simulation_advance(Simulation *simulation);
 
 /* Returns the simulated time, s; 0 in scenes without time. */
@@ -147,13 +147,13 @@ NewtonCounters simulation_sum_counters(const Simulation *simulation);
 /* Returns when a changed option takes effect in this scene: the effect of its
  * row, except that scenes without time need a new start, and so does another
  * method if runs have different ones. */
-Effect simulation_find_effect(const Simulation *simulation,
-                              const OptionRow *row);
+Effect simulation_find_option_effect(const Simulation *simulation,
+                                     const OptionRow *row);
 
 /* Checks that obstacles of changed options overlap no body at its present
  * place.  Returns OK, or INVALID_INPUT with a message. */
-Status simulation_check_room(const Simulation *simulation,
-                             const Options *options, Message message);
+Status simulation_check_clearance(const Simulation *simulation,
+                                  const Options *options, Message message);
 
 /* Returns the part of the straight way to a point that an obstacle of these
  * options can move: 1 if there is room at the end, else the part up to the
@@ -168,8 +168,8 @@ double simulation_find_free_way(const Simulation *simulation,
  *   moves  false: only checks whether the node can be there
  * Returns OK, or INVALID_INPUT if there is no such node, an obstacle is in the
  * way, or a cell would be turned over. */
-Status simulation_place(Simulation *simulation, int node, double x, double y,
-                        bool moves);
+Status simulation_place_node(Simulation *simulation, int node, double x,
+                             double y, bool moves);
 
 /* Whether the mouse can drag the nodes. */
 bool simulation_is_draggable(const Simulation *simulation);

@@ -12,7 +12,7 @@ int lecture_count(void)
 
 const LecturePage *lecture_find_page(const char *text)
 {
-    int place = names_find_or_number(NAMES_OF(lecture_pages), text);
+    int place = names_find_or_parse(NAMES_OF(lecture_pages), text);
     return place < 0 ? NULL : &lecture_pages[place];
 }
 

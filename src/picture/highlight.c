@@ -109,7 +109,7 @@ void highlight_draw(Paper *paper, const FrameContent *content)
         colour = find_term_near(&paper->canvas, mouse->at,
                                 (int)(MOUSE_REACH * paper->em));
     bool plain = content->view->hover.kind == PICK_SWITCH &&
-                 !exhibit_has_kinds(active_pane(content)->simulation);
+                 !exhibit_has_kind_switches(active_pane(content)->simulation);
     if (plain || (colour == COLOUR_X && stage))
         colour = 0; /* a switch without a term, or the whole square */
     if (!colour && trace && frame_has_card(content, "listing"))

@@ -65,9 +65,9 @@ Status obey_place(Player *player, const Command *command)
     if (!simulation_is_draggable(player_simulation(player)))
         return player_refuse(player, "nothing to be placed here");
     for (int p = 0; p < past_panes(&player->past); p++) {
-        Simulation *simulation = &player->past.machine[p].simulation;
-        if (simulation_place(simulation, (int)command->number, command->x,
-                             command->y, false))
+        Simulation *simulation = &player->past.pane[p].simulation;
+        if (simulation_place_node(simulation, (int)command->number, command->x,
+                                  command->y, false))
             return player_refuse(player,
                                  "no room for it there: an obstacle, a "
                                  "body, or a cell that would turn over");
@@ -78,14 +78,14 @@ Status obey_place(Player *player, const Command *command)
 /* Moves a ground or a ball to a place where all panes have room. */
 Status obey_obstacle(Player *player, const Command *command)
 {
-    Options moved = *player_settings(player);
+    Options moved = *player_active_options(player);
     double *at = options_obstacle_at(&moved, (int)command->number);
     at[0] = command->x;
     at[1] = command->y;
     Status status = STATUS_OK;
     for (int p = 0; p < past_panes(&player->past) && !status; p++)
-        status = simulation_check_room(&player->past.machine[p].simulation,
-                                       &moved, MESSAGE(player->message));
+        status = simulation_check_clearance(&player->past.pane[p].simulation,
+                                            &moved, MESSAGE(player->message));
     return status ? status : edit_all_panes(player, command);
 }
 

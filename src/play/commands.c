@@ -61,7 +61,7 @@ Command command_from_key(const char *key, bool repeats, Keyboard keyboard)
 
 /* ---- lines of scripts ---------------------------------------------------- */
 
-void commands_help(FILE *file)
+void commands_print_help(FILE *file)
 {
     fprintf(file,
             "commands of scripts (--script FILE), a line each: STEP COMMAND\n"
@@ -197,7 +197,7 @@ void command_format(const Command *command, char *line, size_t size)
 
 bool command_replaces(const Command *command, const Command *before)
 {
-    return command_rows[command->kind].flags & LATEST &&
+    return command_rows[command->kind].flags & REPLACES &&
            command->kind == before->kind && command->number == before->number;
 }
 

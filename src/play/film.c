@@ -11,9 +11,9 @@
 #define COMMON "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"
 
 static const struct FilmKind {
-    const char *end;   /* end of the film's name: ".mp4" */
+    const char *suffix; /* end of the film's name: ".mp4" */
     int rate;          /* frames a second */
-    const char *words; /* options of ffmpeg for its output */
+    const char *arguments; /* options of ffmpeg for its output */
 } film_kinds[] = {
     {".mp4", 60, COMMON},
     {".webm", 60,
@@ -29,10 +29,10 @@ Status film_open(const char *name, char *message, Film *film)
 {
     const char *end = strrchr(name, '.'), *why = NULL;
     *film = (Film){.kind = film_kinds};
-    while (film->kind->end &&
-           (!end || end == name || strcmp(end, film->kind->end)))
+    while (film->kind->suffix &&
+           (!end || end == name || strcmp(end, film->kind->suffix)))
         film->kind++;
-    if (!film->kind->end)
+    if (!film->kind->suffix)
         why = "its name does not end in .mp4, .webm, .gif or .apng";
     else if (system("command -v ffmpeg >/dev/null 2>&1") != 0)
         why = "a film needs the program ffmpeg: apt-get install ffmpeg; "
@@ -59,8 +59,8 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
              "exec $(command -v setsid) ffmpeg -loglevel quiet -xerror -y "
              "-f rawvideo -pixel_format bgr0 -video_size %dx%d -framerate %d "
              "-i pipe:0 %s -f %s \"file:$ELASTO_FILM\" >/dev/null 2>&1",
-             film->width, film->height, film->kind->rate, film->kind->words,
-             film->kind->end + 1);
+             film->width, film->height, film->kind->rate, film->kind->arguments,
+             film->kind->suffix + 1);
     if (setenv("ELASTO_FILM", film->output.temporary, 1) == 0)
         film->pipe = popen(line, "we");
     if (film->pipe)

@@ -72,7 +72,7 @@ static void fill_settings(const Player *player, Frame *frame)
     const Options shown = player_shown_options(player), *options = &shown;
     const OptionRow *all[OPTIONS_MAX_ROWS];
     content->settings.selected = -1;
-    frame->numbers = player_visible_options(player, false, frame->number);
+    frame->numbers = player_list_options(player, false, frame->number);
     bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->numbers;
     for (int i = 0; i < frame->numbers; i++) {
         const OptionRow *row = frame->number[i];
@@ -83,9 +83,9 @@ static void fill_settings(const Player *player, Frame *frame)
         player_format_value(row, options, player_simulation(player),
                             setting->value, VALUE_SIZE);
         option_write_short(row, options, now, sizeof now);
-        option_write_short(row,
-                           &past_start(&player->past, player->active)->options,
-                           start, sizeof start);
+        option_write_short(
+            row, &past_start_control(&player->past, player->active)->options,
+            start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
         const char *idle = player_idle_reason(player, row);
         setting->off = strcmp(setting->value, "none") == 0 || idle;
@@ -99,7 +99,7 @@ static void fill_settings(const Player *player, Frame *frame)
         if (row == player->hands.selected && player->hands.typing)
             snprintf(setting->value, VALUE_SIZE, "%s_", player->hands.typed);
     }
-    if (player_visible_options(player, true, all) > frame->numbers)
+    if (player_list_options(player, true, all) > frame->numbers)
         content->settings.item[content->settings.count++] =
             (Setting){"", "+ more", 0, false, false};
 }
@@ -109,7 +109,7 @@ static void fill_options(const Player *player, FrameContent *content)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
     const Options options = player_shown_options(player);
-    content->list.rows = player_visible_options(player, true, all);
+    content->list.rows = player_list_options(player, true, all);
     for (int i = 0; i < content->list.rows; i++) {
         ListRow *row = &content->list.row[i];
         char value[VALUE_SIZE];
@@ -150,7 +150,7 @@ static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
 static void fill_chips(const Player *player, Frame *frame)
 {
     const Simulation *simulation = player_simulation(player);
-    const Options *options = player_settings(player);
+    const Options *options = player_active_options(player);
     bool time = simulation->scene->needs & NEEDS_TIME;
     bool nears = options->next == NEXT_NEARER;
     bool newton = simulation_has_updates(simulation) && !nears;
@@ -171,7 +171,7 @@ static void fill_chips(const Player *player, Frame *frame)
         add_chip(frame, COMMAND_CODE, 0, player->screen.column == COLUMN_CODE);
         add_chip(frame, COMMAND_PAGES, 0,
                  player->screen.column == COLUMN_PAGES);
-    } else if (player->tour.left) {
+    } else if (player->tour.last_page) {
         add_chip(frame, COMMAND_PAGE_BACK, 0, true);
     }
     add_chip(frame, COMMAND_RESTART, 0, ended);
@@ -198,7 +198,7 @@ _Static_assert((int)OPTIONS_MAX_DRAWN == (int)LAYOUT_PANES, "all are drawn");
 void player_label(const Player *player, int pane, char label[LABEL_SIZE])
 {
     const Past *past = &player->past;
-    long last = past_end_step(past, pane, past->step);
+    long last = past_find_end_step(past, pane, past->step);
     const Entry *entry = past_entry(past, pane, last < 0 ? past->step : last);
     char value[VALUE_SIZE];
     label[0] = '\0';
@@ -206,8 +206,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
         if (!player_panes_differ(player, row))
             continue;
         player_format_value(row, &entry->control->options,
-                            &past->machine[pane].simulation, value,
-                            sizeof value);
+                            &past->pane[pane].simulation, value, sizeof value);
         append(label, LABEL_SIZE, "%s", label[0] ? ", " : "");
         if (row->slot != OPTION_SLOT(integrator))
             append(label, LABEL_SIZE, "%s ", row->label);
@@ -217,7 +216,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
         return;
     append(label, LABEL_SIZE, "%sended at step %ld", label[0] ? ", " : "",
            last);
-    long seen = past_last_seen(past, pane, last);
+    long seen = past_find_drawable_step(past, pane, last);
     if (seen < last)
         append(label, LABEL_SIZE, " (drawn: %ld)", seen);
 }
@@ -225,27 +224,28 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
 /* Fills what the picture of a pane shows. */
 static void fill_pane(const Player *player, int p, Frame *frame)
 {
-    const Machine *machine = &player->past.machine[p];
-    const Simulation *simulation = &machine->simulation;
-    const Side *side = &player->side[p];
+    const PaneRun *pane_run = &player->past.pane[p];
+    const Simulation *simulation = &pane_run->simulation;
+    const PaneView *view = &player->view_of_pane[p];
     Pane *pane = &frame->content.pane[p];
-    past_history(&player->past, p, &frame->history[p]);
+    past_fill_history(&player->past, p, &frame->history[p]);
     player_label(player, p, frame->label[p]);
     *pane = (Pane){.simulation = simulation,
                    .history = &frame->history[p],
-                   .ghost = side->ghost,
-                   .ghost_label = side->ghost_label,
-                   .trouble = machine->outcome.status};
+                   .ghost = view->ghost,
+                   .ghost_label = view->ghost_label,
+                   .trouble = pane_run->outcome.status};
     if (past_panes(&player->past) > 1)
         pane->label = frame->label[p];
-    if (machine->known && simulation_has_updates(simulation)) {
+    if (pane_run->known && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
-        pane->x = step_trace_at(&machine->trace, side->place, &frame->trace[p]);
+        pane->x =
+            step_trace_fill(&pane_run->trace, view->place, &frame->trace[p]);
     }
 }
 
 /* Returns the bar of a step in the time line. */
-static StepBar find_bar(const void *shown, long step)
+static StepBar find_step_bar(const void *shown, long step)
 {
     const Player *player = shown;
     const Outcome *outcome =
@@ -262,14 +262,14 @@ static void fill_time(const Player *player, FrameContent *content)
     char *text = content->time_line.text;
     double time = 0, longest = -1; /* s, time of the pane with the longest h */
     for (int p = 0; p < past_panes(past); p++) {
-        const Simulation *now = &past->machine[p].simulation;
-        bool goes = past_end_step(past, p, past->step) < 0;
+        const Simulation *now = &past->pane[p].simulation;
+        bool goes = past_find_end_step(past, p, past->step) < 0;
         double h = goes ? now->options.timestep : 0;
         time = h > longest ? simulation_time(now) : time;
         longest = fmax(longest, h);
     }
     content->time_line.paused = player_is_stopped(player);
-    if (player_settings(player)->next ==
+    if (player_active_options(player)->next ==
             NEXT_SPRING && /* each step assembles a spring */
         past->step < player_simulation(player)->system.springs) {
         snprintf(text, SENTENCE_SIZE, "spring %ld", past->step);
@@ -293,7 +293,7 @@ static void fill_time(const Player *player, FrameContent *content)
     snprintf(content->strip.sentence, SENTENCE_SIZE,
              "a long step: Esc stops it, at the last whole one");
     snprintf(content->strip.state, VALUE_SIZE, "computing, update %d",
-             player_machine(player)->outcome.updates);
+             player_active_run(player)->outcome.updates);
 }
 
 static void fill_frame(const Player *player, Frame *frame)
@@ -304,7 +304,7 @@ static void fill_frame(const Player *player, Frame *frame)
     frame_create(player_simulation(player), content);
     content->view = &player->screen.view;
     content->text = player->screen.paper.text;
-    content->min_em = player->screen.window  ? window_letter()
+    content->min_em = player->screen.window  ? window_find_font_size()
                       : player->screen.draws ? SMALL_LETTER
                                              : 0;
     content->in_document = player->screen.window && window_has_document();
@@ -318,10 +318,10 @@ static void fill_frame(const Player *player, Frame *frame)
     fill_settings(player, frame);
     fill_chips(player, frame);
     const Control *control = past_control(past, active);
-    if (control_hand_holds(control) && player->side[active].place < 0)
+    if (control_hand_holds(control) && player->view_of_pane[active].place < 0)
         content->hand = control;
-    content->time_line.steps = past->keeps ? past_newest(past) : 0;
-    content->time_line.bar = find_bar;
+    content->time_line.steps = past->stores_states ? past_newest(past) : 0;
+    content->time_line.bar = find_step_bar;
     content->time_line.bar_data = player;
     content->time_line.step = past->step;
     content->strip.is_warning = player->warning;
@@ -344,8 +344,8 @@ static void fill_frame(const Player *player, Frame *frame)
     content->lecture.verdict = judged ? player->tour.verdict : NULL;
     content->lecture.guesses = player->tour.guesses;
     content->lecture.right = player->tour.right;
-    frame_add_lecture(player->screen.column, player->tour.left, content);
-    content->cards.closed ^= player->screen.closed;
+    frame_add_lecture(player->screen.column, player->tour.last_page, content);
+    content->cards.closed ^= player->screen.toggled_cards;
     if (player->screen.sheet)
         sheet_fill(player, content);
     frame_describe(content);
@@ -362,7 +362,7 @@ static void update_hover(Player *player)
     PickKind kind = view->hover.kind;
     bool body = kind == PICK_NODE || kind == PICK_SPRING ||
                 kind == PICK_OBSTACLE || kind == PICK_EDGE;
-    if (!body || !canvas->pixels || !mouse->placed || mouse->drag ||
+    if (!body || !canvas->pixels || !mouse->has_position || mouse->drag ||
         view->over.zone != ZONE_STAGE)
         return;
     Layout layout = layout_create(content, canvas->width, canvas->height);
@@ -377,7 +377,7 @@ void player_fill_frame(Player *player)
 
 /* ---- the paper ----------------------------------------------------------- */
 
-Paper *player_paper(Player *player)
+Paper *player_prepare_paper(Player *player)
 {
     static bool is_warned; /* stderr has the warning about the font */
     const char *font = getenv("ELASTO_FONT"); /* "": without words */
@@ -387,7 +387,7 @@ Paper *player_paper(Player *player)
     if (!player->screen.draws)
         return NULL;
     if (size[0] == 0)
-        window_size(size);
+        window_find_size(size);
     for (int i = 0; i < 2; i++)
         size[i] = (int)fmin(fmax(size[i], 1), CANVAS_MAX_SIZE);
     if (canvas->pixels && canvas->width == size[0] && canvas->height == size[1])

@@ -19,53 +19,53 @@ enum {
 static const double WHEEL_ZOOM = 1.15; /* factor for each notch */
 
 /* The parts of window and scene under the mouse. */
-typedef struct UnderMouse {
+typedef struct MouseTarget {
     Layout layout; /* layout of the last frame */
     Hit hit;       /* part of the window */
     int pane;
     double at[2]; /* m, point in the world of this pane */
     Pick pick;    /* part of the scene */
-} UnderMouse;
+} MouseTarget;
 
-static UnderMouse find_under_mouse(Player *player)
+static MouseTarget find_mouse_target(Player *player)
 {
     const Mouse *mouse = &player->hands.mouse;
-    const Paper *paper = player_paper(player);
+    const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     Held *held = &player->screen.view.held;
-    UnderMouse under = {
+    MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),
         .pane = player->active};
-    under.hit = layout_hit(&under.layout, mouse->x, mouse->y);
-    int pane = held->on                       ? held->pane
-               : under.hit.zone == ZONE_STAGE ? under.hit.index
-                                              : under.pane;
+    target.hit = layout_hit(&target.layout, mouse->x, mouse->y);
+    int pane = held->on                        ? held->pane
+               : target.hit.zone == ZONE_STAGE ? target.hit.index
+                                               : target.pane;
     if (pane < past_panes(&player->past)) /* a held pane may be closed */
-        under.pane = pane;
+        target.pane = pane;
     held->away = false;
-    Camera camera = camera_of_pane(content, &under.layout, under.pane);
-    camera_world(&camera, mouse->x, mouse->y, under.at);
-    under.pick = frame_pick(content, &under.layout, mouse->x, mouse->y);
-    held->away = under.hit.zone != ZONE_STAGE;
-    return under;
+    Camera camera = camera_of_pane(content, &target.layout, target.pane);
+    camera_world(&camera, mouse->x, mouse->y, target.at);
+    target.pick = frame_pick(content, &target.layout, mouse->x, mouse->y);
+    held->away = target.hit.zone != ZONE_STAGE;
+    return target;
 }
 
 /* Obeys a command with a place, as a part of the present gesture. */
-static Status order_at(Player *player, CommandKind kind, long number,
-                       const double at[2])
+static Status obey_at(Player *player, CommandKind kind, long number,
+                      const double at[2])
 {
     const Command command = {
         .kind = kind, .number = number, .x = at[0], .y = at[1], .joins = true};
     return player_obey(player, &command);
 }
 
-static Status order(Player *player, CommandKind kind, long number)
+static Status obey(Player *player, CommandKind kind, long number)
 {
-    return order_at(player, kind, number, (const double[2]){0, 0});
+    return obey_at(player, kind, number, (const double[2]){0, 0});
 }
 
-static Status order_set(Player *player, const OptionRow *row, double value)
+static Status obey_value(Player *player, const OptionRow *row, double value)
 {
     const Command command = command_of_set(row, value);
     return player_obey(player, &command);
@@ -76,7 +76,7 @@ static Status raise_number(Player *player, const OptionRow *row, int notches)
 {
     double value;
     Status status = player_turn_wheel(player, row, notches, &value);
-    return status ? status : order_set(player, row, value);
+    return status ? status : obey_value(player, row, value);
 }
 
 /* ---- the keyboard -------------------------------------------------------- */
@@ -107,10 +107,9 @@ static Status choose_list_line(Player *player, const char *line)
         snprintf(page.text, sizeof page.text, "%s", line);
         return player_obey(player, &page);
     }
-    if (*end || number < 1 ||
-        number > player_visible_options(player, true, all))
+    if (*end || number < 1 || number > player_list_options(player, true, all))
         return player_refuse(player, "there is no such number in the list");
-    return order(player, COMMAND_ADD, all[number - 1] - option_rows);
+    return obey(player, COMMAND_ADD, all[number - 1] - option_rows);
 }
 
 /* Uses the typed text: opens the page, adds or sets the number, or checks the
@@ -131,7 +130,7 @@ static Status enter_typed(Player *player)
             memcpy(made.text, player->hands.typed, sizeof player->hands.typed);
         status = player_obey(player, &made);
     } else {
-        status = player_answer(player, player->hands.typed);
+        status = player_answer_question(player, player->hands.typed);
     }
     if (!status)
         player_deselect(player);
@@ -142,7 +141,7 @@ static Status enter_typed(Player *player)
 
 /* Sets the dragged number by the distance to the start of the drag; a dragged
  * edge of the square sets the stretch, in hundredths. */
-static Status drag_number(Player *player, const UnderMouse *under)
+static Status drag_number(Player *player, const MouseTarget *target)
 {
     const Mouse *mouse = &player->hands.mouse;
     const Options now = player_shown_options(player);
@@ -150,7 +149,7 @@ static Status drag_number(Player *player, const UnderMouse *under)
     const OptionRow *row =
         edge ? option_find("stretch") : player->hands.selected;
     double notches = (mouse->x - mouse->from[0]) / NOTCH_PIXELS;
-    double wanted = fmax(rint(200 * fabs(under->at[0]) / now.side), 2) / 100;
+    double wanted = fmax(rint(200 * fabs(target->at[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
@@ -162,7 +161,7 @@ static Status drag_number(Player *player, const UnderMouse *under)
     if (!edge)
         wanted = option_turn_wheel(row, &mouse->options, notches);
     return now.number[row->slot] == wanted ? STATUS_OK
-                                           : order_set(player, row, wanted);
+                                           : obey_value(player, row, wanted);
 }
 
 /* Opens the scene `square` with h, k and stretch of a cell of the map, by
@@ -181,7 +180,7 @@ static Status open_cell(Player *player, long cell)
     Status status = player_obey_lines(player, "scene square");
     for (size_t i = 0; i < sizeof number / sizeof *number && !status; i++)
         status =
-            order_set(player, option_find(number[i].name), number[i].value);
+            obey_value(player, option_find(number[i].name), number[i].value);
     if (!status)
         status = player_obey_lines(player, "pause;restart");
     player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
@@ -196,22 +195,22 @@ static bool drags_place(const Player *player)
 }
 
 /* Begins a drag of the thing under the mouse, or obeys a click on it. */
-static Status take_under_mouse(Player *player, const UnderMouse *under)
+static Status press_target(Player *player, const MouseTarget *target)
 {
     Mouse *mouse = &player->hands.mouse;
-    const LecturePage *page = player_settings(player)->page;
+    const LecturePage *page = player_active_options(player)->page;
     double point[2];
     bool places = drags_place(player);
-    mouse->index = under->pick.index;
+    mouse->index = target->pick.index;
     player->screen.view.held = frame_hold_bounds(&player->screen.frame.content,
-                                                 &under->layout, under->pane);
-    switch (under->pick.kind) {
+                                                 &target->layout, target->pane);
+    switch (target->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
         simulation_find_obstacle(player_simulation(player), 0, mouse->index,
                                  point);
-        mouse->grip[0] = point[0] - under->at[0];
-        mouse->grip[1] = point[1] - under->at[1];
+        mouse->grip[0] = point[0] - target->at[0];
+        mouse->grip[1] = point[1] - target->at[1];
         return STATUS_OK;
     case PICK_EDGE:
         mouse->drag = COMMAND_SET;
@@ -221,18 +220,19 @@ static Status take_under_mouse(Player *player, const UnderMouse *under)
         mouse->drag = COMMAND_HANDLE;
         return STATUS_OK;
     case PICK_SWITCH:
-        return order(player, COMMAND_FLIP, under->pick.index);
+        return obey(player, COMMAND_FLIP, target->pick.index);
     case PICK_CELL:
-        return open_cell(player, under->pick.index);
+        return open_cell(player, target->pick.index);
     case PICK_PLACE:
         if (page_wants_click(page) && !player_simulation(player)->done)
-            return order_at(player, COMMAND_PREDICT, 0, under->pick.point);
+            return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
         mouse->drag = COMMAND_START;
-        return order_at(player, COMMAND_START, mouse->index, under->pick.point);
+        return obey_at(player, COMMAND_START, mouse->index, target->pick.point);
     default:
-        if (under->pick.kind != PICK_NODE) /* a spring is not marked any more */
+        if (target->pick.kind !=
+            PICK_NODE) /* a spring is not marked any more */
             player->screen.view.hover.kind = PICK_NONE;
-        mouse->index = under->pick.nearest_node;
+        mouse->index = target->pick.nearest_node;
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
                       : places         ? COMMAND_PLACE
                                        : COMMAND_GRAB;
@@ -271,12 +271,12 @@ static Status drag_obstacle(Player *player, const double at[2])
     if (player->hands.holds || !drags_place(player)) {
         Status status = player->hands.holds
                             ? STATUS_OK
-                            : order(player, COMMAND_PUSH, number);
-        return status ? status : order_at(player, COMMAND_DRAG, 0, at);
+                            : obey(player, COMMAND_PUSH, number);
+        return status ? status : obey_at(player, COMMAND_DRAG, 0, at);
     }
     for (int p = 0; p < past_panes(past); p++) {
         const Options *options = &past_control(past, p)->options;
-        part = fmin(part, simulation_find_free_way(&past->machine[p].simulation,
+        part = fmin(part, simulation_find_free_way(&past->pane[p].simulation,
                                                    options, number, at));
     }
     simulation_find_obstacle(player_simulation(player), 0, number, from);
@@ -284,7 +284,7 @@ static Status drag_obstacle(Player *player, const double at[2])
         return player_refuse(player, "no room: the square is in its way");
     const double to[2] = {from[0] + part * (at[0] - from[0]),
                           from[1] + part * (at[1] - from[1])};
-    return order_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
+    return obey_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
 }
 
 /* Goes on with the drag after a movement of the mouse. */
@@ -292,39 +292,39 @@ static Status go_on_dragging(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
-    UnderMouse under = find_under_mouse(player);
+    MouseTarget target = find_mouse_target(player);
     double dx = mouse->x - mouse->from[0], dy = mouse->y - mouse->from[1];
     Status status = STATUS_OK;
     mouse->moved = mouse->moved || math_hypot(dx, dy) > CLICK_ROOM;
     switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
     case COMMAND_GRAB: /* a pinned node is freed for the drag */
         if (!player->hands.holds) {
-            mouse->pins = simulation->system.pinned[mouse->index];
-            if (mouse->pins)
-                status = order(player, COMMAND_PIN, mouse->index);
+            mouse->repins = simulation->system.pinned[mouse->index];
+            if (mouse->repins)
+                status = obey(player, COMMAND_PIN, mouse->index);
             if (!status)
-                status = order(player, COMMAND_GRAB, mouse->index);
+                status = obey(player, COMMAND_GRAB, mouse->index);
         }
-        return status ? status : order_at(player, COMMAND_DRAG, 0, under.at);
+        return status ? status : obey_at(player, COMMAND_DRAG, 0, target.at);
     case COMMAND_OBSTACLE:
-        under.at[0] += mouse->grip[0];
-        under.at[1] += mouse->grip[1];
-        return drag_obstacle(player, under.at);
+        target.at[0] += mouse->grip[0];
+        target.at[1] += mouse->grip[1];
+        return drag_obstacle(player, target.at);
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        under.at[0] += mouse->grip[0];
-        under.at[1] += mouse->grip[1];
-        return order_at(player, mouse->drag, mouse->index, under.at);
+        target.at[0] += mouse->grip[0];
+        target.at[1] += mouse->grip[1];
+        return obey_at(player, mouse->drag, mouse->index, target.at);
     case COMMAND_SET:
-        return drag_number(player, &under);
+        return drag_number(player, &target);
     case COMMAND_GOTO:
-        return order(player, COMMAND_GOTO,
-                     frame_find_step(&player->screen.frame.content,
-                                     &under.layout, mouse->x));
+        return obey(player, COMMAND_GOTO,
+                    frame_find_step(&player->screen.frame.content,
+                                    &target.layout, mouse->x));
     case COMMAND_PAN:
-        lens_move(&player->screen.view.lens, under.layout.pane[under.pane], dx,
-                  dy);
+        lens_move(&player->screen.view.lens, target.layout.pane[target.pane],
+                  dx, dy);
         player->screen.changed = true;
         mouse->from[0] = mouse->x;
         mouse->from[1] = mouse->y;
@@ -341,23 +341,23 @@ static Status go_on_dragging(Player *player)
 static Status note_hover(Player *player)
 {
     View *view = &player->screen.view;
-    UnderMouse under = find_under_mouse(player);
-    Pick pick = under.pick;
+    MouseTarget target = find_mouse_target(player);
+    Pick pick = target.pick;
     bool same =
-        under.hit.zone == view->over.zone &&
-        under.hit.index == view->over.index && pick.kind == view->hover.kind &&
+        target.hit.zone == view->over.zone &&
+        target.hit.index == view->over.index && pick.kind == view->hover.kind &&
         pick.index == view->hover.index && pick.pane == view->hover.pane;
     bool idle =
         pick.kind == PICK_NONE && !player->screen.frame.content.lecture.page;
-    if (under.hit.zone == ZONE_CELL)
-        view->chosen = under.hit.index;
-    view->over = under.hit;
+    if (target.hit.zone == ZONE_CELL)
+        view->chosen = target.hit.index;
+    view->over = target.hit;
     view->hover = pick;
     player->explains = player->explains || !same;
     if (!same || !idle)
         player->screen.changed = true;
     return pick.kind == PICK_CELL && !same
-               ? order(player, COMMAND_CELL, pick.index)
+               ? obey(player, COMMAND_CELL, pick.index)
                : STATUS_OK;
 }
 
@@ -366,35 +366,36 @@ static Status press_number(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->hands.mouse;
     if (index >= player->screen.frame.numbers) /* the item "+ more" */
-        return order(player, COMMAND_OPTIONS, 0);
+        return obey(player, COMMAND_OPTIONS, 0);
     player->hands.selected = player->screen.frame.number[index];
     player->screen.changed = true;
     if (clicks == 2)
-        return order(player, COMMAND_DEFAULT,
-                     player->hands.selected - option_rows);
+        return obey(player, COMMAND_DEFAULT,
+                    player->hands.selected - option_rows);
     mouse->drag = COMMAND_SET;
     mouse->index = index;
     mouse->options = player_shown_options(player);
     return STATUS_OK;
 }
 
-static Status press_left(Player *player, const UnderMouse *under, int clicks)
+static Status press_left_button(Player *player, const MouseTarget *target,
+                                int clicks)
 {
     char line[16];
-    int index = under->hit.index;
+    int index = target->hit.index;
     bool ground =
-        under->pick.kind == PICK_NONE || under->pick.kind == PICK_SPRING;
+        target->pick.kind == PICK_NONE || target->pick.kind == PICK_SPRING;
     const char *key;
     bool body = player_simulation(player)->scene->needs & NEEDS_BODY;
     Status status = STATUS_OK;
     player_deselect(player);
-    switch (under->hit.zone) {
+    switch (target->hit.zone) {
     case ZONE_CHIP:
-        return order(player, player->screen.frame.chip[index], 0);
+        return obey(player, player->screen.frame.chip[index], 0);
     case ZONE_CARD_CLOSE:
-        return order(player, COMMAND_CARD, index);
+        return obey(player, COMMAND_CARD, index);
     case ZONE_CARD:
-        return order(player, COMMAND_ENLARGE, index);
+        return obey(player, COMMAND_ENLARGE, index);
     case ZONE_TIME:
         player->hands.mouse.drag = COMMAND_GOTO;
         player->hands.mouse.moved = true; /* a click goes there, too */
@@ -402,9 +403,9 @@ static Status press_left(Player *player, const UnderMouse *under, int clicks)
     case ZONE_SETTING:
         return press_number(player, index, clicks);
     case ZONE_LIST_CLOSE:
-        return order(player, COMMAND_ESCAPE, 0);
+        return obey(player, COMMAND_ESCAPE, 0);
     case ZONE_LIST: /* a line of a list */
-        index = frame_find_row(&player->screen.frame.content, &under->layout,
+        index = frame_find_row(&player->screen.frame.content, &target->layout,
                                player->hands.mouse.x, player->hands.mouse.y);
         if (find_focus(player) != AT_LIST || index < 0)
             return STATUS_OK;
@@ -413,16 +414,16 @@ static Status press_left(Player *player, const UnderMouse *under, int clicks)
         return key[0] ? choose_list_line(player, line) : STATUS_OK;
     case ZONE_CELL:
         player->screen.view.chosen = index;
-        return order(player, COMMAND_OPEN, 0);
+        return obey(player, COMMAND_OPEN, 0);
     case ZONE_STAGE:
-        if (under->pane != player->active)
-            status = order(player, COMMAND_PANE, under->pane);
+        if (target->pane != player->active)
+            status = obey(player, COMMAND_PANE, target->pane);
         if (status || clicks < 2 || !ground)
-            return status ? status : take_under_mouse(player, under);
-        return body && under->pick.nearest_node < 0 &&
-                       under->pick.kind == PICK_NONE
-                   ? add_ball(player, under->at)
-                   : order(player, COMMAND_FIT, 0);
+            return status ? status : press_target(player, target);
+        return body && target->pick.nearest_node < 0 &&
+                       target->pick.kind == PICK_NONE
+                   ? add_ball(player, target->at)
+                   : obey(player, COMMAND_FIT, 0);
     default:
         return STATUS_OK;
     }
@@ -431,25 +432,25 @@ static Status press_left(Player *player, const UnderMouse *under, int clicks)
 static Status press_button(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
-    UnderMouse under = find_under_mouse(player);
-    bool stage = under.hit.zone == ZONE_STAGE;
+    MouseTarget target = find_mouse_target(player);
+    bool stage = target.hit.zone == ZONE_STAGE;
     const Scene *scene = player_simulation(player)->scene;
     bool nodes = (scene->needs & NEEDS_MESH) && !scene->step;
-    int near = under.pick.nearest_node;
+    int near = target.pick.nearest_node;
     mouse->from[0] = mouse->x;
     mouse->from[1] = mouse->y;
     mouse->grip[0] = mouse->grip[1] = 0;
     mouse->moved = false;
     player->note[0] = '\0';
     if (input->button == BUTTON_LEFT)
-        return press_left(player, &under, input->clicks);
+        return press_left_button(player, &target, input->clicks);
     if (!stage)
         return STATUS_OK;
     if (input->button == BUTTON_RIGHT && near < 0 && nodes)
         return player_refuse(player, "no node is here: a right click on one "
                                      "pins it, or sets it free");
     if (input->button == BUTTON_RIGHT)
-        return order(player, COMMAND_PIN, near < 0 ? 0 : near);
+        return obey(player, COMMAND_PIN, near < 0 ? 0 : near);
     mouse->drag = COMMAND_PAN;
     mouse->moved = true;
     return STATUS_OK;
@@ -473,7 +474,7 @@ static Status release_button(Player *player)
         player->hands.holds) {
         player_enqueue(player,
                        &(Command){.kind = COMMAND_RELEASE, .joins = true});
-        if (drag == COMMAND_GRAB && mouse->pins)
+        if (drag == COMMAND_GRAB && mouse->repins)
             player_enqueue(
                 player,
                 &(Command){.kind = COMMAND_PIN, .number = node, .joins = true});
@@ -489,17 +490,17 @@ static Status release_button(Player *player)
 
 static Status turn_wheel(Player *player, double amount)
 {
-    UnderMouse under = find_under_mouse(player);
-    if (under.hit.zone == ZONE_SETTING &&
-        under.hit.index < player->screen.frame.numbers)
+    MouseTarget target = find_mouse_target(player);
+    if (target.hit.zone == ZONE_SETTING &&
+        target.hit.index < player->screen.frame.numbers)
         return raise_number(player,
-                            player->screen.frame.number[under.hit.index],
+                            player->screen.frame.number[target.hit.index],
                             amount > 0 ? 1 : -1);
-    if (under.hit.zone == ZONE_TIME)
-        return order(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
-    if (under.hit.zone != ZONE_STAGE)
+    if (target.hit.zone == ZONE_TIME)
+        return obey(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
+    if (target.hit.zone != ZONE_STAGE)
         return STATUS_OK;
-    lens_zoom(&player->screen.view.lens, under.layout.pane[under.hit.index],
+    lens_zoom(&player->screen.view.lens, target.layout.pane[target.hit.index],
               player->hands.mouse.x, player->hands.mouse.y,
               pow(WHEEL_ZOOM, amount));
     player->screen.changed = true;
@@ -507,14 +508,14 @@ static Status turn_wheel(Player *player, double amount)
 }
 
 /* Obeys an input of the mouse. */
-static Status use_mouse(Player *player, const Input *input)
+static Status obey_mouse(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
     bool rests =
-        !mouse->placed || (mouse->x == input->x && mouse->y == input->y);
+        !mouse->has_position || (mouse->x == input->x && mouse->y == input->y);
     mouse->x = input->x;
     mouse->y = input->y;
-    mouse->placed = true;
+    mouse->has_position = true;
     if (input->kind == INPUT_PRESS)
         return press_button(player, input);
     if (input->kind == INPUT_RELEASE)
@@ -527,14 +528,14 @@ static Status use_mouse(Player *player, const Input *input)
 }
 
 /* A drag is one gesture, and so are successive turns of the wheel. */
-Status player_input(Player *player, const Input *input)
+Status player_obey_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
     Command command;
     bool wheel = input->kind == INPUT_WHEEL;
     bool press = input->kind == INPUT_PRESS;
     Status status = STATUS_OK;
-    player->orders.gesture = mouse->gesture;
+    player->commands.gesture = mouse->gesture;
     if (press && mouse->drag != COMMAND_NONE)
         status = release_button(player); /* two buttons are down */
     if (!status)
@@ -543,10 +544,10 @@ Status player_input(Player *player, const Input *input)
         return status;
     bool key = input->kind == INPUT_KEY && !input->repeats &&
                mouse->drag == COMMAND_NONE;
-    if (press || key || (wheel && !mouse->turns))
-        mouse->gesture = ++player->orders.gestures;
-    mouse->turns = wheel;
-    player->orders.gesture = mouse->gesture;
+    if (press || key || (wheel && !mouse->was_wheel))
+        mouse->gesture = ++player->commands.gestures;
+    mouse->was_wheel = wheel;
+    player->commands.gesture = mouse->gesture;
     switch (input->kind) {
     case INPUT_KEY:
         command =
@@ -557,7 +558,7 @@ Status player_input(Player *player, const Input *input)
         return !status && command.kind == COMMAND_ENTER ? enter_typed(player)
                                                         : status;
     case INPUT_CLOSE:
-        return order(player, COMMAND_QUIT, 0);
+        return obey(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:
         player->screen.view.hover = (Pick){.kind = PICK_NONE};
         player->screen.view.over = (Hit){.zone = ZONE_NONE};
@@ -569,6 +570,6 @@ Status player_input(Player *player, const Input *input)
     case INPUT_NONE:
         return STATUS_OK;
     default:
-        return use_mouse(player, input);
+        return obey_mouse(player, input);
     }
 }

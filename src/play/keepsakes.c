@@ -30,7 +30,7 @@ Status obey_shot(Player *player, const Command *command)
     char name[80];
     const bool draws = player->screen.draws;
     player->screen.draws = true;
-    Paper *paper = player_paper(player);
+    Paper *paper = player_prepare_paper(player);
     Status status = paper ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     player->screen.draws = draws;
     find_free_name(player, ".png", name, sizeof name);
@@ -135,7 +135,7 @@ static char *write_command_line(const Player *player, const char *script)
 static Status write_journal(Player *player, const char *name, const char *line)
 {
     const Command pause = {.kind = COMMAND_PAUSE};
-    Script *journal = &player->orders.journal;
+    Script *journal = &player->commands.journal;
     size_t count = journal->count;
     Status status = STATUS_OK;
     if (!player_is_stopped(player))
@@ -151,7 +151,7 @@ static Status write_journal(Player *player, const char *name, const char *line)
 Status obey_hash(Player *player, const Command *command)
 {
     char name[80], hash[64];
-    bool commands = player->orders.journal.count > 0;
+    bool commands = player->commands.journal.count > 0;
     find_free_name(player, ".script", name, sizeof name);
     char *line = write_command_line(player, commands ? name : NULL);
     Status status = line ? STATUS_OK : STATUS_OUT_OF_MEMORY;

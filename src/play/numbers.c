@@ -8,7 +8,7 @@
 /* ---- the row ------------------------------------------------------------- */
 
 /* Returns the option of a command, or NULL. */
-static const OptionRow *find_row(const Command *command)
+static const OptionRow *find_command_option(const Command *command)
 {
     return command->number < 0 ? NULL : &option_rows[command->number];
 }
@@ -16,15 +16,15 @@ static const OptionRow *find_row(const Command *command)
 /* Whether the scene uses this option, and it is a number or a choice. */
 static bool is_number(const Player *player, const OptionRow *row)
 {
-    return (row->needs & player_settings(player)->scene->needs) &&
+    return (row->needs & player_active_options(player)->scene->needs) &&
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
 }
 
-int player_visible_options(const Player *player, bool all,
-                           const OptionRow *found[OPTIONS_MAX_ROWS])
+int player_list_options(const Player *player, bool all,
+                        const OptionRow *found[OPTIONS_MAX_ROWS])
 {
     const Options options = player_shown_options(player);
-    int own = all ? 0 : options_list_fields(&options, found), count = own;
+    int own = all ? 0 : options_list_visible(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool more = all || player->hands.added >> (row - option_rows) & 1;
         more = more && is_number(player, row);
@@ -42,8 +42,7 @@ const char *player_idle_reason(const Player *player, const OptionRow *row)
     bool minimises = simulation->scene->step;
     int slot = row->slot;
     for (int p = 0; p < past_panes(&player->past); p++)
-        minimises =
-            minimises || player->past.machine[p].simulation.run[0].newton;
+        minimises = minimises || player->past.pane[p].simulation.run[0].newton;
     if (slot == OPTION_SLOT(projection) &&
         !simulation_has_projection(simulation))
         return "nothing to project here";
@@ -53,13 +52,14 @@ const char *player_idle_reason(const Player *player, const OptionRow *row)
     if ((slot == OPTION_SLOT(tolerance) || slot == OPTION_SLOT(solver)) &&
         !minimises)
         return "explicit methods minimise nothing";
-    return row->idle_reason ? row->idle_reason(player_settings(player)) : NULL;
+    return row->idle_reason ? row->idle_reason(player_active_options(player))
+                            : NULL;
 }
 
 /* Adds a number to the row and selects it. */
 Status obey_add(Player *player, const Command *command)
 {
-    const OptionRow *row = find_row(command);
+    const OptionRow *row = find_command_option(command);
     if (!row || !is_number(player, row))
         return player_refuse(player, "this scene has no such number");
     const char *idle = player_idle_reason(player, row);
@@ -77,7 +77,7 @@ Status obey_add(Player *player, const Command *command)
 Status obey_select(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
-    int next = 0, count = player_visible_options(player, false, number);
+    int next = 0, count = player_list_options(player, false, number);
     for (int i = 0; i < count; i++)
         next = number[i] == player->hands.selected ? i + 1 : next;
     player_deselect(player);
@@ -117,23 +117,23 @@ Status obey_type(Player *player, const Command *command)
 /* ---- values -------------------------------------------------------------- */
 
 /* Puts the value of a command into the options of a pane. */
-static Status put_value(Player *player, int pane, const Command *command,
-                        Options *options)
+static Status set_option_value(Player *player, int pane, const Command *command,
+                               Options *options)
 {
     const OptionRow *row = &option_rows[command->number];
     Status status = options_set(options, row, command->text, command->x,
                                 MESSAGE(player->message));
     return status || !row->max_times
                ? status
-               : simulation_check_room(&player->past.machine[pane].simulation,
-                                       options, MESSAGE(player->message));
+               : simulation_check_clearance(&player->past.pane[pane].simulation,
+                                            options, MESSAGE(player->message));
 }
 
 /* Sets an option in all panes, or only in the active one if the panes differ in
  * it or a page opens.  Begins new runs if the option needs a new start. */
 Status obey_set(Player *player, const Command *command)
 {
-    const OptionRow *row = find_row(command);
+    const OptionRow *row = find_command_option(command);
     const Simulation *simulation = player_simulation(player);
     Options options[OPTIONS_MAX_PANES];
     if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE ||
@@ -150,21 +150,21 @@ Status obey_set(Player *player, const Command *command)
     double old = options[player->active].number[row->slot];
     Status status = STATUS_OK;
     for (int p = from; p < to && !status; p++)
-        status = put_value(player, p, command, &options[p]);
+        status = set_option_value(player, p, command, &options[p]);
     if (status)
         return status;
     Command change = *command;
     change.x = options[player->active].number[row->slot];
-    bool again =
-        (!past_is_state_set(&player->past) || player_machine(player)->failed) &&
-        (row->effect == EFFECT_AGAIN ||
-         (player_settings(player)->law && player->past.step > 0 &&
-          player_is_stopped(player)) ||
-         (player->time.unit != UNIT_STEP &&
-          player->side[player->active].place >= 0));
-    if (simulation_find_effect(simulation, row) == EFFECT_START)
-        return player_begin_again(player, options, past_panes(&player->past),
-                                  command);
+    bool again = (!past_is_state_set(&player->past) ||
+                  player_active_run(player)->failed) &&
+                 (row->effect == EFFECT_AGAIN ||
+                  (player_active_options(player)->law &&
+                   player->past.step > 0 && player_is_stopped(player)) ||
+                  (player->time.unit != UNIT_STEP &&
+                   player->view_of_pane[player->active].place >= 0));
+    if (simulation_find_option_effect(simulation, row) == EFFECT_START)
+        return player_restart_runs(player, options, past_panes(&player->past),
+                                   command);
     if (again && change.x != old)
         return player_repeat_step(player, &change, from, to);
     return player_edit(player, &change, from, to, false);
@@ -186,7 +186,7 @@ Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
-    if (player_visible_options(player, false, number) == 0)
+    if (player_list_options(player, false, number) == 0)
         return player_refuse(player, "there is no number to change here");
     player->hands.selected =
         player->hands.selected ? player->hands.selected : number[0];
@@ -202,8 +202,8 @@ Status obey_raise(Player *player, const Command *command)
 /* Sets an option to its value on the page, the command line or in the scene. */
 Status obey_default(Player *player, const Command *command)
 {
-    const OptionRow *row = find_row(command);
-    const Options *now = &past_start(&player->past, 0)->options;
+    const OptionRow *row = find_command_option(command);
+    const Options *now = &past_start_control(&player->past, 0)->options;
     Options options[OPTIONS_MAX_PANES];
     int count;
     if (!row || !row->label)
@@ -225,7 +225,7 @@ Status obey_switch(Player *player, const Command *command)
     double on = player->given.options[0].number[row->slot];
     if (on == off)
         on = search ? LINE_SEARCH_BACKTRACK : PROJECTION_CLAMP;
-    bool was_off = player_settings(player)->number[row->slot] == off;
+    bool was_off = player_active_options(player)->number[row->slot] == off;
     player_enqueue_set(player, row, was_off ? on : off);
     return STATUS_OK;
 }

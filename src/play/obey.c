@@ -21,7 +21,7 @@ static CommandFunction *const functions[COMMAND_KINDS] = {
  * choose from. */
 static long count_targets(const Player *player, int pane, CommandKind kind)
 {
-    const Simulation *simulation = &player->past.machine[pane].simulation;
+    const Simulation *simulation = &player->past.pane[pane].simulation;
     const Scene *scene = simulation->scene;
     double at[SCENE_MAX_HANDLES][2];
     Switch part[SCENE_MAX_SWITCHES];
@@ -51,7 +51,7 @@ static long count_targets(const Player *player, int pane, CommandKind kind)
 }
 
 /* Refuses a command whose number names no node, obstacle, ... in some pane. */
-static Status check_number(Player *player, const Command *command)
+static Status check_target(Player *player, const Command *command)
 {
     long count = LONG_MAX;
     for (int p = 0; p < past_panes(&player->past); p++) {
@@ -77,7 +77,7 @@ static Command resolve_command(const Player *player, const Command *asked)
     if (asked->kind == COMMAND_TOGGLE_PAUSE)
         meant.kind = player_is_stopped(player) ? COMMAND_PLAY : COMMAND_PAUSE;
     if (asked->kind == COMMAND_NEXT && !player_hides_answer(player) &&
-        player_settings(player)->next == NEXT_NEARER)
+        player_active_options(player)->next == NEXT_NEARER)
         meant =
             (Command){.kind = COMMAND_HANDLE, .x = 0.8 * x[0], .y = 0.8 * x[1]};
     return meant;
@@ -85,8 +85,8 @@ static Command resolve_command(const Player *player, const Command *asked)
 
 /* If a page waits for a guess, "next" and "play" show its answer and make no
  * step.  Returns whether this was so. */
-static bool reveals_answer(Player *player, const Command *command,
-                           Status *status)
+static bool reveal_answer_first(Player *player, const Command *command,
+                                Status *status)
 {
     if (!player_hides_answer(player) ||
         (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
@@ -106,11 +106,11 @@ static bool is_pull_due(const Player *player)
 /* Obeys the queue as player_obey_queue does, but returns INVALID_INPUT. */
 static Status obey_queue(Player *player, bool now)
 {
-    Queue queue = player->orders.queue;
+    Queue queue = player->commands.queue;
     const bool opens = player->tour.opens;
     Status status = STATUS_OK;
     int i = 0;
-    player->orders.queue = (Queue){.count = 0};
+    player->commands.queue = (Queue){.count = 0};
     for (; i < queue.count && !status; i++) {
         const Command *command = &queue.command[i];
         bool pulls = command->kind == COMMAND_RELEASE && is_pull_due(player);
@@ -135,13 +135,13 @@ static Status obey_queue(Player *player, bool now)
     queue.count -= i;
     memmove(queue.command, queue.command + i,
             (size_t)queue.count * sizeof *queue.command);
-    player->orders.queue = queue;
+    player->commands.queue = queue;
     return STATUS_OK;
 }
 
 Status player_obey_queue(Player *player, bool now)
 {
-    return player_report(player, obey_queue(player, now));
+    return player_show_refusal(player, obey_queue(player, now));
 }
 
 Status player_obey_page(Player *player)
@@ -150,7 +150,7 @@ Status player_obey_page(Player *player)
     return status ? status : obey_queue(player, false);
 }
 
-Status player_answer(Player *player, const char *typed)
+Status player_answer_question(Player *player, const char *typed)
 {
     Status status = player_reveal_answer(player, typed);
     return status ? status : obey_queue(player, false);
@@ -166,11 +166,11 @@ Status player_obey_lines(Player *player, const char *lines)
  * its end. */
 static Status abandon_step(Player *player)
 {
-    int gesture = player->orders.gesture;
-    past_aim(&player->past, player->past.step, false);
+    int gesture = player->commands.gesture;
+    past_choose_step(&player->past, player->past.step, false);
     player->time.after = AFTER_NOTHING;
     Status status = player_obey_queue(player, true);
-    player->orders.gesture = gesture;
+    player->commands.gesture = gesture;
     return status;
 }
 
@@ -180,18 +180,18 @@ static Status abandon_step(Player *player)
 static void begin_command(Player *player, const Command *command)
 {
     unsigned flags = command_rows[command->kind].flags;
-    Orders *orders = &player->orders;
+    Commands *commands = &player->commands;
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
-        orders->gesture = orders->held;
+        commands->gesture = commands->held;
     else if (!command->joins)
-        orders->gesture = ++orders->gestures;
+        commands->gesture = ++commands->gestures;
     if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
-        orders->held = orders->gesture;
-    if (orders->leaving != command->kind)
-        orders->leaving = COMMAND_NONE;
+        commands->held = commands->gesture;
+    if (commands->leaving != command->kind)
+        commands->leaving = COMMAND_NONE;
     player->screen.changed = true;
     player->message[0] = '\0';
-    if (!(flags & QUIET || (flags & LATEST && player->hands.mouse.drag)))
+    if (!(flags & KEEPS_NOTE || (flags & REPLACES && player->hands.mouse.drag)))
         player->note[0] = '\0';
 }
 
@@ -203,7 +203,7 @@ static bool waits_for_step(Player *player, const Command *command)
     if (past_works(&player->past) && command->kind == COMMAND_NEXT)
         return true;
     if (!past_makes(&player->past) || !drags ||
-        !(command_rows[command->kind].flags & LATEST))
+        !(command_rows[command->kind].flags & REPLACES))
         return false;
     player_enqueue(player, command);
     return true;
@@ -221,24 +221,24 @@ Status player_obey(Player *player, const Command *asked)
     begin_command(player, &command);
     if (waits_for_step(player, &command))
         return STATUS_OK;
-    if (reveals_answer(player, &command, &status))
+    if (reveal_answer_first(player, &command, &status))
         return status ? status : obey_queue(player, false);
-    if (past_works(past) && !(flags & SCREEN)) {
+    if (past_works(past) && !(flags & KEEPS_STEP)) {
         stops = command.kind == COMMAND_ESCAPE;
         status = abandon_step(player);
     }
-    status = status ? status : check_number(player, &command);
+    status = status ? status : check_target(player, &command);
     if (!status && stops)
         player_note(player, "step abandoned: the last whole one is shown");
     else if (!status)
         status = functions[command.kind](player, &command);
-    if (flags & KEPT && status != STATUS_INVALID_INPUT &&
-        script_add(&player->orders.journal, step, &command,
-                   player->orders.gesture))
+    if (flags & IN_SCRIPT && status != STATUS_INVALID_INPUT &&
+        script_add(&player->commands.journal, step, &command,
+                   player->commands.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_works(past);
     player_sample_line_energy(player); /* a card may draw E along p now */
-    if (past_works(past) && (!worked || !(flags & SCREEN))) {
+    if (past_works(past) && (!worked || !(flags & KEEPS_STEP))) {
         Status shown = player_work(player);
         status = status ? status : shown;
     }
@@ -257,7 +257,7 @@ Status player_continue(Player *player)
     return status ? status : player_obey_queue(player, false);
 }
 
-Status player_step(Player *player)
+Status player_make_step(Player *player)
 {
     Status status = player_seek(player, player->past.step + 1, AFTER_NOTHING);
     return status ? status : player_continue(player);

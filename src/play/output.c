@@ -71,10 +71,10 @@ Status output_close(Output *output, Keep keep)
     return whole ? STATUS_OK : output_report_failure(output, NULL);
 }
 
-void table_columns(Table *table, const char *names)
+void table_add_columns(Table *table, const char *names)
 {
     for (const char *at = names; at && *at; at += *at == ',') {
-        char name[TABLE_LETTERS];
+        char name[TABLE_NAME_SIZE];
         int length = (int)strcspn(at, ",:"), c = 0;
         snprintf(name, sizeof name, "%.*s", length, at);
         while (c < table->columns && strcmp(table->column[c].name, name) != 0)
@@ -99,7 +99,7 @@ Status table_open(const char *name, char *message, Table *table)
     return table_check(table);
 }
 
-void table_add(Table *table, const double *value)
+void table_add_row(Table *table, const double *value)
 {
     FILE *file = table->output.file;
     for (int c = 0; c < table->columns && !ferror(file); c++) {

@@ -4,9 +4,9 @@
 
 /* Returns the next method for a pane that key M can choose, all terms allow and
  * no pane has.  NULL: refused, there is none. */
-static const IntegratorMethod *find_method(Player *player, int pane)
+static const IntegratorMethod *find_next_method(Player *player, int pane)
 {
-    const Simulation *simulation = &player->past.machine[pane].simulation;
+    const Simulation *simulation = &player->past.pane[pane].simulation;
     const IntegratorMethod *own = simulation->run[0].method, *next = own;
     bool time = simulation->scene->needs & NEEDS_TIME, taken;
     do {
@@ -14,8 +14,8 @@ static const IntegratorMethod *find_method(Player *player, int pane)
         taken = next->by_name ||
                 integrator_method_refuses(next, &simulation->system);
         for (int p = 0; p < past_panes(&player->past); p++)
-            taken = taken ||
-                    player->past.machine[p].simulation.run[0].method == next;
+            taken =
+                taken || player->past.pane[p].simulation.run[0].method == next;
     } while (next != own && taken);
     if (simulation->runs > 1)
         next = &integrator_methods[0];
@@ -29,7 +29,7 @@ static const IntegratorMethod *find_method(Player *player, int pane)
 
 Status obey_method(Player *player, const Command *command)
 {
-    const IntegratorMethod *next = find_method(player, player->active);
+    const IntegratorMethod *next = find_next_method(player, player->active);
     if (!next)
         return STATUS_INVALID_INPUT;
     player_enqueue_set(player, option_find("integrator"),
@@ -49,7 +49,7 @@ Status obey_add_pane(Player *player, const Command *command)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
     const IntegratorMethod *next =
-        player->tour.opens ? run->method : find_method(player, panes - 1);
+        player->tour.opens ? run->method : find_next_method(player, panes - 1);
     if (!next)
         return STATUS_INVALID_INPUT;
     const Command change = command_of_set(option_find("integrator"),

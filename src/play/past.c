@@ -62,7 +62,7 @@ const Control *past_control(const Past *past, int pane)
     return find_entry(past, pane, past->step)->control;
 }
 
-const Control *past_start(const Past *past, int pane)
+const Control *past_start_control(const Past *past, int pane)
 {
     const Branch *branch = present_branch(past);
     for (; !branch->fresh; branch--)
@@ -71,27 +71,27 @@ const Control *past_start(const Past *past, int pane)
 }
 
 /* Whether the outcome of an entry is a failure, which has ended its pane. */
-static bool is_failure(const Entry *entry)
+static bool entry_is_failure(const Entry *entry)
 {
     return status_is_failure(entry->outcome.status);
 }
 
 /* Whether a pane has no part in the step of an entry, since a failure has ended
  * it. */
-static bool has_ended(const Entry *entry)
+static bool pane_has_ended(const Entry *entry)
 {
-    return entry->substeps == 0 && is_failure(entry);
+    return entry->substeps == 0 && entry_is_failure(entry);
 }
 
-long past_end_step(const Past *past, int pane, long step)
+long past_find_end_step(const Past *past, int pane, long step)
 {
     long last = step;
-    while (last > 0 && has_ended(past_entry(past, pane, last)))
+    while (last > 0 && pane_has_ended(past_entry(past, pane, last)))
         last--;
     return last < step ? last : -1;
 }
 
-long past_last_seen(const Past *past, int pane, long step)
+long past_find_drawable_step(const Past *past, int pane, long step)
 {
     const Entry *first = past_entry(past, pane, 1);
     if (!first)
@@ -132,7 +132,7 @@ static void drop_entry(Past *past, Entry *entry)
 static Status reserve_entry(Past *past, Branch *branch)
 {
     size_t row = (size_t)branch->panes * sizeof(Entry);
-    if (!past->keeps && branch->count == 2) {
+    if (!past->stores_states && branch->count == 2) {
         for (int p = 0; p < branch->panes; p++)
             drop_entry(past, &branch->entry[p]);
         memmove(branch->entry, branch->entry + branch->panes, row);
@@ -205,12 +205,12 @@ bool past_is_state_set(const Past *past)
 
 /* Samples at most HISTORY_POINTS steps of a long run, the newest one among
  * them. */
-void past_history(const Past *past, int pane, History *history)
+void past_fill_history(const Past *past, int pane, History *history)
 {
     long last = past_newest(past), stride = 1;
     while (last / stride > HISTORY_POINTS - 2)
         stride *= 2;
-    long ended = past_end_step(past, pane, last);
+    long ended = past_find_end_step(past, pane, last);
     if (ended >= 0)
         last = ended;
     history->series = history->count = 0;
@@ -226,8 +226,8 @@ void past_history(const Past *past, int pane, History *history)
  */
 static Status store_state(Past *past, int pane, bool set, Entry *entry)
 {
-    const Machine *machine = &past->machine[pane];
-    const Simulation *simulation = &machine->simulation;
+    const PaneRun *pane_run = &past->pane[pane];
+    const Simulation *simulation = &pane_run->simulation;
     size_t size = sizeof *entry->state + state_save(simulation, NULL);
     size_t both = size + sizeof *entry->sample; /* the sample follows */
     drop_state(past, entry);
@@ -236,7 +236,7 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     State *state = malloc(size);
     if (!state)
         return STATUS_OUT_OF_MEMORY;
-    *state = (State){1, size, set, control_retain(machine->control)};
+    *state = (State){1, size, set, control_retain(pane_run->control)};
     state_save(simulation, state->bytes);
     past->bytes += size;
     entry->state = state;
@@ -245,24 +245,24 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
 
 /* Leaves the step of a machine.  The state was stored for edits; only now it
  * can be dropped. */
-static void machine_leave_step(Past *past, int pane)
+static void pane_run_leave_step(Past *past, int pane)
 {
-    Machine *machine = &past->machine[pane];
+    PaneRun *pane_run = &past->pane[pane];
     const Branch *branch = present_branch(past);
-    if (!machine->has_state)
+    if (!pane_run->has_state)
         return;
-    while (machine->step < branch->first && !branch->fresh)
+    while (pane_run->step < branch->first && !branch->fresh)
         branch--;
-    Entry *entry = find_entry(past, pane, machine->step);
+    Entry *entry = find_entry(past, pane, pane_run->step);
     if (!keeps_state(branch, entry))
         drop_state(past, entry);
-    machine->has_state = false;
+    pane_run->has_state = false;
 }
 
 static void leave_all_steps(Past *past)
 {
     for (int p = 0; p < past_panes(past); p++)
-        machine_leave_step(past, p);
+        pane_run_leave_step(past, p);
 }
 
 /* Puts a branch on top of the present one, and drops undone ones.  The given
@@ -288,10 +288,10 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     branch->count = 1;
     for (int p = 0; p < past_panes(past); p++)
         if (branch->fresh || p >= branch->panes ||
-            past->machine[p].step > branch->first)
-            machine_leave_step(past, p);
+            past->pane[p].step > branch->first)
+            pane_run_leave_step(past, p);
     for (int p = 0; p < branch->panes && !branch->fresh; p++)
-        for (int i = 0; i < branch->given; i++) {
+        for (int i = 0; i < branch->copied; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
             *to = *find_branch_entry(branch - 1, find_pane_below(branch, p),
                                      branch->first + i);
@@ -312,9 +312,9 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 /* ---- machines ------------------------------------------------------------ */
 
 /* Time step, s; 1 in scenes without time. */
-static double pane_timestep(const Machine *machine)
+static double find_pane_timestep(const PaneRun *pane_run)
 {
-    const Simulation *simulation = &machine->simulation;
+    const Simulation *simulation = &pane_run->simulation;
     return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
                                                  : 1;
 }
@@ -333,16 +333,16 @@ static const Newton *find_traced_newton(const Simulation *simulation)
  * one, so that the window can read the mouse and the program its signals. */
 static bool observe_newton(void *user, const NewtonRecord *record)
 {
-    Machine *machine = user;
-    if (!machine->iterating)
+    PaneRun *pane_run = user;
+    if (!pane_run->iterating)
         return false;
-    machine->outcome.updates += record->alpha != 0;
-    if (machine->simulation.scene->step) /* each step is one update */
-        machine->outcome.change = record->change;
-    const Newton *newton = find_traced_newton(&machine->simulation);
-    if (newton && machine->trace.size > 0 && record->iteration >= 0)
-        step_trace_add(&machine->trace, newton, record);
-    Records *records = &machine->records;
+    pane_run->outcome.updates += record->alpha != 0;
+    if (pane_run->simulation.scene->step) /* each step is one update */
+        pane_run->outcome.change = record->change;
+    const Newton *newton = find_traced_newton(&pane_run->simulation);
+    if (newton && pane_run->trace.size > 0 && record->iteration >= 0)
+        step_trace_add_round(&pane_run->trace, newton, record);
+    Records *records = &pane_run->records;
     if (records_reserve(records, records->count + 1))
         records->row[records->count++] = *record;
     else
@@ -351,56 +351,56 @@ static bool observe_newton(void *user, const NewtonRecord *record)
 }
 
 /* Discards the records of the last step. */
-static void machine_forget_step(Machine *machine)
+static void pane_run_forget_step(PaneRun *pane_run)
 {
-    machine->known = machine->failed = false;
-    machine->substeps = 0;
-    machine->trace.places = machine->records.count = 0;
-    machine->records.lost = false;
+    pane_run->known = pane_run->failed = false;
+    pane_run->substeps = 0;
+    pane_run->trace.places = pane_run->records.count = 0;
+    pane_run->records.lost = false;
 }
 
-static void machine_free(Machine *machine)
+static void pane_run_free(PaneRun *pane_run)
 {
-    simulation_free(&machine->simulation);
-    control_release(machine->control);
-    control_release(machine->start);
-    machine->control = machine->start = NULL;
-    machine->has_state = machine->iterating = false;
-    machine_forget_step(machine);
+    simulation_free(&pane_run->simulation);
+    control_release(pane_run->control);
+    control_release(pane_run->start);
+    pane_run->control = pane_run->start = NULL;
+    pane_run->has_state = pane_run->iterating = false;
+    pane_run_forget_step(pane_run);
 }
 
 /* Creates a simulation at its step 0. */
-static Status machine_create(Machine *machine, const Options *options)
+static Status pane_run_create(PaneRun *pane_run, const Options *options)
 {
-    machine_free(machine);
-    return simulation_create(options, observe_newton, machine,
-                             &machine->simulation);
+    pane_run_free(pane_run);
+    return simulation_create(options, observe_newton, pane_run,
+                             &pane_run->simulation);
 }
 
-static Status machine_use_control(Machine *machine, const Control *control)
+static Status pane_run_use_control(PaneRun *pane_run, const Control *control)
 {
-    if (machine->control == control)
+    if (pane_run->control == control)
         return STATUS_OK;
-    Status status = control_apply(&machine->simulation, control);
+    Status status = control_apply(&pane_run->simulation, control);
     control_retain(control);
-    control_release(machine->control);
-    machine->control = control;
+    control_release(pane_run->control);
+    pane_run->control = control;
     if (status)
-        machine_free(machine);
+        pane_run_free(pane_run);
     return status;
 }
 
 /* Notes that the machine has the state of a step, gives it the control of the
  * next step, and samples the state if this control is new. */
-static Status machine_set_step(Past *past, int pane, long step)
+static Status pane_run_set_step(Past *past, int pane, long step)
 {
-    Machine *machine = &past->machine[pane];
+    PaneRun *pane_run = &past->pane[pane];
     Entry *entry = find_entry(past, pane, step);
-    bool samples =
-        past->keeps && (!entry->sample || machine->control != entry->control);
-    Status status = machine_use_control(machine, entry->control);
-    machine->step = step;
-    machine->has_state = !status;
+    bool samples = past->stores_states &&
+                   (!entry->sample || pane_run->control != entry->control);
+    Status status = pane_run_use_control(pane_run, entry->control);
+    pane_run->step = step;
+    pane_run->has_state = !status;
     if (status || !samples)
         return status;
     if (!entry->sample) {
@@ -408,51 +408,52 @@ static Status machine_set_step(Past *past, int pane, long step)
         past->bytes += entry->sample ? sizeof *entry->sample : 0;
     }
     if (entry->sample) {
-        entry->sample->time = simulation_time(&machine->simulation);
+        entry->sample->time = simulation_time(&pane_run->simulation);
         entry->sample->rows =
-            picture_sample(&machine->simulation, entry->sample->row);
+            picture_sample(&pane_run->simulation, entry->sample->row);
     }
     return STATUS_OK;
 }
 
-static Status machine_load_state(Machine *machine, const State *state)
+static Status pane_run_load_state(PaneRun *pane_run, const State *state)
 {
-    Status status = machine_use_control(machine, state->control);
+    Status status = pane_run_use_control(pane_run, state->control);
     if (!status)
-        state_restore(state->bytes, &machine->simulation);
+        state_restore(state->bytes, &pane_run->simulation);
     return status;
 }
 
 /* Brings the machine to the last step up to `goal` whose state is stored; if
  * states are not stored the machine is there already, or at step 0. */
-static Status machine_seek(Past *past, int pane, long goal)
+static Status pane_run_seek(Past *past, int pane, long goal)
 {
-    Machine *machine = &past->machine[pane];
-    const Control *start = past_start(past, pane);
+    PaneRun *pane_run = &past->pane[pane];
+    const Control *start = past_start_control(past, pane);
     long from = goal;
-    while (past->keeps && from > 0 && !find_entry(past, pane, from)->state)
+    while (past->stores_states && from > 0 &&
+           !find_entry(past, pane, from)->state)
         from--;
-    bool is_near = machine->has_state && machine->step <= goal &&
-                   (machine->step >= from || machine->step >= goal - 1);
+    bool is_near = pane_run->has_state && pane_run->step <= goal &&
+                   (pane_run->step >= from || pane_run->step >= goal - 1);
     if (is_near &&
-        machine->control == find_entry(past, pane, machine->step)->control)
-        return machine_set_step(past, pane, machine->step);
+        pane_run->control == find_entry(past, pane, pane_run->step)->control)
+        return pane_run_set_step(past, pane, pane_run->step);
     const Entry *entry = find_entry(past, pane, from);
     if (!entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
-    if (!machine->has_state || machine->step != from) {
-        machine_leave_step(past, pane);
-        machine_forget_step(machine);
-        machine->outcome = entry->outcome;
+    if (!pane_run->has_state || pane_run->step != from) {
+        pane_run_leave_step(past, pane);
+        pane_run_forget_step(pane_run);
+        pane_run->outcome = entry->outcome;
     }
-    if (machine->start != start) {
-        status = machine_create(machine, &start->options);
-        machine->start = status ? NULL : control_retain(start);
+    if (pane_run->start != start) {
+        status = pane_run_create(pane_run, &start->options);
+        pane_run->start = status ? NULL : control_retain(start);
     }
     if (!status)
-        status = machine_load_state(machine, entry->state);
-    return status ? status : machine_set_step(past, pane, from);
+        status = pane_run_load_state(pane_run, entry->state);
+    return status ? status : pane_run_set_step(past, pane, from);
 }
 
 /* ---- steps --------------------------------------------------------------- */
@@ -464,7 +465,7 @@ static void drop_new_entry(Past *past, int pane)
     const Branch *branch = present_branch(past);
     Entry *entry = find_entry(past, pane, past_newest(past) + 1);
     drop_state(past, entry);
-    if (branch->count >= branch->given)
+    if (branch->count >= branch->copied)
         drop_entry(past, entry);
 }
 
@@ -475,12 +476,12 @@ static void abandon_work(Past *past)
     if (past->work == WORK_DONE)
         return;
     for (int p = 0; p < past_panes(past); p++) {
-        Machine *machine = &past->machine[p];
-        if (machine->iterating || machine->substeps > 0 ||
-            machine->step > past_newest(past))
-            machine->has_state = false;
-        machine->iterating = false;
-        machine->substeps = 0;
+        PaneRun *pane_run = &past->pane[p];
+        if (pane_run->iterating || pane_run->substeps > 0 ||
+            pane_run->step > past_newest(past))
+            pane_run->has_state = false;
+        pane_run->iterating = false;
+        pane_run->substeps = 0;
         if (past_makes(past))
             drop_new_entry(past, p);
     }
@@ -492,92 +493,93 @@ static bool is_out_of_memory(Status status)
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
 }
 
-static Status machine_finish_step(Past *past, int pane);
-static Status machine_work(Past *past, int pane);
+static Status pane_run_finish_step(Past *past, int pane);
+static Status pane_run_iterate(Past *past, int pane);
 
 /* Ends a pane that has failed beside others; from here on the pane shows its
  * last state that can be seen. */
-static Status machine_end_pane(Past *past, int pane, Status why)
+static Status end_failed_pane(Past *past, int pane, Status why)
 {
-    Machine *machine = &past->machine[pane];
-    long step = machine->step, last = past_last_seen(past, pane, step);
-    machine_leave_step(past, pane);
-    Status status = machine_seek(past, pane, last);
-    while (machine->step < last && (!status || status == STATUS_RUNNING))
-        status = machine_work(past, pane);
+    PaneRun *pane_run = &past->pane[pane];
+    long step = pane_run->step,
+         last = past_find_drawable_step(past, pane, step);
+    pane_run_leave_step(past, pane);
+    Status status = pane_run_seek(past, pane, last);
+    while (pane_run->step < last && (!status || status == STATUS_RUNNING))
+        status = pane_run_iterate(past, pane);
     if (status && status != STATUS_RUNNING)
         return status;
-    machine->step = step;
-    machine->substeps = 0;
-    machine->outcome = past_entry(past, pane, last)->outcome;
-    machine->outcome.status = past->worst = why;
+    pane_run->step = step;
+    pane_run->substeps = 0;
+    pane_run->outcome = past_entry(past, pane, last)->outcome;
+    pane_run->outcome.status = past->worst = why;
     if (past_makes(past))
         past->work = WORK_MADE;
-    return machine_finish_step(past, pane);
+    return pane_run_finish_step(past, pane);
 }
 
 /* Ends the work after a failure; if other panes can go on only this pane ends.
  */
-static Status machine_fail(Past *past, int pane, Status status)
+static Status pane_run_fail(Past *past, int pane, Status status)
 {
-    Machine *machine = &past->machine[pane];
-    if (past_makes(past) && past->goes_on && past_panes(past) > 1 &&
+    PaneRun *pane_run = &past->pane[pane];
+    if (past_makes(past) && past->panes_fail_alone && past_panes(past) > 1 &&
         !is_out_of_memory(status)) {
-        status = machine_end_pane(past, pane, status);
+        status = end_failed_pane(past, pane, status);
         if (status == STATUS_RUNNING)
             return status;
     }
     abandon_work(past);
-    if (!is_out_of_memory(status) && machine->start) {
-        machine->failed = machine->known = true;
-        machine->outcome.status = status;
+    if (!is_out_of_memory(status) && pane_run->start) {
+        pane_run->failed = pane_run->known = true;
+        pane_run->outcome.status = status;
     }
     /* Some runs of the simulation may already have made the next step. */
-    machine->has_state = false;
+    pane_run->has_state = false;
     past->aim = past->step;
     return status;
 }
 
 /* Moves the machine to the entry of the step that it has finished. */
-static Status machine_finish_step(Past *past, int pane)
+static Status pane_run_finish_step(Past *past, int pane)
 {
-    Machine *machine = &past->machine[pane];
-    long step = machine->step + 1;
+    PaneRun *pane_run = &past->pane[pane];
+    long step = pane_run->step + 1;
     Entry *to = find_entry(past, pane, step);
     Status status = STATUS_OK;
     if (step > past_newest(past)) {
         if (!to->control)
             to->control =
                 control_retain(find_entry(past, pane, step - 1)->control);
-        to->substeps = machine->substeps;
-        to->outcome = machine->outcome;
+        to->substeps = pane_run->substeps;
+        to->outcome = pane_run->outcome;
     }
-    if (past_makes(past) && machine->substeps > 0)
+    if (past_makes(past) && pane_run->substeps > 0)
         past->work = WORK_MADE;
-    machine->substeps = 0;
-    machine_leave_step(past, pane);
+    pane_run->substeps = 0;
+    pane_run_leave_step(past, pane);
     if (to->state && to->state->is_set)
-        status = machine_load_state(machine, to->state);
-    else if (past->keeps && !to->state)
+        status = pane_run_load_state(pane_run, to->state);
+    else if (past->stores_states && !to->state)
         store_state(past, pane, false, to);
     if (!status)
-        status = machine_set_step(past, pane, step);
-    return status ? machine_fail(past, pane, status) : STATUS_RUNNING;
+        status = pane_run_set_step(past, pane, step);
+    return status ? pane_run_fail(past, pane, status) : STATUS_RUNNING;
 }
 
 /* Goes on after an iteration: if a step of the simulation has ended, books its
  * outcome, and finishes the pane's step unless it has more substeps. */
-static Status machine_advance(Past *past, int pane, Status status)
+static Status pane_run_end_iteration(Past *past, int pane, Status status)
 {
-    Machine *machine = &past->machine[pane];
-    const Simulation *simulation = &machine->simulation;
-    Outcome *outcome = &machine->outcome;
+    PaneRun *pane_run = &past->pane[pane];
+    const Simulation *simulation = &pane_run->simulation;
+    Outcome *outcome = &pane_run->outcome;
     if (status == STATUS_RUNNING)
         return status;
-    machine->iterating = false;
-    if (past->keeps)
-        step_trace_end(&machine->trace, &simulation->options);
-    bool moved = simulation->steps > machine->before;
+    pane_run->iterating = false;
+    if (past->stores_states)
+        step_trace_end(&pane_run->trace, &simulation->options);
+    bool moved = simulation->steps > pane_run->before;
     outcome->status = status ? status : outcome->status;
     outcome->extent = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
@@ -586,44 +588,46 @@ static Status machine_advance(Past *past, int pane, Status status)
         if (simulation->run[r].newton)
             outcome->change += simulation->run[r].newton->change;
     if (status && !moved && (is_out_of_memory(status) || !simulation->done))
-        return machine_fail(past, pane, status);
-    machine->known = past->keeps;
-    machine->substeps += moved;
+        return pane_run_fail(past, pane, status);
+    pane_run->known = past->stores_states;
+    pane_run->substeps += moved;
     if (past_makes(past) && status)
         past->worst = status;
-    double middle = simulation_time(simulation) + 0.5 * pane_timestep(machine);
-    const Entry *to = past_entry(past, pane, machine->step + 1);
-    bool more = to ? machine->substeps < to->substeps
+    double middle =
+        simulation_time(simulation) + 0.5 * find_pane_timestep(pane_run);
+    const Entry *to = past_entry(past, pane, pane_run->step + 1);
+    bool more = to ? pane_run->substeps < to->substeps
                    : moved && middle < past->target &&
                          (simulation->scene->needs & NEEDS_TIME);
-    return more ? STATUS_RUNNING : machine_finish_step(past, pane);
+    return more ? STATUS_RUNNING : pane_run_finish_step(past, pane);
 }
 
 /* Makes the next iteration of a pane, or begins its next step. */
-static Status machine_work(Past *past, int pane)
+static Status pane_run_iterate(Past *past, int pane)
 {
-    Machine *machine = &past->machine[pane];
-    const Entry *from = past_entry(past, pane, machine->step);
-    const Entry *to = past_entry(past, pane, machine->step + 1);
-    if (machine->iterating)
-        return machine_advance(past, pane,
-                               simulation_advance(&machine->simulation));
-    if (machine->substeps == 0) {
-        machine->outcome = (Outcome){0};
-        machine_forget_step(machine);
+    PaneRun *pane_run = &past->pane[pane];
+    const Entry *from = past_entry(past, pane, pane_run->step);
+    const Entry *to = past_entry(past, pane, pane_run->step + 1);
+    if (pane_run->iterating)
+        return pane_run_end_iteration(
+            past, pane, simulation_advance(&pane_run->simulation));
+    if (pane_run->substeps == 0) {
+        pane_run->outcome = (Outcome){0};
+        pane_run_forget_step(pane_run);
     }
-    if (has_ended(from)) {
-        machine->outcome = from->outcome;
-        return machine_finish_step(past, pane);
+    if (pane_has_ended(from)) {
+        pane_run->outcome = from->outcome;
+        return pane_run_finish_step(past, pane);
     }
-    if (to && is_failure(to))
-        return machine_end_pane(past, pane, to->outcome.status);
-    if (past->keeps)
-        step_trace_begin(&machine->trace, &machine->simulation, past->walks,
-                         pane == past->line_pane);
-    machine->before = machine->simulation.steps;
-    machine->iterating = true;
-    return machine_advance(past, pane, simulation_begin(&machine->simulation));
+    if (to && entry_is_failure(to))
+        return end_failed_pane(past, pane, to->outcome.status);
+    if (past->stores_states)
+        step_trace_begin(&pane_run->trace, &pane_run->simulation,
+                         past->samples_line, pane == past->line_pane);
+    pane_run->before = pane_run->simulation.steps;
+    pane_run->iterating = true;
+    return pane_run_end_iteration(past, pane,
+                                  simulation_begin_step(&pane_run->simulation));
 }
 
 /* ---- work ---------------------------------------------------------------- */
@@ -633,16 +637,17 @@ static Status begin_new_step(Past *past)
 {
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
-        const Machine *machine = &past->machine[p];
-        double pace = pane_timestep(machine);
-        if (pace <= longest || has_ended(past_entry(past, p, machine->step)))
+        const PaneRun *pane_run = &past->pane[p];
+        double pace = find_pane_timestep(pane_run);
+        if (pace <= longest ||
+            pane_has_ended(past_entry(past, p, pane_run->step)))
             continue;
         longest = pace;
-        past->target = simulation_time(&machine->simulation) + pace;
+        past->target = simulation_time(&pane_run->simulation) + pace;
     }
     past->worst = STATUS_OK;
     if (reserve_entry(past, present_branch(past)))
-        return machine_fail(past, 0, STATUS_OUT_OF_MEMORY);
+        return pane_run_fail(past, 0, STATUS_OUT_OF_MEMORY);
     past->work = WORK_MAKES;
     return STATUS_RUNNING;
 }
@@ -657,7 +662,7 @@ static Status end_work(Past *past)
     } else if (past->work == WORK_MAKES) {
         past->aim = past_newest(past);
         for (int p = 0; p < past_panes(past); p++)
-            past->machine[p].step = past->aim;
+            past->pane[p].step = past->aim;
         abandon_work(past);
     }
     past->work = WORK_DONE;
@@ -671,9 +676,9 @@ Status past_iterate(Past *past)
         return STATUS_OK;
     int panes = past_panes(past), pane = 0;
     for (; past->work == WORK_LOADS && pane < panes; pane++) {
-        Status status = machine_seek(past, pane, past->from);
+        Status status = pane_run_seek(past, pane, past->from);
         if (status)
-            return machine_fail(past, pane, status);
+            return pane_run_fail(past, pane, status);
     }
     if (past->work == WORK_LOADS)
         past->work = WORK_REPEATS;
@@ -681,8 +686,8 @@ Status past_iterate(Past *past)
     long newest = past_newest(past);
     long goal = past_makes(past) || past->aim < newest ? past->aim : newest;
     for (pane = 0; pane < panes; pane++)
-        if (past->machine[pane].iterating || past->machine[pane].step < goal)
-            return machine_work(past, pane);
+        if (past->pane[pane].iterating || past->pane[pane].step < goal)
+            return pane_run_iterate(past, pane);
     return goal < past->aim ? begin_new_step(past) : end_work(past);
 }
 
@@ -700,12 +705,12 @@ static bool can_trace_aim(const Past *past)
     enum { SHORT = 400000 }; /* nodes times updates */
     long work = 0;
     for (int p = 0; p < past_panes(past); p++) {
-        const Machine *machine = &past->machine[p];
-        const Simulation *simulation = &machine->simulation;
+        const PaneRun *pane_run = &past->pane[p];
+        const Simulation *simulation = &pane_run->simulation;
         const Entry *entry = past_entry(past, p, past->aim);
-        long behind = past->aim - machine->step;
-        bool is_known = machine->has_state &&
-                        (behind == 1 || (behind == 0 && machine->known));
+        long behind = past->aim - pane_run->step;
+        bool is_known = pane_run->has_state &&
+                        (behind == 1 || (behind == 0 && pane_run->known));
         if (!is_known && simulation->run[0].newton && entry->substeps > 0 &&
             simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
@@ -713,20 +718,20 @@ static bool can_trace_aim(const Past *past)
     return 0 < work && work < SHORT;
 }
 
-void past_aim(Past *past, long step, bool again)
+void past_choose_step(Past *past, long step, bool again)
 {
     abandon_work(past);
     long newest = past_newest(past);
     past->aim = step < 0 ? 0 : step > newest ? newest + 1 : step;
     past->from = past->aim < newest ? past->aim : newest;
     past->work = WORK_LOADS;
-    past->walks = again;
-    if (past->aim == 0 || past->aim > newest || !past->keeps ||
+    past->samples_line = again;
+    if (past->aim == 0 || past->aim > newest || !past->stores_states ||
         !(again || can_trace_aim(past)))
         return;
     past->from = past->aim - 1;
     for (int p = 0; p < past_panes(past); p++)
-        step_trace_clear(&past->machine[p].trace);
+        step_trace_clear(&past->pane[p].trace);
     leave_all_steps(past);
 }
 
@@ -734,10 +739,10 @@ void past_sample_line_energy(Past *past, int place)
 {
     bool whole = past->work == WORK_DONE && past->line_pane >= 0;
     for (int p = 0; p < past_panes(past); p++)
-        whole = whole && !past->machine[p].failed;
-    if (whole && past->machine[past->line_pane].known &&
-        step_trace_lacks_samples(&past->machine[past->line_pane].trace, place))
-        past_aim(past, past->step, true);
+        whole = whole && !past->pane[p].failed;
+    if (whole && past->pane[past->line_pane].known &&
+        step_trace_lacks_samples(&past->pane[past->line_pane].trace, place))
+        past_choose_step(past, past->step, true);
 }
 
 /* ---- edits --------------------------------------------------------------- */
@@ -753,35 +758,36 @@ static void invalidate_tables(Past *past, long step, bool changed)
 }
 
 /* Brings the simulations of all panes to the step that is shown. */
-static Status past_settle(Past *past)
+static Status finish_shown_step(Past *past)
 {
-    past_aim(past, past->step, false);
+    past_choose_step(past, past->step, false);
     return past_finish_work(past);
 }
 
-Status past_begin(Past *past, const Options *options, int panes, int gesture,
-                  const Command *edit)
+Status past_begin_runs(Past *past, const Options *options, int panes,
+                       int gesture, const Command *edit)
 {
     const Branch wanted = {.fresh = true, .panes = panes, .gesture = gesture};
     Status status = STATUS_OK;
     abandon_work(past);
     leave_all_steps(past);
     for (int p = 0; p < panes && !status; p++) {
-        Machine *machine = &past->machine[p];
-        status = machine_create(machine, &options[p]);
-        Control *control = status ? NULL : control_of(&machine->simulation);
+        PaneRun *pane_run = &past->pane[p];
+        status = pane_run_create(pane_run, &options[p]);
+        Control *control =
+            status ? NULL : control_from_simulation(&pane_run->simulation);
         if (!control) {
             status = status ? status : STATUS_OUT_OF_MEMORY;
             break;
         }
         control->options = options[p];
-        machine->start = control;
-        machine->control = control_retain(control);
-        machine->outcome = (Outcome){.status = machine->simulation.status};
-        step_trace_clear(&machine->trace);
+        pane_run->start = control;
+        pane_run->control = control_retain(control);
+        pane_run->outcome = (Outcome){.status = pane_run->simulation.status};
+        step_trace_clear(&pane_run->trace);
     }
     if (status && past->now >= 0)
-        past_aim(past, past->step, false);
+        past_choose_step(past, past->step, false);
     if (status)
         return status;
     Branch *branch = push_branch(past, wanted, edit);
@@ -790,12 +796,12 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     invalidate_tables(past, 0, true);
     for (int p = 0; p < panes && !status; p++) {
         Entry *entry = &branch->entry[p];
-        entry->control = control_retain(past->machine[p].start);
+        entry->control = control_retain(past->pane[p].start);
         entry->substeps = 1;
-        if (past->keeps)
+        if (past->stores_states)
             status = store_state(past, p, true, entry);
         if (!status)
-            status = machine_set_step(past, p, 0);
+            status = pane_run_set_step(past, p, 0);
     }
     return status;
 }
@@ -852,7 +858,7 @@ static const Control *make_edited_control(const Control *from,
 static Status edit_entry(Past *past, int pane, const Command *edit,
                          Entry *entry)
 {
-    Simulation *simulation = &past->machine[pane].simulation;
+    Simulation *simulation = &past->pane[pane].simulation;
     if (!is_state_edit(edit)) {
         const Control *control =
             make_edited_control(entry->control, edit, simulation);
@@ -863,19 +869,20 @@ static Status edit_entry(Past *past, int pane, const Command *edit,
         return STATUS_OK;
     }
     if (edit->kind == COMMAND_HANDLE)
-        exhibit_drag(simulation, (int)edit->number, edit->x, edit->y);
+        exhibit_drag_handle(simulation, (int)edit->number, edit->x, edit->y);
     else if (edit->kind == COMMAND_PLACE)
-        simulation_place(simulation, (int)edit->number, edit->x, edit->y, true);
+        simulation_place_node(simulation, (int)edit->number, edit->x, edit->y,
+                              true);
     else
-        exhibit_flip(simulation, (int)edit->number);
+        exhibit_flip_switch(simulation, (int)edit->number);
     Status status = store_state(past, pane, true, entry);
-    return status ? status : machine_set_step(past, pane, past->step);
+    return status ? status : pane_run_set_step(past, pane, past->step);
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture)
 {
-    Status status = past_settle(past);
+    Status status = finish_shown_step(past);
     if (status)
         return status;
     Branch *branch = present_branch(past);
@@ -887,7 +894,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  is_state_edit(edit) == is_state_edit(&branch->edit) &&
                  (!is_state_edit(edit) || branch->count == 1);
     const Branch wanted = {.first = past->step - again,
-                           .given = 1 + again,
+                           .copied = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
     if (joins) /* undone branches began before this edit */
@@ -903,7 +910,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
         for (int p = from; p < to && !status; p++)
             status = edit_entry(past, p, edit,
                                 &branch->entry[i * branch->panes + p]);
-    return status || again ? status : past_settle(past);
+    return status || again ? status : finish_shown_step(past);
 }
 
 const Command *past_undo(Past *past, int way)
@@ -925,15 +932,15 @@ const Command *past_undo(Past *past, int way)
     present_branch(past)->shown = past->step;
     past->now = to;
     past->step = present_branch(past)->shown;
-    past_aim(past, past->step, false);
+    past_choose_step(past, past->step, false);
     return &past->branch[high].edit;
 }
 
-void past_create(bool keeps, bool goes_on, Past *past)
+void past_create(bool stores_states, bool panes_fail_alone, Past *past)
 {
     *past = (Past){.now = -1,
-                   .keeps = keeps,
-                   .goes_on = goes_on,
+                   .stores_states = stores_states,
+                   .panes_fail_alone = panes_fail_alone,
                    .written = -1,
                    .booked = -1,
                    .limit = PAST_BYTES,
@@ -945,9 +952,9 @@ void past_free(Past *past)
     drop_branches(past, 0);
     free(past->branch);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
-        machine_free(&past->machine[p]);
-        step_trace_free(&past->machine[p].trace);
-        free(past->machine[p].records.row);
+        pane_run_free(&past->pane[p]);
+        step_trace_free(&past->pane[p].trace);
+        free(past->pane[p].records.row);
     }
     *past = (Past){.now = -1};
 }

@@ -11,10 +11,10 @@
 #include "run/scene.h"
 
 enum {
-    FRAME_SIZE = 900,   /* pixels of a frame without a window */
-    UNSEEN_STEPS = 100, /* default number of steps without a window */
-    FRAME_RATE = 60,    /* frames a second at most */
-    IDLE_WAIT = 200     /* ms, longest wait for inputs between signals */
+    FRAME_SIZE = 900,       /* pixels of a frame without a window */
+    WINDOWLESS_STEPS = 100, /* default number of steps without a window */
+    FRAME_RATE = 60,        /* frames a second at most */
+    IDLE_WAIT = 200         /* ms, longest wait for inputs between signals */
 };
 
 static const double EARLY = 0.002; /* s by which a frame may be early */
@@ -28,7 +28,7 @@ Status player_draw(Player *player)
         player->screen.changed = true; /* drawn when the step is there */
         return STATUS_OK;
     }
-    Paper *paper = player_paper(player);
+    Paper *paper = player_prepare_paper(player);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
     bool fresh = player->screen.drawn != player->past.step;
@@ -39,8 +39,8 @@ Status player_draw(Player *player)
         player->screen.size[0] ? STATUS_OK : window_show(&paper->canvas);
     int slow = player->time.speed < 0 ? -player->time.speed : 0;
     if (!status && (fresh || filmed))
-        status = recording_frame(&player->recording, &paper->canvas,
-                                 player->past.step, 1 << slow);
+        status = recording_write_frame(&player->recording, &paper->canvas,
+                                       player->past.step, 1 << slow);
     return status;
 }
 
@@ -49,7 +49,7 @@ Status player_draw(Player *player)
 bool player_ended(const Player *player)
 {
     const Options *options = &player->given.options[0];
-    const Simulation *simulation = &player->past.machine[0].simulation;
+    const Simulation *simulation = &player->past.pane[0].simulation;
     bool counted = options->steps >= 0;
     if (player->quit || *player->given.stop)
         return true;
@@ -65,7 +65,7 @@ static Status obey_script(Player *player)
 {
     Status status = STATUS_OK;
     while (!status && !player->quit) {
-        bool done = player->past.machine[0].simulation.done;
+        bool done = player->past.pane[0].simulation.done;
         const Command *command =
             script_due(&player->given.script, player->past.step,
                        !player_is_stopped(player) && !done);
@@ -79,7 +79,7 @@ static Status obey_script(Player *player)
             fprintf(stderr, "script: step %ld: '%s': %s\n", player->past.step,
                     line, player->message);
             player->message[0] = '\0';
-            player->orders.refused = true;
+            player->commands.refused = true;
             status = STATUS_OK;
         }
     }
@@ -88,7 +88,7 @@ static Status obey_script(Player *player)
 
 /* Makes the steps of one frame, at most for SLICE.  Without a window each step
  * is a frame. */
-static Status step_frame(Player *player)
+static Status make_due_steps(Player *player)
 {
     const Past *past = &player->past;
     Status status = STATUS_OK;
@@ -101,8 +101,8 @@ static Status step_frame(Player *player)
             break;
         if (player_is_stopped(player) && !past_works(past))
             break;
-        status =
-            past_works(past) ? player_continue(player) : player_step(player);
+        status = past_works(past) ? player_continue(player)
+                                  : player_make_step(player);
         if (past_works(past))
             break;
         if (!status)
@@ -118,10 +118,10 @@ Status player_frame(Player *player)
     double start = clock_now();
     Status status = STATUS_OK;
     while (player->screen.window && !status && !player->quit) {
-        Input input = window_input();
+        Input input = window_read_input();
         if (input.kind == INPUT_NONE)
             break;
-        status = player_report(player, player_input(player, &input));
+        status = player_show_refusal(player, player_obey_input(player, &input));
     }
     if (!status && !past_works(&player->past))
         status = obey_script(player);
@@ -138,7 +138,7 @@ Status player_frame(Player *player)
     if (!status && !begins && (works || goes)) {
         if (!works)
             player->time.due = fmax(player->time.due + period, now);
-        status = step_frame(player);
+        status = make_due_steps(player);
     }
     if (lives && due) {
         player->time.due = now + 1.0 / FRAME_RATE;
@@ -149,7 +149,7 @@ Status player_frame(Player *player)
     return status;
 }
 
-int player_wait(const Player *player)
+int player_find_wait_time(const Player *player)
 {
     bool stands = player_is_stopped(player);
     if (!player->screen.window || past_works(&player->past) ||
@@ -166,7 +166,7 @@ Status player_run(Player *player)
     Status status = player_frame(player);
     while (!status && !player_ended(player)) {
         if (player->screen.window)
-            window_wait(player_wait(player));
+            window_wait_for_input(player_find_wait_time(player));
         status = player_frame(player);
     }
     return status;
@@ -195,7 +195,7 @@ static void open_view(Player *player)
         fprintf(stderr, "%s\n", line);
     }
     if (!player->screen.window && !options->script) {
-        options->steps = options->steps < 0 ? UNSEEN_STEPS : options->steps;
+        options->steps = options->steps < 0 ? WINDOWLESS_STEPS : options->steps;
         options->paused = 0; /* no key could end a pause */
     }
     player->screen.draws =
@@ -210,7 +210,7 @@ Status player_create(const Options *options, int count, char *const *words,
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
     *player = (Player){.given = {.words = words, .stop = stop},
-                       .tour.left = options->page};
+                       .tour.last_page = options->page};
     memcpy(player->given.options, options, (size_t)count * sizeof *options);
     player->given.started = clock_now();
     Status status = script_read(options->script, &player->given.script,
@@ -233,7 +233,7 @@ Status player_create(const Options *options, int count, char *const *words,
         status =
             player_begin_runs(player, player->given.options, count, &begin);
     if (!status && player_is_stopped(player)) /* scripts begin running */
-        status = script_add(&player->orders.journal, 0, &pause, 0);
+        status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
     if (!status && player->given.asks && options->page)
         status = player_obey_page(player);
@@ -275,7 +275,7 @@ void player_free(Player *player)
     past_free(&player->past);
     player_forget_step(player);
     sheet_close(player);
-    control_release(player->orders.queue.pins);
+    control_release(player->commands.queue.pins);
     script_free(&player->given.script);
-    script_free(&player->orders.journal);
+    script_free(&player->commands.journal);
 }

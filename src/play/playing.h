@@ -16,10 +16,10 @@ static const double SLICE = 0.05;
 
 /* ---- session.c ----------------------------------------------------------- */
 
-/* Machine, simulation and present options of the active pane. */
-const Machine *player_machine(const Player *player);
+/* PaneRun, simulation and present options of the active pane. */
+const PaneRun *player_active_run(const Player *player);
 const Simulation *player_simulation(const Player *player);
-const Options *player_settings(const Player *player);
+const Options *player_active_options(const Player *player);
 
 /* Returns the options of the active pane, with the time step of its simulation,
  * which some scenes change by themselves. */
@@ -69,7 +69,7 @@ void player_note(Player *player, const char *format, ...);
 
 /* Shows the reason of INVALID_INPUT as a message, and returns OK; returns any
  * other status. */
-Status player_report(Player *player, Status status);
+Status player_show_refusal(Player *player, Status status);
 
 /* Pauses the run unless it has stopped already. */
 void player_pause(Player *player);
@@ -137,8 +137,8 @@ Status player_write_remaining(Player *player);
 
 /* Begins new runs with the present pins.  If a page begins again, its opening
  * commands go into the queue. */
-Status player_begin_again(Player *player, const Options *options, int panes,
-                          const Command *edit);
+Status player_restart_runs(Player *player, const Options *options, int panes,
+                           const Command *edit);
 
 /* Sets the pins again that a control had, and drops this control.
  *   before  in, or NULL */
@@ -159,8 +159,8 @@ Status player_reveal_answer(Player *player, const char *typed);
 
 /* Finds the numbers in the row, or all numbers of the scene.  Returns the count
  * of them. */
-int player_visible_options(const Player *player, bool all,
-                           const OptionRow *found[OPTIONS_MAX_ROWS]);
+int player_list_options(const Player *player, bool all,
+                        const OptionRow *found[OPTIONS_MAX_ROWS]);
 
 /* Returns why a number has no effect now, or NULL. */
 const char *player_idle_reason(const Player *player, const OptionRow *row);
@@ -177,7 +177,7 @@ void player_fill_frame(Player *player);
 
 /* Returns the paper in the present size; NULL if the player does not draw, or
  * memory is missing. */
-Paper *player_paper(Player *player);
+Paper *player_prepare_paper(Player *player);
 
 /* Fills and draws the frame on a paper. */
 void player_paint_frame(Player *player, Paper *paper);
@@ -201,7 +201,7 @@ Status player_obey_lines(Player *player, const char *lines);
 
 /* Shows the answer of the page, as player_reveal_answer, and obeys its
  * commands. */
-Status player_answer(Player *player, const char *typed);
+Status player_answer_question(Player *player, const char *typed);
 
 /* Obeys the commands in the queue, up to one that must wait for the end of a
  * step; a release also waits for a step with the hand at its last place.

@@ -41,7 +41,7 @@ static bool reader_is_gone(void)
 
 /* Checks that all prints have arrived; errno was 0 before.  Prints a failure,
  * unless the reader is gone.  Returns the exit code. */
-static int check_output(void)
+static int check_standard_output(void)
 {
     if (!ferror(stdout) && fflush(stdout) == 0)
         return EXIT_FINE;
@@ -68,7 +68,7 @@ static int print_information(const Options *options)
     else
         for (const Scene *scene = scenes; scene->name; scene++)
             printf("%-12s %s\n", scene->name, scene->sentence);
-    return check_output();
+    return check_standard_output();
 }
 
 /* Returns advice for the user after a failure. */
@@ -97,7 +97,7 @@ static int report_failure(const Player *player, Status status)
         return code;
     if (!message[0])
         message = player->recording.message;
-    while (p < panes && player->past.machine[p].simulation.status != status)
+    while (p < panes && player->past.pane[p].simulation.status != status)
         p++;
     if (panes > 1)
         snprintf(pane, sizeof pane, "pane %d, ", p + 1);
@@ -108,7 +108,7 @@ static int report_failure(const Player *player, Status status)
                            window_failure());
     if (p < panes)
         return print_error(code, "%sstep %ld failed: %s%s", pane,
-                           player->past.machine[p].simulation.steps + 1,
+                           player->past.pane[p].simulation.steps + 1,
                            status_text(status), find_advice(player, status));
     return print_error(code, "%s%s", status_text(status),
                        find_advice(player, status));
@@ -181,7 +181,7 @@ static void print_summary(FILE *file, const Player *player)
     const Recording *recording = &player->recording;
     int panes = past_panes(&player->past);
     for (int p = 0; p < panes; p++) {
-        const Simulation *simulation = &player->past.machine[p].simulation;
+        const Simulation *simulation = &player->past.pane[p].simulation;
         bool in_time = simulation->scene->needs & NEEDS_TIME;
         char label[LABEL_SIZE];
         player_label(player, p, label);
@@ -255,11 +255,11 @@ int program_end(Player *player, Status status)
     if (!player->given.options[0].quiet)
         print_summary(player->recording.standard ? stderr : stdout, player);
     print_old_frames(&player->recording);
-    int code = check_output();
-    if (code == EXIT_FINE && player->orders.refused)
+    int code = check_standard_output();
+    if (code == EXIT_FINE && player->commands.refused)
         return EXIT_MISUSED;
     for (int i = 0; i < past_panes(&player->past) && code == EXIT_FINE; i++) {
-        const Simulation *simulation = &player->past.machine[i].simulation;
+        const Simulation *simulation = &player->past.pane[i].simulation;
         if (simulation->unconverged > 0 ||
             (simulation->done && simulation->status))
             return EXIT_UNCONVERGED;
@@ -268,7 +268,8 @@ int program_end(Player *player, Status status)
 }
 
 /* Returns the file or folder that an option names, or NULL. */
-static const char *file_of_option(const Options *options, const OptionRow *row)
+static const char *find_option_file(const Options *options,
+                                    const OptionRow *row)
 {
     return row->kind == OPTION_TEXT && row->offset != offsetof(Options, pin)
                ? *(char *const *)((const char *)options + row->offset)
@@ -277,12 +278,12 @@ static const char *file_of_option(const Options *options, const OptionRow *row)
 
 /* Refuses a name that is given to two options, since one file would replace the
  * other. */
-static Status check_files(const Options *options, Message message)
+static Status check_file_names(const Options *options, Message message)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
         for (const OptionRow *other = option_rows; other < row; other++) {
-            const char *one = file_of_option(options, other);
-            const char *two = file_of_option(options, row);
+            const char *one = find_option_file(options, other);
+            const char *two = find_option_file(options, row);
             if (one && two &&
                 (output_is_standard(one)
                      ? output_is_standard(two)
@@ -296,7 +297,7 @@ static Status check_files(const Options *options, Message message)
 }
 
 /* Warns that --state leaves springs and walls as they are at a start. */
-static void print_forgotten(const Options *options)
+static void warn_of_fresh_terms(const Options *options)
 {
     const Scene *scene = options->scene;
     bool moves = options->ceiling[1] != 0 ||
@@ -319,8 +320,8 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     *player = (Player){0};
     if (argc == 3 && strcmp(argv[1], "--help") == 0 &&
         strcmp(argv[2], "commands") == 0) {
-        commands_help(stdout);
-        return check_output();
+        commands_print_help(stdout);
+        return check_standard_output();
     }
     for (int i = 0; i < options->panes; i++) {
         Status status =
@@ -334,9 +335,9 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
-    if (check_files(options, MESSAGE(message)))
+    if (check_file_names(options, MESSAGE(message)))
         return print_error(EXIT_MISUSED, "%s", message);
-    print_forgotten(options);
+    warn_of_fresh_terms(options);
     Status status = player_create(options, options->panes, argv, stop, player);
     return status ? program_end(player, status) : PROGRAM_PLAYS;
 }

@@ -15,26 +15,26 @@
 /* ---- kinds of tables ----------------------------------------------------- */
 
 /* A run at a step, for the rows of tables. */
-typedef struct Moment {
+typedef struct RunAtStep {
     const Simulation *simulation;
     const TimeIntegrator *run;
     double step, time;
     int run_index;            /* index of the run in its simulation */
     int pane;                 /* number of the pane, from 1 */
     int runs, nodes, springs; /* counts in all runs before this one */
-} Moment;
+} RunAtStep;
 
-static void add_states(Table *table, const Moment *at)
+static void add_states(Table *table, const RunAtStep *at)
 {
     for (int i = 0; i < at->run->system->nodes; i++) {
         const double *x = at->run->x + 2 * i, *v = at->run->v + 2 * i;
         const double row[] = {at->step, at->time, at->nodes + i, x[0],
                               x[1],     v[0],     v[1],          at->pane};
-        table_add(table, row);
+        table_add_row(table, row);
     }
 }
 
-static void add_springs(Table *table, const Moment *at)
+static void add_springs(Table *table, const RunAtStep *at)
 {
     const System *system = at->run->system;
     const Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -50,12 +50,12 @@ static void add_springs(Table *table, const Moment *at)
         const double row[] = {at->step, at->time, spring,   i,
                               j,        whole,    sqrt(l2), strain,
                               plastic,  flowed,   at->pane};
-        table_add(table, row);
+        table_add_row(table, row);
     }
 }
 
 /* An energy that the run does not have is 0. */
-static void add_energies(Table *table, const Moment *at)
+static void add_energies(Table *table, const RunAtStep *at)
 {
     const Energies energies =
         simulation_energies(at->simulation, at->run_index);
@@ -65,7 +65,7 @@ static void add_energies(Table *table, const Moment *at)
             if (strcmp(energies.row[r].name, table->column[c].name) == 0)
                 row[c] = energies.row[r].value;
     row[table->columns - 1] = at->runs;
-    table_add(table, row);
+    table_add_row(table, row);
 }
 
 /* Returns the text of a number in a column of the log. */
@@ -81,8 +81,8 @@ static const char *find_log_text(const char *column, int number)
 static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* columns of each table */
-    const char *pane;    /* column for tables of several panes, or NULL */
-    void (*add)(Table *table, const Moment *at); /* NULL for the log */
+    const char *pane_column; /* column for tables of several panes, or NULL */
+    void (*add_rows)(Table *table, const RunAtStep *at); /* NULL for the log */
 } kinds[RECORDING_TABLES] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
      "pane:whole", add_states},
@@ -172,16 +172,16 @@ static Status open_table(const Options *options, Recording *recording, int t)
     recording->standard = recording->standard || output_is_standard(name);
     recording->tables = true;
     table->text = find_log_text;
-    table_columns(table, kinds[t].columns);
+    table_add_columns(table, kinds[t].columns);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (t == RECORDING_ENERGIES && row->term) {
-            table_columns(table, row->term->energy);
-            table_columns(table, row->term->loss);
+            table_add_columns(table, row->term->energy);
+            table_add_columns(table, row->term->loss);
         }
     if (t == RECORDING_ENERGIES)
-        table_columns(table, "work,dissipated,run:whole");
+        table_add_columns(table, "work,dissipated,run:whole");
     else if (recording->panes > 1)
-        table_columns(table, kinds[t].pane);
+        table_add_columns(table, kinds[t].pane_column);
     return table_open(name, recording->message, table);
 }
 
@@ -202,8 +202,8 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     return status;
 }
 
-Status recording_frame(Recording *recording, const Canvas *canvas, long step,
-                       int times)
+Status recording_write_frame(Recording *recording, const Canvas *canvas,
+                             long step, int times)
 {
     Film *film = &recording->film;
     char name[OUTPUT_NAME];
@@ -217,11 +217,11 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
     return png_file_write(name, recording->message, canvas);
 }
 
-Status recording_states(Recording *recording, bool energies_only,
-                        const Simulation *const *simulation, int count,
-                        long step)
+Status recording_write_states(Recording *recording, bool energies_only,
+                              const Simulation *const *simulation, int count,
+                              long step)
 {
-    Moment at = {.step = (double)step};
+    RunAtStep at = {.step = (double)step};
     Status status = STATUS_OK;
     for (int i = 0; i < count; i++)
         for (int r = 0; r < simulation[i]->runs; r++) {
@@ -231,9 +231,9 @@ Status recording_states(Recording *recording, bool energies_only,
             at.run_index = r;
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLES; t++)
-                if (kinds[t].add && recording->table[t].output.file &&
+                if (kinds[t].add_rows && recording->table[t].output.file &&
                     (!energies_only || t == RECORDING_ENERGIES))
-                    kinds[t].add(&recording->table[t], &at);
+                    kinds[t].add_rows(&recording->table[t], &at);
             at.runs++;
             at.nodes += at.run->system->nodes;
             at.springs += at.run->system->springs;
@@ -243,8 +243,8 @@ Status recording_states(Recording *recording, bool energies_only,
     return status;
 }
 
-Status recording_iteration(Recording *recording, const NewtonRecord *record,
-                           int pane)
+Status recording_write_iteration(Recording *recording,
+                                 const NewtonRecord *record, int pane)
 {
     Table *log = &recording->table[RECORDING_LOG];
     /* Below 0: a prescribed motion has ended the step, no iteration. */
@@ -255,7 +255,7 @@ Status recording_iteration(Recording *recording, const NewtonRecord *record,
                     record->shift,        record->status,    record->seconds,
                     record->solver,       record->kind,      pane};
     if (log->output.file)
-        table_add(log, row);
+        table_add_row(log, row);
     return table_check(log);
 }
 

@@ -58,7 +58,7 @@ Status obey_column(Player *player, const Command *command)
                     : command->kind == COMMAND_LETTERS ? COLUMN_LETTERS
                     : command->kind == COMMAND_OPTIONS ? COLUMN_OPTIONS
                                                        : COLUMN_CODE;
-    if (column == COLUMN_CODE && !player_settings(player)->page)
+    if (column == COLUMN_CODE && !player_active_options(player)->page)
         return player_refuse(player, "only pages of the lecture have code: "
                                      "Page Down opens them");
     player->screen.column =
@@ -71,9 +71,9 @@ Status obey_column(Player *player, const Command *command)
 /* Ends the program; the key must be pressed twice if there is work to lose. */
 Status obey_quit(Player *player, const Command *command)
 {
-    bool key = command->text[0] != '\0', asked = player->orders.leaving;
+    bool key = command->text[0] != '\0', asked = player->commands.leaving;
     player->quit = !key || asked || !could_lose_work(player);
-    player->orders.leaving = COMMAND_QUIT;
+    player->commands.leaving = COMMAND_QUIT;
     if (!player->quit)
         player_note(player, "Q once more ends the program; Y saves first a "
                             "script that leads here");
@@ -84,8 +84,8 @@ Status obey_quit(Player *player, const Command *command)
  * the program, if there is no work to lose. */
 Status obey_escape(Player *player, const Command *command)
 {
-    bool asked = player->orders.leaving == COMMAND_ESCAPE;
-    player->orders.leaving = COMMAND_NONE;
+    bool asked = player->commands.leaving == COMMAND_ESCAPE;
+    player->commands.leaving = COMMAND_NONE;
     if (player->screen.blank)
         player->screen.blank = false;
     else if (player->screen.sheet)
@@ -103,8 +103,8 @@ Status obey_escape(Player *player, const Command *command)
     else if (asked)
         player->quit = true;
     else
-        player->orders.leaving = COMMAND_ESCAPE;
-    if (player->orders.leaving)
+        player->commands.leaving = COMMAND_ESCAPE;
+    if (player->commands.leaving)
         player_note(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;
 }
@@ -112,7 +112,7 @@ Status obey_escape(Player *player, const Command *command)
 /* Zooms around a point, m, moves the picture by a distance, m, or fits it. */
 Status obey_camera(Player *player, const Command *command)
 {
-    const Paper *paper = player_paper(player);
+    const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     Lens *lens = &player->screen.view.lens;
     if (command->kind == COMMAND_FIT)
@@ -142,7 +142,7 @@ Status obey_card(Player *player, const Command *command)
     player_fill_frame(player);
     bool closed = player->screen.frame.content.cards.closed >> card & 1;
     if (command->kind == COMMAND_CARD || closed)
-        player->screen.closed ^= 1u << card;
+        player->screen.toggled_cards ^= 1u << card;
     else
         player->screen.large = player->screen.large == card ? -1 : card;
     return STATUS_OK;
@@ -155,7 +155,7 @@ Status obey_choose(Player *player, const Command *command)
 {
     const FrameContent *content = &player->screen.frame.content;
     int *chosen = &player->screen.view.chosen;
-    const Paper *paper = player_paper(player);
+    const Paper *paper = player_prepare_paper(player);
     const char *key = command->text;
     bool up = strcmp(key, "Up") == 0, upright = up || strcmp(key, "Down") == 0;
     int way = up || strcmp(key, "Left") == 0 ? -1 : 1, i = *chosen + way;

@@ -18,24 +18,24 @@ enum {
 
 /* ---- the runs ------------------------------------------------------------ */
 
-const Machine *player_machine(const Player *player)
+const PaneRun *player_active_run(const Player *player)
 {
-    return &player->past.machine[player->active];
+    return &player->past.pane[player->active];
 }
 
 const Simulation *player_simulation(const Player *player)
 {
-    return &player_machine(player)->simulation;
+    return &player_active_run(player)->simulation;
 }
 
-const Options *player_settings(const Player *player)
+const Options *player_active_options(const Player *player)
 {
     return &past_control(&player->past, player->active)->options;
 }
 
 Options player_shown_options(const Player *player)
 {
-    Options options = *player_settings(player);
+    Options options = *player_active_options(player);
     options.timestep = player_simulation(player)->options.timestep;
     return options;
 }
@@ -46,7 +46,7 @@ int player_copy_options(const Player *player,
     const Past *past = &player->past;
     for (int p = 0; p < past_panes(past); p++) {
         options[p] = past_control(past, p)->options;
-        options[p].flips = exhibit_find_flips(&past->machine[p].simulation);
+        options[p].flips = exhibit_find_flips(&past->pane[p].simulation);
     }
     return past_panes(past);
 }
@@ -92,7 +92,7 @@ uint64_t player_hash(const Player *player)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int i = 0; i < past_panes(&player->past); i++)
-        hash = state_hash(&player->past.machine[i].simulation, hash);
+        hash = state_hash(&player->past.pane[i].simulation, hash);
     return hash;
 }
 
@@ -107,9 +107,10 @@ void player_sample_line_energy(Player *player)
 {
     bool is_drawn = player->screen.draws && !player->screen.bare &&
                     cards_need_line_energy(player_simulation(player),
-                                           player->screen.closed);
+                                           player->screen.toggled_cards);
     player->past.line_pane = is_drawn ? player->active : -1;
-    past_sample_line_energy(&player->past, player->side[player->active].place);
+    past_sample_line_energy(&player->past,
+                            player->view_of_pane[player->active].place);
 }
 
 int player_initial_speed(const Player *player, const Options *options)
@@ -172,7 +173,7 @@ void player_note(Player *player, const char *format, ...)
     player->screen.changed = true;
 }
 
-Status player_report(Player *player, Status status)
+Status player_show_refusal(Player *player, Status status)
 {
     if (status != STATUS_INVALID_INPUT)
         return status;
@@ -203,7 +204,7 @@ Status player_tolerate_failure(Player *player, Status status)
 
 void player_enqueue(Player *player, const Command *command)
 {
-    Queue *queue = &player->orders.queue;
+    Queue *queue = &player->commands.queue;
     Command *last = queue->command + (queue->count > 0 ? queue->count - 1 : 0);
     if (queue->count > 0 && command_replaces(command, last))
         *last = *command;
@@ -235,7 +236,7 @@ Status player_enqueue_lines(Player *player, const char *lines)
         snprintf(line, sizeof line, "& %.*s", (int)length, lines);
         lines += length + (lines[length] == ';');
         status = command_parse(line, &command, MESSAGE(player->message));
-        if (!status && player->orders.queue.count == QUEUE_MOST)
+        if (!status && player->commands.queue.count == QUEUE_MOST)
             status = player_refuse(player, "too many commands at once");
         if (!status)
             player_enqueue(player, &command);

@@ -37,7 +37,7 @@ void sheet_close(Player *player)
 /* Closes the sheet, or opens it with the present scene or the tour chosen. */
 Status obey_sheet(Player *player, const Command *command)
 {
-    const Options *options = player_settings(player);
+    const Options *options = player_active_options(player);
     bool opens = !player->screen.sheet;
     sheet_close(player);
     player_deselect(player);
@@ -123,7 +123,7 @@ Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";
     int cell = player->screen.view.chosen;
-    bool behind = cell == 0 && player_settings(player)->page;
+    bool behind = cell == 0 && player_active_options(player)->page;
     if (cell > 0)
         snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);
     sheet_close(player);

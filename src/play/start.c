@@ -37,7 +37,7 @@ Status obey_scene(Player *player, const Command *command)
 }
 
 /* Whether the page has opening commands, and the mesh still has their nodes. */
-static bool opens_again(Player *player, const Options *now)
+static bool mesh_fits_page(Player *player, const Options *now)
 {
     Options own;
     const LecturePage *page = now->page;
@@ -47,7 +47,7 @@ static bool opens_again(Player *player, const Options *now)
 }
 
 /* Whether the answer of the page is shown, and its commands play the run. */
-static bool plays_again(const Player *player, const LecturePage *page)
+static bool answer_plays_run(const Player *player, const LecturePage *page)
 {
     return page && page == player->tour.revealed && page->tell &&
            strstr(page->tell, "play");
@@ -56,9 +56,10 @@ static bool plays_again(const Player *player, const LecturePage *page)
 /* Makes room for the body at its start: obstacles that overlap it go back to
  * where they were when the run began.  Returns OK, or INVALID_INPUT if the run
  * began with another number of obstacles. */
-static Status clear_start(Player *player, int pane, Options *options)
+static Status clear_obstacles_at_start(Player *player, int pane,
+                                       Options *options)
 {
-    Options began = past_start(&player->past, pane)->options;
+    Options began = past_start_control(&player->past, pane)->options;
     Options kept = *options;
     int count = (int)(options->grounds + options->balls);
     Message message = {player->message, sizeof player->message};
@@ -100,17 +101,18 @@ Status player_restore_pins(Player *player, const Control *before)
     return status;
 }
 
-Status player_begin_again(Player *player, const Options *options, int panes,
-                          const Command *edit)
+Status player_restart_runs(Player *player, const Options *options, int panes,
+                           const Command *edit)
 {
     const Control *before = control_retain(past_control(&player->past, 0));
-    bool opens = edit->kind == COMMAND_RESTART && opens_again(player, options);
+    bool opens =
+        edit->kind == COMMAND_RESTART && mesh_fits_page(player, options);
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
     if (opens)
         player->time.unit = UNIT_STEP;
     if (!status && opens &&
         player->given.asks) { /* scripts repeat these commands themselves */
-        player->orders.queue.pins = before;
+        player->commands.queue.pins = before;
         return player_enqueue_page(player);
     }
     if (!status)
@@ -127,7 +129,7 @@ Status obey_restart(Player *player, const Command *command)
     Options options[OPTIONS_MAX_PANES];
     int panes = player_copy_options(player, options);
     for (int p = 0; p < panes; p++)
-        if (clear_start(player, p, &options[p]))
+        if (clear_obstacles_at_start(player, p, &options[p]))
             return STATUS_INVALID_INPUT;
     bool moves = command->kind == COMMAND_START;
     if (moves && !(options->scene->needs & NEEDS_START))
@@ -143,9 +145,9 @@ Status obey_restart(Player *player, const Command *command)
         player->time.mode = MODE_RUN;
     if (!moves)
         player->screen.view.lens = LENS_FITS;
-    bool plays = !moves && plays_again(player, options->page);
-    Status status = player_begin_again(player, options, panes, command);
-    player->orders.queue.plays = plays && !status;
+    bool plays = !moves && answer_plays_run(player, options->page);
+    Status status = player_restart_runs(player, options, panes, command);
+    player->commands.queue.plays = plays && !status;
     return status;
 }
 
@@ -153,14 +155,14 @@ Status obey_restart(Player *player, const Command *command)
 
 Status player_enqueue_page(Player *player)
 {
-    const LecturePage *page = player_settings(player)->page;
-    player->orders.queue.of_page = true;
+    const LecturePage *page = player_active_options(player)->page;
+    player->commands.queue.of_page = true;
     return player_enqueue_lines(player, page ? page->open : NULL);
 }
 
 bool player_hides_answer(const Player *player)
 {
-    const LecturePage *page = player_settings(player)->page;
+    const LecturePage *page = player_active_options(player)->page;
     return page && page->ask && player->tour.revealed != page &&
            player->given.asks && !player->tour.opens;
 }
@@ -180,7 +182,7 @@ static void judge_guess(Player *player, bool right, const char *format, ...)
 /* A guess may be wrong by two percent, since it is calculated on paper. */
 Status player_reveal_answer(Player *player, const char *typed)
 {
-    const LecturePage *page = player_settings(player)->page;
+    const LecturePage *page = player_active_options(player)->page;
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
     double truth =
@@ -201,7 +203,7 @@ Status player_reveal_answer(Player *player, const char *typed)
         judge_guess(player, right, right ? "%s is right." : "%s? It is %s.",
                     typed, number.text);
     if (page->answer && !isnan(truth))
-        snprintf(player->orders.queue.note, SENTENCE_SIZE, "%s%sit is %s",
+        snprintf(player->commands.queue.note, SENTENCE_SIZE, "%s%sit is %s",
                  typed ? typed : "",
                  !typed  ? ""
                  : right ? ": right, "
@@ -216,7 +218,7 @@ Status obey_page(Player *player, const Command *command)
 {
     Options options;
     int count;
-    const LecturePage *page = player_settings(player)->page;
+    const LecturePage *page = player_active_options(player)->page;
     bool on = command->kind == COMMAND_PAGE_ON;
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find_page(command->text);
@@ -229,8 +231,8 @@ Status obey_page(Player *player, const Command *command)
             return player_refuse(player, on ? "this is the last page"
                                             : "this is the first page");
         page += on ? 1 : -1;
-    } else if (player->tour.left) {
-        page = player->tour.left + (on && player->tour.left[1].name);
+    } else if (player->tour.last_page) {
+        page = player->tour.last_page + (on && player->tour.last_page[1].name);
     } else {
         page = &lecture_pages[0];
     }
@@ -239,7 +241,7 @@ Status obey_page(Player *player, const Command *command)
         return status;
     status = player_begin_runs(player, &options, 1, command);
     player->time.speed = player_initial_speed(player, &options);
-    player->tour.left = page;
+    player->tour.last_page = page;
     player->tour.revealed = NULL;
     player->tour.verdict[0] = '\0';
     player->screen.column = COLUMN_CARDS;
@@ -256,7 +258,7 @@ Status obey_page(Player *player, const Command *command)
 Status obey_predict(Player *player, const Command *command)
 {
     double at[2];
-    Simulation *simulation = &player->past.machine[player->active].simulation;
+    Simulation *simulation = &player->past.pane[player->active].simulation;
     if (simulation->done || simulation_find_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
     player_pause(player);
@@ -276,6 +278,6 @@ Status obey_predict(Player *player, const Command *command)
 Status obey_cell(Player *player, const Command *command)
 {
     int cell = (int)command->number;
-    return envelope_run_cell(&player->past.machine[player->active].simulation,
+    return envelope_run_cell(&player->past.pane[player->active].simulation,
                              cell % ENVELOPE_COLUMNS, cell / ENVELOPE_COLUMNS);
 }

@@ -80,13 +80,14 @@ static bool reserve_round(StepTrace *trace)
 /* ---- rounds -------------------------------------------------------------- */
 
 /* Samples E along p, unless it is a polynomial. */
-static void sample_line(Round *round, const Iterate *at)
+static void sample_line_energy(Round *round, const Iterate *at)
 {
-    const LineEnergy along = {.smooth = round->along, .at = at, .rough = true};
-    round->sampled = round->rough && round->x;
+    const LineEnergy along = {
+        .smooth = round->polynomial, .at = at, .rough = true};
+    round->sampled = round->has_remainder && round->x;
     for (int i = 0; i < ROUND_VALUES && round->sampled; i++)
-        round->value[i] =
-            line_energy_difference(&along, i * round->first / ROUND_PARTS);
+        round->value[i] = line_energy_difference(
+            &along, i * round->first_trial / ROUND_PARTS);
 }
 
 /* Stores E along p of the newest round. */
@@ -96,12 +97,12 @@ static void store_line_energy(StepTrace *trace, const Iterate *at)
     const NewtonRecord *record = &trace->records.row[trace->records.count];
     LineEnergy along = incremental_potential_on_line(at);
     bool ended = record->status != STATUS_RUNNING;
-    round->first = incremental_potential_max_step(at);
-    round->along = along.smooth;
-    round->rough = along.rough;
+    round->first_trial = incremental_potential_max_step(at);
+    round->polynomial = along.smooth;
+    round->has_remainder = along.rough;
     if (trace->samples_all ||
         (ended && (trace->samples_last || record->alpha == 0)))
-        sample_line(round, at);
+        sample_line_energy(round, at);
 }
 
 bool step_trace_lacks_samples(const StepTrace *trace, int place)
@@ -111,19 +112,19 @@ bool step_trace_lacks_samples(const StepTrace *trace, int place)
     if (last < 0)
         return false;
     const Round *round = &trace->round[i < last ? i : last];
-    return round->rough && round->x && !round->sampled;
+    return round->has_remainder && round->x && !round->sampled;
 }
 
 /* Returns E(x + alpha p) - E(x): the polynomial, or the samples joined by
  * straight lines; without samples only at the step length that was taken. */
-static double round_difference(const void *function, double alpha)
+static double evaluate_round_energy(const void *function, double alpha)
 {
     const Round *round = function;
-    if (!round->rough)
-        return quartic_value(&round->along, alpha);
+    if (!round->has_remainder)
+        return quartic_value(&round->polynomial, alpha);
     if (!round->sampled && alpha == round->alpha)
         return round->change;
-    double place = alpha / round->first * ROUND_PARTS;
+    double place = alpha / round->first_trial * ROUND_PARTS;
     if (!round->sampled || !(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;
     const double *value = round->value + (int)place;
@@ -174,13 +175,13 @@ static void store_iteration(StepTrace *trace, const Newton *newton)
     at.g = g;
     incremental_potential_gradient(&at.E, at.u, at.x, g);
     store_line_energy(trace, &at);
-    record->slope = round->along.q[0];
+    record->slope = round->polynomial.q[0];
     round->alpha = record->alpha;
     round->change = record->change;
 }
 
-void step_trace_add(StepTrace *trace, const Newton *newton,
-                    const NewtonRecord *record)
+void step_trace_add_round(StepTrace *trace, const Newton *newton,
+                          const NewtonRecord *record)
 {
     if (!reserve_round(trace))
         return;
@@ -246,7 +247,7 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
     return place;
 }
 
-int step_trace_find(const StepTrace *trace, int round, Line line)
+int step_trace_find_place(const StepTrace *trace, int round, Line line)
 {
     for (int i = trace->places - 1; i >= 0; i--)
         if (trace->place[i].round == round && trace->place[i].line <= line)
@@ -269,13 +270,13 @@ int step_trace_peak(const StepTrace *trace)
         }
     }
     bool far = round >= 0 && rise > FAR * fabs(sum);
-    return far ? step_trace_find(trace, round, LINE_UPDATE) : -1;
+    return far ? step_trace_find_place(trace, round, LINE_UPDATE) : -1;
 }
 
 /* Fills the numbers of a round as far as its lines up to a place compute them.
  */
-static void trace_round(const StepTrace *trace, const TracePlace *at,
-                        Trace *shown)
+static void fill_round_values(const StepTrace *trace, const TracePlace *at,
+                              Trace *shown)
 {
     const Round *round = &trace->round[at->round];
     const NewtonRecord *record = &trace->records.row[at->round];
@@ -291,14 +292,14 @@ static void trace_round(const StepTrace *trace, const TracePlace *at,
     shown->residual = record->residual;
     shown->p = round->p;
     shown->slope = record->slope;
-    shown->first_alpha = round->first;
+    shown->first_alpha = round->first_trial;
     if (!round->p)
         return;
-    shown->difference = round_difference;
+    shown->difference = evaluate_round_energy;
     shown->difference_data = round;
 }
 
-const double *step_trace_at(const StepTrace *trace, int place, Trace *shown)
+const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
 {
     int count = trace->records.count;
     const NewtonRecord *row = trace->records.row, *last = row + count - 1;
@@ -318,7 +319,7 @@ const double *step_trace_at(const StepTrace *trace, int place, Trace *shown)
     shown->record = row;
     shown->x_tilde = trace->x_tilde;
     if (at.line != LINE_START && source.round < count)
-        trace_round(trace, &source, shown);
+        fill_round_values(trace, &source, shown);
     shown->given_up =
         given_up && (end || (at.line == LINE_SEARCH && at.round == count - 1 &&
                              at.trials == last->trials && last->alpha == 0));

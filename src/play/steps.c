@@ -22,14 +22,14 @@ static Status record_iterations(Player *player, long step)
     Status status = STATUS_OK;
     for (int p = 0; p < past_panes(&player->past) && p < recording->panes;
          p++) {
-        const Machine *machine = &player->past.machine[p];
-        if (machine->records.lost)
+        const PaneRun *pane_run = &player->past.pane[p];
+        if (pane_run->records.lost)
             status = STATUS_OUT_OF_MEMORY;
-        for (int i = 0; i < machine->records.count && !status; i++) {
-            NewtonRecord row = machine->records.row[i];
+        for (int i = 0; i < pane_run->records.count && !status; i++) {
+            NewtonRecord row = pane_run->records.row[i];
             if (recording->panes > 1)
                 row.step = step;
-            status = recording_iteration(recording, &row, p + 1);
+            status = recording_write_iteration(recording, &row, p + 1);
         }
     }
     return status;
@@ -46,9 +46,9 @@ static Status record_step(Player *player)
     long step = past->step;
     bool due = step == past->booked + 1, again = step <= past->written;
     for (int p = 0; p < panes; p++) {
-        const Machine *machine = &past->machine[p];
-        simulation[p] = &machine->simulation;
-        due = due && (machine->known || !past->keeps || step == 0 ||
+        const PaneRun *pane_run = &past->pane[p];
+        simulation[p] = &pane_run->simulation;
+        due = due && (pane_run->known || !past->stores_states || step == 0 ||
                       past_entry(past, p, step)->substeps == 0);
     }
     if (!due)
@@ -60,8 +60,8 @@ static Status record_step(Player *player)
     if (!again)
         past->written = step;
     return status ? status
-                  : recording_states(&player->recording, again, simulation,
-                                     panes, step);
+                  : recording_write_states(&player->recording, again,
+                                           simulation, panes, step);
 }
 
 Status player_write_remaining(Player *player)
@@ -71,21 +71,21 @@ Status player_write_remaining(Player *player)
     long shown = past->step;
     bool failed = false, again = true;
     for (int p = 0; p < past_panes(past); p++)
-        failed = failed || past->machine[p].failed;
+        failed = failed || past->pane[p].failed;
     if (failed && shown == past->written)
         status = record_iterations(player, shown + 1);
-    if (!past->keeps || !player->recording.tables)
+    if (!past->stores_states || !player->recording.tables)
         return status;
     while (past->booked < past_newest(past) && !status &&
            !*player->given.stop) {
         long next = past->booked + 1;
-        past_aim(past, next, again);
+        past_choose_step(past, next, again);
         status = past_finish_work(past);
         if (!status_is_failure(status))
             status = record_step(player);
         again = past->booked < next;
     }
-    past_aim(past, shown, false);
+    past_choose_step(past, shown, false);
     past_finish_work(past);
     return status;
 }
@@ -96,7 +96,7 @@ Status player_write_remaining(Player *player)
 static void end_line_walk(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
-        player->side[p].place = -1;
+        player->view_of_pane[p].place = -1;
 }
 
 void player_forget_step(Player *player)
@@ -106,28 +106,28 @@ void player_forget_step(Player *player)
         player->time.mode = MODE_END;
     end_line_walk(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
-        free(player->side[p].ghost);
-        player->side[p].ghost = NULL;
+        free(player->view_of_pane[p].ghost);
+        player->view_of_pane[p].ghost = NULL;
     }
 }
 
 /* Forgets what the hand holds, and its commands in the queue. */
-static void forget_hand(Player *player)
+static void release_hand_and_queue(Player *player)
 {
     player->hands.holds = false;
-    player->orders.queue.count = 0;
+    player->commands.queue.count = 0;
 }
 
 /* Resets camera and cards for another scene or page. */
 static void enter_scene(Player *player)
 {
-    const Options *options = player_settings(player);
+    const Options *options = player_active_options(player);
     char title[128];
     player->screen.scene = options->scene;
     player->screen.page = options->page;
     player->time.speed = player_initial_speed(player, options);
     player->screen.view.lens = LENS_FITS;
-    player->screen.closed = 0;
+    player->screen.toggled_cards = 0;
     player->screen.large = -1;
     player_deselect(player);
     player->screen.view.hover = (Pick){.kind = PICK_NONE};
@@ -139,7 +139,7 @@ static void enter_scene(Player *player)
 }
 
 /* Adapts the player to a past that was edited: frame, active pane, scene. */
-static void follow_past(Player *player)
+static void update_after_edit(Player *player)
 {
     const Past *past = &player->past;
     player->screen.changed = true;
@@ -147,7 +147,7 @@ static void follow_past(Player *player)
         player->screen.drawn = -1;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
-    const Options *now = player_settings(player);
+    const Options *now = player_active_options(player);
     if (now->scene != player->screen.scene || now->page != player->screen.page)
         enter_scene(player);
 }
@@ -158,7 +158,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     Past *past = &player->past;
     bool again = past->branches > 0;
     Status status =
-        past_begin(past, options, count, player->orders.gesture, edit);
+        past_begin_runs(past, options, count, player->commands.gesture, edit);
     if (status)
         return again ? player_refuse(player, "%s", status_text(status))
                      : status;
@@ -166,8 +166,8 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     player->time.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
     player->screen.drawn = -1;
     player->time.warned = player->time.gained = false;
-    forget_hand(player);
-    follow_past(player);
+    release_hand_and_queue(player);
+    update_after_edit(player);
     return record_step(player);
 }
 
@@ -178,9 +178,9 @@ Status player_edit(Player *player, const Command *change, int from, int to,
     if (player->time.mode == MODE_REST)
         player->time.mode = MODE_RUN; /* something may move again */
     Status status =
-        past_edit(past, change, from, to, again, player->orders.gesture);
+        past_edit(past, change, from, to, again, player->commands.gesture);
     if (!status)
-        follow_past(player);
+        update_after_edit(player);
     return status || again ? status : record_step(player);
 }
 
@@ -192,8 +192,8 @@ static void report_rest(Player *player)
     const Past *past = &player->past;
     int folded = 0;
     for (int p = 0; p < past_panes(past); p++) {
-        Pane pane = {.simulation = &past->machine[p].simulation};
-        if (past_end_step(past, p, past->step) < 0)
+        Pane pane = {.simulation = &past->pane[p].simulation};
+        if (past_find_end_step(past, p, past->step) < 0)
             folded += pane_count_folded(&pane);
     }
     player_note(player,
@@ -214,7 +214,7 @@ static void report_gain(Player *player)
     if (player->given.options[0].steps >= 0 || !player->given.attended)
         return;
     for (int p = 0; p < past_panes(past) && !player->time.gained; p++) {
-        const Simulation *simulation = &past->machine[p].simulation;
+        const Simulation *simulation = &past->pane[p].simulation;
         for (int r = 0; r < simulation->runs && !player->time.gained; r++) {
             player->time.gained = simulation->ledger[r].gain.steps > 0;
             if (player->time.gained)
@@ -234,23 +234,23 @@ static void detect_rest(Player *player)
     const Past *past = &player->past;
     bool ended = true, rests = true, bad = false;
     int going = 0;
-    const Options *options = player_settings(player);
+    const Options *options = player_active_options(player);
     if (player->given.options[0].steps >= 0 || !player->given.attended ||
         (options->next == NEXT_SPRING && /* each step assembles a spring */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
-        const Machine *machine = &past->machine[p];
-        const Simulation *simulation = &machine->simulation;
-        if (past_end_step(past, p, past->step) >= 0)
+        const PaneRun *pane_run = &past->pane[p];
+        const Simulation *simulation = &pane_run->simulation;
+        if (past_find_end_step(past, p, past->step) >= 0)
             continue;
         going++;
-        ended = ended && (simulation->done || machine->failed);
+        ended = ended && (simulation->done || pane_run->failed);
         rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
                 simulation->runs == 1 &&
-                !control_hand_holds(machine->control) &&
+                !control_hand_holds(pane_run->control) &&
                 simulation_is_at_rest(simulation);
-        bad = bad || machine->outcome.status;
+        bad = bad || pane_run->outcome.status;
     }
     bad = bad && past_panes(past) == 1;
     if (rests && going > 0)
@@ -274,19 +274,19 @@ static void detect_rest(Player *player)
 static void enter_line_walk(Player *player, AfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const StepTrace *trace = &player->past.machine[p].trace;
+        const StepTrace *trace = &player->past.pane[p].trace;
         Trace shown;
         double far = 0;
-        int place = trace->places <= 2     ? -1 /* only start and end */
-                    : after == AFTER_ENTER ? 0
-                    : after == AFTER_LEAVE ? trace->places - 1
-                                           : step_trace_peak(trace);
+        int place = trace->places <= 2          ? -1 /* only start and end */
+                    : after == AFTER_SHOW_FIRST ? 0
+                    : after == AFTER_SHOW_LAST  ? trace->places - 1
+                                                : step_trace_peak(trace);
         if (place < 0)
             continue;
         player->time.mode = MODE_PAUSE;
-        player->side[p].place = place;
-        const double *x = step_trace_at(trace, place, &shown);
-        if (after != AFTER_PEAK)
+        player->view_of_pane[p].place = place;
+        const double *x = step_trace_fill(trace, place, &shown);
+        if (after != AFTER_SHOW_PEAK)
             continue;
         for (int i = 0; x && i < trace->size; i++)
             far = fmax(far, fabs(x[i]));
@@ -302,8 +302,8 @@ static bool walk_lines(Player *player, int way)
 {
     bool moved = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const StepTrace *trace = &player->past.machine[p].trace;
-        int *place = &player->side[p].place;
+        const StepTrace *trace = &player->past.pane[p].trace;
+        int *place = &player->view_of_pane[p].place;
         if (*place < 0)
             continue;
         int next = step_trace_walk(trace, player->time.unit, *place, way);
@@ -320,11 +320,11 @@ static bool walk_lines(Player *player, int way)
 static void describe_outcome(const Player *player, const OptionRow *row,
                              char *text, size_t size)
 {
-    const Outcome *outcome = &player_machine(player)->outcome;
+    const Outcome *outcome = &player_active_run(player)->outcome;
     bool curve = player->screen.scene->picture == PICTURE_CURVE;
     char value[VALUE_SIZE], change[64] = "stays";
-    player_format_value(row, player_settings(player), player_simulation(player),
-                        value, sizeof value);
+    player_format_value(row, player_active_options(player),
+                        player_simulation(player), value, sizeof value);
     if (outcome->change != 0)
         snprintf(change, sizeof change, "%s by %.3g%s",
                  outcome->change > 0 ? "rises" : "falls", fabs(outcome->change),
@@ -343,45 +343,45 @@ static void describe_outcome(const Player *player, const OptionRow *row,
 static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
-    const StepTrace *trace = &player_machine(player)->trace;
+    const StepTrace *trace = &player_active_run(player)->trace;
     const TracePlace *at = &player->time.place;
     char has[256];
     if (at->round >= 0 && trace->places > 2) {
         player->time.mode = MODE_PAUSE;
-        player->side[player->active].place =
-            step_trace_find(trace, at->round, at->line);
+        player->view_of_pane[player->active].place =
+            step_trace_find_place(trace, at->round, at->line);
     }
     describe_outcome(player, &option_rows[past->branch[past->now].edit.number],
                      has, sizeof has);
-    player_note(player, "%s; %s", player->side[player->active].ghost_label,
-                has);
+    player_note(player, "%s; %s",
+                player->view_of_pane[player->active].ghost_label, has);
 }
 
 Status player_repeat_step(Player *player, const Command *change, int from,
                           int to)
 {
     Past *past = &player->past;
-    Side *side = &player->side[player->active];
+    PaneView *view = &player->view_of_pane[player->active];
     const OptionRow *row = &option_rows[change->number];
-    const Machine *machine = player_machine(player);
-    const Simulation *simulation = &machine->simulation;
+    const PaneRun *pane_run = player_active_run(player);
+    const Simulation *simulation = &pane_run->simulation;
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
-    bool failed = machine->failed;
+    bool failed = pane_run->failed;
     long step = past->step + failed;
     player->time.place = (TracePlace){.round = -1};
-    if (side->place >= 0 && player->time.unit != UNIT_STEP)
-        player->time.place = machine->trace.place[side->place];
+    if (view->place >= 0 && player->time.unit != UNIT_STEP)
+        player->time.place = pane_run->trace.place[view->place];
     player_forget_step(player);
-    describe_outcome(player, row, side->ghost_label, sizeof side->ghost_label);
+    describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
-        side->ghost = malloc(bytes);
-    if (side->ghost)
-        memcpy(side->ghost, simulation->run[0].x, bytes);
+        view->ghost = malloc(bytes);
+    if (view->ghost)
+        memcpy(view->ghost, simulation->run[0].x, bytes);
     Status status = player_edit(player, change, from, to, !failed);
     if (status)
         return status;
     player->screen.drawn = -1;
-    past_aim(past, step, player->time.place.round >= 0);
+    past_choose_step(past, step, player->time.place.round >= 0);
     player->time.after = AFTER_COMPARE;
     return STATUS_OK;
 }
@@ -400,7 +400,7 @@ static Status finish_work(Player *player, Status status, long before, bool made)
     player->time.after = AFTER_NOTHING;
     player->screen.changed = true;
     if (failed && past->step == before) {
-        long seen = past_last_seen(past, 0, before);
+        long seen = past_find_drawable_step(past, 0, before);
         bool lost = runs && status == STATUS_NOT_FINITE;
         player->screen.drawn = -1;
         status = player_tolerate_failure(player, status);
@@ -458,13 +458,13 @@ Status player_work(Player *player)
 static Status release_old_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
-    int gesture = player->orders.gesture, panes = past_panes(&player->past);
+    int gesture = player->commands.gesture, panes = past_panes(&player->past);
     if (!control_hand_holds(past_control(&player->past, 0)) ||
         player->hands.holds)
         return STATUS_OK;
-    player->orders.gesture = ++player->orders.gestures;
+    player->commands.gesture = ++player->commands.gestures;
     Status status = player_edit(player, &release, 0, panes, false);
-    player->orders.gesture = gesture;
+    player->commands.gesture = gesture;
     return status;
 }
 
@@ -474,13 +474,14 @@ Status player_seek(Player *player, long step, AfterWork after)
     bool known = step <= past_newest(past);
     Status status = known ? STATUS_OK : record_step(player);
     if (known)
-        forget_hand(player);
+        release_hand_and_queue(player);
     if (!status && !known)
         status = release_old_hand(player);
     if (status)
         return status;
     player_forget_step(player);
-    past_aim(past, step, after == AFTER_ENTER || after == AFTER_LEAVE);
+    past_choose_step(past, step,
+                     after == AFTER_SHOW_FIRST || after == AFTER_SHOW_LAST);
     player->time.after = after;
     return STATUS_OK;
 }
@@ -499,12 +500,13 @@ Status obey_pause(Player *player, const Command *command)
 Status obey_next(Player *player, const Command *command)
 {
     AfterWork after = command->kind == COMMAND_STEP    ? AFTER_NOTHING
-                      : player->time.unit != UNIT_STEP ? AFTER_ENTER
-                                                       : AFTER_PEAK;
+                      : player->time.unit != UNIT_STEP ? AFTER_SHOW_FIRST
+                                                       : AFTER_SHOW_PEAK;
     player_pause(player);
-    if (after == AFTER_ENTER && walk_lines(player, 1))
+    if (after == AFTER_SHOW_FIRST && walk_lines(player, 1))
         return STATUS_OK;
-    if (after == AFTER_PEAK && player->side[player->active].place >= 0) {
+    if (after == AFTER_SHOW_PEAK &&
+        player->view_of_pane[player->active].place >= 0) {
         end_line_walk(player); /* from the peak of E to the end */
         return STATUS_OK;
     }
@@ -516,8 +518,7 @@ static bool has_updates(const Player *player)
 {
     bool any = false;
     for (int p = 0; p < past_panes(&player->past); p++)
-        any =
-            any || simulation_has_updates(&player->past.machine[p].simulation);
+        any = any || simulation_has_updates(&player->past.pane[p].simulation);
     return any;
 }
 
@@ -531,14 +532,15 @@ Status obey_back(Player *player, const Command *command)
         player_note(player, "this is step 0: nothing was before it");
     if (player->time.unit == UNIT_STEP || !has_updates(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
-    if (player->side[player->active].place < 0 && step > 0) {
-        if (!player_machine(player)->known)
-            return player_seek(player, step, AFTER_LEAVE);
-        enter_line_walk(player, AFTER_LEAVE);
+    if (player->view_of_pane[player->active].place < 0 && step > 0) {
+        if (!player_active_run(player)->known)
+            return player_seek(player, step, AFTER_SHOW_LAST);
+        enter_line_walk(player, AFTER_SHOW_LAST);
     }
-    if (player->side[player->active].place >= 0 && walk_lines(player, -1))
+    if (player->view_of_pane[player->active].place >= 0 &&
+        walk_lines(player, -1))
         return STATUS_OK;
-    return player_seek(player, step - 1, AFTER_LEAVE);
+    return player_seek(player, step - 1, AFTER_SHOW_LAST);
 }
 
 /* Changes the unit of "next" and "back": steps, updates, lines, steps again. */
@@ -546,7 +548,7 @@ Status obey_finer(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
-    if (player_settings(player)->next == NEXT_NEARER ||
+    if (player_active_options(player)->next == NEXT_NEARER ||
         (!has_updates(player) && player->time.unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
     player->time.unit = (player->time.unit + 1) % UNITS;
@@ -570,7 +572,7 @@ Status obey_goto(Player *player, const Command *command)
 static void describe_edit(const Player *player, const Command *edit, char *line,
                           size_t size)
 {
-    Options edited = *player_settings(player);
+    Options edited = *player_active_options(player);
     const OptionRow *row = &option_rows[edit->number];
     bool ground = edit->number < edited.grounds;
     char value[COMMAND_TEXT_SIZE];
@@ -614,9 +616,9 @@ Status obey_undo(Player *player, const Command *command)
                                              : "nothing was undone");
     const Command edit = *made;
     player->time.mode = MODE_PAUSE;
-    forget_hand(player);
-    player->hands.mouse.gesture = ++player->orders.gestures;
-    follow_past(player);
+    release_hand_and_queue(player);
+    player->hands.mouse.gesture = ++player->commands.gestures;
+    update_after_edit(player);
     player_forget_step(player);
     describe_edit(player, &edit, line, sizeof line);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);

@@ -101,7 +101,7 @@ void window_set_title(const char *title)
     SDL_SetWindowTitle(window, title);
 }
 
-void window_size(int size[2])
+void window_find_size(int size[2])
 {
     const SDL_Surface *surface = SDL_GetWindowSurface(window);
     size[0] = surface ? surface->w : 1;
@@ -109,19 +109,19 @@ void window_size(int size[2])
 }
 
 /* Finds the pixels per point in each direction. */
-static void find_scale(double scale[2])
+static void find_pixels_per_point(double scale[2])
 {
     int size[2], points[2] = {0, 0};
-    window_size(size);
+    window_find_size(size);
     SDL_GetWindowSize(window, &points[0], &points[1]);
     for (int i = 0; i < 2; i++)
         scale[i] = points[i] > 0 ? (double)size[i] / points[i] : 1;
 }
 
-double window_letter(void)
+double window_find_font_size(void)
 {
     double scale[2];
-    find_scale(scale);
+    find_pixels_per_point(scale);
     return 9 * scale[0];
 }
 
@@ -247,13 +247,13 @@ static Input read_event(const SDL_Event *event)
     default:
         break;
     }
-    find_scale(scale);
+    find_pixels_per_point(scale);
     input.x = mouse.x * scale[0];
     input.y = mouse.y * scale[1];
     return input;
 }
 
-Input window_input(void)
+Input window_read_input(void)
 {
     SDL_Event event, next;
     Input input = {.kind = INPUT_NONE};
@@ -268,7 +268,7 @@ Input window_input(void)
 
 /* SDL_WaitEventTimeout would end the program after the window is closed: on X
  * it sends itself an event of a second connection. */
-void window_wait(int milliseconds)
+void window_wait_for_input(int milliseconds)
 {
     enum { PAUSE = 8 }; /* ms */
     for (; milliseconds > 0; milliseconds -= PAUSE) {

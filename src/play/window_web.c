@@ -13,11 +13,11 @@
 /* ---- calls of the page --------------------------------------------------- */
 
 /* clang-format off */
-EM_JS(void, window_size, (int *size), {
+EM_JS(void, window_find_size, (int *size), {
     HEAP32[size >> 2] = Page.width();
     HEAP32[(size >> 2) + 1] = Page.height();
 });
-EM_JS(double, window_letter, (void), { return Page.letter(); });
+EM_JS(double, window_find_font_size, (void), { return Page.letter(); });
 EM_JS(bool, window_has_document, (void), { return true; });
 EM_JS(void, page_show, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
@@ -126,7 +126,7 @@ EMSCRIPTEN_KEEPALIVE void web_mouse(int kind, double x, double y, int button,
     put_input(&input);
 }
 
-Input window_input(void)
+Input window_read_input(void)
 {
     Input input = {.kind = INPUT_NONE};
     if (input_count == 0)
@@ -138,7 +138,7 @@ Input window_input(void)
 }
 
 /* The page waits itself; no input arrives while C runs. */
-void window_wait(int milliseconds)
+void window_wait_for_input(int milliseconds)
 {
     (void)milliseconds;
 }

@@ -20,8 +20,8 @@
 /* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int side;  /* side of all nodes; 0: anywhere */
-    int other; /* sides; each node is also on one of them; 0: anywhere */
+    int sides_all; /* side of all nodes; 0: anywhere */
+    int sides_any; /* sides; each node is also on one of them; 0: anywhere */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -51,8 +51,8 @@ const char *pins_read(const char *text, const SquareMesh *shape,
             int own = i, sides = square_mesh_get_sides(shape, i);
             bool in_body = !digits[0] ||
                            square_mesh_locate_body(shape, &own) + 1 == number;
-            bool on_side = (sides & word->side) == word->side &&
-                           (!word->other || (sides & word->other));
+            bool on_side = (sides & word->sides_all) == word->sides_all &&
+                           (!word->sides_any || (sides & word->sides_any));
             pinned[i] |= name[0] ? in_body && on_side : i == number;
         }
         text += end;
@@ -332,8 +332,8 @@ Status body_create(Simulation *simulation, int run)
         double *v = x + 2 * (size_t)system->nodes;
         for (int i = 0; i < 2 * system->nodes; i++)
             v[i] = system->pinned[i / 2] ? 0 : v[i];
-        status = simulation_start(simulation, run, options_method(&options),
-                                  system, x, v);
+        status = simulation_start_run(simulation, run, options_method(&options),
+                                      system, x, v);
     }
     free(x);
     return status;
@@ -478,8 +478,9 @@ static Status check_obstacles(const Options *options, Message message)
 /* Checks that the obstacles of these options overlap no body where it is now.
  *   apart  smallest gap to the obstacle `number`, as a part of the barrier's
  *          width; to others it is 0 */
-static Status check_room(const Simulation *simulation, const Options *options,
-                         double apart, int number, Message message)
+static Status check_clearance(const Simulation *simulation,
+                              const Options *options, double apart, int number,
+                              Message message)
 {
     Status status = check_obstacles(options, message);
     for (int run = 0; run < simulation->runs && !status; run++) {
@@ -498,10 +499,10 @@ static Status check_room(const Simulation *simulation, const Options *options,
     return status;
 }
 
-Status simulation_check_room(const Simulation *simulation,
-                             const Options *options, Message message)
+Status simulation_check_clearance(const Simulation *simulation,
+                                  const Options *options, Message message)
 {
-    return check_room(simulation, options, 0, -1, message);
+    return check_clearance(simulation, options, 0, -1, message);
 }
 
 double simulation_find_free_way(const Simulation *simulation,
@@ -514,13 +515,13 @@ double simulation_find_free_way(const Simulation *simulation,
     double *at = options_obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
     memcpy(at, to, sizeof from);
-    if (!check_room(simulation, &moved, 0, -1, (Message){0}))
+    if (!check_clearance(simulation, &moved, 0, -1, (Message){0}))
         return 1;
     double step = 0.5;
     for (int i = 0; i < HALVINGS; i++, step /= 2) {
         for (int c = 0; c < 2; c++)
             at[c] = from[c] + (free + step) * (to[c] - from[c]);
-        if (!check_room(simulation, &moved, APART, number, (Message){0}))
+        if (!check_clearance(simulation, &moved, APART, number, (Message){0}))
             free += step;
     }
     return free;

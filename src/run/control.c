@@ -25,7 +25,7 @@ static Control *create_control(int nodes)
     return control;
 }
 
-Control *control_of(const Simulation *simulation)
+Control *control_from_simulation(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     const Pull *hand = system_term_data(system, &hand_energy);
@@ -139,8 +139,8 @@ static Status update_run_options(Simulation *simulation, int r,
     if (simulation->scene->needs & NEEDS_BODY)
         status = body_update(simulation, r);
     if (!status && options->integrator != before->integrator) {
-        status = simulation_start(simulation, r, options_method(options),
-                                  old.system, old.x, old.v);
+        status = simulation_start_run(simulation, r, options_method(options),
+                                      old.system, old.x, old.v);
         run->steps = old.steps;
         run->status = old.status;
         run->clock = old.clock;
@@ -254,8 +254,8 @@ Status control_apply(Simulation *simulation, const Control *control)
     return status;
 }
 
-Status simulation_place(Simulation *simulation, int node, double x, double y,
-                        bool moves)
+Status simulation_place_node(Simulation *simulation, int node, double x,
+                             double y, bool moves)
 {
     TimeIntegrator *run = &simulation->run[0];
     double *before = run->new_x, *p = run->new_v; /* free between two steps */

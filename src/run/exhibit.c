@@ -22,7 +22,7 @@ int exhibit_list_handles(const Simulation *simulation,
  * springs.  Dragging v sets the velocity.  Each run begins again from this
  * state.
  */
-void exhibit_drag(Simulation *simulation, int handle, double x, double y)
+void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = simulation->run;
@@ -50,7 +50,7 @@ void exhibit_drag(Simulation *simulation, int handle, double x, double y)
     }
 }
 
-bool exhibit_has_kinds(const Simulation *simulation)
+bool exhibit_has_kind_switches(const Simulation *simulation)
 {
     return simulation->options.layers & LAYER_KINDS;
 }
@@ -68,7 +68,7 @@ int exhibit_list_switches(const Simulation *simulation,
 {
     static const char *const kinds[SCENE_MAX_SWITCHES] = {
         "horizontal", "vertical", "diagonal /", "diagonal \\"};
-    bool has_kinds = exhibit_has_kinds(simulation);
+    bool has_kinds = exhibit_has_kind_switches(simulation);
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
@@ -91,12 +91,12 @@ unsigned exhibit_find_flips(const Simulation *simulation)
 /* The energy that a kind of springs takes away is booked as work.  At least one
  * part of E stays on.  A switch changes the function that is minimised, so the
  * updates so far are no longer shown. */
-void exhibit_flip(Simulation *simulation, int number)
+void exhibit_flip_switch(Simulation *simulation, int number)
 {
     const Scene *scene = simulation->scene;
     System *system = &simulation->system;
     unsigned switches = simulation->exhibit.switches ^ (1U << number);
-    if (exhibit_has_kinds(simulation)) {
+    if (exhibit_has_kind_switches(simulation)) {
         double k = switches >> number & 1 ? 0 : simulation->options.stiffness;
         double before = simulation_energies(simulation, 0).total;
         simulation->exhibit.switches = switches;

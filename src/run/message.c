@@ -10,7 +10,7 @@
 
 /* Whether a character moves the cursor, ends a line, or changes the direction
  * of writing (from U+2028 on), and so could hide a part of a message. */
-static bool is_control(long letter)
+static bool is_control_character(long letter)
 {
     return letter < 0x20 || (letter >= 0x7F && letter < 0xA0) ||
            (letter >= 0x2028 && letter <= 0x202E) ||
@@ -33,7 +33,7 @@ static int count_bytes(const char *text)
             return 0;
         letter = letter << 6 | (text[i] & 0x3F);
     }
-    return letter < least[size] || is_control(letter) ? 0 : size;
+    return letter < least[size] || is_control_character(letter) ? 0 : size;
 }
 
 void make_one_line(char *text)

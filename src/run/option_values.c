@@ -41,7 +41,7 @@ static double parse_number(const OptionRow *row, const char *text)
 {
     static const struct {
         const char *prefix;
-        double parts; /* parts of the unit: 1000 for "m" */
+        double per_unit; /* parts of the unit: 1000 for "m" */
     } prefixes[] = {{"", 1},    {"k", 1e-3},     {"c", 1e2},     {"m", 1e3},
                     {"u", 1e6}, {"\u00b5", 1e6}, {"\u03bc", 1e6}};
     double number, divisor = 1;
@@ -59,7 +59,7 @@ static double parse_number(const OptionRow *row, const char *text)
         size_t length = strlen(prefixes[i].prefix);
         if (strncmp(end, prefixes[i].prefix, length) == 0 &&
             is_unit(row, end + length))
-            return number / (divisor * prefixes[i].parts);
+            return number / (divisor * prefixes[i].per_unit);
     }
     return NAN;
 }
@@ -155,7 +155,7 @@ void option_write_unit(const OptionRow *row, char *text, size_t size)
 /* ---- notches of the wheel ----------------------------------------------- */
 
 /* Returns the round number with this index: 1, 1.5, 2, 3, 5, 7, 10, 15 ... */
-static double round_number(double index)
+static double find_round_number(double index)
 {
     static const double mantissa[] = {1, 1.5, 2, 3, 5, 7};
     double decade = floor(index / 6);
@@ -185,10 +185,10 @@ double option_turn_wheel(const OptionRow *row, const Options *options,
         value *= pow(10, notches / 6);
     } else { /* `below` is the largest round number that is at most the value */
         double below = floor(6 * log10(value)) - 1;
-        while (round_number(below + 1) <= value * (1 + 1e-9))
+        while (find_round_number(below + 1) <= value * (1 + 1e-9))
             below++;
-        bool between = round_number(below) < value * (1 - 1e-9);
-        value = round_number(below + notches + (between && notches < 0));
+        bool between = find_round_number(below) < value * (1 - 1e-9);
+        value = find_round_number(below + notches + (between && notches < 0));
     }
     value = fmax(value, row->low);
     snprintf(text, sizeof text, row->kind == OPTION_WHOLE ? "%.0f" : "%.3g",

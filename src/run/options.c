@@ -324,7 +324,7 @@ int names_find(Names names, const char *name)
     return -1;
 }
 
-int names_find_or_number(Names names, const char *text)
+int names_find_or_parse(Names names, const char *text)
 {
     char *end;
     long number = strtol(text, &end, 10);
@@ -369,8 +369,8 @@ const char *option_label(const OptionRow *row)
 
 /* Lists the options of the row of numbers by their place.  A number that a
  * notch multiplies is left out while the number is 0. */
-int options_list_fields(const Options *options,
-                        const OptionRow *found[OPTIONS_MAX_ROWS])
+int options_list_visible(const Options *options,
+                         const OptionRow *found[OPTIONS_MAX_ROWS])
 {
     int count = 0;
     for (int place = 1; place < OPTIONS_MAX_ROWS; place++)

@@ -25,9 +25,9 @@ void options_fill_newton_settings(const Options *options,
     settings->max_iterations = MAX_NEWTON_ITERATIONS;
 }
 
-Status simulation_start(Simulation *simulation, int run,
-                        const IntegratorMethod *method, System *system,
-                        const double *x, const double *v)
+Status simulation_start_run(Simulation *simulation, int run,
+                            const IntegratorMethod *method, System *system,
+                            const double *x, const double *v)
 {
     NewtonSettings settings = {.observer = simulation->observer,
                                .user = simulation->user};
@@ -46,7 +46,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
     Status status = options->scene->create(simulation);
     for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
         if ((unsigned)options->flips >> i & 1)
-            exhibit_flip(simulation, i);
+            exhibit_flip_switch(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
         simulation->ledger[r].start = /* dissipation is counted from here on */
             -simulation_energies(simulation, r).dissipated;
@@ -135,7 +135,7 @@ Status simulation_advance(Simulation *simulation)
     return finish_step(simulation, simulation->worst);
 }
 
-Status simulation_begin(Simulation *simulation)
+Status simulation_begin_step(Simulation *simulation)
 {
     const struct Scene *scene = simulation->scene;
     if (simulation->done)
@@ -151,7 +151,7 @@ Status simulation_begin(Simulation *simulation)
 
 Status simulation_step(Simulation *simulation)
 {
-    Status status = simulation_begin(simulation);
+    Status status = simulation_begin_step(simulation);
     while (status == STATUS_RUNNING)
         status = simulation_advance(simulation);
     return status;
@@ -170,8 +170,8 @@ bool simulation_is_draggable(const Simulation *simulation)
     return (scene->needs & NEEDS_TIME) && !scene->step && !scene->handle_kinds;
 }
 
-Effect simulation_find_effect(const Simulation *simulation,
-                              const OptionRow *row)
+Effect simulation_find_option_effect(const Simulation *simulation,
+                                     const OptionRow *row)
 {
     unsigned needs = simulation->scene->needs;
     bool update = (needs & NEEDS_START) && row->effect == EFFECT_AGAIN;

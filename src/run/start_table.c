@@ -21,12 +21,13 @@ enum { MAX_COLUMNS = 7 };
  * wanted columns are found by name, others are skipped. */
 typedef struct TableReader {
     FILE *file;
-    char *text;               /* present line */
-    size_t room;              /* bytes of text */
-    long line;                /* number of the present line, from 1 */
+    char *line_text;          /* present line */
+    size_t capacity;          /* bytes of text */
+    long line_number;         /* number of the present line, from 1 */
     int columns;              /* number of columns */
     const char *const *names; /* names of wanted columns, up to NULL */
-    int place[MAX_COLUMNS];   /* index of each wanted column; -1: missing */
+    int column_index[MAX_COLUMNS]; /* index of each wanted column; -1: missing
+                                    */
     bool has_panes;           /* the table has a column "pane" */
     char why[200];            /* why the table cannot be read, or "" */
 } TableReader;
@@ -42,22 +43,24 @@ typedef struct TableRow {
 
 /* Reads the next line, without LF or CR LF, and without the byte order mark
  * that some programs write before UTF-8.  Returns false at the end. */
-static bool next_line(TableReader *reader)
+static bool read_next_line(TableReader *reader)
 {
     static const char mark[] = "\xef\xbb\xbf";
-    ssize_t length = getline(&reader->text, &reader->room, reader->file);
+    ssize_t length =
+        getline(&reader->line_text, &reader->capacity, reader->file);
     if (length < 0)
         return false;
-    reader->text[strcspn(reader->text, "\r\n")] = '\0';
-    if (reader->line++ == 0 && strncmp(reader->text, mark, strlen(mark)) == 0)
-        memmove(reader->text, reader->text + strlen(mark),
-                strlen(reader->text + strlen(mark)) + 1);
+    reader->line_text[strcspn(reader->line_text, "\r\n")] = '\0';
+    if (reader->line_number++ == 0 &&
+        strncmp(reader->line_text, mark, strlen(mark)) == 0)
+        memmove(reader->line_text, reader->line_text + strlen(mark),
+                strlen(reader->line_text + strlen(mark)) + 1);
     return true;
 }
 
 /* Cuts the next field out of a line, without the blanks and quotes around the
  * field.  Returns NULL if the line has no more fields. */
-static char *next_field(char **rest)
+static char *take_field(char **rest)
 {
     char *field = strsep(rest, ",");
     if (!field)
@@ -74,22 +77,22 @@ static char *next_field(char **rest)
 static void read_names(TableReader *reader)
 {
     char shown[40];
-    if (!next_line(reader)) {
+    if (!read_next_line(reader)) {
         explain(reader, "it is empty");
         return;
     }
-    snprintf(shown, sizeof shown, "%s", reader->text);
+    snprintf(shown, sizeof shown, "%s", reader->line_text);
     for (int k = 0; reader->names[k]; k++)
-        reader->place[k] = -1;
-    char *rest = reader->text;
-    for (char *name; (name = next_field(&rest)); reader->columns++) {
+        reader->column_index[k] = -1;
+    char *rest = reader->line_text;
+    for (char *name; (name = take_field(&rest)); reader->columns++) {
         reader->has_panes = reader->has_panes || !strcmp(name, "pane");
         for (int k = 0; reader->names[k]; k++)
             if (strcmp(name, reader->names[k]) == 0)
-                reader->place[k] = reader->columns;
+                reader->column_index[k] = reader->columns;
     }
     for (int k = 0; reader->names[k] && !reader->why[0]; k++)
-        if (reader->place[k] < 0)
+        if (reader->column_index[k] < 0)
             explain(reader,
                     "its first line, '%s', has no column '%s'; --states and "
                     "--springs write such tables",
@@ -98,26 +101,26 @@ static void read_names(TableReader *reader)
 
 /* Reads the next row.  Returns false at the end, and if the row cannot be read;
  * reader->why then has the reason. */
-static bool next_row(TableReader *reader, TableRow *row)
+static bool read_next_row(TableReader *reader, TableRow *row)
 {
     int fields = 0;
     do
-        if (reader->why[0] || !next_line(reader))
+        if (reader->why[0] || !read_next_line(reader))
             return false;
-    while (reader->text[0] == '\0');
-    char *rest = reader->text, *end;
-    for (char *field; (field = next_field(&rest)); fields++)
+    while (reader->line_text[0] == '\0');
+    char *rest = reader->line_text, *end;
+    for (char *field; (field = take_field(&rest)); fields++)
         for (int k = 0; reader->names[k]; k++) {
-            if (reader->place[k] != fields)
+            if (reader->column_index[k] != fields)
                 continue;
             row->value[k] = strtod(field, &end);
             if (end == field || *end || !isfinite(row->value[k]))
                 explain(reader, "line %ld: %s is '%.40s', not a number",
-                        reader->line, reader->names[k], field);
+                        reader->line_number, reader->names[k], field);
         }
     if (fields != reader->columns)
         explain(reader, "line %ld has %d columns, the first line %d%s",
-                reader->line, fields, reader->columns,
+                reader->line_number, fields, reader->columns,
                 fields > reader->columns
                     ? "; a number has a point, a comma ends it"
                     : "");
@@ -149,7 +152,7 @@ static void read_rows(TableReader *reader, const Options *options,
     double last = -1;
     int count = 0, runs = (int)fmax(options->scene->body.runs, 1);
     TableRow next = {{0}};
-    while (next_row(reader, &next)) {
+    while (read_next_row(reader, &next)) {
         bool goes_on = next.value[0] == last && next.value[1] != 0;
         last = next.value[0];
         if (step >= 0 && last != step)
@@ -158,7 +161,8 @@ static void read_rows(TableReader *reader, const Options *options,
         int i = count - part->run * part->size;
         if (next.value[1] != count)
             explain(reader, "line %ld has %s %g where %s %d is missing",
-                    reader->line, element, next.value[1], element, count);
+                    reader->line_number, element, next.value[1], element,
+                    count);
         if (i >= 0 && i < part->size)
             row[i] = next;
         count++;
@@ -180,8 +184,8 @@ static void read_rows(TableReader *reader, const Options *options,
 /* Reads a part of a table.
  *   row  out, [part->size], to be freed by the caller in any case
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
-static Status read_part(const Options *options, const TablePart *part,
-                        TableRow **row, Message message)
+static Status read_table_part(const Options *options, const TablePart *part,
+                              TableRow **row, Message message)
 {
     TableReader reader = {.file = fopen(part->file, "r"), .names = part->names};
     errno = reader.file ? 0 : errno;
@@ -192,7 +196,7 @@ static Status read_part(const Options *options, const TablePart *part,
     }
     if (!reader.file || ferror(reader.file))
         explain(&reader, "%s", strerror(errno));
-    free(reader.text);
+    free(reader.line_text);
     if (reader.file)
         fclose(reader.file);
     if (reader.why[0])
@@ -208,7 +212,7 @@ Status start_table_read(const Options *options, int run, int nodes, double *x,
                             "node",  {"step", "node", "x", "y", "vx", "vy"},
                             nodes,   run};
     TableRow *row;
-    Status status = read_part(options, &part, &row, message);
+    Status status = read_table_part(options, &part, &row, message);
     for (int i = 0; i < nodes && !status; i++) {
         memcpy(x + 2 * i, row[i].value + 2, 2 * sizeof *x);
         memcpy(v + 2 * i, row[i].value + 4, 2 * sizeof *v);
@@ -246,7 +250,7 @@ Status start_springs_read(const Options *options, int run, System *system,
         "spring",        {"step", "spring", "whole", "plastic", "flowed"},
         system->springs, run};
     TableRow *row;
-    Status status = read_part(options, &part, &row, message);
+    Status status = read_table_part(options, &part, &row, message);
     for (int s = 0; s < system->springs && !status; s++) {
         const char *why = restore_spring(options, system, s, row[s].value);
         if (why)

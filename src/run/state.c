@@ -17,7 +17,7 @@ typedef struct Cursor {
 } Cursor;
 
 /* Saves, restores or counts a piece of the state. */
-static void visit(Cursor *cursor, void *piece, size_t size)
+static void visit_piece(Cursor *cursor, void *piece, size_t size)
 {
     unsigned char *at = cursor->bytes ? cursor->bytes + cursor->used : NULL;
     if (at && cursor->is_restoring)
@@ -27,7 +27,7 @@ static void visit(Cursor *cursor, void *piece, size_t size)
     cursor->used += size;
 }
 
-#define VISIT(piece) visit(cursor, &(piece), sizeof(piece))
+#define VISIT(piece) visit_piece(cursor, &(piece), sizeof(piece))
 
 /* Visits all that steps change in a system: broken springs, plastic strains,
  * moving obstacles, and the energy that each term has lost. */
@@ -38,14 +38,14 @@ static void visit_system(Cursor *cursor, System *system)
     Contact *contact = contact_of(system);
     VISIT(system->lost);
     if (plasticity) {
-        visit(cursor, plasticity->ep, springs);
-        visit(cursor, plasticity->kappa, springs);
+        visit_piece(cursor, plasticity->ep, springs);
+        visit_piece(cursor, plasticity->kappa, springs);
     }
     if (system_find_term(system, &fracture))
-        visit(cursor, system->k, springs);
+        visit_piece(cursor, system->k, springs);
     if (contact)
-        visit(cursor, contact->obstacle,
-              (size_t)contact->obstacles * sizeof *contact->obstacle);
+        visit_piece(cursor, contact->obstacle,
+                    (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
 /* Visits the data of a small scene. */
@@ -53,12 +53,12 @@ static void visit_exhibit(Cursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
-    bool kinds = exhibit_has_kinds(simulation);
+    bool kinds = exhibit_has_kind_switches(simulation);
     if (kinds)
         VISIT(simulation->exhibit.switches);
     if (kinds || scene->step)
-        visit(cursor, simulation->system.k,
-              (size_t)simulation->system.springs * sizeof(double));
+        visit_piece(cursor, simulation->system.k,
+                    (size_t)simulation->system.springs * sizeof(double));
     if (scene->step || scene->handle_kinds)
         VISIT(simulation->exhibit);
     if (!scene->step)
@@ -88,10 +88,10 @@ static void visit_all(Cursor *cursor, Simulation *simulation)
         VISIT(run->moved);
         VISIT(run->work);
         VISIT(run->status);
-        visit(cursor, run->x, array);
-        visit(cursor, run->v, array);
+        visit_piece(cursor, run->x, array);
+        visit_piece(cursor, run->v, array);
         VISIT(run->memory_h);
-        visit(cursor, run->memory, (size_t)run->method->memory * array);
+        visit_piece(cursor, run->memory, (size_t)run->method->memory * array);
         if (r == 0 || run->system != simulation->run[0].system)
             visit_system(cursor, run->system);
         if (cursor->is_restoring)

@@ -311,8 +311,8 @@ static Status begin_descent(Simulation *simulation)
         create_small_system(&simulation->system, scalar ? 0 : LANDSCAPE_PINS,
                             POINT_MASS, LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
     if (!status)
-        status = simulation_start(simulation, 0, integrator_method(method),
-                                  &simulation->system, x, v);
+        status = simulation_start_run(simulation, 0, integrator_method(method),
+                                      &simulation->system, x, v);
     if (status)
         return status;
     descent_find_direction(simulation);

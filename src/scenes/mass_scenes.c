@@ -45,10 +45,10 @@ static Status create_orbit(Simulation *simulation, double omega2,
     memcpy(simulation->exhibit.start, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.start + 2, v, 2 * sizeof *v);
     for (int i = 0; i < simulation->runs && !status; i++)
-        status = simulation_start(simulation, i,
-                                  chosen ? options_method(options)
-                                         : integrator_method(names[i]),
-                                  &simulation->system, x, v);
+        status = simulation_start_run(simulation, i,
+                                      chosen ? options_method(options)
+                                             : integrator_method(names[i]),
+                                      &simulation->system, x, v);
     return status;
 }
 
@@ -125,6 +125,6 @@ Status create_spring(Simulation *simulation)
                                         SPRING_STIFFNESS);
     simulation->runs = 1;
     return status ? status
-                  : simulation_start(simulation, 0, options_method(options),
-                                     system, x, v);
+                  : simulation_start_run(simulation, 0, options_method(options),
+                                         system, x, v);
 }

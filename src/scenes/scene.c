@@ -160,7 +160,7 @@ const Scene scenes[] = {
 
 const Scene *scene_find(const char *text)
 {
-    int place = names_find_or_number(NAMES_OF(scenes), text);
+    int place = names_find_or_parse(NAMES_OF(scenes), text);
     return place < 0 ? NULL : &scenes[place];
 }
 

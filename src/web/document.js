@@ -279,7 +279,7 @@ const showDocument = (time) => {
 
 // Fills the lists of pages, scenes and keys.
 const listDocument = () => {
-  lists = parseLines(ask('web_lists', 'string'));
+  lists = parseLines(ask('web_list_contents', 'string'));
   const item = (content) => make('li', content);
   for (const id of ['pages', 'scenes']) {
     const links = lists[id].map(([words, text]) => make('a', [text], { href: '#' + words }));
@@ -313,18 +313,18 @@ const makeSheet = ([, topic], index) => {
   const head = `${index + 1}. ${topic}`;
   const draw = (card, width) => {
     sheet.canvas = make('canvas');
-    Module._web_sheet_draw(card, width, 620);
+    Module._web_print_draw(card, width, 620);
     return sheet.canvas;
   };
   const texts = (lines = [], as) => lines.map((line) => paragraph(line, as));
-  Module._web_sheet(index);
+  Module._web_print_page(index);
   const told = parseLines(ask('web_document', 'string'));
   const open = (told.card ?? []).filter(([, , , closed]) => closed === '0');
   const made = open.map(([card, , kind]) =>
     isDrawn(kind) ? draw(Number(card), 720) : makeLines(cardLines(told, card)),
   );
   const picture = draw(-1, 900);
-  Module._web_sheet_cover();
+  Module._web_print_hide_answer();
   const asked = parseLines(ask('web_document', 'string'));
   const covered = (asked.card ?? []).flatMap(([card, , kind]) => (kind === 'covered' ? card : []));
   const select = (late) => made.filter((card, i) => covered.includes(open[i][0]) === late);
@@ -344,7 +344,7 @@ const printLecture = () => {
   const made = lists.pages.map(makeSheet);
   const columns = (head, what, name) =>
     make('div', [make('h2', [head]), ...made.map((one) => one[what])], { class: name });
-  sheet = Module._web_sheet(-1) ?? null;
+  sheet = Module._web_print_page(-1) ?? null;
   $('handout').replaceChildren(
     make('h1', ['Reliable simulation of elastodynamics']),
     ...made.map(({ page }) => page),

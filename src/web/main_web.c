@@ -108,7 +108,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_document(void)
 }
 
 /* Returns the lists of pages, scenes and keys. */
-EMSCRIPTEN_KEEPALIVE const char *web_lists(void)
+EMSCRIPTEN_KEEPALIVE const char *web_list_contents(void)
 {
     static char text[DOCUMENT_SIZE];
     document_write_lists(text);
@@ -147,9 +147,9 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
     Player *player = &session->player;
     if (!plays)
         return;
-    player->orders.gesture = player->hands.mouse.gesture =
-        ++player->orders.gestures;
-    player_report(player, player_obey_lines(player, lines));
+    player->commands.gesture = player->hands.mouse.gesture =
+        ++player->commands.gestures;
+    player_show_refusal(player, player_obey_lines(player, lines));
     player->screen.changed = true;
 }
 
@@ -159,7 +159,8 @@ EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 {
     Player *player = &session->player;
     if (plays && player_hides_answer(player))
-        player_report(player, player_answer(player, *guess ? guess : NULL));
+        player_show_refusal(
+            player, player_answer_question(player, *guess ? guess : NULL));
     player->screen.changed = true;
 }
 
@@ -169,7 +170,7 @@ EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 /* Runs a page of the lecture, counted from 0, up to the step that is printed,
  * in the other session, so that web_document returns the texts of that page.
  * Page -1 returns to the session before. */
-EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
+EMSCRIPTEN_KEEPALIVE void web_print_page(int page)
 {
     static bool played, prints;
     const Command next = {.kind = COMMAND_NEXT};
@@ -210,12 +211,12 @@ EMSCRIPTEN_KEEPALIVE void web_sheet(int page)
 
 /* Draws the picture of the printed page (card -1) or a card, and shows it on
  * the canvas of the page that is to be printed. */
-EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
+EMSCRIPTEN_KEEPALIVE void web_print_draw(int card, int width, int height)
 {
     Player *player = &session->player;
     player->screen.size[0] = width;
     player->screen.size[1] = height;
-    Paper *paper = player_paper(player);
+    Paper *paper = player_prepare_paper(player);
     if (paper && card < 0)
         player_paint_frame(player, paper);
     else if (paper)
@@ -225,7 +226,7 @@ EMSCRIPTEN_KEEPALIVE void web_sheet_draw(int card, int width, int height)
 }
 
 /* Hides the answer of the printed page, as before a guess. */
-EMSCRIPTEN_KEEPALIVE void web_sheet_cover(void)
+EMSCRIPTEN_KEEPALIVE void web_print_hide_answer(void)
 {
     session->player.given.asks = true;
     session->player.tour.revealed = NULL;
@@ -248,7 +249,7 @@ EMSCRIPTEN_KEEPALIVE int web_frame(void)
     while (!status && !player->screen.window && !player_ended(player) &&
            clock_now() < begin + SLICE);
     if (!status && !player_ended(player))
-        return player_wait(player);
+        return player_find_wait_time(player);
     program_end(player, status);
     player_free(player);
     plays = false;

@@ -76,15 +76,15 @@ static inline void run_until_it_pauses(void)
     if (player_is_stopped(&player))
         CHECK_OK(obey("play"));
     for (int i = 0; i < 3000 && !player_is_stopped(&player); i++) {
-        Status status = player_step(&player);
+        Status status = player_make_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }
     CHECK(player_is_stopped(&player));
 }
 
-static inline const Machine *machine(int pane)
+static inline const PaneRun *pane_run(int pane)
 {
-    return &player.past.machine[pane];
+    return &player.past.pane[pane];
 }
 
 #endif

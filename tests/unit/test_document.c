@@ -76,7 +76,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         assert_int_equal(count_lines("asks"), page->ask != NULL);
         if (page->ask)
             assert_int_equal(count_lines("look") + count_lines("try"), 0);
-        CHECK_OK(player_answer(&player, NULL));
+        CHECK_OK(player_answer_question(&player, NULL));
         write_document();
         check_lines();
         assert_int_equal(count_lines("asks"), 0);
@@ -100,7 +100,7 @@ TEST(scenes_have_numbers_and_a_picture_in_words)
 TEST(an_event_tells_the_updates_of_a_step_and_the_change_of_E)
 {
     begin("square --steps 1");
-    CHECK_OK(player_step(&player));
+    CHECK_OK(player_make_step(&player));
     write_document();
     assert_non_null(strstr(text, "\nevent\tstep 1: 3 updates, E fell by "));
     end();
@@ -113,8 +113,8 @@ TEST(a_table_is_text_after_the_guess)
     write_document();
     assert_int_equal(count_lines("cells"), 0);
     assert_non_null(strstr(text, "prints\tcovered\t"));
-    CHECK_OK(player_answer(&player, NULL));
-    CHECK_OK(player_step(&player));
+    CHECK_OK(player_answer_question(&player, NULL));
+    CHECK_OK(player_make_step(&player));
     write_document();
     assert_true(count_lines("cells") > 4); /* heads, updates, the end */
     assert_non_null(strstr(text, ": the loop ends\t"));

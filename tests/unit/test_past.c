@@ -18,7 +18,7 @@ static uint64_t hash_now(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_panes(&past); p++)
-        hash = hash_with_ledger(&past.machine[p].simulation, hash);
+        hash = hash_with_ledger(&past.pane[p].simulation, hash);
     return hash;
 }
 
@@ -27,13 +27,13 @@ static void begin_past(const char *line)
     const Command restart = {.kind = COMMAND_RESTART};
     Options options = line_options(line);
     past_create(true, true, &past);
-    CHECK_OK(past_begin(&past, &options, 1, 0, &restart));
+    CHECK_OK(past_begin_runs(&past, &options, 1, 0, &restart));
 }
 
 /* Shows this step, also a new one. */
 static uint64_t show(long step)
 {
-    past_aim(&past, step, false);
+    past_choose_step(&past, step, false);
     Status status = past_finish_work(&past);
     CHECK(!status || status_is_unconverged(status));
     CHECK(past.step == step);
@@ -132,17 +132,18 @@ TEST(a_pane_that_has_ended_comes_back)
     options[1] = line_options("square --timestep 0.008");
     for (int few = 0; few < 2; few++) {
         past_create(true, true, &past);
-        CHECK_OK(past_begin(&past, options, 2, 0, &restart));
+        CHECK_OK(past_begin_runs(&past, options, 2, 0, &restart));
         past.limit = few ? 5 * past.bytes : PAST_BYTES;
         for (long step = 0; step <= STEPS; step++) {
-            past_aim(&past, step, false);
+            past_choose_step(&past, step, false);
             CHECK((past_finish_work(&past) == STATUS_NOT_FINITE) ==
                   (step == 12));
             CHECK(!few || hash[step] == hash_now());
             hash[step] = hash_now();
         }
-        CHECK(past_end_step(&past, 0, STEPS) == 11 &&
-              past.bytes <= past.limit && past_end_step(&past, 1, STEPS) < 0);
+        CHECK(past_find_end_step(&past, 0, STEPS) == 11 &&
+              past.bytes <= past.limit &&
+              past_find_end_step(&past, 1, STEPS) < 0);
         for (int i = 0; i < 50; i++) {
             long step = random_below(&random, STEPS + 1);
             CHECK(show(step) == hash[step]);
@@ -233,7 +234,7 @@ TEST(work_is_what_energy_gains)
     };
     for (int line = 0; line < 2; line++) {
         begin_past(lines[line]);
-        const Simulation *simulation = &past.machine[0].simulation;
+        const Simulation *simulation = &past.pane[0].simulation;
         double start = simulation_energies(simulation, 0).total, high = start;
         for (int step = 0; step < 60; step++) {
             const double *x = simulation->run[0].x;
@@ -276,7 +277,7 @@ TEST(the_hand_wins)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         begin_past(rows[i].line);
-        const Simulation *simulation = &past.machine[0].simulation;
+        const Simulation *simulation = &past.pane[0].simulation;
         double *x = simulation->run[0].x + 2 * rows[i].node, last[2];
         double to[2] = {x[0] + rows[i].way[0], x[1] + rows[i].way[1]};
         double way = hypot(rows[i].way[0], rows[i].way[1]), furthest = 0;
@@ -317,7 +318,7 @@ static void jerk(Random *random, int step)
         edit(COMMAND_SET, option_find("timestep") - option_rows, h, 0);
     if (step % 25 == 0)
         edit(COMMAND_GRAB,
-             random_below(random, past.machine[0].simulation.system.nodes),
+             random_below(random, past.pane[0].simulation.system.nodes),
              random_uniform(random, -1, 1), random_uniform(random, -1, 1));
     else if (step % 25 == 20)
         edit(COMMAND_RELEASE, 0, 0, 0);
@@ -334,14 +335,14 @@ static void jerk(Random *random, int step)
  * numbers: false, and it changes nothing. */
 static bool jerked_step(bool descends)
 {
-    const Simulation *simulation = &past.machine[0].simulation;
+    const Simulation *simulation = &past.pane[0].simulation;
     const TimeIntegrator *run = &simulation->run[0];
     int size = 2 * simulation->system.nodes;
     Energies energies = simulation_energies(simulation, 0);
     double v[MAX_SIZE * 3], high = energies.total - energies.work;
     long before = past.step;
     memcpy(v, run->v, (size_t)size * sizeof *v);
-    past_aim(&past, before + 1, false);
+    past_choose_step(&past, before + 1, false);
     Status status = past_finish_work(&past);
     if (status && !status_is_unconverged(status)) {
         CHECK(!run->newton && status == STATUS_NOT_FINITE);
@@ -349,7 +350,7 @@ static bool jerked_step(bool descends)
         return false;
     }
     CHECK(past.step == before + 1);
-    const Records *records = &past.machine[0].records;
+    const Records *records = &past.pane[0].records;
     for (int i = 0; i < records->count; i++)
         CHECK(records->row[i].change <= 0);
     for (int k = 0; k < size; k++)

@@ -337,7 +337,7 @@ static void frame_of(const char *line, int step, Canvas frame[2])
     player.screen.draws = true; /* E along p is kept for the picture */
     player.time.mode = MODE_RUN;
     while (player.past.step < step) {
-        Status status = player_step(&player);
+        Status status = player_make_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }
     /* measured as where they were drawn */

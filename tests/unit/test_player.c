@@ -21,7 +21,7 @@ static double way_that_is_left(void)
     obey_all(
         (const char *const[]){"set timestep 0.01", "set tolerance 1e-9", NULL});
     for (int step = 0; step < 400; step++) {
-        CHECK_OK(player_step(&player));
+        CHECK_OK(player_make_step(&player));
         for (int i = 0; i < size; i++)
             far = fmax(far, fabs(simulation->run[0].x[i] - start[i]));
     }
@@ -35,7 +35,7 @@ static void compare_with_plain_run(const char *line)
     const TimeIntegrator *run = &player_simulation(&player)->run[0];
     simulation_from_line(line, NULL, NULL, &plain);
     for (int i = 0; i < 5; i++)
-        CHECK_OK(player_step(&player));
+        CHECK_OK(player_make_step(&player));
     for (long i = 0; i < player.past.step; i++)
         CHECK_OK(simulation_step(&plain));
     CHECK_SAME_BITS(plain.run[0].x, run->x, (int)run->size);
@@ -84,13 +84,13 @@ TEST(the_curve_goes_through_the_step)
         begin(lines[i]);
         for (int step = 0; step < 90; step++) {
             /* with all lines of the step */
-            past_aim(&player.past, step + 1, true);
+            past_choose_step(&player.past, step + 1, true);
             Status status = past_finish_work(&player.past);
             CHECK(!status || status_is_unconverged(status));
-            const StepTrace *kept = &machine(0)->trace;
+            const StepTrace *kept = &pane_run(0)->trace;
             for (int place = 0; place < kept->places; place++) {
                 Trace trace;
-                step_trace_at(kept, place, &trace);
+                step_trace_fill(kept, place, &trace);
                 int round = kept->place[place].round;
                 if (trace.line != LINE_UPDATE)
                     continue;
@@ -102,8 +102,8 @@ TEST(the_curve_goes_through_the_step)
                 const NewtonRecord *record = &kept->records.row[round];
                 double change =
                     trace.difference(trace.difference_data, record->alpha);
-                rough += kept->round[round].rough;
-                if (kept->round[round].rough &&
+                rough += kept->round[round].has_remainder;
+                if (kept->round[round].has_remainder &&
                     record->alpha < trace.first_alpha / ROUND_PARTS)
                     continue; /* between two kept values */
                 CHECK_NEAR(change, record->change,
@@ -112,8 +112,8 @@ TEST(the_curve_goes_through_the_step)
         }
         CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
         Trace whole;
-        const StepTrace *kept = &machine(0)->trace;
-        step_trace_at(kept, -1, &whole);
+        const StepTrace *kept = &pane_run(0)->trace;
+        step_trace_fill(kept, -1, &whole);
         CHECK(whole.residual > 0);
         end();
     }
@@ -148,7 +148,7 @@ TEST(a_long_step_is_made_in_slices)
     for (int i = 0; i < 4; i++) {
         Input input = {.kind = INPUT_KEY};
         strcpy(input.key, typed[i]);
-        CHECK_OK(player_input(&player, &input));
+        CHECK_OK(player_obey_input(&player, &input));
     }
     CHECK(past_works(&player.past) && player.past.step == 0 && !player.quit);
     work_off();
@@ -219,7 +219,7 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
             CHECK_OK(obey(player.time.speed < speed ? "faster" : "slower"));
         CHECK_OK(player_frame(&player)); /* the start is a frame, too */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
-        CHECK_NEAR(player_wait(&player), fmin(1e3 * every, 200), 1);
+        CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
         const long before = player.past.step;
         for (int tick = 0; tick < 3 * 240; tick++) {
             wound += 1 / 240.0;
@@ -235,7 +235,7 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
 static const History *history_now(void)
 {
     static History history;
-    past_history(&player.past, 0, &history);
+    past_fill_history(&player.past, 0, &history);
     return &history;
 }
 

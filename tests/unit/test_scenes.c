@@ -146,10 +146,12 @@ TEST(obstacles_have_room_in_what_was_torn)
     Simulation *beam = simulate("bend --segments 16");
     beam->run[0].x[0] = 0;
     beam->run[0].x[1] = 0.42;
-    CHECK_OK(simulation_check_room(beam, &beam->options, MESSAGE(message)));
+    CHECK_OK(
+        simulation_check_clearance(beam, &beam->options, MESSAGE(message)));
     beam->run[0].x[1] = -1;
-    CHECK_STATUS(simulation_check_room(beam, &beam->options, MESSAGE(message)),
-                 STATUS_INVALID_INPUT);
+    CHECK_STATUS(
+        simulation_check_clearance(beam, &beam->options, MESSAGE(message)),
+        STATUS_INVALID_INPUT);
 }
 
 /* Two bodies at rest, 0.2 m apart, have no entries for each other.  One that is

@@ -22,7 +22,7 @@ static const FrameContent *const content = &player.screen.frame.content;
 
 static Layout layout_now(void)
 {
-    const Canvas *canvas = &player_paper(&player)->canvas;
+    const Canvas *canvas = &player_prepare_paper(&player)->canvas;
     return layout_create(content, canvas->width, canvas->height);
 }
 
@@ -63,7 +63,7 @@ static uint64_t seen(const char *what)
     if (player.screen.changed)
         CHECK_STATUS(player_draw(&player), STATUS_OK);
     memcpy(player.note, note, sizeof note);
-    const Canvas *canvas = &player_paper(&player)->canvas;
+    const Canvas *canvas = &player_prepare_paper(&player)->canvas;
     return hash_box(canvas, strcmp(what, "cards") == 0
                                 ? layout_now().column
                                 : (Box){0, 0, canvas->width, canvas->height});
@@ -133,7 +133,7 @@ static void put(Input input)
 {
     input.x = mouse[0];
     input.y = mouse[1];
-    show_result(player_input(&player, &input));
+    show_result(player_obey_input(&player, &input));
 }
 
 static void press_key(const char *name)
@@ -305,7 +305,7 @@ static void begin_step(void)
 {
     Past *past = &player.past;
     show_result(player_seek(&player, past->step + 1, AFTER_NOTHING));
-    while (!past->machine[0].iterating)
+    while (!past->pane[0].iterating)
         CHECK_STATUS(past_iterate(past), STATUS_RUNNING);
 }
 
@@ -338,7 +338,7 @@ static void replay(const char *line)
     begin_script(script, paused);
     open_player = true;
     player_run(&player); /* some scenes have steps that do not converge */
-    CHECK(player_hash(&player) == hash && !player.orders.refused);
+    CHECK(player_hash(&player) == hash && !player.commands.refused);
 }
 
 static void shell(const char *line)
@@ -503,7 +503,7 @@ static void look(const char *line)
  * many there are. */
 static int find_records(const Simulation *simulation, const NewtonRecord **row)
 {
-    const Records *made = &player.past.machine[content->active].records;
+    const Records *made = &player.past.pane[content->active].records;
     bool descends = simulation->scene->step == step_descent;
     *row = descends ? simulation->descent.record : made->row;
     return descends ? simulation->descent.count : made->count;
@@ -733,7 +733,7 @@ static void check_value(const char *line)
 static void keep_value(const char *line)
 {
     for (long left = atol(line); left > 0; left--) {
-        show_result(player_step(&player));
+        show_result(player_make_step(&player));
         check_value(strchr(line, ' ') + 1);
     }
 }
@@ -760,7 +760,7 @@ static void session_line(const char *line)
         run_until_it_pauses();
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
-            show_result(player_step(&player));
+            show_result(player_make_step(&player));
     else if (strcmp(verb, "value") == 0)
         check_value(rest);
     else if (strcmp(verb, "keeps") == 0)
@@ -1015,7 +1015,7 @@ static uint64_t hash_run(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_panes(&player.past); p++)
-        hash = hash_with_ledger(&machine(p)->simulation, hash);
+        hash = hash_with_ledger(&pane_run(p)->simulation, hash);
     return hash;
 }
 

@@ -258,7 +258,7 @@ TEST(interruptions_leave_no_trace)
             make_steps(one, 2);
             make_steps(other, 2);
             left = record;
-            simulation_begin(one);
+            simulation_begin_step(one);
             stops = simulation_advance(one) == STATUS_RUNNING;
             CHECK(stops || record >= 4);
             if (!stops)

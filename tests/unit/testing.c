@@ -212,21 +212,21 @@ static Status use(Simulation *simulation, Control *control)
 
 Status simulation_set(Simulation *simulation, int slot, double value)
 {
-    Control *control = control_of(simulation);
+    Control *control = control_from_simulation(simulation);
     control->options.number[slot] = value;
     return use(simulation, control);
 }
 
 Status simulation_pin(Simulation *simulation, int node, bool pinned)
 {
-    Control *control = control_of(simulation);
+    Control *control = control_from_simulation(simulation);
     control->pinned[node] = pinned;
     return use(simulation, control);
 }
 
 Status simulation_hold(Simulation *simulation, int node, double x, double y)
 {
-    Control *control = control_of(simulation);
+    Control *control = control_from_simulation(simulation);
     control->hand = node;
     control->at[0] = x;
     control->at[1] = y;
