@@ -32,7 +32,7 @@ typedef struct LecturePage {
     const char *answer;   /* live value that is the right number; "click": the
                              end of the next step; NULL: the answer is words */
     const char *veils;    /* names of cards hidden before the answer, or NULL */
-    const char *star;     /* name of the enlarged card, or NULL */
+    const char *main_card; /* name of the enlarged card, or NULL */
     const char *law;      /* name of the curve in the card `law`, or NULL */
     const char *notes;    /* text for the lecturer */
     const char *file;     /* path of the source shown by K */

@@ -24,7 +24,7 @@ typedef struct Box {
 
 /* Rounds a coordinate to a whole pixel.  NaN and coordinates that are too large
  * for an int become the nearest number that an int can hold safely. */
-int pixel_from(double place);
+int pixel_from_coordinate(double place);
 
 /* Returns the box without a margin on each side, at least 0 pixels large. */
 Box box_inset(Box box, int margin);
@@ -98,7 +98,7 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
 
 /* Colours the pixels of a mask.
  *   mask  [height width] in, coverages 0 ... 255 */
-void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
-                    const uint8_t *mask, Colour colour);
+void canvas_fill_mask(Canvas *canvas, int x, int y, int width, int height,
+                      const uint8_t *mask, Colour colour);
 
 #endif

@@ -93,7 +93,8 @@ typedef struct History {
  * beyond HISTORY_SERIES are left out.
  *   time  s, in: later than the last point
  *   row   [rows] in, value of each quantity */
-void history_add(History *history, double time, int rows, const Energy *row);
+void history_add_point(History *history, double time, int rows,
+                       const Energy *row);
 
 /* Trace of a descent's last update. */
 typedef struct DescentTrace {
@@ -112,11 +113,11 @@ typedef struct Pane {
     const History *history;  /* energies or radii over time */
     const Trace *trace;      /* trace of the step, or NULL */
     const char *label;       /* written over the pane if there are several */
-    Status trouble;          /* failure of the shown step, or STATUS_OK */
+    Status failure;          /* failure of the shown step, or STATUS_OK */
     /* The last three are filled by frame_fill_values. */
     LiveValues values;
     DescentTrace descent;
-    const Trace *update; /* trace of the step or of the descent, or NULL */
+    const Trace *shown_trace; /* trace of the step or of the descent, or NULL */
 } Pane;
 
 /* Part of a picture that the mouse can find. */
@@ -141,19 +142,19 @@ typedef struct Pick {
 
 /* Bounds of a pane while something in it is dragged: the view stands still, so
  * that the dragged thing stays under the mouse. */
-typedef struct Held {
+typedef struct HeldBounds {
     bool on;
     bool away; /* the mouse is outside of the stage, and the view moves again */
     int pane;
     double bounds[4]; /* left, bottom, right, top, m */
-} Held;
+} HeldBounds;
 
 /* How the user looks at a frame. */
 typedef struct View {
     Lens lens;
     Pick hover; /* part of the picture under the mouse */
-    Hit over;   /* part of the window under the mouse */
-    Held held;
+    Hit mouse;  /* part of the window under the mouse */
+    HeldBounds held;
     int chosen; /* selected cell of the overview */
 } View;
 
@@ -297,14 +298,14 @@ static inline const Pane *active_pane(const FrameContent *content)
 }
 
 /* Returns the positions that a pane shows, [2n] m. */
-const double *pane_x(const Pane *pane);
+const double *pane_positions(const Pane *pane);
 
 /* Finds the bounding box of the nodes of the first runs: left, bottom, right,
  * top, m.  Nodes that are not finite are left out. */
 void pane_node_bounds(const Pane *pane, int runs, double bounds[4]);
 
 /* Counts the cells with a triangle that has turned over. */
-int pane_count_folded(const Pane *pane);
+int pane_count_folded_cells(const Pane *pane);
 
 /* ---- where things are --------------------------------------------------- */
 
@@ -316,8 +317,8 @@ Camera camera_of_pane(const FrameContent *content, const Layout *layout,
                       int pane);
 
 /* Returns the present bounds of a pane, for View.held. */
-Held frame_hold_bounds(const FrameContent *content, const Layout *layout,
-                       int pane);
+HeldBounds frame_hold_bounds(const FrameContent *content, const Layout *layout,
+                             int pane);
 
 /* Finds the part of a picture at this pixel; PICK_NONE outside of the stage. */
 Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
@@ -335,7 +336,7 @@ long frame_find_step(const FrameContent *content, const Layout *layout,
 
 /* Adds what a page of the lecture sets, if the simulation's options name one:
  * topic and cards.  Fills the list of pages or letters if it is open.  Must
- * come before frame_describe.
+ * come before frame_fill_texts.
  *   column  in, contents that the user chose; code exists only on a page
  *   left    in, page that was last open, which the list marks; or NULL */
 void frame_add_lecture(Column column, const struct LecturePage *left,
@@ -346,7 +347,7 @@ void frame_fill_values(FrameContent *content);
 
 /* Fills the values of all panes.  Fills topic, sentence, method and state where
  * they are empty, for the active pane.  Must come last before drawing. */
-void frame_describe(FrameContent *content);
+void frame_fill_texts(FrameContent *content);
 
 /* Returns the number with this name in the active pane; NaN: unknown. */
 double frame_find_number(FrameContent *content, const char *name);
@@ -358,6 +359,7 @@ bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);
 /* Samples the state for the history of the scene's picture.  Returns the number
  * of quantities.
  *   row  [HISTORY_SERIES] out */
-int picture_sample(const Simulation *simulation, Energy row[HISTORY_SERIES]);
+int picture_sample_energies(const Simulation *simulation,
+                            Energy row[HISTORY_SERIES]);
 
 #endif

@@ -100,18 +100,18 @@ extern const Lens LENS_FITS;
  */
 Camera camera_create(Box box, const double bounds[4], bool stretched,
                      const Lens *lens);
-static inline void camera_pixel(const Camera *camera, const double world[2],
-                                double pixel[2])
+static inline void camera_to_pixel(const Camera *camera, const double world[2],
+                                   double pixel[2])
 {
     pixel[0] = camera->origin[0] + camera->scale[0] * world[0];
     pixel[1] = camera->origin[1] - camera->scale[1] * world[1];
 }
-void camera_world(const Camera *camera, double x, double y, double world[2]);
+void camera_to_world(const Camera *camera, double x, double y, double world[2]);
 
 /* Zooms by a factor around pixel (x, y).  The zoom stays in 1e-3 ... 1e6. */
 void lens_zoom(Lens *lens, Box box, double x, double y, double factor);
 
 /* Pans by (dx, dy) pixels. */
-void lens_move(Lens *lens, Box box, double dx, double dy);
+void lens_pan(Lens *lens, Box box, double dx, double dy);
 
 #endif

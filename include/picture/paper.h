@@ -37,13 +37,13 @@ void paper_shorten(Paper *paper, double size, int width, char *words,
 
 /* Draws a line in the middle of a box's height.  A line wider than the box
  * shrinks to at least 0.6 of the size.  Returns the width in pixels. */
-int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
-              Align align, const char *markup);
+int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
+                       Box box, Align align, const char *markup);
 
 /* Draws a line on a translucent white ground, legible on a picture.  Returns
  * the width in pixels. */
-int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
-                double y, Align align, const char *markup);
+int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
+                         double x, double y, Align align, const char *markup);
 
 /* Returns the width of a line in pixels. */
 int paper_width(Paper *paper, Face face, double size, const char *markup);
@@ -52,7 +52,7 @@ int paper_width(Paper *paper, Face face, double size, const char *markup);
  * braces. If text is left, the last line ends with an ellipsis.  Returns the
  * height in pixels.
  *   lines  the most lines to draw; 0: only measures the whole paragraph */
-int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
-                    Box box, int lines, const char *markup);
+int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
+                          Box box, int lines, const char *markup);
 
 #endif

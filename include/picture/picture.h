@@ -67,20 +67,20 @@ typedef struct Picture {
     void (*pick)(const Plot *stage, double x, double y, Pick *pick);
     /* Draws the note about the part under the mouse; may be NULL. */
     void (*hover)(Plot *stage);
-    /* Samples a state for the history (picture_sample); may be NULL. */
+    /* Samples energies for the history; may be NULL. */
     int (*sample)(const Simulation *simulation, Energy *row);
 } Picture;
 
 /* Return the picture of a scene, or of the active pane's scene. */
-const Picture *picture_of(const struct Scene *scene);
+const Picture *picture_of_scene(const struct Scene *scene);
 
 static inline const Picture *active_picture(const FrameContent *content)
 {
-    return picture_of(active_pane(content)->simulation->scene);
+    return picture_of_scene(active_pane(content)->simulation->scene);
 }
 
 /* Finds the index of the picture's card with this name; -1: no such card. */
-int picture_card(const Picture *picture, const char *name);
+int picture_find_card(const Picture *picture, const char *name);
 
 /* Draws a whole frame: stage, cards, strip, settings, time line, chips. */
 void frame_draw(Paper *paper, const FrameContent *content);

@@ -42,7 +42,7 @@ Status text_create(Text **text);
 void text_free(Text *text);
 
 /* Returns the distance between two lines of words, pixels. */
-double text_line(double size);
+double text_line_height(double size);
 
 /* Extent of a line in pixels, above and below the baseline at least that of a
  * line of words.  The width is a whole number. */
@@ -58,9 +58,9 @@ int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
 
 /* Returns the colour with this name of `length` bytes ("warning", "p",
  * "elastic"); COLOUR_TEXT for an unknown name. */
-Colour colour_find(const char *name, size_t length);
+Colour colour_find_name(const char *name, size_t length);
 
 /* Whether this brace of a text belongs to the markup. */
-bool text_is_markup(const char *text, const char *brace);
+bool text_is_markup_brace(const char *text, const char *brace);
 
 #endif

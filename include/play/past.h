@@ -53,7 +53,7 @@ typedef struct State {
 typedef struct Sample {
     double time; /* s */
     int rows;
-    Energy row[HISTORY_SERIES]; /* [rows] energies (picture_sample) */
+    Energy row[HISTORY_SERIES]; /* [rows] energies (picture_sample_energies) */
 } Sample;
 
 /* The summary of a step, which outlives its iterations. */

@@ -100,7 +100,7 @@ typedef struct Options {
     NextAction next;                /* effect of the key N */
     int pause;                      /* step at which playing pauses; 0: none */
     const char *law;                /* law that the card "law" draws, or NULL */
-    const char *star;               /* name of the enlarged card, or NULL */
+    const char *main_card;          /* name of the enlarged card, or NULL */
     const char *pin;                /* nodes that are pinned, or NULL */
     const char *state;              /* CSV file with the start, or NULL */
     const char *state_springs;      /* CSV file with springs, or NULL */

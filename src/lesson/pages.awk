@@ -88,7 +88,7 @@ function end_page(    i)
 
 BEGIN {
     split("text run cards look try code claim notes", needed)
-    split("open cards claim ask answer tell veils star law notes section", same)
+    split("open cards claim ask answer tell veils main_card law notes section", same)
     for (i in same)
         texts[same[i]] = same[i]
     texts["run"] = "line"

@@ -28,7 +28,7 @@ void lecture_enter(const LecturePage *page, Options *options)
     options->next = page->next;
     options->pause = page->pause;
     options->law = page->law;
-    options->star = page->star;
+    options->main_card = page->main_card;
 }
 
 Status lecture_options(const LecturePage *page, Options *options,

@@ -107,7 +107,7 @@ static Box touched_pixels(Box clip, double left, double top, double right,
                  low_end + (low_end < y1) - y};
 }
 
-int pixel_from(double place)
+int pixel_from_coordinate(double place)
 {
     return place >= -FARTHEST ? (int)fmin(place, FARTHEST) : -FARTHEST;
 }
@@ -426,8 +426,8 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
     canvas_ring(canvas, x, y, 0.5 * radius, radius, colour);
 }
 
-void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
-                    const uint8_t *mask, Colour colour)
+void canvas_fill_mask(Canvas *canvas, int x, int y, int width, int height,
+                      const uint8_t *mask, Colour colour)
 {
     uint32_t full = opacity_of(colour);
     Box box = touched_pixels(canvas->clip, x, y, x + width, y + height);

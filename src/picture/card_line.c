@@ -86,7 +86,7 @@ static void draw_trial(const Plot *plot, double alpha, double value,
 void line_energy_draw(const Plot *card)
 {
     const Pane *pane = card->pane;
-    const Trace *trace = pane->update;
+    const Trace *trace = pane->shown_trace;
     LineCurves curves;
     DescentTrace other = pane->descent;
     if (!trace || !trace->difference || !isfinite(trace->slope) ||
@@ -124,7 +124,7 @@ void line_energy_draw(const Plot *card)
     plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
     double first = trace_step_length(trace, 1);
     double full = line_energy_at(trace, first);
-    bool star = card->simulation->options.star;
+    bool star = card->simulation->options.main_card;
     if (trace->trials == 0 && star && full > plot.y.high)
         draw_trial(&plot, first, full, false);
     for (int t = 0; t < trace->trials; t++) {

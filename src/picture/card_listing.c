@@ -14,7 +14,7 @@ static const double PRINT_WIDTH = 36; /* ems, width of a printed line */
 ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
 {
     const LiveValues *values = &pane->values;
-    const Trace *trace = pane->update;
+    const Trace *trace = pane->shown_trace;
     bool reached =
         trace && (trace->line == LINE_NONE || trace->line >= row->line);
     bool struck = text_has_line(values, row->struck_if);
@@ -45,11 +45,11 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
     if (now.lit)
         canvas_fill(&paper->canvas, box, COLOUR_LIT);
     snprintf(digits, sizeof digits, "%d", number);
-    paper_fit(paper, FACE_REGULAR, 0.82, COLOUR_GREY, count, ALIGN_RIGHT,
-              digits);
-    int text = paper_fit(paper, FACE_REGULAR, size,
-                         now.struck ? COLOUR_GREY : COLOUR_TEXT, room,
-                         ALIGN_LEFT, now.text.words);
+    paper_write_in_box(paper, FACE_REGULAR, 0.82, COLOUR_GREY, count,
+                       ALIGN_RIGHT, digits);
+    int text = paper_write_in_box(paper, FACE_REGULAR, size,
+                                  now.struck ? COLOUR_GREY : COLOUR_TEXT, room,
+                                  ALIGN_LEFT, now.text.words);
     if (now.struck)
         canvas_fill(&paper->canvas,
                     (Box){room.x, box.y + box.height / 2, text,
@@ -57,9 +57,9 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
                     COLOUR_GREY);
     box.width -= paper_pixels(paper, 0.6);
     if (both)
-        paper_fit(paper, FACE_REGULAR, 0.88 * size,
-                  now.lit ? COLOUR_TEXT : COLOUR_FAINT, box, ALIGN_RIGHT,
-                  now.value.words);
+        paper_write_in_box(paper, FACE_REGULAR, 0.88 * size,
+                           now.lit ? COLOUR_TEXT : COLOUR_FAINT, box,
+                           ALIGN_RIGHT, now.value.words);
 }
 
 /* Draws the known rows from this line on; draw NULL: only counts the rows. */
@@ -111,7 +111,7 @@ bool residuals_fill_row(const FrameContent *content, int row,
         4,
         COLOUR_TEXT,
         {"iteration", "residual, m/s", "step size", "divided by"}};
-    const Trace *trace = active_pane(content)->update;
+    const Trace *trace = active_pane(content)->shown_trace;
     int count = trace ? trace->updates : 0;
     *cells = heads;
     if (count == 0 || row == 0)
@@ -143,7 +143,7 @@ void prints_draw(const Plot *card)
     Plot below = *card;
     Box inside = card->box;
     CardTableRow cells;
-    const Trace *trace = card->pane->update;
+    const Trace *trace = card->pane->shown_trace;
     bool star = inside.height > 14 * paper->em;
     double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);
     bool narrow = size < 1; /* has shorter words */

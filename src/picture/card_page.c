@@ -37,15 +37,18 @@ static int put_words(Paper *paper, Box inside, int y, double size, double room,
         box.width -= width;
     }
     while (text_next_line(&line)) {
-        int lines = (int)((inside.y + inside.height - box.y) / text_line(em));
+        int lines =
+            (int)((inside.y + inside.height - box.y) / text_line_height(em));
         if (!draw || lines > 0)
-            box.y += paper_paragraph(paper, FACE_REGULAR, letters, COLOUR_TEXT,
-                                     box, draw ? lines : 0, line.words);
+            box.y +=
+                paper_write_paragraph(paper, FACE_REGULAR, letters, COLOUR_TEXT,
+                                      box, draw ? lines : 0, line.words);
     }
     if (draw && words->head && box.y > y)
         paper_write(paper, FACE_BOLD, size, words->colour, inside.x, y,
                     ALIGN_LEFT, "%s", words->head);
-    return box.y + (box.y > y ? (int)(GAP * text_line(size * paper->em)) : 0);
+    return box.y +
+           (box.y > y ? (int)(GAP * text_line_height(size * paper->em)) : 0);
 }
 
 /* Draws the texts of a page one below the other, or only measures them.
@@ -74,7 +77,7 @@ static int put_page(Paper *paper, Box inside, double size, bool brief,
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], content,
                       draw);
-    return y - (int)(GAP * text_line(size * paper->em)) - inside.y;
+    return y - (int)(GAP * text_line_height(size * paper->em)) - inside.y;
 }
 
 /* All pages have letters of one size.  Where they do not fit, first the letters

@@ -228,8 +228,8 @@ static void draw_relief_axes(const Relief *relief)
                           {.y = size},
                           {.E = size * relief->rim / (HEIGHT * RISE[0])}};
     double corner[2];
-    camera_world(&plot->camera, box->x + plot->em,
-                 box->y + box->height - 2.8 * plot->em, corner);
+    camera_to_world(&plot->camera, box->x + plot->em,
+                    box->y + box->height - 2.8 * plot->em, corner);
     for (int k = 0; k < 3; k++) {
         const Point d = project_corner(relief, &tip[k]),
                     end = point_along(corner, 1, d.at);

@@ -8,7 +8,7 @@
 /* Draws the residuals of the updates, and of the next update if p is known. */
 void residual_draw(const Plot *card)
 {
-    const Trace *trace = card->pane->update;
+    const Trace *trace = card->pane->shown_trace;
     if (!trace || (trace->updates == 0 && !(trace->residual > 0))) {
         card_write_hint(card, text_undrawn);
         return;
@@ -27,7 +27,7 @@ void residual_draw(const Plot *card)
             high = fmax(high, residual);
         }
     }
-    bool star = card->simulation->options.star; /* counts from 0 */
+    bool star = card->simulation->options.main_card; /* counts from 0 */
     double most = fmax(updates + pending, 4);
     Axis x = {0.5 - star, most + 0.5 - 0.4 * star, false, true,
               star ? "iteration" : "update"};

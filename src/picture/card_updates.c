@@ -116,7 +116,8 @@ void step_energy_draw(const Plot *card)
     int width = (int)((wide ? 0.52 : 1) * card->box.width);
     left.box = box_cut_off(&right.box, EDGE_LEFT, width);
     box_cut_off(&right.box, EDGE_LEFT, paper_pixels(card->paper, 1));
-    draw_energy_parts(&left, &card->simulation->system, trace, pane_x(pane));
+    draw_energy_parts(&left, &card->simulation->system, trace,
+                      pane_positions(pane));
     if (wide)
         draw_excess(&right, trace);
 }

@@ -23,8 +23,8 @@ Box card_inner_box(Box card, double em)
 void card_write_hint(const Plot *card, const char *text)
 {
     TextLine line = text_first_line(&card->pane->values, text);
-    paper_fit(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
-              ALIGN_CENTRE, line.words);
+    paper_write_in_box(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
+                       ALIGN_CENTRE, line.words);
 }
 
 /* Draws frame, title and cross of a card.  Returns the box inside. */
@@ -35,10 +35,11 @@ static Box draw_frame(Paper *paper, Box box, const char *words, bool closed)
     Box cross = box_cut_off(&title, EDGE_RIGHT, bar);
     box_cut_off(&title, EDGE_LEFT, paper_pixels(paper, 0.8));
     canvas_framed_box(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
-    paper_fit(paper, FACE_BOLD, 0.96, closed ? COLOUR_FAINT : COLOUR_TEXT,
-              title, ALIGN_LEFT, words);
-    paper_fit(paper, FACE_REGULAR, 1.2, COLOUR_GREY, cross, ALIGN_CENTRE,
-              closed ? "+" : "\u00d7");
+    paper_write_in_box(paper, FACE_BOLD, 0.96,
+                       closed ? COLOUR_FAINT : COLOUR_TEXT, title, ALIGN_LEFT,
+                       words);
+    paper_write_in_box(paper, FACE_REGULAR, 1.2, COLOUR_GREY, cross,
+                       ALIGN_CENTRE, closed ? "+" : "\u00d7");
     return card_inner_box(box, paper->em);
 }
 
@@ -102,9 +103,9 @@ static void draw_list(Paper *paper, Box inside, const List *list)
                       text, sizeof text);
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
                     row->key);
-        paper_fit(paper, row->head ? FACE_BOLD : FACE_REGULAR, size,
-                  row->grey ? COLOUR_GREY : COLOUR_TEXT, room, ALIGN_LEFT,
-                  text);
+        paper_write_in_box(paper, row->head ? FACE_BOLD : FACE_REGULAR, size,
+                           row->grey ? COLOUR_GREY : COLOUR_TEXT, room,
+                           ALIGN_LEFT, text);
     }
 }
 

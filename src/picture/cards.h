@@ -54,7 +54,7 @@ extern StageAddValues square_add_values, circle_add_values, scalar_add_values,
     landscape_add_values, mass_add_values, dial_add_values, spring_add_values,
     race_add_values, envelope_add_values;
 extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
-extern StageSample square_sample, mass_sample;
+extern StageSample square_sample_energies, mass_sample_energies;
 extern CardDraw page_draw, prints_draw, line_energy_draw, residual_draw,
     step_energy_draw, updates_draw, energies_draw, energy_budget_draw,
     radius_draw, relief_draw, step_matrix_draw, tangent_numbers_draw, law_draw,

@@ -62,7 +62,7 @@ static const struct {
              {"bdf2", 0xff8a7a00u},
              {"sdirk2", 0xff5a4fa2u}};
 
-Colour colour_find(const char *name, size_t length)
+Colour colour_find_name(const char *name, size_t length)
 {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strlen(names[i].name) == length &&
@@ -73,7 +73,7 @@ Colour colour_find(const char *name, size_t length)
 
 Colour colour_of_name(const char *name)
 {
-    return colour_find(name, strlen(name));
+    return colour_find_name(name, strlen(name));
 }
 
 Colour colour_of_term(int term)

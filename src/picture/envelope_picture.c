@@ -37,9 +37,10 @@ static Box envelope_box(const Plot *stage, int column, int row)
     double p[2], q[2];
     plot_to_pixel(stage, low, p);
     plot_to_pixel(stage, high, q);
-    int left = pixel_from(ceil(p[0])), top = pixel_from(ceil(q[1]));
-    return (Box){left, top, pixel_from(ceil(q[0])) - left - 1,
-                 pixel_from(ceil(p[1])) - top - 1};
+    int left = pixel_from_coordinate(ceil(p[0])),
+        top = pixel_from_coordinate(ceil(q[1]));
+    return (Box){left, top, pixel_from_coordinate(ceil(q[0])) - left - 1,
+                 pixel_from_coordinate(ceil(p[1])) - top - 1};
 }
 
 /* Draws the line h^2 k = ratio m, where elasticity is `ratio` times as stiff as

@@ -14,7 +14,7 @@ static const double HANDLE_REACH = 14;   /* pixels, a handle is hit within */
 static const double SWITCH_WIDTH = 13;   /* ems */
 static const double SWITCH_HEIGHT = 1.8; /* ems */
 
-const Picture *picture_of(const struct Scene *scene)
+const Picture *picture_of_scene(const struct Scene *scene)
 {
     return &pictures[scene->picture];
 }
@@ -22,11 +22,11 @@ const Picture *picture_of(const struct Scene *scene)
 bool frame_has_card(const FrameContent *content, const char *name)
 {
     const Picture *picture = active_picture(content);
-    int card = picture_card(picture, name);
+    int card = picture_find_card(picture, name);
     return card >= 0 && !(content->cards.hidden >> card & 1);
 }
 
-int picture_card(const Picture *picture, const char *name)
+int picture_find_card(const Picture *picture, const char *name)
 {
     for (int c = 0; c < picture->count; c++)
         if (strcmp(picture->cards[c]->name, name) == 0)
@@ -39,7 +39,7 @@ int picture_card(const Picture *picture, const char *name)
 static void find_cards(const Simulation *simulation, unsigned *hidden,
                        unsigned *closed)
 {
-    const Picture *picture = picture_of(simulation->scene);
+    const Picture *picture = picture_of_scene(simulation->scene);
     const LecturePage *page = simulation->options.page;
     for (int c = 0; c < picture->count; c++) {
         /* strstr is safe: no card's name is part of another's. */
@@ -62,7 +62,7 @@ void frame_create(const Simulation *simulation, FrameContent *content)
 
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
 {
-    const Picture *picture = picture_of(simulation->scene);
+    const Picture *picture = picture_of_scene(simulation->scene);
     unsigned hidden = 0, closed = 0;
     bool needs = false;
     find_cards(simulation, &hidden, &closed);
@@ -78,7 +78,7 @@ static Box pane_room(const FrameContent *content, const Layout *layout,
                      int pane)
 {
     const Simulation *simulation = content->pane[pane].simulation;
-    bool stretched = picture_of(simulation->scene)->stretched;
+    bool stretched = picture_of_scene(simulation->scene)->stretched;
     bool several = content->panes > 1;
     Box room = layout->pane[pane];
     int words = (int)(LEGEND_ROOM * layout->em);
@@ -97,7 +97,7 @@ static void find_own_bounds(const FrameContent *content, const Layout *layout,
     const Plot stage =
         plot_of_box(NULL, content, &content->pane[pane],
                     pane_room(content, layout, pane), layout->em);
-    const Picture *picture = picture_of(stage.simulation->scene);
+    const Picture *picture = picture_of_scene(stage.simulation->scene);
     if (picture->bounds)
         picture->bounds(&stage, bounds);
     else
@@ -109,7 +109,7 @@ static void find_own_bounds(const FrameContent *content, const Layout *layout,
 static void find_bounds(const FrameContent *content, const Layout *layout,
                         int pane, double bounds[4])
 {
-    const Held *held = &content->view->held;
+    const HeldBounds *held = &content->view->held;
     int last = content->lecture.page ? content->panes - 1 : pane;
     double own[4];
     if (held->on && !held->away && (held->pane == pane || held->pane == last)) {
@@ -133,7 +133,7 @@ Plot stage_create(Paper *paper, const FrameContent *content,
                              layout->pane[pane], layout->em);
     double bounds[4];
     stage.has_text = !content->bare;
-    bool stretched = picture_of(stage.simulation->scene)->stretched;
+    bool stretched = picture_of_scene(stage.simulation->scene)->stretched;
     Box room = pane_room(content, layout, pane);
     Switch switches[SCENE_MAX_SWITCHES];
     find_bounds(content, layout, pane, bounds);
@@ -156,10 +156,10 @@ Camera camera_of_pane(const FrameContent *content, const Layout *layout,
     return stage_create(NULL, content, layout, pane).camera;
 }
 
-Held frame_hold_bounds(const FrameContent *content, const Layout *layout,
-                       int pane)
+HeldBounds frame_hold_bounds(const FrameContent *content, const Layout *layout,
+                             int pane)
 {
-    Held held = {.on = true, .pane = pane};
+    HeldBounds held = {.on = true, .pane = pane};
     find_bounds(content, layout, pane, held.bounds);
     return held;
 }
@@ -203,8 +203,9 @@ static void draw_switches(const Plot *stage)
         canvas_framed_box(&paper->canvas, mark,
                           on ? COLOUR_VALUE : COLOUR_WHITE, COLOUR_FAINT);
         box_cut_off(&box, EDGE_LEFT, 2 * mark.width);
-        paper_fit(paper, FACE_REGULAR, 0.92, on ? COLOUR_TEXT : COLOUR_FAINT,
-                  box, ALIGN_LEFT, switches[i].label);
+        paper_write_in_box(paper, FACE_REGULAR, 0.92,
+                           on ? COLOUR_TEXT : COLOUR_FAINT, box, ALIGN_LEFT,
+                           switches[i].label);
     }
 }
 
@@ -241,10 +242,10 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
     if (hit.zone != ZONE_STAGE || hit.index >= content->panes)
         return (Pick){.kind = PICK_NONE, .nearest_node = -1};
     Plot stage = stage_create(NULL, content, layout, hit.index);
-    const Picture *picture = picture_of(stage.simulation->scene);
+    const Picture *picture = picture_of_scene(stage.simulation->scene);
     double at[SCENE_MAX_HANDLES][2];
     Switch switches[SCENE_MAX_SWITCHES];
-    camera_world(&stage.camera, x, y, pick.point);
+    camera_to_world(&stage.camera, x, y, pick.point);
     pick.kind = picture->takes_clicks ? PICK_PLACE : PICK_NONE;
     if (!picture->own_handles) {
         int count = stage.has_text
@@ -278,20 +279,22 @@ long frame_find_step(const FrameContent *content, const Layout *layout,
                       content->time_line.steps);
 }
 
-const double *pane_x(const Pane *pane)
+const double *pane_positions(const Pane *pane)
 {
     return pane->x ? pane->x : pane->simulation->run[0].x;
 }
 
-int picture_sample(const Simulation *simulation, Energy row[HISTORY_SERIES])
+int picture_sample_energies(const Simulation *simulation,
+                            Energy row[HISTORY_SERIES])
 {
-    const Picture *picture = picture_of(simulation->scene);
+    const Picture *picture = picture_of_scene(simulation->scene);
     return picture->sample ? picture->sample(simulation, row) : 0;
 }
 
 /* ---- history ------------------------------------------------------------ */
 
-void history_add(History *history, double time, int rows, const Energy *row)
+void history_add_point(History *history, double time, int rows,
+                       const Energy *row)
 {
     double sum = time;
     for (int i = 0; i < rows; i++)
@@ -354,10 +357,10 @@ static void draw_label(const Plot *stage, const char *label)
     bool high = wide > box->width - 10 * paper->em;
     double low = box->y + box->height - (high ? 4.2 : 1.7) * paper->em;
     for (int i = 0; i < lines; i++)
-        paper_panel(paper, FACE_BOLD, 1, colour_of_run(plot_pane_index(stage)),
-                    box->x + 0.5 * box->width,
-                    low - 1.36 * (lines - 1 - i) * paper->em, ALIGN_CENTRE,
-                    line[i]);
+        paper_write_on_panel(
+            paper, FACE_BOLD, 1, colour_of_run(plot_pane_index(stage)),
+            box->x + 0.5 * box->width, low - 1.36 * (lines - 1 - i) * paper->em,
+            ALIGN_CENTRE, line[i]);
 }
 
 /* Draws the picture of a pane with its words, and the note at the mouse. */
@@ -365,7 +368,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
                       const FrameContent *content, int pane)
 {
     Plot stage = stage_create(paper, content, layout, pane);
-    const Picture *picture = picture_of(stage.simulation->scene);
+    const Picture *picture = picture_of_scene(stage.simulation->scene);
     const Pick *hover = &content->view->hover;
     Box before = canvas_set_clip(&paper->canvas, stage.box);
     if (content->lecture.page && stage.box.height < MIN_TEXT * paper->em)
@@ -412,9 +415,9 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
         content.shows_strain = cell->simulation->scene->strain_colour_max > 0;
         draw_pane(paper, &layout, &content, 0);
     }
-    paper_fit(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
-              chosen ? COLOUR_VALUE : COLOUR_TEXT, name, ALIGN_CENTRE,
-              cell->name);
+    paper_write_in_box(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
+                       chosen ? COLOUR_VALUE : COLOUR_TEXT, name, ALIGN_CENTRE,
+                       cell->name);
 }
 
 /* Clears the paper and sets the size of its letters, pixels. */

@@ -100,7 +100,7 @@ void highlight_draw(Paper *paper, const FrameContent *content)
                                                [LINE_SOLVE] = COLOUR_P,
                                                [LINE_SEARCH] = COLOUR_ALPHA};
     const Trace *trace = active_pane(content)->trace;
-    const Hit *mouse = &content->view->over;
+    const Hit *mouse = &content->view->mouse;
     bool stage = mouse->zone == ZONE_STAGE;
     Colour colour = 0;
     if (!content->lecture.page)

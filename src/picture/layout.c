@@ -192,10 +192,10 @@ typedef struct CardRow {
 static bool card_is_below(const FrameContent *content, int card)
 {
     const Picture *picture = active_picture(content);
-    const char *star = active_pane(content)->simulation->options.star;
+    const char *star = active_pane(content)->simulation->options.main_card;
     return star && picture->cards[card]->below_picture &&
            !((content->cards.hidden | content->cards.closed) >> card & 1) &&
-           card == picture_card(picture, star);
+           card == picture_find_card(picture, star);
 }
 
 /* Finds the rows of all visible cards.  If `pairs`, two cards of half width
@@ -352,8 +352,8 @@ static void place_below(Layout *layout, int card, double high)
 static void place_star(const FrameContent *content, Layout *layout)
 {
     const Picture *picture = active_picture(content);
-    const char *name = active_pane(content)->simulation->options.star;
-    int star = name ? picture_card(picture, name) : -1;
+    const char *name = active_pane(content)->simulation->options.main_card;
+    int star = name ? picture_find_card(picture, name) : -1;
     double bar = 3 * layout->em; /* more than a card that is closed has */
     if (star < 0 || star >= layout->cards || layout->panes != 1 ||
         layout->stage.height < 2 * bar || content->cards.closed >> star & 1 ||
@@ -392,8 +392,8 @@ static void place_folded(const FrameContent *content, Layout *layout)
             (layout->card[folded].height != bar && !layout->has_list)))
         folded++;
     bool big = options->big;
-    if (!content->lecture.page || options->star || content->cards.large >= 0 ||
-        folded >= layout->cards ||
+    if (!content->lecture.page || options->main_card ||
+        content->cards.large >= 0 || folded >= layout->cards ||
         (!big && ((options->law && !layout->has_list) || layout->panes != 1 ||
                   simulation->scene->switch_labels[layout->has_list])))
         return;
@@ -411,7 +411,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
     const Simulation *simulation = active_pane(content)->simulation;
-    const Picture *picture = picture_of(simulation->scene);
+    const Picture *picture = picture_of_scene(simulation->scene);
     double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
     double least = content->min_em > 0 ? content->min_em : MIN_EM;
     bool page = content->column != COLUMN_CARDS, big = simulation->options.big;
@@ -521,7 +521,7 @@ Camera camera_create(Box box, const double bounds[4], bool stretched,
     return camera;
 }
 
-void camera_world(const Camera *camera, double x, double y, double world[2])
+void camera_to_world(const Camera *camera, double x, double y, double world[2])
 {
     world[0] = (x - camera->origin[0]) / camera->scale[0];
     world[1] = (camera->origin[1] - y) / camera->scale[1];
@@ -533,11 +533,11 @@ void lens_zoom(Lens *lens, Box box, double x, double y, double factor)
     double zoom = lens->zoom > 0 ? lens->zoom : 1;
     lens->zoom = fmin(fmax(zoom * factor, ZOOM_LEAST), ZOOM_MOST);
     double growth = lens->zoom / zoom - 1;
-    lens_move(lens, box, -growth * (x - box.x - 0.5 * box.width),
-              -growth * (y - box.y - 0.5 * box.height));
+    lens_pan(lens, box, -growth * (x - box.x - 0.5 * box.width),
+             -growth * (y - box.y - 0.5 * box.height));
 }
 
-void lens_move(Lens *lens, Box box, double dx, double dy)
+void lens_pan(Lens *lens, Box box, double dx, double dy)
 {
     double zoom = lens->zoom > 0 ? lens->zoom : 1;
     lens->pan[0] += dx / (zoom * fmax(box.width, 1));

@@ -54,7 +54,7 @@ void frame_add_lecture(Column column, const LecturePage *left,
 {
     const Simulation *simulation = active_pane(content)->simulation;
     const LecturePage *page = simulation->options.page;
-    const Picture *picture = picture_of(simulation->scene);
+    const Picture *picture = picture_of_scene(simulation->scene);
     if (column == COLUMN_PAGES)
         list_pages(page ? page : left, content);
     if (column == COLUMN_LETTERS)

@@ -244,25 +244,25 @@ void frame_fill_values(FrameContent *content)
         Pane *now = &content->pane[i];
         LiveValues *values = &now->values;
         const Simulation *simulation = now->simulation;
-        const Picture *picture = picture_of(simulation->scene);
+        const Picture *picture = picture_of_scene(simulation->scene);
         Line line = now->trace ? now->trace->line : LINE_NONE;
-        now->update = now->trace;
+        now->shown_trace = now->trace;
         if (!now->trace && simulation->scene->step == step_descent)
-            now->update = trace_descent(simulation, &now->descent);
+            now->shown_trace = trace_descent(simulation, &now->descent);
         values->count = values->run = 0;
         for (int run = 0; run <= VALUES_RUNS; run++)
             values->colour[run] = COLOUR_TEXT;
         add_window_values(content, values);
         add_settings(simulation, values);
-        if ((!line || now->trace->given_up) && now->trouble &&
-            now->trouble != STATUS_INTERRUPTED) {
-            values_add_words(values, status_name(now->trouble), "");
-            values_add_words(values, "trouble", status_text(now->trouble));
+        if ((!line || now->trace->given_up) && now->failure &&
+            now->failure != STATUS_INTERRUPTED) {
+            values_add_words(values, status_name(now->failure), "");
+            values_add_words(values, "trouble", status_text(now->failure));
         }
         values_add_flag(values, lines[line], walks && line);
-        values_add_flag(values, "no step", !now->update);
-        if (now->update)
-            add_trace(simulation, now->update, values);
+        values_add_flag(values, "no step", !now->shown_trace);
+        if (now->shown_trace)
+            add_trace(simulation, now->shown_trace, values);
         if (picture->add_values && (i == content->active || picture->legend))
             picture->add_values(simulation, values);
     }
@@ -333,12 +333,12 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
         int run = strncmp(from, "#run ", 5) == 0 ? line->run : from[1] - '0';
         line->colour = run >= 0 && run <= VALUES_RUNS
                            ? values->colour[run]
-                           : colour_find(from + 1, name - 1);
+                           : colour_find_name(from + 1, name - 1);
         line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
         from += name + 1 + (from[name] == '*');
     }
     while (from < end && used + 1 < sizeof line->words) {
-        if (*from != '{' || text_is_markup(text, from)) {
+        if (*from != '{' || text_is_markup_brace(text, from)) {
             line->words[used++] = *from++;
             continue;
         }
@@ -406,8 +406,8 @@ static int draw_text_line(Paper *paper, Box box, double size,
                           const TextLine *line, bool draw)
 {
     const double air = 0.2, empty = 0.6; /* ems */
-    int high = paper_paragraph(paper, line->face, size, line->colour, box,
-                               draw ? INT_MAX : 0, line->words);
+    int high = paper_write_paragraph(paper, line->face, size, line->colour, box,
+                                     draw ? INT_MAX : 0, line->words);
     return high + paper_pixels(paper, size * (high > 0 ? air : empty));
 }
 
@@ -440,8 +440,9 @@ int card_flow_words(const Plot *card, int at[2], double size, double gap,
         at[0] = 0;
         at[1] += paper_pixels(paper, 1.35 * size);
     }
-    paper_panel(paper, line->face, size, line->colour, card->box.x + at[0],
-                card->box.y + at[1], ALIGN_LEFT, line->words);
+    paper_write_on_panel(paper, line->face, size, line->colour,
+                         card->box.x + at[0], card->box.y + at[1], ALIGN_LEFT,
+                         line->words);
     at[0] += width + paper_pixels(paper, gap);
     return at[1] + paper_pixels(paper, 1.5 * size);
 }
@@ -458,7 +459,7 @@ static void fill_text(const LiveValues *values, const char *text, char *string,
                  text_first_line(values, text).words);
 }
 
-void frame_describe(FrameContent *content)
+void frame_fill_texts(FrameContent *content)
 {
     const Scene *scene = active_pane(content)->simulation->scene;
     const LiveValues *values = &active_pane(content)->values;

@@ -61,7 +61,7 @@ static double mass_energy(const double *x, const double *v)
 
 /* Samples for each run its radius (circle) or its energy, and then its
  * position. */
-int mass_sample(const Simulation *simulation, Energy *row)
+int mass_sample_energies(const Simulation *simulation, Energy *row)
 {
     static const char *const places[] = {"x0", "y0", "x1", "y1", "x2", "y2"};
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;

@@ -58,8 +58,8 @@ int paper_width(Paper *paper, Face face, double size, const char *markup)
     return (int)text_extent(paper->text, &style, markup).width;
 }
 
-int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
-              Align align, const char *markup)
+int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
+                       Box box, Align align, const char *markup)
 {
     int air = paper_pixels(paper, 0.35); /* room for superscripts */
     Box room = {box.x, box.y - air, box.width, box.height + 2 * air};
@@ -79,14 +79,14 @@ int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
     return width;
 }
 
-int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
-                double y, Align align, const char *markup)
+int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
+                         double x, double y, Align align, const char *markup)
 {
     int wide = paper_width(paper, face, size, markup);
-    int left = pixel_from(x) - (int)align * wide / 2;
+    int left = pixel_from_coordinate(x) - (int)align * wide / 2;
     int air = paper_pixels(paper, 0.3);
     canvas_fill(&paper->canvas,
-                (Box){left - air, pixel_from(y), wide + 2 * air,
+                (Box){left - air, pixel_from_coordinate(y), wide + 2 * air,
                       paper_pixels(paper, 1.36 * size)},
                 COLOUR_PANEL);
     return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
@@ -129,8 +129,8 @@ void paper_shorten(Paper *paper, double size, int width, char *words,
         snprintf(words + fits, room - fits, "%s", end);
 }
 
-int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
-                    Box box, int lines, const char *markup)
+int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
+                          Box box, int lines, const char *markup)
 {
     char part[PAPER_TEXT];
     TextStyle style = paper_style(paper, face, size, colour);

@@ -47,7 +47,7 @@ void plot_to_pixel(const Plot *plot, const double *at, double pixel[2])
 {
     const double on[2] = {axis_coordinate(&plot->x, at[0]),
                           axis_coordinate(&plot->y, at[1])};
-    camera_pixel(&plot->camera, on, pixel);
+    camera_to_pixel(&plot->camera, on, pixel);
 }
 
 /* Sets the camera so that the box shows axis k from low to high. */
@@ -196,8 +196,8 @@ Plot plot_on_stage(const Plot *stage, Axis x, Axis y)
     for (int pass = 0; pass < 2; pass++) {
         if (stage->has_text && pass > 0)
             plot.box = box_inside_axes(stage, &plot.y, 2.2, 1.7);
-        camera_world(&stage->camera, box->x, box->y + box->height, low);
-        camera_world(&stage->camera, box->x + box->width, box->y, high);
+        camera_to_world(&stage->camera, box->x, box->y + box->height, low);
+        camera_to_world(&stage->camera, box->x + box->width, box->y, high);
         if (y.high == 0)
             axis_set_range(&plot.y, low[1], high[1]);
     }

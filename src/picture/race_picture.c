@@ -58,8 +58,9 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
         row = fmin(fmax(at[next][1], row + line), last);
         canvas_line(&paper->canvas, at[next][0], at[next][1],
                     x - way * 0.3 * paper->em, row, 1, colour);
-        paper_panel(paper, FACE_BOLD, 1, colour, x, row - 0.65 * paper->em,
-                    on_left ? ALIGN_RIGHT : ALIGN_LEFT, method->label);
+        paper_write_on_panel(paper, FACE_BOLD, 1, colour, x,
+                             row - 0.65 * paper->em,
+                             on_left ? ALIGN_RIGHT : ALIGN_LEFT, method->label);
         at[next][1] = NAN;
     }
 }

@@ -93,7 +93,7 @@ void square_contact_slope(const SquarePen *pen)
     if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
         !(fabs(slope) > 1e-6))
         return;
-    camera_world(&stage->camera, stage->box.x - em, stage->box.y, from);
+    camera_to_world(&stage->camera, stage->box.x - em, stage->box.y, from);
     double left = from[0];
     for (int i = 0; i < pen->system->nodes; i++)
         from[0] = fmax(from[0], pen->x[2 * (size_t)i]);
@@ -124,8 +124,8 @@ static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
     double scale = stage->camera.scale[0], middle[2];
     double far = 2 * (box->width + box->height) / scale;
     double deep = as_slab ? SLAB * stage->em / scale : far;
-    camera_world(&stage->camera, box->x + 0.5 * box->width,
-                 box->y + 0.5 * box->height, middle);
+    camera_to_world(&stage->camera, box->x + 0.5 * box->width,
+                    box->y + 0.5 * box->height, middle);
     const double *o = wall->o;
     double at = (middle[0] - o[0]) * n[1] - (middle[1] - o[1]) * n[0];
     const Point left = point_along(o, at - far, t),

@@ -23,7 +23,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(system);
-    const double *at = pane_x(stage->pane);
+    const double *at = pane_positions(stage->pane);
     double spacing = stage->camera.scale[0] * mesh->spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
     int springs = neo_hookean_of(system) ? 0 : system->springs;
@@ -84,8 +84,8 @@ static void draw_note(const Plot *stage, const LiveValues *values,
     int margin = paper_pixels(paper, 0.7);
     for (TextLine line = text_begin(values, text); text_next_line(&line);) {
         wide = fmax(wide, paper_width(paper, line.face, size, line.words));
-        high += paper_paragraph(paper, line.face, size, line.colour, *box, 0,
-                                line.words) +
+        high += paper_write_paragraph(paper, line.face, size, line.colour, *box,
+                                      0, line.words) +
                 paper_pixels(paper, 0.2 * size);
     }
     plot_to_pixel(stage, stage->content->view->hover.point, mouse);
@@ -104,12 +104,13 @@ static void note_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;
     const System *system = &simulation->system;
-    const double *x = pane_x(pane) + 2 * (size_t)node;
+    const double *x = pane_positions(pane) + 2 * (size_t)node;
     const double *v = simulation->run[0].v + 2 * (size_t)node;
     const double *ghost = pane->trace ? pane->trace->x_tilde : NULL;
     double h = simulation->options.timestep, force[2], tilde[2];
     double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
-    EvalPoint at = eval_point_at(system, pane_x(pane), NULL, pane_x(pane));
+    EvalPoint at =
+        eval_point_at(system, pane_positions(pane), NULL, pane_positions(pane));
     LiveValues values = {0};
     at.weight = -1;
     for (int t = 0; f && t < system->terms; t++) {
@@ -147,7 +148,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     bool has_block = !neo_hookean_of(system);
     double k = has_block ? system->k[s] : NAN;
     double l2 = system->l2[s], d[2];
-    double d2 = spring_vector(e, pane_x(pane), d);
+    double d2 = spring_vector(e, pane_positions(pane), d);
     const FlowLaw law = plasticity_get_law(system, s);
     double s_e = spring_eigenvalue_across(d2, l2) / l2 - law.ep;
     double across = l2 * flow_law_slope(law, s_e);

@@ -47,17 +47,17 @@ SquarePen square_pen_create(Plot *stage, int run)
     const System *system = simulation->run[run].system;
     const Plasticity *plasticity = system_term_data(system, &plastic_energy);
     const SquareMesh *mesh = &simulation->mesh;
-    SquarePen pen = {.stage = stage,
-                     .simulation = simulation,
-                     .system = system,
-                     .x = run ? simulation->run[run].x : pane_x(stage->pane),
-                     .v = simulation->run[run].v,
-                     .spacing = stage->camera.scale[0] * mesh->spacing,
-                     .shade_strain = strain_range(simulation, NULL),
-                     .ep = plasticity ? plasticity->ep : NULL,
-                     .contact = contact_of(system),
-                     .fixed_bodies =
-                         mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
+    SquarePen pen = {
+        .stage = stage,
+        .simulation = simulation,
+        .system = system,
+        .x = run ? simulation->run[run].x : pane_positions(stage->pane),
+        .v = simulation->run[run].v,
+        .spacing = stage->camera.scale[0] * mesh->spacing,
+        .shade_strain = strain_range(simulation, NULL),
+        .ep = plasticity ? plasticity->ep : NULL,
+        .contact = contact_of(system),
+        .fixed_bodies = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
     double unit = stage->paper->unit;
     double seen =
         content->view->lens.zoom * stage->box.width / stage->camera.scale[0];
@@ -113,8 +113,8 @@ void square_spring(const SquarePen *pen, int s, double width, Colour colour)
     double p[2], q[2], unit = pen->stage->paper->unit;
     if (spring_is_broken(pen->system, s) || node_is_fixed(pen, e[0]))
         return;
-    camera_pixel(&pen->stage->camera, position_of_node(pen, e[0]), p);
-    camera_pixel(&pen->stage->camera, position_of_node(pen, e[1]), q);
+    camera_to_pixel(&pen->stage->camera, position_of_node(pen, e[0]), p);
+    camera_to_pixel(&pen->stage->camera, position_of_node(pen, e[1]), q);
     canvas_line(&pen->stage->paper->canvas, p[0], p[1], q[0], q[1],
                 width * unit, colour);
 }
@@ -162,12 +162,12 @@ static bool cell_is_whole(const Simulation *simulation, int cell, int node[4])
     return broken == 0;
 }
 
-int pane_count_folded(const Pane *pane)
+int pane_count_folded_cells(const Pane *pane)
 {
     int folded = 0, node[4];
     for (int c = 0; c < pane->simulation->mesh.cells; c++)
         folded += cell_is_whole(pane->simulation, c, node) &&
-                  face_is_folded(pane_x(pane), node);
+                  face_is_folded(pane_positions(pane), node);
     return folded;
 }
 

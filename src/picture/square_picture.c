@@ -137,7 +137,7 @@ void pane_node_bounds(const Pane *pane, int runs, double bounds[4])
     bounds[0] = bounds[1] = INFINITY;
     bounds[2] = bounds[3] = -INFINITY;
     for (int r = 0; r < runs; r++) {
-        const double *x = r > 0 ? simulation->run[r].x : pane_x(pane);
+        const double *x = r > 0 ? simulation->run[r].x : pane_positions(pane);
         for (int i = 0; i < simulation->run[r].system->nodes; i++, x += 2)
             for (int k = 0; k < 2 && isfinite(x[0] + x[1]); k++) {
                 bounds[k] = fmin(bounds[k], x[k]);
@@ -197,7 +197,7 @@ void square_bounds(const Plot *stage, double bounds[4])
     double box[4], tall, grown = 1;
     pane_node_bounds(stage->pane, simulation->runs, box);
     if (moves_freely(simulation))
-        follow_body(simulation, pane_x(stage->pane), &view);
+        follow_body(simulation, pane_positions(stage->pane), &view);
     while (grown < find_needed_growth(box, &view, &tall) * (1 - 1e-12) &&
            grown < MAX_VIEW) {
         Extent larger = view;
@@ -366,8 +366,8 @@ static void draw_origin(const SquarePen *pen)
     low = fmin(low + 2.5 * em, box->y + box->height - 1.5 * em);
     canvas_arrow(&stage->paper->canvas, origin[0], low, origin[0], origin[1],
                  2 * stage->paper->unit, 9 * stage->paper->unit, COLOUR_TEXT);
-    paper_panel(stage->paper, FACE_BOLD, 1.1, COLOUR_TEXT, origin[0], low,
-                ALIGN_CENTRE, "the square was here");
+    paper_write_on_panel(stage->paper, FACE_BOLD, 1.1, COLOUR_TEXT, origin[0],
+                         low, ALIGN_CENTRE, "the square was here");
 }
 
 /* Adds the meaning of the colours to the legend. */
@@ -400,8 +400,8 @@ static void draw_numbers(const SquarePen *pen)
         at[0] += (right ? -2.6 : 0.7) * em;
         at[1] += (low ? -2.1 : 0.4) * em;
         if (box_contains(pen->stage->box, at[0], at[1]))
-            paper_panel(pen->stage->paper, FACE_BOLD, 1.3, COLOUR_TEXT, at[0],
-                        at[1], ALIGN_LEFT, number);
+            paper_write_on_panel(pen->stage->paper, FACE_BOLD, 1.3, COLOUR_TEXT,
+                                 at[0], at[1], ALIGN_LEFT, number);
     }
 }
 
@@ -515,8 +515,9 @@ static void draw_magnifier(const SquarePen *pen)
     plot_line(&lens, gap.foot, gap.node, 3, COLOUR_P);
     snprintf(words, sizeof words, "\u03b4 = %s mm",
              format_number(1e3 * gap.d).text);
-    paper_panel(lens.paper, FACE_BOLD, 1, COLOUR_P, lens.box.x + 0.6 * lens.em,
-                lens.box.y + 0.4 * lens.em, ALIGN_LEFT, words);
+    paper_write_on_panel(lens.paper, FACE_BOLD, 1, COLOUR_P,
+                         lens.box.x + 0.6 * lens.em, lens.box.y + 0.4 * lens.em,
+                         ALIGN_LEFT, words);
     canvas_set_clip(canvas, before);
 }
 
@@ -695,7 +696,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
 }
 
 /* Samples all energies of the first run, J. */
-int square_sample(const Simulation *simulation, Energy *row)
+int square_sample_energies(const Simulation *simulation, Energy *row)
 {
     Energies energies = simulation_energies(simulation, 0);
     int rows = energies.rows < HISTORY_SERIES ? energies.rows : HISTORY_SERIES;

@@ -92,8 +92,8 @@ static void set_letter(Pen *pen, uint32_t letter)
         y = y + glyph->height > low ? low - glyph->height : y;
     }
     if (pen->canvas && glyph->mask)
-        canvas_stencil(pen->canvas, x, y, glyph->width, glyph->height,
-                       glyph->mask, pen->style.colour);
+        canvas_fill_mask(pen->canvas, x, y, glyph->width, glyph->height,
+                         glyph->mask, pen->style.colour);
     if (mark)
         return;
     pen->mark_left = x;
@@ -254,7 +254,7 @@ static void set_coloured(Pen *pen, MarkupPart part, int depth)
     while (part.from[-2 - (ptrdiff_t)length] != '#')
         length++;
     if (before != COLOUR_GREY)
-        pen->style.colour = colour_find(part.from - 1 - length, length);
+        pen->style.colour = colour_find_name(part.from - 1 - length, length);
     set_part(pen, part, depth);
     pen->style.colour = before;
 }
@@ -294,7 +294,7 @@ static int find_command(const char *string, const char **brace)
     return COMMANDS;
 }
 
-bool text_is_markup(const char *text, const char *brace)
+bool text_is_markup_brace(const char *text, const char *brace)
 {
     const char *found = NULL;
     for (const char *at = brace + 1; at > text && brace - at < 16; at--)
@@ -325,7 +325,7 @@ static void set_part(Pen *pen, MarkupPart part, int depth)
 
 /* ---- lines -------------------------------------------------------------- */
 
-double text_line(double size)
+double text_line_height(double size)
 {
     return (ASCENT + DESCENT) * size;
 }

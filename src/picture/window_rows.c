@@ -48,8 +48,8 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
              strip->state);
     if (paper_width(paper, FACE_REGULAR, 1, words) > 0.45 * room.width)
         snprintf(words, sizeof words, "%s", strip->state);
-    room.width -= paper_fit(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
-                            ALIGN_RIGHT, words);
+    room.width -= paper_write_in_box(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
+                                     ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
     double wide = paper_width(paper, FACE_REGULAR, 1, said);
     bool beside =
@@ -58,14 +58,14 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
             room.width;
     if (strip->topic && beside)
         box_cut_off(&room, EDGE_LEFT,
-                    (int)(1.1 * em) + paper_fit(paper, FACE_BOLD, TOPIC,
-                                                COLOUR_TEXT, room, ALIGN_LEFT,
-                                                topic));
+                    (int)(1.1 * em) +
+                        paper_write_in_box(paper, FACE_BOLD, TOPIC, COLOUR_TEXT,
+                                           room, ALIGN_LEFT, topic));
     bool two = !low && wide > room.width;
     room.y += (int)(0.5 * room.height - (two ? 1.27 : 0.65) * em);
     if (room.width > 6 * em)
-        paper_paragraph(paper, FACE_REGULAR, two ? 0.9 : 1, colour, room,
-                        two ? 2 : 1, said);
+        paper_write_paragraph(paper, FACE_REGULAR, two ? 0.9 : 1, colour, room,
+                              two ? 2 : 1, said);
 }
 
 /* ---- settings ------------------------------------------------------------ */
@@ -90,12 +90,13 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
         snprintf(value, sizeof value, "%s%s", format_digits(number, 6).text,
                  rest);
     box_cut_off(&box, EDGE_LEFT, (int)(0.4 * em));
-    int width = paper_fit(paper, FACE_REGULAR, VALUE, COLOUR_FAINT, box,
-                          ALIGN_LEFT, setting->name);
+    int width = paper_write_in_box(paper, FACE_REGULAR, VALUE, COLOUR_FAINT,
+                                   box, ALIGN_LEFT, setting->name);
     box_cut_off(&box, EDGE_LEFT, (int)(0.5 * em + width));
     box.width += (int)(0.8 * em); /* the value may reach into the gap */
-    width = paper_fit(paper, setting->changed ? FACE_BOLD : FACE_REGULAR, VALUE,
-                      colour, box, ALIGN_LEFT, value);
+    width =
+        paper_write_in_box(paper, setting->changed ? FACE_BOLD : FACE_REGULAR,
+                           VALUE, colour, box, ALIGN_LEFT, value);
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
                   (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
                   paper->unit, NULL, colour);
@@ -172,7 +173,7 @@ static void draw_chips(Paper *paper, const Layout *layout,
                        const FrameContent *content)
 {
     const double gap = 0.5 * paper->em, size = 0.92;
-    const Hit *mouse = &content->view->over;
+    const Hit *mouse = &content->view->mouse;
     draw_zone(paper, layout->chip_row, false);
     for (int i = 0; i < layout->chips; i++) {
         const Chip *chip = &content->chips.item[i];
@@ -189,18 +190,18 @@ static void draw_chips(Paper *paper, const Layout *layout,
                           over ? COLOUR_GREY : COLOUR_BORDER);
         box_cut_off(&box, EDGE_LEFT,
                     (int)fmax(0, 0.5 * (box.width - gap - width)));
-        paper_fit(paper, FACE_BOLD, size, COLOUR_TEXT, box, ALIGN_LEFT,
-                  chip->key);
+        paper_write_in_box(paper, FACE_BOLD, size, COLOUR_TEXT, box, ALIGN_LEFT,
+                           chip->key);
         box_cut_off(&box, EDGE_LEFT, (int)(key + gap));
-        paper_fit(paper, FACE_REGULAR, size, COLOUR_TEXT, box, ALIGN_LEFT,
-                  label);
+        paper_write_in_box(paper, FACE_REGULAR, size, COLOUR_TEXT, box,
+                           ALIGN_LEFT, label);
     }
 }
 
 void window_rows_draw(Paper *paper, const Layout *layout,
                       const FrameContent *content)
 {
-    const Hit *mouse = &content->view->over;
+    const Hit *mouse = &content->view->mouse;
     draw_strip(paper, layout->strip, &content->strip);
     draw_zone(paper, layout->settings_row, false);
     for (int i = 0; i < layout->settings; i++)

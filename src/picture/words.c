@@ -70,8 +70,9 @@ void plot_scale(const Plot *plot)
     if (!(length > 4) || !isfinite(length) || length > 0.6 * plot->box.width)
         return;
     snprintf(words, sizeof words, "%s m", format_number(metres).text);
-    paper_panel(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, line.x + 0.5 * length,
-                line.y - 1.4 * paper->em, ALIGN_CENTRE, words);
+    paper_write_on_panel(paper, FACE_REGULAR, 0.85, COLOUR_FAINT,
+                         line.x + 0.5 * length, line.y - 1.4 * paper->em,
+                         ALIGN_CENTRE, words);
     canvas_fill(&paper->canvas, line, COLOUR_GREY);
 }
 

@@ -68,7 +68,7 @@ static void fill_help(FrameContent *content)
 static void fill_settings(const Player *player, Frame *frame)
 {
     FrameContent *content = &frame->content;
-    const Hit *mouse = &player->screen.view.over;
+    const Hit *mouse = &player->screen.view.mouse;
     const Options shown = player_shown_options(player), *options = &shown;
     const OptionRow *all[OPTIONS_MAX_ROWS];
     content->settings.selected = -1;
@@ -234,7 +234,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
                    .history = &frame->history[p],
                    .ghost = view->ghost,
                    .ghost_label = view->ghost_label,
-                   .trouble = pane_run->outcome.status};
+                   .failure = pane_run->outcome.status};
     if (past_panes(&player->past) > 1)
         pane->label = frame->label[p];
     if (pane_run->known && simulation_has_updates(simulation)) {
@@ -348,7 +348,7 @@ static void fill_frame(const Player *player, Frame *frame)
     content->cards.closed ^= player->screen.toggled_cards;
     if (player->screen.sheet)
         sheet_fill(player, content);
-    frame_describe(content);
+    frame_fill_texts(content);
 }
 
 /* Finds what is now under the mouse, if a body was there that may have moved.
@@ -363,7 +363,7 @@ static void update_hover(Player *player)
     bool body = kind == PICK_NODE || kind == PICK_SPRING ||
                 kind == PICK_OBSTACLE || kind == PICK_EDGE;
     if (!body || !canvas->pixels || !mouse->has_position || mouse->drag ||
-        view->over.zone != ZONE_STAGE)
+        view->mouse.zone != ZONE_STAGE)
         return;
     Layout layout = layout_create(content, canvas->width, canvas->height);
     view->hover = frame_pick(content, &layout, mouse->x, mouse->y);

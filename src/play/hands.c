@@ -32,7 +32,7 @@ static MouseTarget find_mouse_target(Player *player)
     const Mouse *mouse = &player->hands.mouse;
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
-    Held *held = &player->screen.view.held;
+    HeldBounds *held = &player->screen.view.held;
     MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),
@@ -45,7 +45,7 @@ static MouseTarget find_mouse_target(Player *player)
         target.pane = pane;
     held->away = false;
     Camera camera = camera_of_pane(content, &target.layout, target.pane);
-    camera_world(&camera, mouse->x, mouse->y, target.at);
+    camera_to_world(&camera, mouse->x, mouse->y, target.at);
     target.pick = frame_pick(content, &target.layout, mouse->x, mouse->y);
     held->away = target.hit.zone != ZONE_STAGE;
     return target;
@@ -323,8 +323,8 @@ static Status go_on_dragging(Player *player)
                     frame_find_step(&player->screen.frame.content,
                                     &target.layout, mouse->x));
     case COMMAND_PAN:
-        lens_move(&player->screen.view.lens, target.layout.pane[target.pane],
-                  dx, dy);
+        lens_pan(&player->screen.view.lens, target.layout.pane[target.pane], dx,
+                 dy);
         player->screen.changed = true;
         mouse->from[0] = mouse->x;
         mouse->from[1] = mouse->y;
@@ -343,15 +343,16 @@ static Status note_hover(Player *player)
     View *view = &player->screen.view;
     MouseTarget target = find_mouse_target(player);
     Pick pick = target.pick;
-    bool same =
-        target.hit.zone == view->over.zone &&
-        target.hit.index == view->over.index && pick.kind == view->hover.kind &&
-        pick.index == view->hover.index && pick.pane == view->hover.pane;
+    bool same = target.hit.zone == view->mouse.zone &&
+                target.hit.index == view->mouse.index &&
+                pick.kind == view->hover.kind &&
+                pick.index == view->hover.index &&
+                pick.pane == view->hover.pane;
     bool idle =
         pick.kind == PICK_NONE && !player->screen.frame.content.lecture.page;
     if (target.hit.zone == ZONE_CELL)
         view->chosen = target.hit.index;
-    view->over = target.hit;
+    view->mouse = target.hit;
     view->hover = pick;
     player->explains = player->explains || !same;
     if (!same || !idle)
@@ -561,7 +562,7 @@ Status player_obey_input(Player *player, const Input *input)
         return obey(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:
         player->screen.view.hover = (Pick){.kind = PICK_NONE};
-        player->screen.view.over = (Hit){.zone = ZONE_NONE};
+        player->screen.view.mouse = (Hit){.zone = ZONE_NONE};
         player->screen.changed = true;
         return STATUS_OK;
     case INPUT_REDRAW:

@@ -42,7 +42,7 @@ static long count_targets(const Player *player, int pane, CommandKind kind)
         return past_panes(&player->past);
     case COMMAND_CARD:
     case COMMAND_ENLARGE:
-        return picture_of(scene)->count;
+        return picture_of_scene(scene)->count;
     case COMMAND_CELL:
         return cells ? (long)ENVELOPE_ROWS * ENVELOPE_COLUMNS : 0;
     default:

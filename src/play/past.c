@@ -218,7 +218,7 @@ void past_fill_history(const Past *past, int pane, History *history)
         const Sample *sample =
             find_entry(past, pane, step < last ? step : last)->sample;
         if (sample)
-            history_add(history, sample->time, sample->rows, sample->row);
+            history_add_point(history, sample->time, sample->rows, sample->row);
     }
 }
 
@@ -410,7 +410,7 @@ static Status pane_run_set_step(Past *past, int pane, long step)
     if (entry->sample) {
         entry->sample->time = simulation_time(&pane_run->simulation);
         entry->sample->rows =
-            picture_sample(&pane_run->simulation, entry->sample->row);
+            picture_sample_energies(&pane_run->simulation, entry->sample->row);
     }
     return STATUS_OK;
 }

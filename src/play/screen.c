@@ -125,13 +125,13 @@ Status obey_camera(Player *player, const Command *command)
     Camera camera = camera_of_pane(content, &layout, player->active);
     Box pane = layout.pane[player->active];
     double at[2] = {command->x, command->y}, pixel[2];
-    camera_pixel(&camera, at, pixel);
+    camera_to_pixel(&camera, at, pixel);
     if (command->kind == COMMAND_ZOOM)
         lens_zoom(lens, pane, pixel[0], pixel[1],
                   fmin(fmax((double)command->number, 1), 1e6) / 100);
     else
-        lens_move(lens, pane, camera.scale[0] * command->x,
-                  -camera.scale[1] * command->y);
+        lens_pan(lens, pane, camera.scale[0] * command->x,
+                 -camera.scale[1] * command->y);
     return STATUS_OK;
 }
 

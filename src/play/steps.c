@@ -194,7 +194,7 @@ static void report_rest(Player *player)
     for (int p = 0; p < past_panes(past); p++) {
         Pane pane = {.simulation = &past->pane[p].simulation};
         if (past_find_end_step(past, p, past->step) < 0)
-            folded += pane_count_folded(&pane);
+            folded += pane_count_folded_cells(&pane);
     }
     player_note(player,
                 folded ? "at rest, with folded cells: springs alone do "

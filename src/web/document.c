@@ -154,7 +154,7 @@ static void put_energies(Writer *to, const Simulation *simulation)
 /* Describes a graph of energies, of residuals, or of E along p. */
 static void put_description(Writer *to, const Pane *pane, const char *name)
 {
-    const Trace *trace = pane->update;
+    const Trace *trace = pane->shown_trace;
     if (strcmp(name, "energies") == 0 || strcmp(name, "budget") == 0) {
         put_energies(to, pane->simulation);
     } else if (strcmp(name, "residual") == 0 && trace) {
@@ -206,7 +206,8 @@ static void put_card(Writer *to, const FrameContent *content, int index,
     const LecturePage *page = content->lecture.page;
     bool covered = content->cards.covered >> index & 1;
     bool graph = !covered && card->draw && !card->has_no_curves;
-    bool star = page && page->star && strcmp(page->star, card->name) == 0;
+    bool star =
+        page && page->main_card && strcmp(page->main_card, card->name) == 0;
     bool closed = content->cards.closed >> index & 1;
     TextLine title = text_first_line(&pane->values, card->title);
     char word[24];
@@ -353,7 +354,7 @@ static void put_picture(Writer *to, const Player *player)
 static void put_event(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
-    const Trace *trace = active_pane(content)->update;
+    const Trace *trace = active_pane(content)->shown_trace;
     const Outcome *outcome = &player_active_run(player)->outcome;
     const char *turn = player_simulation(player)->scene->step_name;
     put_formatted(to, "event\t%s %ld", turn ? turn : "step",

@@ -120,7 +120,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
 {
     static char text[8];
     snprintf(text, sizeof text, "#%06x",
-             document_colour(colour_find(name, strlen(name))));
+             document_colour(colour_find_name(name, strlen(name))));
     return text;
 }
 
@@ -130,7 +130,7 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
 {
     static Paper paper;
     Player *player = &session->player;
-    const Picture *picture = picture_of(player_simulation(player)->scene);
+    const Picture *picture = picture_of_scene(player_simulation(player)->scene);
     if (card >= picture->count || !picture->cards[card]->draw)
         return;
     canvas_free(&paper.canvas);

@@ -212,22 +212,22 @@ TEST(zoom_keeps_the_point_under_the_mouse)
         Lens lens = LENS_FITS;
         Camera camera = camera_create(box, bounds, stretched, &lens);
         double world[2] = {1, 0}, pixel[2], after[2];
-        camera_pixel(&camera, world, pixel);
+        camera_to_pixel(&camera, world, pixel);
         CHECK_NEAR(pixel[0], 450, 1e-12);
         CHECK_NEAR(pixel[1], 300, 1e-12);
         CHECK(stretched == (camera.scale[0] != camera.scale[1]));
-        camera_world(&camera, 333, 222, world);
+        camera_to_world(&camera, 333, 222, world);
         for (int i = 0; i < 5; i++) {
             lens_zoom(&lens, box, 333, 222, 1.7);
             camera = camera_create(box, bounds, stretched, &lens);
-            camera_pixel(&camera, world, after);
+            camera_to_pixel(&camera, world, after);
             CHECK_NEAR(after[0], 333, 1e-9);
             CHECK_NEAR(after[1], 222, 1e-9);
         }
         CHECK_NEAR(lens.zoom, 14.19857, 1e-6);
-        lens_move(&lens, box, 10, -20);
+        lens_pan(&lens, box, 10, -20);
         camera = camera_create(box, bounds, stretched, &lens);
-        camera_pixel(&camera, world, after);
+        camera_to_pixel(&camera, world, after);
         CHECK_NEAR(after[0], 343, 1e-9);
         CHECK_NEAR(after[1], 202, 1e-9);
     }
@@ -350,7 +350,7 @@ TEST(braces_of_markup_are_no_values)
     const char *facts = "aeh";
     for (const char *at = line; *at; at++)
         if (*at == '{')
-            CHECK(text_is_markup(line, at) == !strchr(facts, at[1]));
+            CHECK(text_is_markup_brace(line, at) == !strchr(facts, at[1]));
 }
 
 /* The slides' letters have their colours: orange keeps its red. */

@@ -361,13 +361,14 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     frame_create(simulation, &content);
     content.lecture.hides_answer = kind == LARGE_ASKED && page->ask;
     frame_add_lecture(column[kind], NULL, &content);
-    frame_describe(&content);
+    frame_fill_texts(&content);
     see_frame(&content, paper);
     bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
     if (kind == CODE) { /* the picture and a star stay */
         Layout beside = layout_create(&content, width, height);
-        int star = page->star
-                       ? picture_card(picture_of(simulation->scene), page->star)
+        int star = page->main_card
+                       ? picture_find_card(picture_of_scene(simulation->scene),
+                                           page->main_card)
                        : -1;
         CHECK(beside.stage.width > 0.3 * width);
         CHECK(star < 0 ||
@@ -429,7 +430,7 @@ TEST(scenes_keep_their_words_in_place)
             FrameContent content;
             CHECK_OK(paper_create(sizes[s][0], sizes[s][1], &paper));
             frame_create(simulation, &content);
-            frame_describe(&content);
+            frame_fill_texts(&content);
             see_frame(&content, &paper);
             paper_free(&paper);
             if (seen.cut > 0 || seen.over > 0)

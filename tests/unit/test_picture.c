@@ -140,10 +140,10 @@ TEST(history_goes_by_names)
     const Energy rows[] = {{"one", 1}, {"two", 2}, {"late", 3}};
     const Energy bad[] = {{"one", 1}, {"two", NAN}};
     history.series = history.count = 0;
-    history_add(&history, 0, 2, rows);
-    history_add(&history, 1, 2, bad);
-    history_add(&history, NAN, 2, rows);
-    history_add(&history, 2, 2, rows + 1);
+    history_add_point(&history, 0, 2, rows);
+    history_add_point(&history, 1, 2, bad);
+    history_add_point(&history, NAN, 2, rows);
+    history_add_point(&history, 2, 2, rows + 1);
     CHECK(history.count == 2 && history.series == 3 && history.time[1] == 2);
     for (int s = 0; s < 3; s++) {
         assert_string_equal(history.name[s], rows[s].name);
@@ -151,7 +151,7 @@ TEST(history_goes_by_names)
         CHECK(history.value[s][1] == (s > 0 ? rows[s].value : 0));
     }
     for (int i = 3; i < 2 * HISTORY_POINTS; i++)
-        history_add(&history, i, 3, rows);
+        history_add_point(&history, i, 3, rows);
     CHECK(history.count == HISTORY_POINTS);
 }
 

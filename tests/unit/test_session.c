@@ -41,7 +41,7 @@ static uint64_t shape_shown(void)
 {
     player_fill_frame(&player);
     const Pane *pane = active_pane(content);
-    const unsigned char *byte = (const unsigned char *)pane_x(pane);
+    const unsigned char *byte = (const unsigned char *)pane_positions(pane);
     size_t size = 2 * sizeof(double) * (size_t)pane->simulation->system.nodes;
     uint64_t hash = STATE_HASH_SEED;
     for (size_t i = 0; i < size; i++)
@@ -190,11 +190,11 @@ static bool point_in_pane(const char *place, const Layout *layout)
         assert_true(i < exhibit_list_handles(pane->simulation, grip));
         memcpy(at, grip[i], sizeof at);
     } else if (sscanf(place, "node %d", &i) == 1)
-        memcpy(at, pane_x(pane) + 2 * i, sizeof at);
+        memcpy(at, pane_positions(pane) + 2 * i, sizeof at);
     else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) != 2)
         return false;
     Camera camera = camera_of_pane(content, layout, p);
-    camera_pixel(&camera, at, mouse);
+    camera_to_pixel(&camera, at, mouse);
     if (place[0] == 'g' &&
         !is_grip(layout, i)) /* the grip lies on a curve above the axis */
         for (mouse[1] = layout->pane[p].y; !is_grip(layout, i); mouse[1]++)
@@ -407,9 +407,9 @@ static bool pane_has_all(const Layout *layout, int p)
     const Box *box = &layout->pane[p];
     Camera camera = camera_of_pane(content, layout, p);
     double at[2], first[2], far = 0;
-    camera_pixel(&camera, pane_x(pane), first);
+    camera_to_pixel(&camera, pane_positions(pane), first);
     for (int i = 0; i < pane->simulation->system.nodes; i++) {
-        camera_pixel(&camera, pane_x(pane) + 2 * i, at);
+        camera_to_pixel(&camera, pane_positions(pane) + 2 * i, at);
         if (!box_contains(*box, at[0], at[1]))
             return false;
         far = fmax(far, hypot(at[0] - first[0], at[1] - first[1]));
@@ -685,9 +685,9 @@ static double find_number(const char *name)
     if (sscanf(name, "radius %d", &i) == 1)
         return hypot(simulation->run[i].x[0], simulation->run[i].x[1]);
     if (sscanf(name, "x %d", &i) == 1)
-        return pane_x(pane)[2 * i];
+        return pane_positions(pane)[2 * i];
     if (sscanf(name, "y %d", &i) == 1)
-        return pane_x(pane)[2 * i + 1];
+        return pane_positions(pane)[2 * i + 1];
     if (sscanf(name, "update %d %15s", &i, field) == 2) {
         CHECK(i >= 1 && i <= find_records(simulation, &row));
         row += i - 1;

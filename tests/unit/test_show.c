@@ -28,8 +28,8 @@ static void set_size(int width, int height)
 static void sample(void)
 {
     Energy row[HISTORY_SERIES];
-    int rows = picture_sample(&simulation, row);
-    history_add(&history, simulation_time(&simulation), rows, row);
+    int rows = picture_sample_energies(&simulation, row);
+    history_add_point(&history, simulation_time(&simulation), rows, row);
 }
 
 /* Replaces the simulation of the test before. */
@@ -116,7 +116,7 @@ static Pick pick_at(double x, double y, double right, double down)
     const double world[2] = {x, y};
     Camera camera = camera_of_pane(&content, &layout, 0);
     double at[2];
-    camera_pixel(&camera, world, at);
+    camera_to_pixel(&camera, world, at);
     return frame_pick(&content, &layout, at[0] + right, at[1] + down);
 }
 
@@ -144,14 +144,14 @@ TEST(every_size_is_drawn)
                 content.bare = mode == 3;
                 content.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
                 content.cards.closed = 0;
-                content.pane[0].trouble = STATUS_NOT_FINITE;
+                content.pane[0].failure = STATUS_NOT_FINITE;
                 view.hover = (Pick){.kind = PICK_SPRING, .index = 0};
                 if (simulation.runs > 0 && mode > 0) {
                     simulation.run[0].x[0] = NAN;
                     simulation.run[0].x[1] = mode == 1 ? 1e300 : -INFINITY;
                 }
                 set_size(sizes[i][0], sizes[i][1]);
-                frame_describe(&content);
+                frame_fill_texts(&content);
                 draw();
             }
 }
@@ -326,11 +326,11 @@ TEST(the_camera_does_not_jump)
         for (int step = 0; step < 150; step++) {
             const Box *box = &layout.pane[0];
             double middle[2], pixel[2];
-            camera_world(&was, box->x + 0.5 * box->width,
-                         box->y + 0.5 * box->height, middle);
+            camera_to_world(&was, box->x + 0.5 * box->width,
+                            box->y + 0.5 * box->height, middle);
             CHECK(!simulation_step(&simulation));
             Camera is = camera_of_pane(&content, &layout, 0);
-            camera_pixel(&is, middle, pixel);
+            camera_to_pixel(&is, middle, pixel);
             double change = fabs(log(is.scale[0] / was.scale[0]));
             double moved = hypot(pixel[0] - box->x - 0.5 * box->width,
                                  pixel[1] - box->y - 0.5 * box->height);
@@ -360,13 +360,13 @@ TEST(the_mouse_finds_nodes_and_springs)
         double at[2];
         for (int i = 0; i < system->nodes; i++) {
             Pick pick = pick_at(x[2 * i], x[2 * i + 1], -2, 3);
-            camera_pixel(&camera, x + 2 * i, at);
+            camera_to_pixel(&camera, x + 2 * i, at);
             if (!box_contains(layout.stage, at[0] - 2, at[1] + 3))
                 continue;
             CHECK(picks(pick, PICK_NODE, i));
             CHECK_NEAR(pick.point[0], x[2 * i] - 2 / camera.scale[0], 1e-12);
         }
-        camera_pixel(&camera, middle, at);
+        camera_to_pixel(&camera, middle, at);
         CHECK(picks(pick_at(middle[0], middle[1], 0, 1), PICK_SPRING, 0));
         lens_zoom(&view.lens, layout.pane[0], at[0], at[1], 2.5);
     }
@@ -538,14 +538,14 @@ TEST(right_digits_are_marked)
 TEST(cards_have_names)
 {
     for (const Scene *scene = scenes; scene->name; scene++) {
-        const Picture *picture = picture_of(scene);
+        const Picture *picture = picture_of_scene(scene);
         int count = picture->count;
         CHECK(count <= LAYOUT_CARDS);
         for (int i = 0; i < count * count; i++)
             CHECK((i / count == i % count) ==
                   !!strstr(picture->cards[i / count]->name,
                            picture->cards[i % count]->name));
-        CHECK(picture_card(picture, "nothing") == -1);
+        CHECK(picture_find_card(picture, "nothing") == -1);
     }
 }
 
