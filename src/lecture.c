@@ -456,7 +456,7 @@ static Screen open_screen(const Solid *solid)
 
 /* Handles Space, R, Esc and the mouse, which holds the nearest node: the held
  * node is so heavy that springs do not move it.  Returns false to quit. */
-static bool handle(Screen *screen, Solid *solid, const SDL_Event *event)
+static bool handle_event(Screen *screen, Solid *solid, const SDL_Event *event)
 {
     SDL_Keycode key = event->type == SDL_KEYDOWN ? event->key.keysym.sym : 0;
     screen->paused ^= key == SDLK_SPACE;
@@ -501,7 +501,7 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
     Uint32 end = SDL_GetTicks() + (step == 0 ? 1000 : 40);
     do {
         while (SDL_PollEvent(&event)) {
-            if (!handle(screen, solid, &event))
+            if (!handle_event(screen, solid, &event))
                 return false;
             draw(screen, solid); /* the window may have been resized */
         }

@@ -66,7 +66,7 @@ typedef struct Letter {
 extern const Letter lecture_letters[];
 
 /* Number of all pages. */
-int lecture_count(void);
+int lecture_count_pages(void);
 
 /* Returns the page with this name, or with this number from 1; NULL: no such
  * page. */
@@ -77,11 +77,11 @@ bool page_wants_click(const LecturePage *page);
 
 /* Writes a page, and the fields that it gives to options, into options of its
  * scene. */
-void lecture_enter(const LecturePage *page, Options *options);
+void lecture_apply_page(const LecturePage *page, Options *options);
 
 /* Sets options to the defaults, changed by the command line of the page.
  * Returns OK or INVALID_INPUT.  A test checks that all pages return OK. */
-Status lecture_options(const LecturePage *page, Options *options,
-                       Message message);
+Status lecture_make_options(const LecturePage *page, Options *options,
+                            Message message);
 
 #endif

@@ -37,6 +37,7 @@ extern const TermKind cell_energy;
 /* Adds the term with all triangles of the mesh, or changes its stiffness.
  *   stiffness  J/m^2, k_c
  * Returns OK or OUT_OF_MEMORY. */
-Status cells_set(System *system, const SquareMesh *shape, double stiffness);
+Status cells_configure(System *system, const SquareMesh *shape,
+                       double stiffness);
 
 #endif

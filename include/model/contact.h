@@ -105,8 +105,8 @@ extern const TermKind contact_energy;
 /* Adds the term or replaces its obstacles; removes it if there are none.
  *   obstacle  [obstacles] in, at most one of them with a node
  * Returns OK or OUT_OF_MEMORY. */
-Status contact_set(System *system, const Barrier *barrier, int obstacles,
-                   const Obstacle *obstacle);
+Status contact_configure(System *system, const Barrier *barrier, int obstacles,
+                         const Obstacle *obstacle);
 
 /* Data of the term; NULL: the system has no obstacles. */
 Contact *contact_of(const System *system);

@@ -65,7 +65,8 @@ struct ElementKind {
 
     /* Computes element i at x.  Returns false if i has no element, or if W is 0
      * for all changes of a and of b by less than `way`, m. */
-    bool (*get)(const EvalPoint *at, int i, double way, Element *element);
+    bool (*get_element)(const EvalPoint *at, int i, double way,
+                        Element *element);
 
     /* Number of blocks of the matrix.  A block has all entries of 1 to 3 nodes.
      * Blocks do not depend on x, which may be NULL. */
@@ -102,10 +103,10 @@ struct ElementKind {
 
     /* Returns mu times the normal force, N: the largest force of friction.
      *   t      [4] out, tangent: the contact slides by t.(da, db)
-     *   carry  m/s, out, speed of the obstacle along t
+     *   speed  m/s, out, speed of the obstacle along t
      * NULL: no friction acts on these elements. */
     double (*friction_limit)(const EvalPoint *at, const Element *element,
-                             double t[4], double *carry);
+                             double t[4], double *speed);
 };
 
 /* A loop over the elements with W > 0 at x and, with p [2n], also those with

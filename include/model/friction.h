@@ -30,16 +30,16 @@ double friction_slope(double y, double e);
 /* A contact with a normal force in this step. */
 typedef struct SlidingContact {
     Element element; /* v: t for its parts a, b; r: mu lambda, N */
-    double carry;    /* m, h t.v_wall: travel of the obstacle along t */
+    double travel;   /* m, h t.v_wall: travel of the obstacle along t */
 } SlidingContact;
 
 /* The data of the term is a struct of this type. */
 typedef struct Friction {
     double slip_speed; /* m/s, eps_v > 0 */
     double e;          /* m, eps_v h */
-    int slides;        /* number of contacts with a normal force in this step */
+    int contacts;      /* number of contacts with a normal force in this step */
     int room;          /* allocated contacts */
-    SlidingContact slide[]; /* [room] contacts of this step */
+    SlidingContact contact[]; /* [room] contacts of this step */
 } Friction;
 
 /* The sum of W over the contacts of the step's start: with obstacles
@@ -55,7 +55,7 @@ double friction_work_of_obstacles(const System *system, const double *u);
  *   wanted      false: remove
  *   slip_speed  m/s, eps_v
  * Returns OK or OUT_OF_MEMORY. */
-Status friction_set(System *system, const TermKind *kind, bool wanted,
-                    double slip_speed);
+Status friction_configure(System *system, const TermKind *kind, bool wanted,
+                          double slip_speed);
 
 #endif

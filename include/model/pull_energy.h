@@ -28,7 +28,7 @@ typedef struct Pull {
 
 /* Adds the term of this kind, or changes its data.  Returns OK or
  * OUT_OF_MEMORY. */
-Status pull_set(System *system, const TermKind *kind, const Pull *pull);
+Status pull_configure(System *system, const TermKind *kind, const Pull *pull);
 
 /* Sets k and target of the hand before a step.  The node moves part of the way
  * to the mouse: the distance falls by the factor e in 0.06 s, by at most half

@@ -50,8 +50,8 @@ extern const TermKind self_contact_energy;
  *   barrier   of a node and an obstacle; c of this term is an eighth of its c
  *   friction  coefficient of friction mu
  * Returns OK or OUT_OF_MEMORY. */
-Status self_contact_set(System *system, const SquareMesh *mesh,
-                        const Barrier *barrier, double friction);
+Status self_contact_configure(System *system, const SquareMesh *mesh,
+                              const Barrier *barrier, double friction);
 
 /* Data of the term; NULL: the system has no self-contact. */
 SelfContact *self_contact_of(const System *system);

@@ -58,8 +58,8 @@ struct TermKind {
     /* Adds the term with the numbers of its option, at least one of them not 0,
      * or changes the numbers of a term that is in the list.  NULL: the term
      * needs more than these numbers.  Returns OK or OUT_OF_MEMORY. */
-    Status (*set)(System *system, const struct SquareMesh *mesh,
-                  const double *number);
+    Status (*configure)(System *system, const struct SquareMesh *mesh,
+                        const double *number);
 
     /* Columns of the energy ledger: for value(), and for the energy that the
      * term dissipates (system_book_loss).  NULL: no such column. */

@@ -133,9 +133,9 @@ Status race_make_reference(Simulation *simulation, double time);
  *          the caller frees it
  *   point  out
  * Returns OK, or the failure that ended the run. */
-Status race_measure(Simulation *simulation, const IntegratorMethod *method,
-                    double time, long steps, TimeIntegrator *run,
-                    RacePoint *point);
+Status race_measure_method(Simulation *simulation,
+                           const IntegratorMethod *method, double time,
+                           long steps, TimeIntegrator *run, RacePoint *point);
 
 /* Makes run[0], the start of each measured run, and run[1], the end of the
  * exact motion. */
@@ -150,7 +150,7 @@ Status step_race(Simulation *simulation);
 double race_find_stable_h(const Race *race, int method);
 
 /* Returns method i of the race, 0 ... RACE_METHODS - 1. */
-const IntegratorMethod *race_method(int i);
+const IntegratorMethod *race_get_method(int i);
 
 /* ---- how far the solver can be trusted ----------------------------------- */
 

@@ -73,8 +73,8 @@ int incremental_potential_product(const Iterate *at, Projection projection,
  * Writes over g and p.
  *   m        [2n] kg, out, m + w c
  *   u_tilde  [2n] m, out, v */
-void incremental_potential_inertia(const Iterate *iterate, double *m,
-                                   double *u_tilde);
+void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
+                                        double *u_tilde);
 
 /* Whether the Hessian is diagonal: each coordinate stands alone in all terms.
  */
@@ -96,13 +96,14 @@ static inline double quartic_value(const Quartic *quartic, double alpha)
 /* E(x + alpha p) - E(x): an exact polynomial, and the remainders of the terms
  * that are no polynomials. */
 typedef struct LineEnergy {
-    Quartic smooth;
+    Quartic polynomial;
     const Iterate *at;
-    bool rough; /* some term is no polynomial along p, or forbids points */
+    bool has_remainder; /* some term is no polynomial along p, or forbids points
+                         */
 } LineEnergy;
 
 /* Prepares the difference from u, x, g, p of the iterate. */
-LineEnergy incremental_potential_on_line(const Iterate *iterate);
+LineEnergy incremental_potential_prepare_line(const Iterate *iterate);
 
 /* Returns the difference at alpha; an EnergyDifference of the line search. */
 double line_energy_difference(const void *along, double alpha);
@@ -112,7 +113,7 @@ double line_energy_difference(const void *along, double alpha);
 double incremental_potential_max_step(const Iterate *at);
 
 /* Whether every term allows u, x [2n]. */
-bool incremental_potential_allowed(const IncrementalPotential *E,
-                                   const double *u, const double *x);
+bool incremental_potential_allows(const IncrementalPotential *E,
+                                  const double *u, const double *x);
 
 #endif

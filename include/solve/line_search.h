@@ -2,8 +2,8 @@
  * backtracking line search).
  *
  * The slides halve alpha while E(x + alpha p) > E(x).  Here a function returns
- * the difference of the two (incremental_potential_on_line), so that rounding
- * of large energies does not hide a small decrease.
+ * the difference of the two (incremental_potential_prepare_line), so that
+ * rounding of large energies does not hide a small decrease.
  */
 #ifndef ELASTO_LINE_SEARCH_H
 #define ELASTO_LINE_SEARCH_H

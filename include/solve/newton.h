@@ -74,11 +74,11 @@ typedef struct NewtonCounters {
     long solves;         /* solves with a factor */
     long projected;      /* blocks projected, summed over factorisations */
     long cycles;         /* V-cycles of multigrid */
-    long local;          /* sweeps of multigrid's tiles, where folds run */
+    long tile_sweeps;    /* sweeps of multigrid's tiles, where folds run */
     long negative;       /* minimisations that converged with a last p from a
                             Hessian with negative pivots: perhaps a maximum */
-    long taken_back;     /* minimisations that multigrid began and Newton
-                            ended */
+    long handed_over;    /* minimisations that multigrid began and Newton
+                           ended */
 } NewtonCounters;
 
 /* sum += counters */
@@ -98,28 +98,28 @@ typedef struct SearchDirection {
     int *slot;             /* place of each triplet in A */
     Cholesky *cholesky;    /* NULL: no matrix was needed yet */
     double shift;          /* kg, added to the diagonal before factoring */
-    double moved;          /* m, bound of a node's way since A was factored */
+    double way_since_factor; /* m, bound of a node's way since A was factored */
     double *b;             /* right-hand side in elimination order */
     double *r, *z, *q, *d; /* vectors of conjugate gradients */
 } SearchDirection;
 
 /* Data for the rounding errors of a minimisation (rounding.c). */
 typedef struct Rounding {
-    unsigned known;  /* 1 + System.version at which lightest, stiffest and
-                        shortest were computed */
+    unsigned known_version; /* 1 + System.version at which lightest, stiffest
+                       and shortest were computed */
     double lightest; /* kg, the smallest mass */
     double stiffest; /* J/m^2, the largest curvature of a term */
     double shortest; /* m, the shortest spring at rest; 1 without springs */
     bool stiff;      /* w stiffest > 1e5 lightest, with w the weight of P in E:
                         a decrease of E is checked by a second computation */
     bool blurred;    /* w stiffest > 1e10 lightest: H's factor is inexact */
-    double first;    /* J s^2, E at the start; NAN: not needed */
-    double most;     /* J s^2, upper limit of E: its value at the start plus
-                        rounding; INFINITY: no limit */
+    double start_energy; /* J s^2, E at the start; NAN: not needed */
+    double energy_limit; /* J s^2, upper limit of E: its value at the start plus
+                      rounding; INFINITY: no limit */
     double E;        /* J s^2, E at the iterate; NAN: not evaluated yet */
     double E_trial;  /* J s^2, E at the end of the trial step */
-    double best;     /* m/s, smallest residual of this minimisation */
-    int stagnant;    /* iterations since the smallest residual */
+    double best_residual;    /* m/s, smallest residual of this minimisation */
+    int stagnant_iterations; /* iterations since the smallest residual */
 } Rounding;
 
 typedef struct Multigrid Multigrid;
@@ -143,7 +143,7 @@ typedef struct Newton {
     int clamps; /* iterations for which on-demand projection still clamps */
     Rounding rounding;
     Multigrid *multigrid;  /* NULL: was not needed yet */
-    Solver working;        /* NEWTON or MULTIGRID, in this minimisation */
+    Solver active_solver;  /* NEWTON or MULTIGRID, in this minimisation */
     const char *refusal;   /* why multigrid does not work, though wanted */
     double change_sum;     /* J s^2, sum of the updates' changes of E */
     double change_abs_sum; /* J s^2, sum of their absolute values */

@@ -54,7 +54,8 @@ struct TimeIntegrator {
     Status status;   /* status of the last step */
     StepClock clock; /* time of x and v */
     bool moves;      /* has prescribed motion of walls or pins in this step */
-    double moved;    /* part of the prescribed way that is done in this step */
+    double
+        moved_part;  /* part of the prescribed way that is done in this step */
     double work;     /* J, work of the prescribed motion so far */
     double *x;       /* [2n] m, positions; start of the block of all arrays */
     double *v;       /* [2n] m/s, velocities */
@@ -69,9 +70,9 @@ struct TimeIntegrator {
     int stage;     /* 0 ... stages - 1 */
     Status worst;  /* last status of its minimisations that is not OK */
     double weight; /* s^2, factor of P in E */
-    double left;   /* part of the prescribed way that is not done yet */
-    int part;      /* parts of the prescribed way so far */
-    long before;   /* Newton's iterations before this step */
+    double remaining_part; /* part of the prescribed way that is not done yet */
+    int parts_made;        /* parts of the prescribed way so far */
+    long iterations_before; /* Newton's iterations before this step */
     bool blocked;  /* walls and pins cannot move on: a body is in their way */
 };
 
@@ -79,7 +80,7 @@ struct TimeIntegrator {
 extern const IntegratorMethod integrator_methods[];
 
 /* The row with this name, or NULL. */
-const IntegratorMethod *integrator_method(const char *name);
+const IntegratorMethod *integrator_find_method(const char *name);
 
 /* Whether the system has a term that the method is not right for. */
 bool integrator_method_refuses(const IntegratorMethod *method,

@@ -121,8 +121,8 @@ static Status measure_method(bool quick, const Motion *motion,
     for (long steps = FIRST_STEPS; !(now.error < enough); steps *= 2) {
         TimeIntegrator run = {0};
         simulation->options.tolerance = 2 * expected / (steps * motion->time);
-        Status status =
-            race_measure(simulation, method, motion->time, steps, &run, &now);
+        Status status = race_measure_method(simulation, method, motion->time,
+                                            steps, &run, &now);
         time_integrator_free(&run);
         if (status == STATUS_OUT_OF_MEMORY)
             return status;
@@ -153,7 +153,7 @@ static Status measure_motion(bool quick, const Motion *motion,
     for (int i = 0; i < 2 * TARGETS; i++)
         best[i / TARGETS][i % TARGETS] = (FastestRun){NULL, INFINITY};
     for (int i = 0; i < RACE_METHODS; i++) {
-        const IntegratorMethod *method = race_method(i);
+        const IntegratorMethod *method = race_get_method(i);
         Status status = measure_method(quick, motion, simulation, method,
                                        best[method->implicit]);
         if (status)
@@ -200,7 +200,7 @@ typedef enum Program { LECTURE, NEWTON, MULTIGRID } Program;
 
 static const struct {
     const char *name;
-    int largest; /* largest number of segments that is measured */
+    int max_segments; /* largest number of segments that is measured */
 } programs[SOLVERS] = {{"lecture.c", 32}, {"newton", 64}, {"multigrid", 512}};
 
 /* s, after which no further start of the same size begins */
@@ -258,12 +258,12 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
     for (; count < starts && clock_now() - began < time_limit && !status;
          count++)
         for (int m = 0; m < SOLVERS && !status; m++)
-            if (segments <= programs[m].largest)
+            if (segments <= programs[m].max_segments)
                 status =
                     measure_start((Program)m, segments, count, steps, &runs[m]);
     for (int m = 0; m < SOLVERS && !status; m++) {
         ProgramResults *all = &runs[m];
-        if (segments > programs[m].largest)
+        if (segments > programs[m].max_segments)
             continue;
         ms[m] = find_median(all->ms, count); /* sorts ms */
         printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,

@@ -40,7 +40,7 @@ enum {
 typedef struct Mistake {
     int task; /* number of the function */
     Function *function;
-    const char *words; /* sentence for the student; NULL ends the table */
+    const char *sentence; /* sentence for the student; NULL ends the table */
 } Mistake;
 
 /* A call of exit in lecture.c becomes a jump to this place.  The headers that
@@ -92,7 +92,7 @@ static double random_number(void)
 }
 
 /* Returns n random points, with coordinates from -size to size. */
-static Vec2 *draw_points(int n, double size)
+static Vec2 *make_random_points(int n, double size)
 {
     Vec2 *x = allocate(n, sizeof(Vec2));
     for (int i = 0; i < n; i++)
@@ -104,13 +104,13 @@ static Vec2 *draw_points(int n, double size)
 typedef enum ResultKind { NUMBER, POINTS, MATRIX, SEARCH, STATE } ResultKind;
 
 typedef struct Task {
-    int number; /* TASK_..., index in student[] */
+    int index; /* TASK_..., index in student[] */
     const char *name;
     Function *truth;
     ResultKind kind;
     const char *case_names[5]; /* name of each case for messages, then NULL */
     int steps;      /* calls of step_forward, the first with a table */
-    unsigned needs; /* bits of the tasks whose functions are called */
+    unsigned needed_tasks; /* bits of the tasks whose functions are called */
 } Task;
 
 /* The arguments of the functions in a case. */
@@ -128,7 +128,7 @@ typedef struct Case {
 
 /* Makes a square, or in case 1 a single short spring, out of shape.  Each node
  * and each spring has different numbers. */
-static void draw_solid(int case_number, Solid *solid)
+static void make_random_solid(int case_number, Solid *solid)
 {
     *solid = square(1.2, case_number == 2 ? 1 : 2, 300, 2e3);
     if (case_number == 1) {
@@ -137,8 +137,8 @@ static void draw_solid(int case_number, Solid *solid)
         solid->e[0] = (Spring){0, 1, 0.7, 1500};
     }
     for (int i = 0; i < solid->nodes; i++) {
-        solid->x[i] = add(solid->x[i], mul(0.2, draw_points(1, 1)[0]));
-        solid->v[i] = draw_points(1, 0.5)[0];
+        solid->x[i] = add(solid->x[i], mul(0.2, make_random_points(1, 1)[0]));
+        solid->v[i] = make_random_points(1, 0.5)[0];
         solid->m[i] *= 1.5 + 0.5 * random_number();
     }
     for (int s = 0; s < solid->springs; s++) {
@@ -148,7 +148,7 @@ static void draw_solid(int case_number, Solid *solid)
 }
 
 /* Makes the start of a step: as in the lecture, or in case 1 with alpha < 1. */
-static void draw_start(int case_number, Case *c)
+static void make_step_start(int case_number, Case *c)
 {
     c->solid = square(1, 2, 1000, 1e5);
     c->h = case_number ? 0.05 : 0.004;
@@ -156,13 +156,13 @@ static void draw_start(int case_number, Case *c)
     for (int i = 0; i < c->solid.nodes; i++) {
         c->solid.x[i].x *= case_number ? 0.4 : 1.4;
         c->solid.x[i].y += case_number ? 0.05 * random_number() : 0;
-        c->solid.v[i] = draw_points(1, 1)[0];
+        c->solid.v[i] = make_random_points(1, 1)[0];
     }
 }
 
 /* Makes a line search along Newton's direction, along a direction that is far
  * too long, along p = 0, and from E = 0, where every step raises E. */
-static void draw_search_case(int case_number, Case *c)
+static void make_search_case(int case_number, Case *c)
 {
     static const double length[] = {1, 50, 0, 0};
     search_dir(&c->solid, c->solid.x, c->x_tilde, c->h, c->p);
@@ -176,27 +176,27 @@ static void draw_search_case(int case_number, Case *c)
 }
 
 /* Makes the arguments of a task's function. */
-static void draw_case(const Task *task, int case_number, Case *c)
+static void make_arguments(const Task *task, int case_number, Case *c)
 {
     static const double shift[] = {0, -300, 1000, 0}, scale[] = {1, 1e-3, 1, 0};
-    bool searches = task->number == TASK_line_search;
-    for (int r = 0; r < 4 && task->number == TASK_make_psd; r++)
+    bool searches = task->index == TASK_line_search;
+    for (int r = 0; r < 4 && task->index == TASK_make_psd; r++)
         for (int k = 0; k <= r; k++)
             c->block[r][k] = c->block[k][r] =
                 scale[case_number] *
                 (300 * random_number() + (r == k) * shift[case_number]);
     c->h = 0.02;
-    if (task->number == TASK_step_forward)
-        draw_start(case_number, c);
+    if (task->index == TASK_step_forward)
+        make_step_start(case_number, c);
     else
-        draw_solid(searches ? 0 : case_number, &c->solid);
-    c->x_tilde = draw_points(MAX_NODES, 0.7);
-    c->p = draw_points(MAX_NODES, 1);
+        make_random_solid(searches ? 0 : case_number, &c->solid);
+    c->x_tilde = make_random_points(MAX_NODES, 0.7);
+    c->p = make_random_points(MAX_NODES, 1);
     c->p[1] = (Vec2){-1.5, -1.2}; /* largest |p_x| + |p_y|, both below 0 */
-    c->g = draw_points(MAX_NODES, 900);
+    c->g = make_random_points(MAX_NODES, 900);
     memcpy(c->g_before, c->g, sizeof c->g_before);
     if (searches)
-        draw_search_case(case_number, c);
+        make_search_case(case_number, c);
     memcpy(c->x, c->solid.x, (size_t)c->solid.nodes * sizeof *c->x);
     c->H = (cholmod_triplet){.nrow = 2 * (size_t)c->solid.nodes,
                              .ncol = 2 * (size_t)c->solid.nodes,
@@ -232,9 +232,9 @@ static void store_result(const Task *task, const Case *c, FILE *table,
                          double *result)
 {
     size_t bytes = (size_t)c->solid.nodes * sizeof(Vec2);
-    for (int r = 0; r < 4 && task->number == TASK_make_psd; r++)
+    for (int r = 0; r < 4 && task->index == TASK_make_psd; r++)
         memcpy(result + r * UNKNOWNS, c->block[r], sizeof c->block[r]);
-    if (task->number != TASK_make_psd && task->kind == MATRIX)
+    if (task->index != TASK_make_psd && task->kind == MATRIX)
         store_matrix(c, result);
     for (int i = 0; i < 2 * c->solid.nodes && task->kind == POINTS; i++)
         result[i] = (&c->g->x)[i] - (&c->g_before->x)[i];
@@ -262,29 +262,29 @@ static void call_function(const Task *task, int case_number, Function *function,
     static Case c;
     FILE *table = tmpfile();
     c = (Case){.h = 0};
-    draw_case(task, case_number, &c);
+    make_arguments(task, case_number, &c);
     strcpy(shared->case_name, task->case_names[case_number]);
     Solid *solid = &c.solid;
-    if (task->number == TASK_inertia_val)
+    if (task->index == TASK_inertia_val)
         *result = AS(inertia_val)(solid, solid->x, c.x_tilde);
-    else if (task->number == TASK_inertia_grad)
+    else if (task->index == TASK_inertia_grad)
         AS(inertia_grad)(solid, solid->x, c.x_tilde, c.g);
-    else if (task->number == TASK_inertia_hess)
+    else if (task->index == TASK_inertia_hess)
         AS(inertia_hess)(solid, &c.H);
-    else if (task->number == TASK_make_psd)
+    else if (task->index == TASK_make_psd)
         AS(make_psd)(c.block);
-    else if (task->number == TASK_spring_val)
+    else if (task->index == TASK_spring_val)
         *result = AS(spring_val)(solid, solid->x);
-    else if (task->number == TASK_spring_grad)
+    else if (task->index == TASK_spring_grad)
         AS(spring_grad)(solid, solid->x, 0.3, c.g);
-    else if (task->number == TASK_spring_hess)
+    else if (task->index == TASK_spring_hess)
         AS(spring_hess)(solid, solid->x, 0.3, &c.H);
-    else if (task->number == TASK_line_search)
+    else if (task->index == TASK_line_search)
         *result =
             AS(line_search)(solid, solid->x, c.p, c.x_tilde, c.h, c.x_new);
-    else if (task->number == TASK_residual)
+    else if (task->index == TASK_residual)
         *result = AS(residual)(solid, c.p, 0.03);
-    else if (task->number == TASK_explicit_euler)
+    else if (task->index == TASK_explicit_euler)
         AS(explicit_euler)(solid, 0.01, case_number == 1);
     for (int step = 1; step <= task->steps; step++) {
         if (step > 1)
@@ -312,18 +312,18 @@ static const Task tasks[] = {
       "of zeros: "}},
     {TASK(spring_val), NUMBER, {"", "", ""}},
     {TASK(spring_grad), POINTS, {"", "", ""}},
-    {TASK(spring_hess), MATRIX, {"", "", ""}, .needs = BIT(make_psd)},
+    {TASK(spring_hess), MATRIX, {"", "", ""}, .needed_tasks = BIT(make_psd)},
     {TASK(line_search),
      SEARCH,
      {"along Newton's direction: ", "along a direction that is too long: ",
       "along p = 0, where E stays the same: ", "where no step lowers E: "},
-     .needs = BIT(inertia_val) | BIT(spring_val)},
+     .needed_tasks = BIT(inertia_val) | BIT(spring_val)},
     {TASK(residual), NUMBER, {""}},
     {TASK(step_forward), STATE, {"", ""}, 2, BIT(step_forward) - 1},
     {TASK(explicit_euler),
      STATE,
      {"forward Euler: ", "symplectic Euler: "},
-     .needs = BIT(spring_grad)},
+     .needed_tasks = BIT(spring_grad)},
     {TASK_step_forward,
      "twenty steps",
      (Function *)step_forward,
@@ -334,7 +334,7 @@ static const Task tasks[] = {
 enum { CHECKS = sizeof tasks / sizeof *tasks };
 
 /* Returns the name of number i of a result, for messages. */
-static const char *name_number(ResultKind kind, int i)
+static const char *describe_number(ResultKind kind, int i)
 {
     static char text[60];
     bool v = kind == STATE && i >= UNKNOWNS;
@@ -384,11 +384,11 @@ static const char *find_mistake(const Task *task, int case_number,
                                 const double *yours)
 {
     double other[MAX_NUMBERS];
-    for (const Mistake *mistake = mistakes; mistake->words; mistake++)
-        if (mistake->task == task->number &&
+    for (const Mistake *mistake = mistakes; mistake->sentence; mistake++)
+        if (mistake->task == task->index &&
             run_function(task, case_number, mistake->function, other) &&
             find_difference(yours, other) == MAX_NUMBERS)
-            return mistake->words;
+            return mistake->sentence;
     return NULL;
 }
 
@@ -398,7 +398,7 @@ static const char *find_multiple(const double *yours, const double *truth)
 {
     static const struct {
         double factor;
-        const char *words;
+        const char *sentence;
     } multiples[] = {
         {0, "all numbers are 0: is it written yet? (In C 1/2 is 0, not 0.5.)"},
         {-1, "the sign is wrong"},
@@ -409,7 +409,7 @@ static const char *find_multiple(const double *yours, const double *truth)
         for (int i = 0; i < MAX_NUMBERS; i++)
             other[i] = multiples[m].factor * truth[i];
         if (find_difference(yours, other) == MAX_NUMBERS)
-            return multiples[m].words;
+            return multiples[m].sentence;
     }
     return NULL;
 }
@@ -423,7 +423,7 @@ static void explain_difference(const Task *task, int case_number,
         if (!(fabs(yours[i]) < 1e100)) {
             report("%s is %g: is a variable used before it has a value, or "
                    "does something divide by zero?",
-                   name_number(task->kind, i), yours[i]);
+                   describe_number(task->kind, i), yours[i]);
             return;
         }
     if (first == MAX_NUMBERS)
@@ -433,8 +433,8 @@ static void explain_difference(const Task *task, int case_number,
     if (words)
         report("%s", words);
     else
-        report("%s is %.9g, and should be %.9g", name_number(task->kind, first),
-               yours[first], truth[first]);
+        report("%s is %.9g, and should be %.9g",
+               describe_number(task->kind, first), yours[first], truth[first]);
 }
 
 /* Runs the cases of a task up to the first fault.
@@ -448,7 +448,7 @@ static void check_task(const Task *task, int errors)
         dup2(nowhere, STDERR_FILENO);
         shared->must_fail = !run_function(task, t, task->truth, truth);
         dup2(errors, STDERR_FILENO);
-        run_function(task, t, student[task->number], yours);
+        run_function(task, t, student[task->index], yours);
         if (shared->must_fail)
             report("the search goes on: call FAIL(1, ...) after 64 halvings");
         if (!*shared->fault)
@@ -527,7 +527,7 @@ int main(int argc, char **argv)
     if (shared == MAP_FAILED)
         FAIL(1, "not enough memory\n");
     for (int t = 0; t < CHECKS; t++) {
-        unsigned missing = tasks[t].needs & failed;
+        unsigned missing = tasks[t].needed_tasks & failed;
         if (missing) { /* the lowest bit is the first task */
             shared->case_name[0] = '\0';
             report("not checked: it calls %s, which is not right",

@@ -17,7 +17,7 @@ typedef struct Word {
     const OptionRow *row; /* option; NULL: the word is a scene */
     const char *text;     /* value, or name of the scene */
     const char *list;     /* list of values that contains the text, or NULL */
-    char picked[64];      /* copy of the text, if it is part of a list */
+    char list_item[64];   /* copy of the text, if it is part of a list */
 } Word;
 
 enum { MAX_WORDS = 256 };
@@ -55,7 +55,7 @@ static Status refuse_value(const Line *line, const Word *word, int count)
                       "names: elasto --lecture --list",
                       row->name, text,
                       suggest_name(text, "", NAMES_OF(lecture_pages)).text,
-                      lecture_count());
+                      lecture_count_pages());
     if (instead)
         return refuse(line->message, "--%s: '%s' is gone: %s", row->name, text,
                       instead);
@@ -194,7 +194,7 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
 /* Returns a hint if a text may belong to the value of the word before it, as in
  * "4 ms" and "1, 2"; else "".
  *   before  in, or NULL */
-static Phrase hint_at_blank(const Word *before, const char *text)
+static Phrase hint_at_split_value(const Word *before, const char *text)
 {
     Phrase hint = {""};
     const OptionRow *row = before ? before->row : NULL;
@@ -235,7 +235,7 @@ static const OptionRow *read_option(const Line *line, const char *word)
     else if (!found)
         refuse_unknown(line, "there is no option", word,
                        isdigit((unsigned char)name[0])
-                           ? hint_at_blank(before, name)
+                           ? hint_at_split_value(before, name)
                            : suggest_name(name, "--", NAMES_OF(option_rows)),
                        "; see elasto --help");
     return found;
@@ -300,7 +300,7 @@ static Status refuse_scene(const Line *line, const Word *word)
     else if (strncmp(text, "\u2013", 2) == 0) /* U+2000 to U+203F */
         hint = (Phrase){"; an option begins with two signs '-'"};
     else if (!hint.text[0])
-        hint = hint_at_blank(word > line->word ? word - 1 : NULL, text);
+        hint = hint_at_split_value(word > line->word ? word - 1 : NULL, text);
     return refuse_unknown(line, "there is no scene", text, hint,
                           "; see elasto --list");
 }
@@ -325,7 +325,7 @@ static Status check_words(Line *line)
                           "'%.60s': only one scene can be given, and '%s' is "
                           "one%s",
                           word->text, options->scene->name,
-                          hint_at_blank(word - 1, word->text).text);
+                          hint_at_split_value(word - 1, word->text).text);
         if (!row && !(options->scene = scene_find(word->text)))
             return refuse_scene(line, word);
     }
@@ -345,7 +345,7 @@ static Status fill_defaults(Line *line)
     char copy[512];
     Line own = {options, line->message, 0, {{0}}};
     if (options->page)
-        return lecture_options(options->page, options, line->message);
+        return lecture_make_options(options->page, options, line->message);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->default_value != 0)
             options->number[row->slot] = row->default_value;
@@ -386,9 +386,9 @@ static Status pick_values(Line *line, int pane)
         word->list = text;
         for (int k = pane % count; k > 0; k--)
             text = strchr(text, ',') + 1;
-        snprintf(word->picked, sizeof word->picked, "%.*s",
+        snprintf(word->list_item, sizeof word->list_item, "%.*s",
                  (int)strcspn(text, ","), text);
-        word->text = word->picked;
+        word->text = word->list_item;
         pane /= count;
     }
     return STATUS_OK;
@@ -413,7 +413,7 @@ static Status check_pins(const Options *options, Message message)
 
 /* Refuses options that have no effect beside the others.  Several bodies touch
  * each other unless the line says otherwise. */
-static Status check_effects(Line *line)
+static Status refuse_ineffective_options(Line *line)
 {
     Options *options = line->options;
     if (options->bodies > 1 && !find_word(line, "self-contact"))
@@ -472,7 +472,8 @@ static Status apply_words(Line *line, int pane)
              apply_word(line, word)))
             return STATUS_INVALID_INPUT;
     }
-    return check_effects(line) ? STATUS_INVALID_INPUT : check_body(line);
+    return refuse_ineffective_options(line) ? STATUS_INVALID_INPUT
+                                            : check_body(line);
 }
 
 Status options_parse(int argc, char **argv, int pane, Options *options,

@@ -130,7 +130,7 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
  * last row takes the table with it. */
 static const struct Removed {
     const char *option, *value;
-    const char *instead; /* end of a message: what to use now */
+    const char *replacement; /* end of a message: what to use now */
 } removed[] = {
     {"vtk", "", "--states and --springs write each step as CSV"},
     {"integrator", "avf", KEEPS_ENERGY},
@@ -143,6 +143,6 @@ const char *find_replacement(const char *option, const char *value)
     for (size_t i = 0; i < sizeof removed / sizeof *removed; i++)
         if (strcmp(removed[i].option, option) == 0 &&
             strcmp(removed[i].value, value) == 0)
-            return removed[i].instead;
+            return removed[i].replacement;
     return NULL;
 }

@@ -5,7 +5,7 @@
 
 #include "lesson/command_line.h"
 
-int lecture_count(void)
+int lecture_count_pages(void)
 {
     return names_count(NAMES_OF(lecture_pages));
 }
@@ -21,7 +21,7 @@ bool page_wants_click(const LecturePage *page)
     return page && page->answer && strcmp(page->answer, "click") == 0;
 }
 
-void lecture_enter(const LecturePage *page, Options *options)
+void lecture_apply_page(const LecturePage *page, Options *options)
 {
     options->page = page;
     options->layers = page->layers;
@@ -31,14 +31,14 @@ void lecture_enter(const LecturePage *page, Options *options)
     options->main_card = page->main_card;
 }
 
-Status lecture_options(const LecturePage *page, Options *options,
-                       Message message)
+Status lecture_make_options(const LecturePage *page, Options *options,
+                            Message message)
 {
     Status status = options_parse_line(page->line, options, message);
     const char *pin = strstr(page->line, "--pin ");
     if (pin) /* the last option, in text that outlives the call */
         options->pin = pin + strlen("--pin ");
-    lecture_enter(page, options);
+    lecture_apply_page(page, options);
     options->flips = page->flips;
     options->speed = page->speed;
     return status;

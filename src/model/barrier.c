@@ -35,7 +35,7 @@ double log1p_minus(double z)
 
 /* Inside the barrier, out of it, into it, and outside all the time.  Every
  * term is >= 0. */
-double barrier_remainder(double s, double t)
+double barrier_taylor_remainder(double s, double t)
 {
     double end = s + t;
     if (!(end > 0))

@@ -88,7 +88,7 @@ static const Box2 empty_box = {
 
 /* Orders boxes for qsort.  Equal boxes go by their spring, so the order depends
  * on x alone. */
-static int by_left_side(const void *one, const void *other)
+static int compare_left_sides(const void *one, const void *other)
 {
     const Box2 *a = one, *b = other;
     if (a->low[0] != b->low[0])
@@ -138,7 +138,7 @@ static void bound_motions(Boundary *boundary, const System *system)
         boundary->widest = wide > boundary->widest ? wide : boundary->widest;
     }
     qsort(boundary->edge_box, (size_t)boundary->edges, sizeof(Box2),
-          by_left_side);
+          compare_left_sides);
 }
 
 /* Returns the first sorted edge whose box may reach the coordinate `left`. */
@@ -156,8 +156,8 @@ static int find_first_edge(const Boundary *boundary, double left)
 }
 
 /* boundary_next_edge by a search through the boxes. */
-static int find_next_box(const Boundary *boundary, const System *system, int i,
-                         int *place)
+static int search_next_edge(const Boundary *boundary, const System *system,
+                            int i, int *place)
 {
     int node = boundary->point[i];
     const Box2 *own = &boundary->point_box[node];
@@ -199,7 +199,7 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
     bound_motions(boundary, system);
     boundary->lists_near = true;
     for (int i = 0; i < boundary->points && boundary->lists_near; i++) {
-        while ((edge = find_next_box(boundary, system, i, &place)) >= 0 &&
+        while ((edge = search_next_edge(boundary, system, i, &place)) >= 0 &&
                count < room)
             boundary->near[count++] = edge;
         boundary->near_end[i] = count;
@@ -211,7 +211,7 @@ int boundary_next_edge(const Boundary *boundary, const System *system, int i,
                        int *place)
 {
     if (!boundary->lists_near)
-        return find_next_box(boundary, system, i, place);
+        return search_next_edge(boundary, system, i, place);
     int first = i > 0 ? boundary->near_end[i - 1] : 0;
     int k = *place > 0 ? *place : first;
     *place = k < boundary->near_end[i] ? k + 1 : 0;

@@ -24,7 +24,8 @@ static int cell_block_nodes(const EvalPoint *at, int t, int node[3])
  * fall below CELL_J_HAT.  The element has a = e1, b = e2 and s = J.
  *   way  m, most change of e1 and of e2.  J changes by at most
  *        q way (|e1| + |e2| + way), q = 1/(2 A0). */
-static bool cell_get(const EvalPoint *at, int t, double way, Element *element)
+static bool cell_get_element(const EvalPoint *at, int t, double way,
+                             Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const Cells *cells = at->term->data;
@@ -101,7 +102,7 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
     J1 *= alpha;
     J2 *= alpha * alpha;
     return cells->c * (barrier_slope(s) * J2 / CELL_J_HAT +
-                       barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
+                       barrier_taylor_remainder(s, (J1 + J2) / CELL_J_HAT));
 }
 
 /* The curvature at the start of the barrier, for sides of the rest length. */
@@ -113,7 +114,7 @@ static double cell_curvature_bound(const EvalPoint *at)
 
 static const ElementKind triangle = {
     .count = cell_count,
-    .get = cell_get,
+    .get_element = cell_get_element,
     .block_nodes = cell_block_nodes,
     .value = cell_value,
     .gradient = cell_gradient,
@@ -133,7 +134,8 @@ const TermKind cell_energy = {
     .backward_euler_only = true,
 };
 
-Status cells_set(System *system, const SquareMesh *shape, double stiffness)
+Status cells_configure(System *system, const SquareMesh *shape,
+                       double stiffness)
 {
     size_t numbers = 3 * 4 * (size_t)shape->cells;
     Cells *cells = system_add_term(system, &cell_energy,

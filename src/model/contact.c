@@ -68,8 +68,8 @@ static int contact_count(const EvalPoint *at)
     return contact->obstacles * at->system->nodes;
 }
 
-static bool contact_get(const EvalPoint *at, int i, double way,
-                        Element *element)
+static bool contact_get_element(const EvalPoint *at, int i, double way,
+                                Element *element)
 {
     static const double difference[1][3] = {{1, -1}};
     const Contact *contact = at->term->data;
@@ -188,8 +188,9 @@ static double contact_line_remainder(const EvalPoint *at,
         double length = math_hypot(r, pt);
         k = r > 0 ? pt * pt / (length + r) : length - r;
     }
-    return barrier->c * (barrier_slope(s) * k / barrier->d_hat +
-                         barrier_remainder(s, (pn + k) / barrier->d_hat));
+    return barrier->c *
+           (barrier_slope(s) * k / barrier->d_hat +
+            barrier_taylor_remainder(s, (pn + k) / barrier->d_hat));
 }
 
 /* The curvature at the start of the barrier, 2 c/d_hat^2. */
@@ -201,20 +202,20 @@ static double contact_curvature_bound(const EvalPoint *at)
 
 static double contact_friction_limit(const EvalPoint *at,
                                      const Element *element, double t[4],
-                                     double *carry)
+                                     double *speed)
 {
     const Contact *contact = at->term->data;
     const Obstacle *obstacle = &contact->obstacle[element->source];
     t[0] = -element->n[1];
     t[1] = element->n[0];
-    *carry = t[0] * obstacle->v[0] + t[1] * obstacle->v[1];
+    *speed = t[0] * obstacle->v[0] + t[1] * obstacle->v[1];
     return obstacle->friction *
            contact_normal_force(&contact->barrier, element->s);
 }
 
 static const ElementKind pairs = {
     .count = contact_count,
-    .get = contact_get,
+    .get_element = contact_get_element,
     .block_nodes = contact_block_nodes,
     .value = contact_value,
     .gradient = contact_gradient,
@@ -234,8 +235,8 @@ const TermKind contact_energy = {
     .backward_euler_only = true,
 };
 
-Status contact_set(System *system, const Barrier *barrier, int obstacles,
-                   const Obstacle *obstacle)
+Status contact_configure(System *system, const Barrier *barrier, int obstacles,
+                         const Obstacle *obstacle)
 {
     if (obstacles == 0) {
         system_remove_term(system, &contact_energy);

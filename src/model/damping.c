@@ -46,8 +46,8 @@ static double damping_curvature_bound(const EvalPoint *at)
     return mass_spring_curvature_bound(&damped);
 }
 
-static Status damping_set(System *system, const struct SquareMesh *mesh,
-                          const double *number)
+static Status damping_configure(System *system, const struct SquareMesh *mesh,
+                                const double *number)
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
@@ -68,7 +68,7 @@ static Status damping_set(System *system, const struct SquareMesh *mesh,
 
 const TermKind damping = {
     .name = "damping",
-    .set = damping_set,
+    .configure = damping_configure,
     .loss = "damping",
     .place = PLACE_DAMPING,
     .begin_step = damping_begin_step,

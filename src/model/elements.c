@@ -23,7 +23,8 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
 bool elements_next(ElementIterator *walk)
 {
     while (walk->element.next_place > 0 || ++walk->i < walk->count)
-        if (walk->kind->get(walk->at, walk->i, walk->way, &walk->element))
+        if (walk->kind->get_element(walk->at, walk->i, walk->way,
+                                    &walk->element))
             return true;
     return false;
 }
@@ -66,7 +67,7 @@ static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
                                    {0, 1}, {0, 2}, {1, 2}};
 
 /* Returns the number of triplets of a block, the same for every block. */
-static int entries_of_a_block(const EvalPoint *at)
+static int count_block_entries(const EvalPoint *at)
 {
     int node[3], nodes = at->term->kind->element->block_nodes(at, 0, node);
     return nodes * (2 * nodes + 1);
@@ -74,7 +75,7 @@ static int entries_of_a_block(const EvalPoint *at)
 
 long long elements_entries(const EvalPoint *at)
 {
-    return (long long)entries_of_a_block(at) *
+    return (long long)count_block_entries(at) *
            at->term->kind->element->block_count(at);
 }
 
@@ -140,7 +141,7 @@ static bool add_product(const ElementIterator *walk, Projection projection,
 int elements_hessian(const EvalPoint *at, Projection projection,
                      const int *slot, const double *q, double *out)
 {
-    int projected = 0, entries = entries_of_a_block(at);
+    int projected = 0, entries = count_block_entries(at);
     double H[4][4];
     for (ElementIterator walk = elements_begin(at, NULL, 0);
          elements_next(&walk);) {

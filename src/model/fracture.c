@@ -73,8 +73,8 @@ static void fracture_end_step(const TermStep *step)
     system_mark_changed(system, false);
 }
 
-static Status fracture_set(System *system, const struct SquareMesh *mesh,
-                           const double *number)
+static Status fracture_configure(System *system, const struct SquareMesh *mesh,
+                                 const double *number)
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
@@ -91,7 +91,7 @@ static Status fracture_set(System *system, const struct SquareMesh *mesh,
 }
 
 const TermKind fracture = {
-    .set = fracture_set,
+    .configure = fracture_configure,
     .loss = "fracture",
     .place = PLACE_FRACTURE,
     .end_step = fracture_end_step,

@@ -27,7 +27,7 @@ static double friction_curvature(double y, double e)
 
 /* On [0, e] and on [-e, 0] f0'' is linear, so the remainder of the step t from
  * y to z is t^2 (2 f0''(y) + f0''(z))/6. */
-static double remainder_on_piece(double y, double t, double z, double e)
+static double taylor_remainder_on_piece(double y, double t, double z, double e)
 {
     return t * t * (2 * friction_curvature(y, e) + friction_curvature(z, e)) /
            6;
@@ -35,24 +35,25 @@ static double remainder_on_piece(double y, double t, double z, double e)
 
 /* Returns f0(z) - f0(y) - f0'(y) t for y >= 0 and z = y + t >= 0; t may be
  * negative. */
-static double remainder_on_side(double y, double t, double e)
+static double taylor_remainder_on_side(double y, double t, double e)
 {
     double z = y + t;
     if (y <= e && z <= e)
-        return remainder_on_piece(y, t, z, e);
+        return taylor_remainder_on_piece(y, t, z, e);
     if (y > e && z > e)
         return 0;
     if (y > e) /* into [0, e]: from y to e, f0 is linear and adds 0 */
-        return remainder_on_piece(e, z - e, z, e);
+        return taylor_remainder_on_piece(e, z - e, z, e);
     /* out of [0, e]: beyond e the slope is 1, at y it is 1 - missing^2 */
     double missing = 1 - y / e;
-    return remainder_on_piece(y, e - y, e, e) + missing * missing * (z - e);
+    return taylor_remainder_on_piece(y, e - y, e, e) +
+           missing * missing * (z - e);
 }
 
 /* Returns f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy.  A
  * step that passes 0 is split there, by
  * R(a -> c) = R(a -> b) + (f'(b) - f'(a)) (c - b) + R(b -> c). */
-static double friction_remainder(double y, double t, double e)
+static double friction_taylor_remainder(double y, double t, double e)
 {
     double z = y + t;
     if (y < 0) { /* f0 is even */
@@ -61,15 +62,15 @@ static double friction_remainder(double y, double t, double e)
         z = -z;
     }
     if (z >= 0)
-        return remainder_on_side(y, t, e);
-    return remainder_on_side(y, -y, e) - friction_slope(y, e) * z +
-           remainder_on_side(0, -z, e);
+        return taylor_remainder_on_side(y, t, e);
+    return taylor_remainder_on_side(y, -y, e) - friction_slope(y, e) * z +
+           taylor_remainder_on_side(0, -z, e);
 }
 
 /* ---- the term ------------------------------------------------------------ */
 
 /* Returns t.(a, b), where a and b are those of displacements or a direction. */
-static double tangent_part(const Element *row, const double vectors[4])
+static double tangential_component(const Element *row, const double vectors[4])
 {
     double sum = 0;
     for (int i = 0; i < 2 * row->vectors; i++)
@@ -77,15 +78,15 @@ static double tangent_part(const Element *row, const double vectors[4])
     return sum;
 }
 
-static double slip_of(const SlidingContact *slide, const double *u)
+static double compute_slip(const SlidingContact *contact, const double *u)
 {
     double vectors[4];
-    element_vectors(&slide->element, u, vectors);
-    return tangent_part(&slide->element, vectors) - slide->carry;
+    element_vectors(&contact->element, u, vectors);
+    return tangential_component(&contact->element, vectors) - contact->travel;
 }
 
 /* Returns the point for the contact term whose elements have this friction. */
-static EvalPoint point_of_contact_term(const EvalPoint *at)
+static EvalPoint select_contact_term(const EvalPoint *at)
 {
     bool obstacles = at->term->kind == &friction_energy;
     EvalPoint source = *at;
@@ -100,29 +101,30 @@ static Status friction_begin_step(const TermStep *step)
     Friction *friction = step->term->data;
     EvalPoint at = eval_point_at(step->system, step->x, NULL, step->x);
     at.term = step->term;
-    at = point_of_contact_term(&at);
+    at = select_contact_term(&at);
     friction->e = friction->slip_speed * step->h;
-    friction->slides = 0;
+    friction->contacts = 0;
     for (ElementIterator walk = elements_begin(&at, NULL, 0);
          elements_next(&walk);) {
-        SlidingContact slide = {walk.element, 0};
-        slide.element.r = walk.kind->friction_limit(
-            &at, &walk.element, slide.element.v, &slide.carry);
-        slide.element.factor = 1;
-        slide.element.next_place = 0;
-        slide.carry *= step->h;
-        if (!(slide.element.r > 0))
+        SlidingContact contact = {walk.element, 0};
+        contact.element.r = walk.kind->friction_limit(
+            &at, &walk.element, contact.element.v, &contact.travel);
+        contact.element.factor = 1;
+        contact.element.next_place = 0;
+        contact.travel *= step->h;
+        if (!(contact.element.r > 0))
             continue;
-        if (friction->slides == friction->room) {
+        if (friction->contacts == friction->room) {
             int room = 2 * friction->room + 64;
-            friction = realloc(step->term->data,
-                               sizeof *friction + (size_t)room * sizeof slide);
+            friction =
+                realloc(step->term->data,
+                        sizeof *friction + (size_t)room * sizeof contact);
             if (!friction)
                 return STATUS_OUT_OF_MEMORY;
             step->term->data = friction;
             friction->room = room;
         }
-        friction->slide[friction->slides++] = slide;
+        friction->contact[friction->contacts++] = contact;
     }
     return STATUS_OK;
 }
@@ -131,14 +133,15 @@ static Status friction_begin_step(const TermStep *step)
 static void friction_end_step(const TermStep *step)
 {
     const Friction *friction = step->term->data;
-    for (int i = 0; i < friction->slides; i++) {
-        const SlidingContact *slide = &friction->slide[i];
+    for (int i = 0; i < friction->contacts; i++) {
+        const SlidingContact *contact = &friction->contact[i];
         double vectors[4];
-        element_vectors(&slide->element, step->v, vectors);
-        double y =
-            step->h * tangent_part(&slide->element, vectors) - slide->carry;
+        element_vectors(&contact->element, step->v, vectors);
+        double y = step->h * tangential_component(&contact->element, vectors) -
+                   contact->travel;
         system_book_loss(step->system, step->term->kind,
-                         slide->element.r * friction_slope(y, friction->e) * y);
+                         contact->element.r * friction_slope(y, friction->e) *
+                             y);
     }
 }
 
@@ -149,32 +152,32 @@ static const Friction *friction_of(const EvalPoint *at)
 
 static int slip_count(const EvalPoint *at)
 {
-    return friction_of(at)->slides;
+    return friction_of(at)->contacts;
 }
 
 /* s is the slip y.  Outside a step (u NULL) friction has no energy. */
-static bool slip_element(const EvalPoint *at, int i, double way,
-                         Element *element)
+static bool slip_get_element(const EvalPoint *at, int i, double way,
+                             Element *element)
 {
-    const SlidingContact *slide = &friction_of(at)->slide[i];
+    const SlidingContact *contact = &friction_of(at)->contact[i];
     (void)way;
     if (!at->u)
         return false;
-    *element = slide->element;
-    element->s = slip_of(slide, at->u);
+    *element = contact->element;
+    element->s = compute_slip(contact, at->u);
     return true;
 }
 
 /* The Hessian of friction has the same blocks as that of its contact term. */
 static int slip_block_count(const EvalPoint *at)
 {
-    EvalPoint source = point_of_contact_term(at);
+    EvalPoint source = select_contact_term(at);
     return source.term->kind->element->block_count(&source);
 }
 
 static int slip_block_nodes(const EvalPoint *at, int block, int node[3])
 {
-    EvalPoint source = point_of_contact_term(at);
+    EvalPoint source = select_contact_term(at);
     return source.term->kind->element->block_nodes(&source, block, node);
 }
 
@@ -208,14 +211,15 @@ static bool slip_hessian(const EvalPoint *at, const Element *element,
 static double slip_line_remainder(const EvalPoint *at, const Element *element,
                                   const double P[4], double alpha)
 {
-    return element->r * friction_remainder(element->s,
-                                           alpha * tangent_part(element, P),
-                                           friction_of(at)->e);
+    return element->r *
+           friction_taylor_remainder(element->s,
+                                     alpha * tangential_component(element, P),
+                                     friction_of(at)->e);
 }
 
-static const ElementKind slides = {
+static const ElementKind slips = {
     .count = slip_count,
-    .get = slip_element,
+    .get_element = slip_get_element,
     .block_nodes = slip_block_nodes,
     .value = slip_value,
     .gradient = slip_gradient,
@@ -225,7 +229,7 @@ static const ElementKind slides = {
 };
 
 const TermKind friction_energy = {
-    ELEMENTS(slides),
+    ELEMENTS(slips),
     .name = "friction",
     .loss = "friction",
     .place = PLACE_FRICTION,
@@ -236,7 +240,7 @@ const TermKind friction_energy = {
 };
 
 const TermKind self_friction_energy = {
-    ELEMENTS(slides),
+    ELEMENTS(slips),
     .loss = "friction",
     .place = PLACE_FRICTION,
     .begin_step = friction_begin_step,
@@ -250,16 +254,17 @@ double friction_work_of_obstacles(const System *system, const double *u)
 {
     const Friction *friction = system_term_data(system, &friction_energy);
     double sum = 0;
-    for (int i = 0; friction && i < friction->slides; i++) {
-        const SlidingContact *slide = &friction->slide[i];
-        double y = slip_of(slide, u);
-        sum -= slide->element.r * friction_slope(y, friction->e) * slide->carry;
+    for (int i = 0; friction && i < friction->contacts; i++) {
+        const SlidingContact *contact = &friction->contact[i];
+        double y = compute_slip(contact, u);
+        sum -= contact->element.r * friction_slope(y, friction->e) *
+               contact->travel;
     }
     return sum;
 }
 
-Status friction_set(System *system, const TermKind *kind, bool wanted,
-                    double slip_speed)
+Status friction_configure(System *system, const TermKind *kind, bool wanted,
+                          double slip_speed)
 {
     if (!wanted) {
         system_remove_term(system, kind);

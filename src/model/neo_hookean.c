@@ -29,8 +29,8 @@ static double inverse_square_leg(const NeoHookean *data)
 }
 
 /* Every triangle is an element, with a = e1, b = e2, s = J. */
-static bool neo_hookean_get(const EvalPoint *at, int t, double way,
-                            Element *element)
+static bool neo_hookean_get_element(const EvalPoint *at, int t, double way,
+                                    Element *element)
 {
     static const double legs[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const NeoHookean *data = at->term->data;
@@ -45,13 +45,13 @@ static bool neo_hookean_get(const EvalPoint *at, int t, double way,
     return true;
 }
 
-static double square_of(const double a[2])
+static double squared_length(const double a[2])
 {
     return a[0] * a[0] + a[1] * a[1];
 }
 
 /* Returns J - 1 - ln J >= 0, without cancellation near 1. */
-static double volume_value(double J)
+static double compute_volume_energy(double J)
 {
     return J > 0.5 ? -log1p_minus(J - 1) : J - 1 - math_log(J);
 }
@@ -63,9 +63,10 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
     const NeoHookean *data = at->term->data;
     double plus[2], minus[2], L = math_log(element->s);
     area_split(element->v, plus, minus);
-    double shear = 2 * inverse_square_leg(data) * square_of(minus);
-    return data->area * (data->mu * (shear + volume_value(element->s)) +
-                         0.5 * data->lambda * L * L);
+    double shear = 2 * inverse_square_leg(data) * squared_length(minus);
+    return data->area *
+           (data->mu * (shear + compute_volume_energy(element->s)) +
+            0.5 * data->lambda * L * L);
 }
 
 /* Writes s and 2 mu - s, the factors of F+ and F- in dW/dF.  s is dW/dJ over
@@ -138,8 +139,9 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
     if (!(z > -1))
         return INFINITY;
     double L = math_log1p(z), curved = log1p_minus(z), t = curved + bent;
-    double straight = alpha * alpha * unit / J *
-                      ((J - 1) * square_of(plus) + (J + 1) * square_of(minus));
+    double straight =
+        alpha * alpha * unit / J *
+        ((J - 1) * squared_length(plus) + (J + 1) * squared_length(minus));
     return data->area * (data->mu * (straight - curved) +
                          0.5 * data->lambda * (2 * math_log(J) * t + L * L));
 }
@@ -162,7 +164,7 @@ static double neo_hookean_curvature_bound(const EvalPoint *at)
 
 static const ElementKind triangle = {
     .count = neo_hookean_count,
-    .get = neo_hookean_get,
+    .get_element = neo_hookean_get_element,
     .block_nodes = neo_hookean_block_nodes,
     .value = neo_hookean_value,
     .gradient = neo_hookean_gradient,
@@ -175,8 +177,8 @@ static const ElementKind triangle = {
 
 /* Cuts each cell into two triangles.  Their sides stay springs, which are drawn
  * but have no energy; the other diagonal gets k = 0. */
-static Status neo_hookean_set(System *system, const SquareMesh *mesh,
-                              const double *number)
+static Status neo_hookean_configure(System *system, const SquareMesh *mesh,
+                                    const double *number)
 {
     static const int corner[2][2][3] = {{{1, 2, 0}, {3, 0, 2}},
                                         {{0, 1, 3}, {2, 3, 1}}};
@@ -209,7 +211,7 @@ static Status neo_hookean_set(System *system, const SquareMesh *mesh,
 const TermKind neo_hookean_energy = {
     ELEMENTS(triangle),
     .name = "triangles",
-    .set = neo_hookean_set,
+    .configure = neo_hookean_configure,
     .energy = "elastic",
     .curvature_bound = neo_hookean_curvature_bound,
     .internal = true,

@@ -7,13 +7,13 @@
 #include "model/mass_spring_energy.h"
 
 /* Returns (|e| - Y)_+.  fmax would be a slow library call for each spring. */
-static double strain_beyond(FlowLaw law, double e)
+static double strain_beyond_yield(FlowLaw law, double e)
 {
     return fabs(e) > law.yield ? fabs(e) - law.yield : 0;
 }
 
 /* Returns min(|e|, Y). */
-static double strain_within(FlowLaw law, double e)
+static double strain_within_yield(FlowLaw law, double e)
 {
     return fabs(e) < law.yield ? fabs(e) : law.yield;
 }
@@ -23,8 +23,8 @@ static double strain_within(FlowLaw law, double e)
  * so the parts of |e| within and beyond Y are computed separately. */
 static double flow_law_value(FlowLaw law, double e)
 {
-    double over = strain_beyond(law, e), change = e - law.e_n;
-    double within = strain_within(law, e);
+    double over = strain_beyond_yield(law, e), change = e - law.e_n;
+    double within = strain_within_yield(law, e);
     double sum =
         within * (fabs(e) - 0.5 * within) + 0.5 * law.hard * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
@@ -32,14 +32,15 @@ static double flow_law_value(FlowLaw law, double e)
 
 double flow_law_slope(FlowLaw law, double e)
 {
-    double tau =
-        copysign(strain_within(law, e) + law.hard * strain_beyond(law, e), e);
+    double tau = copysign(strain_within_yield(law, e) +
+                              law.hard * strain_beyond_yield(law, e),
+                          e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
 static double flow_law_curvature(FlowLaw law, double e)
 {
-    return law.theta + (strain_beyond(law, e) > 0 ? law.hard : 1);
+    return law.theta + (strain_beyond_yield(law, e) > 0 ? law.hard : 1);
 }
 
 double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
@@ -51,7 +52,7 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
 /* ---- the term -------------------------------------------------------- */
 
 /* Returns V of spring s without damping. */
-static inline FlowLaw law_of(const Plasticity *data, int s)
+static inline FlowLaw make_flow_law(const Plasticity *data, int s)
 {
     double H = data->hardening, flow = 1 / (1 + H);
     return (FlowLaw){.ep = data->ep[s],
@@ -63,7 +64,8 @@ static inline FlowLaw law_of(const Plasticity *data, int s)
 FlowLaw plasticity_get_law(const System *system, int s)
 {
     const Plasticity *data = system_term_data(system, &plastic_energy);
-    return data ? law_of(data, s) : (FlowLaw){.yield = INFINITY, .hard = 1};
+    return data ? make_flow_law(data, s)
+                : (FlowLaw){.yield = INFINITY, .hard = 1};
 }
 
 /* A spring at the point of evaluation. */
@@ -75,13 +77,13 @@ typedef struct FlowSpring {
     FlowLaw law;
 } FlowSpring;
 
-static inline FlowSpring flow_spring(const EvalPoint *at, int s)
+static inline FlowSpring evaluate_flow_spring(const EvalPoint *at, int s)
 {
     const Damping *damping = at->damping;
     FlowSpring spring = {.e = at->system->e + 2 * s,
                          .k = at->system->k[s],
                          .l2 = at->system->l2[s],
-                         .law = law_of(at->term->data, s)};
+                         .law = make_flow_law(at->term->data, s)};
     spring.law.theta = damping ? damping->theta : 0;
     spring.law.e_n = damping ? damping->E_n[s] - spring.law.ep : 0;
     spring.d2 = spring_vector(spring.e, at->x, spring.d);
@@ -94,7 +96,7 @@ static double plastic_value(const EvalPoint *at)
     const Plasticity *data = at->term->data;
     double sum = 0;
     for (int s = 0; s < at->system->springs; s++) {
-        FlowSpring spring = flow_spring(at, s);
+        FlowSpring spring = evaluate_flow_spring(at, s);
         double kappa = data->kappa[s];
         sum += spring.k * spring.l2 *
                (flow_law_value(spring.law, spring.strain) +
@@ -107,7 +109,7 @@ static double plastic_value(const EvalPoint *at)
 static void plastic_gradient(const EvalPoint *at, double *g)
 {
     for (int s = 0; s < at->system->springs; s++) {
-        FlowSpring spring = flow_spring(at, s);
+        FlowSpring spring = evaluate_flow_spring(at, s);
         spring_add_force(
             spring.e,
             spring_gradient_factor(at->weight * spring.k,
@@ -121,7 +123,7 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
 {
     int projected = 0;
     for (int s = 0; s < at->system->springs; s++) {
-        FlowSpring spring = flow_spring(at, s);
+        FlowSpring spring = evaluate_flow_spring(at, s);
         const double *d = spring.d, d2 = spring.d2;
         double k = at->weight * spring.k,
                factor = spring_hessian_factor(spring.l2, k);
@@ -142,8 +144,8 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
 /* Along p the strain changes by D = alpha B + alpha^2 C.  Apart from its linear
  * part, W changes by k l2 (tau alpha^2 C + R_V(e, D)): the first summand is the
  * line polynomial, R_V the line remainder.  Writes B and C. */
-static inline void strain_along(const FlowSpring *spring, const double *p,
-                                double *B, double *C)
+static inline void expand_strain_along(const FlowSpring *spring,
+                                       const double *p, double *B, double *C)
 {
     double change[2];
     *C = spring_vector(spring->e, p, change) / spring->l2;
@@ -155,8 +157,8 @@ static void plastic_line_polynomial(const EvalPoint *at, const double *p,
 {
     double B, C;
     for (int s = 0; s < at->system->springs; s++) {
-        FlowSpring spring = flow_spring(at, s);
-        strain_along(&spring, p, &B, &C);
+        FlowSpring spring = evaluate_flow_spring(at, s);
+        expand_strain_along(&spring, p, &B, &C);
         q[0] += at->weight * spring.k * spring.l2 *
                 flow_law_slope(spring.law, spring.strain) * C;
     }
@@ -171,9 +173,9 @@ static double plastic_line_remainder(const EvalPoint *at, const double *p,
 {
     double sum = 0, B, C;
     for (int s = 0; s < at->system->springs; s++) {
-        FlowSpring spring = flow_spring(at, s);
+        FlowSpring spring = evaluate_flow_spring(at, s);
         FlowLaw law = spring.law;
-        strain_along(&spring, p, &B, &C);
+        expand_strain_along(&spring, p, &B, &C);
         double t = alpha * (B + alpha * C), way = fabs(t);
         double start = copysign(1, t) * spring.strain;
         double from = -law.yield - start, to = law.yield - start;
@@ -196,9 +198,9 @@ static void plastic_end_step(const TermStep *step)
     bool changed = false;
     at.term = step->term;
     for (int s = 0; s < system->springs; s++) {
-        FlowSpring spring = flow_spring(&at, s);
+        FlowSpring spring = evaluate_flow_spring(&at, s);
         double gamma =
-            spring.law.flow * strain_beyond(spring.law, spring.strain);
+            spring.law.flow * strain_beyond_yield(spring.law, spring.strain);
         if (!(gamma > 0) || spring_is_broken(system, s))
             continue;
         data->ep[s] += copysign(gamma, spring.strain);
@@ -213,8 +215,8 @@ static void plastic_end_step(const TermStep *step)
 
 /* Makes all springs plastic: the term takes the place of the elastic one.
  *   number  [2] yield strain Y and hardening H */
-static Status plastic_set(System *system, const struct SquareMesh *mesh,
-                          const double *number)
+static Status plastic_configure(System *system, const struct SquareMesh *mesh,
+                                const double *number)
 {
     size_t springs = (size_t)system->springs;
     (void)mesh;
@@ -232,7 +234,7 @@ static Status plastic_set(System *system, const struct SquareMesh *mesh,
 
 const TermKind plastic_energy = {
     .name = "plastic springs",
-    .set = plastic_set,
+    .configure = plastic_configure,
     .energy = "elastic",
     .loss = "plastic",
     .value = plastic_value,

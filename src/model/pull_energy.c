@@ -75,7 +75,7 @@ static double pull_curvature_bound(const EvalPoint *at)
 const TermKind central_field = {PULL, .energy = "elastic"};
 const TermKind hand_energy = {PULL, .place = PLACE_HAND};
 
-Status pull_set(System *system, const TermKind *kind, const Pull *pull)
+Status pull_configure(System *system, const TermKind *kind, const Pull *pull)
 {
     Pull *own = system_add_term(system, kind, sizeof *own);
     if (!own)

@@ -23,7 +23,8 @@ static const double KEPT = 0.3;
 enum { HALVINGS = 8, MAX_PARTS = 16 };
 
 /* Writes the way of the obstacle in a step of h seconds if nothing stops it. */
-static void plan_way(const Push *push, const double *o, double h, double way[2])
+static void plan_obstacle_way(const Push *push, const double *o, double h,
+                              double way[2])
 {
     double side = push->shape.side;
     double d[2] = {push->to[0] - o[0], push->to[1] - o[1]};
@@ -57,8 +58,8 @@ static bool is_pressed(const Contact *contact, const System *system,
 /* Whether the obstacle may move to o [2].  The obstacle may not come nearer
  * than KEPT to a pinned node without contact, unless it was nearer before, and
  * the centre of a ball may not enter a cell. */
-static bool has_room(const Contact *contact, const System *system,
-                     const double *x, const double o[2])
+static bool obstacle_has_room(const Contact *contact, const System *system,
+                              const double *x, const double o[2])
 {
     int k = contact->push.obstacle;
     const Obstacle *obstacle = &contact->obstacle[k];
@@ -91,7 +92,7 @@ static double find_free_part(const Contact *contact, const System *system,
         double part = fmin(free + step, 1);
         const double o[2] = {obstacle->o[0] + part * way[0],
                              obstacle->o[1] + part * way[1]};
-        if (has_room(contact, system, x, o)) {
+        if (obstacle_has_room(contact, system, x, o)) {
             free = part;
         } else {
             step /= 2;
@@ -112,7 +113,7 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
     if (!push->on)
         return;
     Obstacle *obstacle = &contact->obstacle[push->obstacle];
-    plan_way(push, obstacle->o, h, way);
+    plan_obstacle_way(push, obstacle->o, h, way);
     double part = is_pressed(contact, system, x, way)
                       ? 0
                       : find_free_part(contact, system, x, way);

@@ -28,7 +28,7 @@ static int compare_pairs(const void *one, const void *other)
 }
 
 /* Returns the block of a pair; -1: none. */
-static int block_of(const SelfContact *self, SelfPair pair)
+static int find_pair_block(const SelfContact *self, SelfPair pair)
 {
     const SelfPair *found =
         self->pairs == 0 ? NULL
@@ -105,7 +105,7 @@ static int pair_block_count(const EvalPoint *at)
     return self_contact_data(at)->pairs;
 }
 
-static int nodes_of(const System *system, SelfPair pair, int node[3])
+static int get_pair_nodes(const System *system, SelfPair pair, int node[3])
 {
     node[0] = pair.node;
     node[1] = system->e[2 * pair.edge];
@@ -116,7 +116,9 @@ static int nodes_of(const System *system, SelfPair pair, int node[3])
 static int pair_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     const SelfContact *self = self_contact_data(at);
-    return self->pairs == 0 ? 0 : nodes_of(at->system, self->pair[block], node);
+    return self->pairs == 0
+               ? 0
+               : get_pair_nodes(at->system, self->pair[block], node);
 }
 
 /* ---- elements ----------------------------------------------------------- */
@@ -171,7 +173,8 @@ static bool is_below_rounding(const SelfContact *self, const Element *element,
 }
 
 /* Point i with its next near edge.  The boxes of the boundary include `way`. */
-static bool pair_get(const EvalPoint *at, int i, double way, Element *element)
+static bool pair_get_element(const EvalPoint *at, int i, double way,
+                             Element *element)
 {
     static const double differences[2][3] = {{1, -1, 0}, {0, -1, 1}};
     SelfContact *self = self_contact_data(at);
@@ -181,7 +184,7 @@ static bool pair_get(const EvalPoint *at, int i, double way, Element *element)
                                       &element->next_place)) >= 0) {
         const SelfPair pair = {boundary->point[i], edge};
         element->vectors = 2;
-        element->nodes = nodes_of(at->system, pair, element->node);
+        element->nodes = get_pair_nodes(at->system, pair, element->node);
         element->weight = differences;
         element->factor = at->weight;
         element->source = edge;
@@ -191,7 +194,8 @@ static bool pair_get(const EvalPoint *at, int i, double way, Element *element)
             continue;
         if (is_below_rounding(self, element, at->x))
             element->s = 0;
-        element->block = boundary->has_motion ? -1 : block_of(self, pair);
+        element->block =
+            boundary->has_motion ? -1 : find_pair_block(self, pair);
         return true;
     }
     (void)way;
@@ -251,24 +255,26 @@ static bool pair_hessian(const EvalPoint *at, const Element *element,
 
 /* A quadratic along a line with the value N + n1 + n2 at the end. */
 typedef struct Quadratic {
-    double N, n1, n2; /* parts of degree 0, 1 and 2 */
+    double degree0, degree1, degree2; /* parts of degree 0, 1 and 2 */
 } Quadratic;
 
 /* The change of N^2/l along the line, where a negative N counts as 0 unless
  * `always`.  Adds the part of degree 1 to *first and returns the rest. */
-static double ratio_change(Quadratic top, Quadratic l, bool always,
-                           double *first)
+static double square_ratio_change(Quadratic top, Quadratic l, bool always,
+                                  double *first)
 {
-    double N = top.N, change = top.n1 + top.n2, end = l.N + l.n1 + l.n2;
+    double N = top.degree0, change = top.degree1 + top.degree2,
+           end = l.degree0 + l.degree1 + l.degree2;
     bool starts = always || N > 0, ends = always || N + change > 0;
     if (!starts)
         return ends ? (N + change) * (N + change) / end : 0;
-    double one = (2 * N * top.n1 - N * N * l.n1 / l.N) / l.N;
+    double one =
+        (2 * N * top.degree1 - N * N * l.degree1 / l.degree0) / l.degree0;
     *first += one;
     if (!ends)
-        return -N * N / l.N - one;
-    return (2 * N * top.n2 + change * change - N * N * l.n2 / l.N -
-            one * (l.n1 + l.n2)) /
+        return -N * N / l.degree0 - one;
+    return (2 * N * top.degree2 + change * change -
+            N * N * l.degree2 / l.degree0 - one * (l.degree1 + l.degree2)) /
            end;
 }
 
@@ -285,15 +291,16 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
                             cross(de, dq)};
     const Quadratic low = {-dot2(q, e), -dot2(dq, e) - dot2(q, de),
                            -dot2(dq, de)};
-    const Quadratic high = {-low.N - l.N, -low.n1 - l.n1, -low.n2 - l.n2};
-    double rest = ratio_change(side, l, true, &first) +
-                  ratio_change(low, l, false, &first) +
-                  ratio_change(high, l, false, &first);
+    const Quadratic high = {-low.degree0 - l.degree0, -low.degree1 - l.degree1,
+                            -low.degree2 - l.degree2};
+    double rest = square_ratio_change(side, l, true, &first) +
+                  square_ratio_change(low, l, false, &first) +
+                  square_ratio_change(high, l, false, &first);
     double S = element->s, slope = barrier_slope(S);
     if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* W is 0 at the end */
         return self->c * (-barrier_value(S) - slope * first / d_hat2);
     return self->c * (slope * rest / d_hat2 +
-                      barrier_remainder(S, (first + rest) / d_hat2));
+                      barrier_taylor_remainder(S, (first + rest) / d_hat2));
 }
 
 /* Finds the first alpha > 0 at which p lies on the edge: e x q = 0, a quadratic
@@ -325,7 +332,7 @@ static double pair_max_step(const EvalPoint *at, const Element *element,
 
 /* The limit is mu F, the slip is w_t. */
 static double pair_friction_limit(const EvalPoint *at, const Element *element,
-                                  double t[4], double *carry)
+                                  double t[4], double *speed)
 {
     const SelfContact *self = self_contact_data(at);
     const double *n = element->n;
@@ -333,13 +340,13 @@ static double pair_friction_limit(const EvalPoint *at, const Element *element,
     t[1] = n[0];
     t[2] = element->r * n[1];
     t[3] = -element->r * n[0];
-    *carry = 0;
+    *speed = 0;
     return self->friction * pair_force(self, element->s);
 }
 
 static const ElementKind near_pairs = {
     .count = pair_count,
-    .get = pair_get,
+    .get_element = pair_get_element,
     .block_nodes = pair_block_nodes,
     .value = pair_value,
     .gradient = pair_gradient,
@@ -360,7 +367,7 @@ static double pair_curvature_bound(const EvalPoint *at)
     return 16 * self->c / (self->d_hat * self->d_hat);
 }
 
-static void free_pairs(void *data)
+static void self_contact_free(void *data)
 {
     free(((SelfContact *)data)->pair);
 }
@@ -373,7 +380,7 @@ const TermKind self_contact_energy = {
     .begin_step = self_contact_begin_step,
     .grow = self_contact_grow,
     .curvature_bound = pair_curvature_bound,
-    .free = free_pairs,
+    .free = self_contact_free,
     .internal = true,
     .backward_euler_only = true,
 };
@@ -383,8 +390,8 @@ SelfContact *self_contact_of(const System *system)
     return system_term_data(system, &self_contact_energy);
 }
 
-Status self_contact_set(System *system, const SquareMesh *mesh,
-                        const Barrier *barrier, double friction)
+Status self_contact_configure(System *system, const SquareMesh *mesh,
+                              const Barrier *barrier, double friction)
 {
     SelfContact *self = system_add_term(system, &self_contact_energy,
                                         sizeof *self + boundary_bytes(mesh));

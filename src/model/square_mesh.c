@@ -22,7 +22,7 @@ SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
 /* Returns the body of node, cell or edge i of `all`; i becomes its number
  * there.
  */
-static int body_of(const SquareMesh *shape, int all, int *i)
+static int locate_in_body(const SquareMesh *shape, int all, int *i)
 {
     int each = all / shape->bodies, body = *i / each;
     *i %= each;
@@ -37,7 +37,7 @@ static int grid_node(const SquareMesh *shape, int i, int j)
 
 int square_mesh_locate_body(const SquareMesh *shape, int *i)
 {
-    return body_of(shape, shape->nodes, i);
+    return locate_in_body(shape, shape->nodes, i);
 }
 
 /* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
@@ -66,7 +66,7 @@ void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
 {
     int columns = shape->segments, rows = shape->rows;
     square_mesh_get_patch(shape, c, 1, node);
-    int first = body_of(shape, shape->cells, &c);
+    int first = locate_in_body(shape, shape->cells, &c);
     first *= shape->springs / shape->bodies;
     int a = first + c / rows * (rows + 1) + c % rows;
     int upright = first + grid_node(shape, columns, 0) + c;
@@ -115,7 +115,7 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
 bool square_mesh_triangle_is_half(const SquareMesh *shape, int t)
 {
     int c = t / 4;
-    body_of(shape, shape->cells, &c);
+    locate_in_body(shape, shape->cells, &c);
     return (c / shape->rows + c % shape->rows + t) % 2;
 }
 
@@ -123,7 +123,7 @@ bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
                            int node[4])
 {
     int columns = shape->segments, rows = shape->rows;
-    int first = body_of(shape, shape->cells, &c);
+    int first = locate_in_body(shape, shape->cells, &c);
     first *= shape->nodes / shape->bodies;
     int left = c / rows, low = c % rows;
     int right = left + cells < columns ? left + cells : columns;
@@ -150,7 +150,7 @@ static int outline_node(const SquareMesh *shape, int k)
 
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])
 {
-    int first = body_of(shape, shape->outline, &k);
+    int first = locate_in_body(shape, shape->outline, &k);
     first *= shape->nodes / shape->bodies;
     int next = (k + 1) % (shape->outline / shape->bodies);
     node[0] = first + outline_node(shape, k);

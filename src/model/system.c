@@ -110,7 +110,7 @@ void system_book_loss(System *system, const TermKind *kind, double energy)
 }
 
 /* Whether value is positive and normal, that is, not denormal or infinite. */
-static bool is_positive(double value)
+static bool is_positive_normal(double value)
 {
     return isnormal(value) && value > 0;
 }
@@ -141,13 +141,14 @@ Status system_check(const System *system, const double *x)
     bool valid = all_finite(system->gravity, 2) &&
                  all_finite(x, 2 * (size_t)system->nodes);
     for (int i = 0; valid && i < system->nodes; i++)
-        valid = is_positive(system->m[i]);
+        valid = is_positive_normal(system->m[i]);
     for (int s = 0; valid && s < system->springs; s++) {
         int i = system->e[2 * s], j = system->e[2 * s + 1];
         double l2 = system->l2[s], k = system->k[s];
-        valid = i >= 0 && i < system->nodes && j >= 0 && j < system->nodes &&
-                i != j && is_positive(l2) &&
-                (k == 0 || (is_positive(k) && is_positive(k / l2)));
+        valid =
+            i >= 0 && i < system->nodes && j >= 0 && j < system->nodes &&
+            i != j && is_positive_normal(l2) &&
+            (k == 0 || (is_positive_normal(k) && is_positive_normal(k / l2)));
     }
     for (int t = 0; valid && t < system->terms; t++) {
         const TermKind *kind = eval_point_select_term(&at, t);

@@ -61,7 +61,7 @@ static void add_window_values(const FrameContent *content, LiveValues *values)
     values_add(values, "page",
                lecture->page ? (double)(lecture->page - lecture_pages + 1)
                              : NAN);
-    values_add(values, "pages", lecture_count());
+    values_add(values, "pages", lecture_count_pages());
     values_add(values, "panes", content->panes > 1 ? content->panes : NAN);
     values_add_flag(values, "paused", content->time_line.paused);
     values_add_flag(values, "told", !lecture->hides_answer);

@@ -37,7 +37,7 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
     double last = plot->box.y + plot->box.height - line;
     for (int i = 0; i < RACE_METHODS; i++) {
         plot_to_pixel(plot, point[i], at[i]);
-        bool left = over_h || !race_method(i)->implicit;
+        bool left = over_h || !race_get_method(i)->implicit;
         at[i][1] = left == on_left ? at[i][1] : NAN;
         last -= isnan(at[i][1]) ? 0 : line;
         if (!isnan(at[i][1]))
@@ -49,7 +49,7 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
             next = isnan(at[next][1]) || at[i][1] < at[next][1] ? i : next;
         if (isnan(at[next][1]))
             return;
-        const IntegratorMethod *method = race_method(next);
+        const IntegratorMethod *method = race_get_method(next);
         Colour colour = colour_of_name(method->name);
         double wide = paper_width(paper, FACE_BOLD, 1, method->label);
         double x = column + way * 1.4 * paper->em;
@@ -83,8 +83,8 @@ void race_draw(Plot *stage)
     if (!over_h)
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
     for (int method = 0; method < RACE_METHODS; method++) {
-        Colour colour = colour_of_name(race_method(method)->name);
-        bool first = !over_h && !race_method(method)->implicit;
+        Colour colour = colour_of_name(race_get_method(method)->name);
+        bool first = !over_h && !race_get_method(method)->implicit;
         double last[2] = {NAN, NAN};
         named[method][0] = named[method][1] = NAN;
         for (int i = method; i < race->count; i += RACE_METHODS) {
@@ -166,7 +166,7 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     *cells = heads;
     if (row == 0 || row > RACE_METHODS)
         return row == 0;
-    const IntegratorMethod *shown = race_method(method);
+    const IntegratorMethod *shown = race_get_method(method);
     const RacePoint *point =
         &race->point[RACE_SHOWN_ROW * RACE_METHODS + method];
     char(*cell)[CARD_CELL] = cells->cell;

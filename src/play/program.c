@@ -149,7 +149,8 @@ static void print_newton(FILE *file, const Simulation *simulation)
         {"not at a minimum", sum.negative},
     };
     if (newton && needs & NEEDS_SPRINGS)
-        print_quantity(file, "solver", "%s%s%s", solver_name(newton->working),
+        print_quantity(file, "solver", "%s%s%s",
+                       solver_name(newton->active_solver),
                        newton->refusal ? "; no multigrid: " : "",
                        newton->refusal ? newton->refusal : "");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)

@@ -58,7 +58,7 @@ Status player_find_defaults(Player *player, const char *scene,
     const Options *given = &player->given.options[0];
     *count = 1;
     Status status =
-        page ? lecture_options(page, options, MESSAGE(player->message))
+        page ? lecture_make_options(page, options, MESSAGE(player->message))
              : options_parse_line(scene, options, MESSAGE(player->message));
     if (status)
         return status;
@@ -154,9 +154,9 @@ void player_format_value(const OptionRow *row, const Options *options,
                  integrator_methods[(int)fmax(options->integrator, 0)].label);
     else if (strcmp(row->name, "solver") == 0 && simulation->steps > 0 &&
              simulation->run[0].newton &&
-             simulation->run[0].newton->working != options->solver)
+             simulation->run[0].newton->active_solver != options->solver)
         snprintf(text, size, "%.12s: %s", value,
-                 solver_name(simulation->run[0].newton->working));
+                 solver_name(simulation->run[0].newton->active_solver));
     else
         snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
 }

@@ -64,9 +64,10 @@ static void begin_cell(Sheet *sheet, int i)
     Options options;
     Simulation *simulation = &sheet->simulation[i];
     const LecturePage *page = &lecture_pages[sheet->page];
-    Status status = i == 0 ? lecture_options(page, &options, MESSAGE(message))
-                           : options_parse_line(scenes[i - 1].name, &options,
-                                                MESSAGE(message));
+    Status status = i == 0
+                        ? lecture_make_options(page, &options, MESSAGE(message))
+                        : options_parse_line(scenes[i - 1].name, &options,
+                                             MESSAGE(message));
     simulation_free(simulation);
     if (i == 0)
         sheet->page = page[1].name ? sheet->page + 1 : 0;

@@ -42,7 +42,7 @@ static bool mesh_fits_page(Player *player, const Options *now)
     Options own;
     const LecturePage *page = now->page;
     return page && page->open &&
-           !lecture_options(page, &own, MESSAGE(player->message)) &&
+           !lecture_make_options(page, &own, MESSAGE(player->message)) &&
            own.segments == now->segments;
 }
 
@@ -225,7 +225,7 @@ Status obey_page(Player *player, const Command *command)
         if (!page)
             return player_refuse(player,
                                  "there is no page '%s', they are 1 ... %d",
-                                 command->text, lecture_count());
+                                 command->text, lecture_count_pages());
     } else if (page) {
         if (on ? !page[1].name : page == lecture_pages)
             return player_refuse(player, on ? "this is the last page"

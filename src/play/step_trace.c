@@ -83,7 +83,7 @@ static bool reserve_round(StepTrace *trace)
 static void sample_line_energy(Round *round, const Iterate *at)
 {
     const LineEnergy along = {
-        .smooth = round->polynomial, .at = at, .rough = true};
+        .polynomial = round->polynomial, .at = at, .has_remainder = true};
     round->sampled = round->has_remainder && round->x;
     for (int i = 0; i < ROUND_VALUES && round->sampled; i++)
         round->value[i] = line_energy_difference(
@@ -95,11 +95,11 @@ static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
     Round *round = &trace->round[trace->records.count];
     const NewtonRecord *record = &trace->records.row[trace->records.count];
-    LineEnergy along = incremental_potential_on_line(at);
+    LineEnergy along = incremental_potential_prepare_line(at);
     bool ended = record->status != STATUS_RUNNING;
     round->first_trial = incremental_potential_max_step(at);
-    round->polynomial = along.smooth;
-    round->has_remainder = along.rough;
+    round->polynomial = along.polynomial;
+    round->has_remainder = along.has_remainder;
     if (trace->samples_all ||
         (ended && (trace->samples_last || record->alpha == 0)))
         sample_line_energy(round, at);

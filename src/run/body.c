@@ -201,11 +201,11 @@ static Status set_obstacles(const Options *options, System *system)
                 memcmp(old->n, list[k].n, sizeof old->n) == 0)
                 memcpy(list[k].o, old->o, sizeof old->o);
     }
-    Status status = contact_set(system, &barrier, count, list);
+    Status status = contact_configure(system, &barrier, count, list);
     return status ? status
-                  : friction_set(system, &friction_energy,
-                                 count > 0 && options->friction > 0,
-                                 options->slip_speed);
+                  : friction_configure(system, &friction_energy,
+                                       count > 0 && options->friction > 0,
+                                       options->slip_speed);
 }
 
 /* Sets contact between bodies and its friction.  The barrier is at most a
@@ -220,10 +220,10 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
     double width = fmin(barrier.d_hat, 0.25 * mesh->spacing);
     barrier.c *= width / barrier.d_hat;
     barrier.d_hat = width;
-    Status status = self_contact_set(system, mesh, &barrier, mu);
+    Status status = self_contact_configure(system, mesh, &barrier, mu);
     return status ? status
-                  : friction_set(system, &self_friction_energy, mu > 0,
-                                 options->slip_speed);
+                  : friction_configure(system, &self_friction_energy, mu > 0,
+                                       options->slip_speed);
 }
 
 /* Adds the terms of the options, changes the numbers of terms that the system
@@ -239,13 +239,13 @@ static Status set_terms(const Options *options, System *system)
     if (!status && options->self_contact)
         status = set_self_contact(options, &shape, system);
     if (!status && options->cells)
-        status = cells_set(system, &shape, k_c);
+        status = cells_configure(system, &shape, k_c);
     for (const OptionRow *row = option_rows; row->name && !status; row++) {
         const double *number = options->number + row->slot;
-        if (row->term && row->term->set && !option_is_on(row, options))
+        if (row->term && row->term->configure && !option_is_on(row, options))
             system_remove_term(system, row->term);
-        else if (row->term && row->term->set)
-            status = row->term->set(system, &shape, number);
+        else if (row->term && row->term->configure)
+            status = row->term->configure(system, &shape, number);
     }
     return status;
 }

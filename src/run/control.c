@@ -144,7 +144,7 @@ static Status update_run_options(Simulation *simulation, int r,
         run->steps = old.steps;
         run->status = old.status;
         run->clock = old.clock;
-        run->moved = old.moved;
+        run->moved_part = old.moved_part;
         run->work = old.work;
         if (old.newton)
             newton_counters_add(&old.newton->counters,
@@ -202,7 +202,7 @@ static Status apply_hand(Simulation *simulation, const Control *control)
     const double *x = simulation->run[0].x + 2 * node;
     double k = neo_hookean_of(system) ? simulation->options.young
                                       : mass_spring_curvature_bound(&at);
-    return pull_set(
+    return pull_configure(
         system, &hand_energy,
         &(Pull){.node = node,
                 .cell = mesh->nodes > 0 ? mesh->spacing : INFINITY,

@@ -85,7 +85,7 @@ static void visit_all(Cursor *cursor, Simulation *simulation)
         size_t array = run->size * sizeof(double);
         VISIT(run->steps);
         VISIT(run->clock);
-        VISIT(run->moved);
+        VISIT(run->moved_part);
         VISIT(run->work);
         VISIT(run->status);
         visit_piece(cursor, run->x, array);

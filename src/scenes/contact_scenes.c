@@ -25,7 +25,7 @@ Status create_slope(Simulation *simulation)
 
 /* The ceiling starts as far above the square as the floor is below, presses the
  * square by 0.55 of the height, and goes back at twice the speed. */
-Obstacle ceiling_of_squeeze(const Options *options)
+Obstacle make_squeeze_ceiling(const Options *options)
 {
     double down = 0.55 / 0.4, back = down + 0.7;
     double speed = 0.4 * options->side;
@@ -92,7 +92,7 @@ Status create_tear(Simulation *simulation)
 /* ---- bend -------------------------------------------------------------- */
 
 /* The ball starts 0.05 m above the beam. */
-Obstacle ball_of_bend(const Options *options)
+Obstacle make_bend_ball(const Options *options)
 {
     const SquareMesh shape = body_make_mesh(options);
     double half = 0.5 * shape.rows * shape.spacing;

@@ -11,14 +11,14 @@
 Status create_slope(Simulation *simulation);
 
 /* A ceiling comes down on the square and goes up again. */
-Obstacle ceiling_of_squeeze(const Options *options);
+Obstacle make_squeeze_ceiling(const Options *options);
 Status create_squeeze(Simulation *simulation);
 
 /* Two sides are pulled apart; a slit in the middle opens and runs. */
 Status create_tear(Simulation *simulation);
 
 /* A beam with a notch lies on two balls; a heavy third ball falls on it. */
-Obstacle ball_of_bend(const Options *options);
+Obstacle make_bend_ball(const Options *options);
 Status create_bend(Simulation *simulation);
 
 #endif

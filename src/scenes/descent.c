@@ -46,7 +46,8 @@ static LocalModel log_two_cosh(const Simulation *simulation, double x)
 }
 
 /* Returns E of the scene tangent at x. */
-static LocalModel line_energy(const Simulation *simulation, double x)
+static LocalModel evaluate_tangent_energy(const Simulation *simulation,
+                                          double x)
 {
     double m = POINT_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
     double h = simulation->run[0].h, x_tilde = simulation->exhibit.target[0];
@@ -62,9 +63,9 @@ static LocalModel line_energy(const Simulation *simulation, double x)
 /* Returns value and derivatives of parts of E for a time step h, in landscape
  * and dial, or of the function of one unknown.
  *   parts  enum LandscapePart */
-static LocalModel landscape_at(const Simulation *simulation, unsigned parts,
-                               double h, Projection projection,
-                               const double at[2])
+static LocalModel evaluate_landscape(const Simulation *simulation,
+                                     unsigned parts, double h,
+                                     Projection projection, const double at[2])
 {
     if (simulation->descent.scalar)
         return simulation->descent.scalar(simulation, at[0]);
@@ -100,15 +101,15 @@ LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
                             double x, double y)
 {
     const double at[2] = {x, y};
-    return landscape_at(simulation, simulation->exhibit.switches,
-                        simulation->run[0].h, projection, at);
+    return evaluate_landscape(simulation, simulation->exhibit.switches,
+                              simulation->run[0].h, projection, at);
 }
 
 double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
                                 double x, double y)
 {
     const double at[2] = {x, y}, h = simulation->run[0].h;
-    return landscape_at(simulation, parts, h, PROJECTION_NONE, at).value;
+    return evaluate_landscape(simulation, parts, h, PROJECTION_NONE, at).value;
 }
 
 int descent_hessian_index(const Simulation *simulation, double x, double y)
@@ -162,13 +163,13 @@ typedef struct SearchLine {
 } SearchLine;
 
 /* Returns E(x + alpha p) - E(x), for line_search_backtrack. */
-static double descent_difference(const void *function, double alpha)
+static double descent_energy_difference(const void *function, double alpha)
 {
     const SearchLine *line = function;
     const double to[2] = {line->x[0] + alpha * line->p[0],
                           line->x[1] + alpha * line->p[1]};
-    LocalModel E = landscape_at(line->simulation, line->parts, line->h,
-                                PROJECTION_NONE, to);
+    LocalModel E = evaluate_landscape(line->simulation, line->parts, line->h,
+                                      PROJECTION_NONE, to);
     return E.value - line->value;
 }
 
@@ -176,7 +177,7 @@ static double descent_difference(const void *function, double alpha)
  * options.  Projection on demand clamps a Hessian that is not positive
  * definite.
  */
-static LocalModel find_model(const Simulation *simulation)
+static LocalModel evaluate_local_model(const Simulation *simulation)
 {
     const double *at = simulation->descent.point;
     Projection projection = (Projection)simulation->options.projection;
@@ -202,7 +203,7 @@ static Status evaluate_iterate(Simulation *simulation, Status status)
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
-    LocalModel E = find_model(simulation);
+    LocalModel E = evaluate_local_model(simulation);
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->by_gradient
                             ? math_hypot(E.g[0], E.g[1])
@@ -220,7 +221,7 @@ static Status evaluate_iterate(Simulation *simulation, Status status)
 }
 
 /* Chooses the number that the loop tests: |g| in Algorithm 1, else |p|/h. */
-static void choose_test(Simulation *simulation)
+static void choose_stopping_test(Simulation *simulation)
 {
     const Options *options = &simulation->options;
     Descent *descent = &simulation->descent;
@@ -234,7 +235,7 @@ static void choose_test(Simulation *simulation)
 void descent_find_direction(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
-    choose_test(simulation);
+    choose_stopping_test(simulation);
     descent->start_value = INFINITY; /* not known yet */
     Status status = evaluate_iterate(simulation, STATUS_RUNNING);
     simulation->status = simulation->done ? status : STATUS_OK;
@@ -245,14 +246,15 @@ void descent_find_direction(Simulation *simulation)
 Status step_descent(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
-    choose_test(simulation);
+    choose_stopping_test(simulation);
     NewtonRecord record = {.step = simulation->steps + 1,
                            .iteration = (int)simulation->steps,
                            .residual = descent->residual,
                            .alpha = 1,
                            .slope = descent->slope,
                            .factorised = true,
-                           .projected = find_model(simulation).projected,
+                           .projected =
+                               evaluate_local_model(simulation).projected,
                            .from = {descent->point[0], descent->point[1]}};
     const double *p = descent->direction;
     double *x = simulation->run[0].x;
@@ -264,7 +266,7 @@ Status step_descent(Simulation *simulation)
                              descent->value};
     Status status = STATUS_RUNNING;
     if (simulation->options.line_search == LINE_SEARCH_BACKTRACK) {
-        Status found = line_search_backtrack(descent_difference, &line,
+        Status found = line_search_backtrack(descent_energy_difference, &line,
                                              &record.alpha, &record.trials);
         /* Uphill E grows by about slope (alpha - alpha^2/2), so that a very
          * short step lowers E only by rounding. */
@@ -275,7 +277,7 @@ Status step_descent(Simulation *simulation)
             record.alpha = 0;
         }
     }
-    record.change = descent_difference(&line, record.alpha);
+    record.change = descent_energy_difference(&line, record.alpha);
     for (int i = 0; i < 2; i++)
         x[i] += record.alpha * p[i];
     record.status = evaluate_iterate(simulation, status);
@@ -311,8 +313,9 @@ static Status begin_descent(Simulation *simulation)
         create_small_system(&simulation->system, scalar ? 0 : LANDSCAPE_PINS,
                             POINT_MASS, LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
     if (!status)
-        status = simulation_start_run(simulation, 0, integrator_method(method),
-                                      &simulation->system, x, v);
+        status =
+            simulation_start_run(simulation, 0, integrator_find_method(method),
+                                 &simulation->system, x, v);
     if (status)
         return status;
     descent_find_direction(simulation);
@@ -328,7 +331,7 @@ Status create_overshoot(Simulation *simulation)
 Status create_tangent(Simulation *simulation)
 {
     simulation->exhibit.target[0] = LINE_TARGET;
-    simulation->descent.scalar = line_energy;
+    simulation->descent.scalar = evaluate_tangent_energy;
     return begin_descent(simulation);
 }
 
@@ -348,22 +351,24 @@ Status create_landscape(Simulation *simulation)
  * unknowns.  The gradient is 0 also at a saddle on the line through the pins,
  * so the search begins beside this line.
  *   point  [2] m, in/out */
-static void minimise(const Simulation *simulation, double h, double point[2])
+static void minimise_landscape(const Simulation *simulation, double h,
+                               double point[2])
 {
     double p[2], length = INFINITY;
     if (fabs(point[1]) < DIAL_OFF_LINE)
         point[1] = copysign(DIAL_OFF_LINE, point[1]);
     for (int update = 0; update < DIAL_MAX_UPDATES && length > 1e-14;
          update++) {
-        LocalModel E =
-            landscape_at(simulation, PART_BOTH, h, PROJECTION_CLAMP, point);
+        LocalModel E = evaluate_landscape(simulation, PART_BOTH, h,
+                                          PROJECTION_CLAMP, point);
         const SearchLine line = {simulation, PART_BOTH, h, point, p, E.value};
         double alpha = 1;
         int trials;
         newton_direction(&E, false, p);
         length = math_hypot(p[0], p[1]);
         if (length > DIAL_SHORT_P)
-            line_search_backtrack(descent_difference, &line, &alpha, &trials);
+            line_search_backtrack(descent_energy_difference, &line, &alpha,
+                                  &trials);
         for (int i = 0; i < 2; i++)
             point[i] += alpha * p[i];
     }
@@ -379,16 +384,16 @@ void dial_restart(Simulation *simulation)
     memcpy(simulation->descent.point, point, sizeof point);
     for (int i = 0; i < DIAL_POINTS; i++) {
         dial->h[i] = DIAL_FIRST * pow(10, i / DIAL_PER_TEN);
-        minimise(simulation, dial->h[i], point);
+        minimise_landscape(simulation, dial->h[i], point);
         memcpy(dial->point[i], point, sizeof point);
         if (dial->h[i] <= h)
             memcpy(simulation->descent.point, point, sizeof point);
     }
-    minimise(simulation, h, simulation->descent.point);
+    minimise_landscape(simulation, h, simulation->descent.point);
     memcpy(simulation->run[0].x, simulation->descent.point, sizeof point);
     simulation->descent.value =
-        landscape_at(simulation, PART_BOTH, h, PROJECTION_NONE,
-                     simulation->descent.point)
+        evaluate_landscape(simulation, PART_BOTH, h, PROJECTION_NONE,
+                           simulation->descent.point)
             .value;
 }
 

@@ -39,15 +39,15 @@ static Status create_orbit(Simulation *simulation, double omega2,
     bool chosen = options->integrator >= 0;
     Status status = create_small_system(&simulation->system, 0, 1, 0, 0);
     if (!status)
-        status = pull_set(&simulation->system, &central_field,
-                          &(Pull){.k = omega2}); /* the mass is 1 kg */
+        status = pull_configure(&simulation->system, &central_field,
+                                &(Pull){.k = omega2}); /* the mass is 1 kg */
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     memcpy(simulation->exhibit.start, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.start + 2, v, 2 * sizeof *v);
     for (int i = 0; i < simulation->runs && !status; i++)
         status = simulation_start_run(simulation, i,
                                       chosen ? options_method(options)
-                                             : integrator_method(names[i]),
+                                             : integrator_find_method(names[i]),
                                       &simulation->system, x, v);
     return status;
 }

@@ -67,7 +67,7 @@ const Scene scenes[] = {
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
           "--ground 0,1,0,-0.51",
      create_squeeze, .frame = {-0.9, -0.7, 0.9, 0.7}, .strain_colour_max = 0.5,
-     .body.obstacle = ceiling_of_squeeze},
+     .body.obstacle = make_squeeze_ceiling},
     {"return", "Solids that never turn over",
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
@@ -113,7 +113,7 @@ const Scene scenes[] = {
           "--ground 0,1,0,-1",
      create_bend, .frame = {-1.25, -1.1, 1.25, 0.75}, .strain_colour_max = 0.05,
      .body.aspect = 0.1875, .body.cell_stiffness = 0.3,
-     .body.obstacle = ball_of_bend},
+     .body.obstacle = make_bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
      PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
      /* no chaos; the tolerance is below the error of every time step */

@@ -32,12 +32,12 @@ static Status make_trial_run(const Options *options,
 
 enum { RACE_FIRST_STEPS = 8 }; /* steps of a run with the longest time step */
 
-const IntegratorMethod *race_method(int i)
+const IntegratorMethod *race_get_method(int i)
 {
     static const char *const names[RACE_METHODS] = {
         "forward-euler", "symplectic-euler", "verlet", "backward-euler",
         "bdf2",          "midpoint",         "sdirk2"};
-    return integrator_method(names[i]);
+    return integrator_find_method(names[i]);
 }
 
 /* Returns an upper bound of the angular frequencies, 1/s.  The curvature of a
@@ -96,9 +96,9 @@ Status race_make_reference(Simulation *simulation, double time)
     double bound = find_frequency_bound(&simulation->system, start->x);
     double intervals = floor(1 + time * bound);
     options_fill_newton_settings(&simulation->options, &settings);
-    Status status =
-        time_integrator_create(integrator_method("verlet"), &simulation->system,
-                               &settings, start->x, start->v, run);
+    Status status = time_integrator_create(integrator_find_method("verlet"),
+                                           &simulation->system, &settings,
+                                           start->x, start->v, run);
     if (!status && !(intervals <= max_intervals))
         status = STATUS_NOT_FINITE;
     double *scratch = malloc(4 * start->size * sizeof *scratch);
@@ -159,9 +159,9 @@ static double find_energy_ratio(const Simulation *simulation,
 /* Measures the processor time of a run.  The run is repeated until a clock that
  * ticks in tenths of a millisecond, as in a browser, is accurate enough; the
  * least of several measurements counts, because disturbances only add time. */
-static Status measure_run(Simulation *simulation,
-                          const IntegratorMethod *method, double h, long steps,
-                          TimeIntegrator *run, double *seconds)
+static Status measure_run_time(Simulation *simulation,
+                               const IntegratorMethod *method, double h,
+                               long steps, TimeIntegrator *run, double *seconds)
 {
     const double shortest = 1e-3;          /* s, of a measurement */
     double end = clock_processor() + 0.01; /* s, of all measurements */
@@ -186,17 +186,17 @@ static Status measure_run(Simulation *simulation,
     return status;
 }
 
-Status race_measure(Simulation *simulation, const IntegratorMethod *method,
-                    double time, long steps, TimeIntegrator *run,
-                    RacePoint *point)
+Status race_measure_method(Simulation *simulation,
+                           const IntegratorMethod *method, double time,
+                           long steps, TimeIntegrator *run, RacePoint *point)
 {
     const double *exact = simulation->run[1].x;
     *point = (RacePoint){.method = method,
                          .h = time / (double)steps,
                          .error = NAN,
                          .energy_after_second = NAN};
-    Status status =
-        measure_run(simulation, method, point->h, steps, run, &point->seconds);
+    Status status = measure_run_time(simulation, method, point->h, steps, run,
+                                     &point->seconds);
     point->converged = status == STATUS_OK;
     if (status_is_failure(status))
         return status;
@@ -219,18 +219,20 @@ double race_find_stable_h(const Race *race, int method)
 Status step_race(Simulation *simulation)
 {
     Race *race = &simulation->exhibit.race;
-    const IntegratorMethod *method = race_method(race->count % RACE_METHODS);
+    const IntegratorMethod *method =
+        race_get_method(race->count % RACE_METHODS);
     long steps = (long)RACE_FIRST_STEPS << (race->count / RACE_METHODS);
     TimeIntegrator run = {0};
     double seconds;
     RacePoint *point = &race->point[race->count];
     if (race->count >= RACE_METHODS) { /* measure the run before once more */
         RacePoint *before = point - RACE_METHODS;
-        measure_run(simulation, method, before->h, steps / 2, &run, &seconds);
+        measure_run_time(simulation, method, before->h, steps / 2, &run,
+                         &seconds);
         before->seconds = fmin(before->seconds, seconds);
     }
     Status status =
-        race_measure(simulation, method, RACE_TIME, steps, &run, point);
+        race_measure_method(simulation, method, RACE_TIME, steps, &run, point);
     if (!status) {
         if (race->count / RACE_METHODS == RACE_SHOWN_ROW)
             point->energy_after_second = find_energy_ratio(simulation, &run);
@@ -257,7 +259,8 @@ double envelope_stiffness(int row)
 }
 
 /* Returns the index of the column or row with the nearest logarithm. */
-static int find_nearest(double value, double first, double per_ten, int count)
+static int find_nearest_index(double value, double first, double per_ten,
+                              int count)
 {
     double place = round((log10(value) - first) * per_ten);
     return (int)fmin(fmax(place, 0), count - 1);
@@ -296,8 +299,9 @@ Status create_envelope(Simulation *simulation)
     if (status)
         return status;
     return envelope_run_cell(
-        simulation, find_nearest(options->timestep, -9, 2, ENVELOPE_COLUMNS),
-        find_nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
+        simulation,
+        find_nearest_index(options->timestep, -9, 2, ENVELOPE_COLUMNS),
+        find_nearest_index(options->stiffness, -6, 1, ENVELOPE_ROWS));
 }
 
 /* The runs of the row replace run 0, so the run of the shown cell is made

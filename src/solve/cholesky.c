@@ -19,7 +19,7 @@ struct Cholesky {
 };
 
 /* CHOLMOD's name for what went wrong, as ours. */
-static Status cholmod_failure(const cholmod_common *common)
+static Status translate_cholmod_status(const cholmod_common *common)
 {
     if (common->status == CHOLMOD_OUT_OF_MEMORY)
         return STATUS_OUT_OF_MEMORY;
@@ -74,7 +74,7 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, Cholesky **out)
     cholesky->matrix = A;
     cholmod_sparse view = sparse_view(A);
     cholesky->L = cholmod_analyze(&view, common);
-    Status status = cholmod_failure(common);
+    Status status = translate_cholmod_status(common);
     cholesky->b = malloc(2 * (size_t)A->size * sizeof *cholesky->b);
     if (!status && (!cholesky->L || !cholesky->b))
         status = STATUS_OUT_OF_MEMORY;
@@ -98,7 +98,7 @@ void cholesky_free(Cholesky *cholesky)
 }
 
 /* Returns max |x_i|. */
-static double largest_of(const double *x, size_t n)
+static double largest_magnitude(const double *x, size_t n)
 {
     double largest = 0;
     for (size_t i = 0; i < n; i++)
@@ -114,13 +114,14 @@ Status cholesky_factor(Cholesky *cholesky)
         return STATUS_NOT_FINITE;
     common->status = CHOLMOD_OK;
     if (cholesky->kind == CHOLESKY_INDEFINITE) /* pivots nearer to 0 go there */
-        common->dbound = 1e-10 * largest_of(A.x, A.nzmax);
+        common->dbound = 1e-10 * largest_magnitude(A.x, A.nzmax);
     cholmod_factorize(&A, cholesky->L, common);
     /* cholmod_factorize returns TRUE for indefinite matrices too. */
     if (common->status == CHOLMOD_NOT_POSDEF ||
         (common->status >= CHOLMOD_OK && cholesky->L->minor != cholesky->L->n))
         return STATUS_NOT_POSITIVE_DEFINITE;
-    return common->status < CHOLMOD_OK ? cholmod_failure(common) : STATUS_OK;
+    return common->status < CHOLMOD_OK ? translate_cholmod_status(common)
+                                       : STATUS_OK;
 }
 
 /* ---- definite: in panels ---- */
@@ -172,7 +173,7 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
         solve_by_panels(cholesky->L, x, r);
         return all_finite(x, n) ? STATUS_OK : STATUS_NOT_FINITE;
     }
-    double size = largest_of(b, n), residual = INFINITY, last;
+    double size = largest_magnitude(b, n), residual = INFINITY, last;
     memcpy(own, b, n * sizeof *own); /* x may be b */
     memcpy(r, b, n * sizeof *r);
     memset(x, 0, n * sizeof *x);
@@ -186,7 +187,7 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
         for (size_t j = 0; j < n; j++)
             r[j] = own[j] - r[j];
         last = residual;
-        residual = largest_of(r, n);
+        residual = largest_magnitude(r, n);
         if (residual <= 1e-15 * size || !(residual < 0.5 * last))
             break;
     }

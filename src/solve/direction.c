@@ -32,7 +32,8 @@ void direction_free_matrix(SearchDirection *search)
  * ON_DEMAND: as it is, for one that does not.  Returns OK, TOO_LARGE,
  * OUT_OF_MEMORY.
  *   projected  out, blocks projected */
-static Status assemble(Newton *newton, Projection projection, int *projected)
+static Status assemble_hessian(Newton *newton, Projection projection,
+                               int *projected)
 {
     SearchDirection *search = &newton->search;
     const System *system = newton->system;
@@ -94,7 +95,7 @@ static Status factor_hessian(Newton *newton)
 /* Assembles and factors the Hessian at x.  Projection on demand first tries the
  * unprojected Hessian; after a failure it clamps, also in the next
  * CLAMPS_AFTER_FAILURE iterations. */
-static Status newton_factor(Newton *newton)
+static Status assemble_and_factor(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     Projection projection = newton->settings.projection;
@@ -102,12 +103,12 @@ static Status newton_factor(Newton *newton)
         newton->clamps--;
         projection = PROJECTION_CLAMP;
     }
-    Status status = assemble(newton, projection, &record->projected);
+    Status status = assemble_hessian(newton, projection, &record->projected);
     if (!status)
         status = factor_hessian(newton);
     record->factorised = true;
     record->shift = newton->search.shift;
-    newton->search.moved = 0;
+    newton->search.way_since_factor = 0;
     if (!status && newton->search.kind == CHOLESKY_INDEFINITE)
         record->negative = cholesky_negative_pivots(newton->search.cholesky);
     newton->counters.projected += record->projected;
@@ -115,7 +116,7 @@ static Status newton_factor(Newton *newton)
         status != STATUS_NOT_POSITIVE_DEFINITE)
         return status;
     newton->clamps = CLAMPS_AFTER_FAILURE;
-    return newton_factor(newton);
+    return assemble_and_factor(newton);
 }
 
 /* z = (H + shift I)^-1 r, both in the order of the nodes.
@@ -155,13 +156,14 @@ static double dot(int n, const double *a, const double *b)
  * matrix has lost to rounding. */
 typedef struct ConjugateGradients {
     Projection projection;
-    double enough;    /* the iteration ends at this part of the first r.z */
-    double rz, first; /* r.z, squared size of the residual, and the first */
+    double tolerance; /* the end: r.z is at most this part of first_rz */
+    double rz;        /* r.z, squared size of the residual */
+    double first_rz;  /* r.z before the first step */
 } ConjugateGradients;
 
 /* A step along the next direction, for a known z.  Returns false at the end:
  * the residual is small enough, or E bends down along d. */
-static bool conjugate_step(Newton *newton, ConjugateGradients *state)
+static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
 {
     const SearchDirection *search = &newton->search;
     int n = 2 * newton->system->nodes;
@@ -170,8 +172,8 @@ static bool conjugate_step(Newton *newton, ConjugateGradients *state)
     double last = state->rz;
     state->rz = dot(n, r, z);
     if (last == 0)
-        state->first = state->rz;
-    if (!(state->rz > state->enough * state->first))
+        state->first_rz = state->rz;
+    if (!(state->rz > state->tolerance * state->first_rz))
         return false;
     for (int i = 0; i < n; i++)
         d[i] = z[i] + (last == 0 ? 0 : state->rz / last * d[i]);
@@ -189,7 +191,7 @@ static bool conjugate_step(Newton *newton, ConjugateGradients *state)
 
 /* p = -H^-1 g (slide: search_dir) with the last factor.  Where that has a
  * shift, conjugate gradients improve p.  Returns OK, NOT_FINITE, SINGULAR. */
-static Status newton_solve(Newton *newton)
+static Status solve_with_factor(Newton *newton)
 {
     const Iterate *at = &newton->at;
     const SearchDirection *search = &newton->search;
@@ -200,13 +202,13 @@ static Status newton_solve(Newton *newton)
         at->p[i] = -at->p[i];
     if (status || search->shift == 0)
         return status;
-    ConjugateGradients state = {search->projection, .enough = ALL_DIGITS};
+    ConjugateGradients state = {search->projection, .tolerance = ALL_DIGITS};
     for (int i = 0; i < n; i++) {
         search->z[i] = at->p[i]; /* factor^-1 (-g) already */
         at->p[i] = search->d[i] = 0;
         search->r[i] = -at->g[i];
     }
-    for (int solves = 0; !status && conjugate_step(newton, &state) &&
+    for (int solves = 0; !status && take_conjugate_step(newton, &state) &&
                          solves < CONJUGATE_MAX_SOLVES;
          solves++)
         status = apply_factor(newton, search->r, search->z);
@@ -219,7 +221,7 @@ static Status newton_solve(Newton *newton)
  *          factor proposes, which must be the factor of H itself.  A factor of
  *          an earlier Hessian may be far stiffer, where a contact has opened:
  *          projection on demand is then judged as if it projected here.
- * Returns as newton_solve. */
+ * Returns as solve_with_factor. */
 static Status direction_error_bound(Newton *newton, double *error)
 {
     const SearchDirection *search = &newton->search;
@@ -227,7 +229,7 @@ static Status direction_error_bound(Newton *newton, double *error)
     const Iterate *at = &newton->at;
     double *r = search->r, *z = search->z, square = 0;
     Projection projection = search->projection;
-    if (projection == PROJECTION_NONE && search->moved > 0)
+    if (projection == PROJECTION_NONE && search->way_since_factor > 0)
         projection = PROJECTION_CLAMP;
     incremental_potential_product(at, projection, at->p, search->q);
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -246,7 +248,7 @@ static Status direction_error_bound(Newton *newton, double *error)
  * so sum m (u + p) = sum m u_tilde, as H p = -g summed over all nodes says.
  * Rounding of a stiff H hides this sum; the same shift of all nodes of p
  * corrects it. */
-static void keep_momentum(Newton *newton)
+static void correct_momentum(Newton *newton)
 {
     const System *system = newton->system;
     const double *u = newton->at.u, *u_tilde = newton->u_tilde;
@@ -335,7 +337,7 @@ static bool refine_with_last_factor(Newton *newton)
 
 /* m, bound of |p_x| + |p_y| of a direction with this |p|_M: each node has
  * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
-static double largest_movement(const Newton *newton, double norm)
+static double bound_largest_movement(const Newton *newton, double norm)
 {
     return sqrt(2 / newton->rounding.lightest) * norm;
 }
@@ -358,7 +360,7 @@ static Status find_residual(Newton *newton, bool exact)
     newton->passes = record->residual <= newton->tolerance;
     if (!exact && newton->passes)
         status = direction_error_bound(newton, &error);
-    if (record->residual + largest_movement(newton, error) / h >
+    if (record->residual + bound_largest_movement(newton, error) / h >
             newton->tolerance ||
         (turns_may_follow(newton) &&
          !system_turns_freely(newton->system, &pivot)))
@@ -374,7 +376,7 @@ static void evaluate_gradient(Newton *newton)
     newton->has_gradient = true;
 }
 
-double negligible_direction(const Newton *newton)
+double negligible_direction_size(const Newton *newton)
 {
     return fmin(newton->tolerance * newton->settings.h,
                 NEGLIGIBLE * newton->rounding.shortest);
@@ -389,7 +391,8 @@ bool next_direction_is_negligible(Newton *newton)
         return false;
     evaluate_gradient(newton);
     double norm = system_inverse_mass_norm(newton->system, newton->at.g);
-    return largest_movement(newton, norm) <= negligible_direction(newton);
+    return bound_largest_movement(newton, norm) <=
+           negligible_direction_size(newton);
 }
 
 /* Whether the last factor is of a Hessian nearby, in the same minimisation. */
@@ -398,18 +401,18 @@ static bool factor_is_near(const Newton *newton)
     const SearchDirection *search = &newton->search;
     return search->shift == 0 &&
            newton->settings.projection != PROJECTION_NONE &&
-           search->moved <= NEARBY * newton->rounding.shortest;
+           search->way_since_factor <= NEARBY * newton->rounding.shortest;
 }
 
 /* p with a new factor, and its residual. */
 static Status solve_with_new_factor(Newton *newton)
 {
-    Status status = newton_factor(newton);
+    Status status = assemble_and_factor(newton);
     if (status == STATUS_OK)
-        status = newton_solve(newton);
+        status = solve_with_factor(newton);
     if (status != STATUS_OK)
         return status;
-    keep_momentum(newton);
+    correct_momentum(newton);
     /* Where springs outweigh the masses too much, a factor is not exact. */
     return find_residual(newton, !newton->rounding.blurred &&
                                      newton->search.shift == 0);
@@ -425,7 +428,7 @@ Status find_direction(Newton *newton)
         return find_residual(newton, true);
     }
     if (factor_is_near(newton) && refine_with_last_factor(newton)) {
-        keep_momentum(newton);
+        correct_momentum(newton);
         Status status = find_residual(newton, false);
         bool decided =
             newton->passes || newton->record.residual > newton->tolerance;

@@ -14,7 +14,7 @@
  * starts further than the one before. */
 enum { LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
 
-Rows rows_of(int nodes)
+Rows lay_out_rows(int nodes)
 {
     int even = (nodes + 1) / 2;
     int half = (even + PADDED) / PADDED * PADDED; /* has room for a ghost */
@@ -25,7 +25,7 @@ Rows rows_of(int nodes)
                   .plane = 2 * half * (nodes + 3)};
 }
 
-void *memory_take(Memory *memory, size_t bytes)
+void *memory_take_piece(Memory *memory, size_t bytes)
 {
     char *piece = memory->base ? memory->base + memory->used : NULL;
     bytes = (bytes + SMALL_PAGE - 1) / SMALL_PAGE * SMALL_PAGE;
@@ -51,7 +51,7 @@ Status memory_create(Memory *memory)
 
 void grid_lay_out(int segments, Memory *memory, Grid *grid)
 {
-    *grid = (Grid){.rows = rows_of(segments + 1),
+    *grid = (Grid){.rows = lay_out_rows(segments + 1),
                    .segments = segments,
                    .bands = segments / BAND + 1};
     size_t plane = (size_t)grid->rows.plane * sizeof(double);
@@ -59,15 +59,15 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
     double **vectors[] = {&grid->x, &grid->x_tilde, &grid->u_tilde,
                           &grid->away};
     for (int i = 0; i < 4; i++)
-        *vectors[i] = memory_take(memory, 2 * plane);
+        *vectors[i] = memory_take_piece(memory, 2 * plane);
     for (int kind = 0; kind < KINDS; kind++) {
-        grid->c[kind] = memory_take(memory, plane);
-        grid->l2[kind] = memory_take(memory, plane);
+        grid->c[kind] = memory_take_piece(memory, plane);
+        grid->l2[kind] = memory_take_piece(memory, plane);
     }
-    grid->m = memory_take(memory, plane);
-    grid->per_m = memory_take(memory, plane);
-    grid->node_shift = memory_take(memory, shifts);
-    grid->spring_shift = memory_take(memory, shifts);
+    grid->m = memory_take_piece(memory, plane);
+    grid->per_m = memory_take_piece(memory, plane);
+    grid->node_shift = memory_take_piece(memory, shifts);
+    grid->spring_shift = memory_take_piece(memory, shifts);
 }
 
 /* Stores equal rows that follow each other once, without gaps.  shift [nodes]
@@ -78,7 +78,7 @@ static void share_rows(const Rows *rows, double *const *array, int arrays,
     size_t bytes = (size_t)rows->pitch * sizeof **array;
     for (int i = 0, at = 0; i < rows->nodes; i++) {
         bool same = i > 0;
-        int from = place_of(rows, i, 0), to = place_of(rows, at, 0);
+        int from = node_place(rows, i, 0), to = node_place(rows, at, 0);
         for (int a = 0; a < arrays && same; a++)
             same = !memcmp(array[a] + from, array[a] + to - rows->pitch, bytes);
         for (int a = 0; a < arrays && !same; a++)
@@ -108,7 +108,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
     grid->lightest *= grid->mass;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
-            int q = place_of(rows, i, j);
+            int q = node_place(rows, i, j);
             grid->m[q] = grid->mass * m[2 * node];
             grid->per_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
         }
@@ -123,7 +123,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         int a = e[0] < e[1] ? e[0] : e[1], b = e[0] < e[1] ? e[1] : e[0];
-        int i = a / rows->nodes, q = place_of(rows, i, a % rows->nodes);
+        int i = a / rows->nodes, q = node_place(rows, i, a % rows->nodes);
         int kind = i == b / rows->nodes
                        ? UP /* kind of springs that start at a */
                    : b - a == rows->nodes ? RIGHT
@@ -144,7 +144,7 @@ void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
     const double unit = grid->length;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
-            int q = place_of(rows, i, j);
+            int q = node_place(rows, i, j);
             bool held = pinned[node];
             for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
                 double to = held ? at->u[k] : u_tilde[k];
@@ -162,7 +162,7 @@ void grid_write_state(const Grid *grid, Iterate *at)
     const double metre = 1 / grid->length;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
-            int q = place_of(rows, i, j);
+            int q = node_place(rows, i, j);
             for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
                 at->u[k] = metre * (grid->u_tilde[q] + grid->away[q]);
                 at->x[k] = at->E.x_n[k] + at->u[k];

@@ -52,10 +52,10 @@ typedef struct Rows {
     int plane;    /* numbers of one component */
 } Rows;
 
-Rows rows_of(int nodes);
+Rows lay_out_rows(int nodes);
 
 /* Returns the place of node (i, j). */
-static inline int place_of(const Rows *rows, int i, int j)
+static inline int node_place(const Rows *rows, int i, int j)
 {
     return (i + 1) * rows->pitch + (j & 1) * rows->half + j / 2;
 }
@@ -86,11 +86,11 @@ typedef struct Memory {
 
 /* The next piece.  Arrays of one size would all stand in the same lines of the
  * cache, so each starts some lines further than the one before. */
-void *memory_take(Memory *memory, size_t bytes);
+void *memory_take_piece(Memory *memory, size_t bytes);
 
-/* Allocates zeroed memory for all pieces that memory_take counted, in large
- * pages of the system if it has them.  Returns OK or OUT_OF_MEMORY;
- * the caller frees base. */
+/* Allocates zeroed memory for all pieces that memory_take_piece counted, in
+ * large pages of the system if it has them.  Returns OK or OUT_OF_MEMORY; the
+ * caller frees base. */
 Status memory_create(Memory *memory);
 
 /* Arrays for segments x segments cells, everything else 0. */
@@ -115,8 +115,8 @@ double grid_gradient(const Grid *grid, double *g);
 
 /* |g + H p|_(M^-1)^2, H clamped to be positive semi-definite (psd.h).
  *   largest  out, max over nodes of |p_x| + |p_y| */
-double grid_remainder(const Grid *grid, const double *g, const double *p,
-                      double *largest);
+double grid_linear_residual(const Grid *grid, const double *g, const double *p,
+                            double *largest);
 
 /* E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4; q out. */
 void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
@@ -124,7 +124,7 @@ void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
 
 /* Moves all nodes alike, so that sum m x is sum m x_tilde, as at the minimum of
  * E where no node is pinned.  Returns the change of E, which is at most 0. */
-double grid_keep_momentum(const Grid *grid);
+double grid_correct_momentum(const Grid *grid);
 
 /* x += a p */
 void grid_add_step(const Grid *grid, double a, const double *p);

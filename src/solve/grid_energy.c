@@ -23,7 +23,7 @@ FAST double grid_gradient(const Grid *of, double *g)
             Pair fx = mass * PAIR(ax, q), fy = mass * PAIR(ay, q);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(&grid, kind, q, to, numbers);                     \
+        Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);          \
         fx += s.f * s.dx;                                                      \
         fy += s.f * s.dy;                                                      \
         IN_ORDER(fx, fy);                                                      \
@@ -34,7 +34,7 @@ FAST double grid_gradient(const Grid *of, double *g)
             PAIR(gy, q) = fy;
             PAIR(sum, e) += PAIR(grid.per_m, q + at.node) * (fx * fx + fy * fy);
         }
-        total += sum_of(sum);
+        total += sum_lanes(sum);
     }
     return total;
 }
@@ -44,8 +44,8 @@ FAST double grid_gradient(const Grid *of, double *g)
     Pair ux = PAIR(px, q) - PAIR(px, q + (to));                                \
     Pair uy = PAIR(py, q) - PAIR(py, q + (to))
 
-FAST double grid_remainder(const Grid *of, const double *g, const double *p,
-                           double *largest)
+FAST double grid_linear_residual(const Grid *of, const double *g,
+                                 const double *p, double *largest)
 {
     double total = 0, most[LANES] = {0};
     BANDS
@@ -60,9 +60,9 @@ FAST double grid_remainder(const Grid *of, const double *g, const double *p,
             Pair fx = mass * hx, fy = mass * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(&grid, kind, q, to, numbers);                     \
+        Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);          \
         ALONG_SPRING(to);                                                      \
-        CLAMPED(s.s, s.d2 + 1e-300, iso, along);                               \
+        CLAMPED_TENSOR(s.s, s.d2 + 1e-300, iso, along);                        \
         along *= s.dx * ux + s.dy * uy;                                        \
         fx += s.c * (iso * ux + along * s.dx);                                 \
         fy += s.c * (iso * uy + along * s.dy);                                 \
@@ -79,7 +79,7 @@ FAST double grid_remainder(const Grid *of, const double *g, const double *p,
                 double size = fabs(px[at.first + e]) + fabs(py[at.first + e]);
                 most[e] = size > most[e] ? size : most[e];
             }
-        total += sum_of(sum);
+        total += sum_lanes(sum);
     }
     *largest = 0;
     for (int e = 0; e < LANES; e++)
@@ -103,7 +103,7 @@ FAST void grid_line_polynomial(const Grid *of, const double *g, const double *p,
             Pair f3 = {0}, p2 = hx * hx + hy * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(&grid, kind, q, to, numbers);                     \
+        Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);          \
         ALONG_SPRING(to);                                                      \
         spring_line_polynomial(s, ux, uy, &f1, &f2, &f3);                      \
         IN_ORDER(f1, f2);                                                      \
@@ -117,13 +117,13 @@ FAST void grid_line_polynomial(const Grid *of, const double *g, const double *p,
             PAIR(sum[3], e) += 0.25 * f3;
         }
         for (int s = 0; s < 4; s++)
-            quartic[s] += sum_of(sum[s]);
+            quartic[s] += sum_lanes(sum[s]);
     }
 }
 
 /* ---- without springs ---- */
 
-FAST double grid_keep_momentum(const Grid *of)
+FAST double grid_correct_momentum(const Grid *of)
 {
     double mass = 0, moment[2] = {0, 0};
     BANDS
@@ -137,9 +137,9 @@ FAST double grid_keep_momentum(const Grid *of)
                 sum[1][e] += m * grid.away[q];
                 sum[2][e] += m * grid.away[q + plane];
             }
-        mass += sum_of(sum[0]);
-        moment[0] += sum_of(sum[1]);
-        moment[1] += sum_of(sum[2]);
+        mass += sum_lanes(sum[0]);
+        moment[0] += sum_lanes(sum[1]);
+        moment[1] += sum_lanes(sum[2]);
     }
     for (int c = 0; c < 2; c++) {
         const double mean = moment[c] / mass;

@@ -137,7 +137,7 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
         EACH_PAIR (NEXT(at, LANES))
 
 /* The parts of a sum, in one order always. */
-INLINE double sum_of(const double s[LANES])
+INLINE double sum_lanes(const double s[LANES])
 {
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }

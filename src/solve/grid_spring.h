@@ -16,7 +16,8 @@ typedef struct Spring {
 } Spring;
 
 /* From node q to node q + to, with its numbers at q + at. */
-INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
+INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, int q, int to,
+                                   int at)
 {
     const double *x = grid->x, *y = x + grid->rows.plane;
     Pair dx = PAIR(x, q) - PAIR(x, q + to), dy = PAIR(y, q) - PAIR(y, q + to);
@@ -28,7 +29,7 @@ INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
 /* Declares iso and along of the clamped Hessian (psd.h), for Pairs or Few.  Its
  * eigenvalue across d is c iso, the one along d is c (iso + along |d|^2).
  *   d2  |d|^2 plus a tiny number, so that it is above 0 */
-#define CLAMPED(s, d2, iso, along)                                             \
+#define CLAMPED_TENSOR(s, d2, iso, along)                                      \
     __typeof__(d2) iso = WHERE((s) > 0, s);                                    \
     __typeof__(d2) along = 2 + ((s)-iso) / (d2);                               \
     along = WHERE(along > 0, along)
@@ -66,7 +67,7 @@ INLINE void gather_springs(const Grid *grid, NodeRun at, NodeSums of)
         Pair cx = {0}, cy = {0}, c = {0}, negative = {0};
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(grid, kind, q, to, numbers);                      \
+        Spring s = evaluate_grid_spring(grid, kind, q, to, numbers);           \
         Pair fx = s.c * s.dx, fy = s.c * s.dy;                                 \
         gx += s.f * s.dx;                                                      \
         gy += s.f * s.dy;                                                      \

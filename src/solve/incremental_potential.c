@@ -153,13 +153,13 @@ int incremental_potential_product(const Iterate *at, Projection projection,
 }
 
 /* The inertia energy is quadratic; g.p is the slope of all terms. */
-LineEnergy incremental_potential_on_line(const Iterate *iterate)
+LineEnergy incremental_potential_prepare_line(const Iterate *iterate)
 {
     const System *system = iterate->E.system;
     const double *g = iterate->g, *p = iterate->p;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     LineEnergy along = {.at = iterate};
-    double *q = along.smooth.q;
+    double *q = along.polynomial.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
         q[0] += g[i] * p[i];
         q[1] += 0.5 * system->m[i / 2] * p[i] * p[i];
@@ -168,7 +168,8 @@ LineEnergy incremental_potential_on_line(const Iterate *iterate)
         const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->line_polynomial)
             kind->line_polynomial(&at, p, q + 1);
-        along.rough = along.rough || kind->line_remainder || kind->is_feasible;
+        along.has_remainder =
+            along.has_remainder || kind->line_remainder || kind->is_feasible;
     }
     return along;
 }
@@ -176,8 +177,8 @@ LineEnergy incremental_potential_on_line(const Iterate *iterate)
 double line_energy_difference(const void *function, double alpha)
 {
     const LineEnergy *along = function;
-    double sum = quartic_value(&along->smooth, alpha);
-    if (!along->rough)
+    double sum = quartic_value(&along->polynomial, alpha);
+    if (!along->has_remainder)
         return sum;
     const Iterate *iterate = along->at;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
@@ -195,8 +196,8 @@ double incremental_potential_max_step(const Iterate *at)
     return fmin(1, system_max_step(point, at->p, false));
 }
 
-bool incremental_potential_allowed(const IncrementalPotential *E,
-                                   const double *u, const double *x)
+bool incremental_potential_allows(const IncrementalPotential *E,
+                                  const double *u, const double *x)
 {
     EvalPoint at = eval_point_of(E, u, x);
     for (int t = 0; t < E->system->terms; t++) {
@@ -207,8 +208,8 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
     return true;
 }
 
-void incremental_potential_inertia(const Iterate *iterate, double *m,
-                                   double *u_tilde)
+void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
+                                        double *u_tilde)
 {
     const System *system = iterate->E.system;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);

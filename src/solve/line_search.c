@@ -20,7 +20,7 @@ Status line_search_backtrack(EnergyDifference difference, const void *function,
 
 typedef struct SearchContext {
     Newton *newton;
-    LineEnergy along;
+    LineEnergy line;
 } SearchContext;
 
 /* E(x + alpha p) - E(x), or anything that is not above 0 where no line search
@@ -33,7 +33,7 @@ static double step_difference(const void *function, double alpha)
     const Iterate *at = &newton->at;
     double *u = newton->u_trial, *x = newton->x_trial;
     bool searches = newton->settings.search == LINE_SEARCH_BACKTRACK;
-    double change = line_energy_difference(&search->along, alpha);
+    double change = line_energy_difference(&search->line, alpha);
     newton->record.change = change;
     newton->record.trials += searches;
     if (searches && !(change <= 0))
@@ -43,18 +43,19 @@ static double step_difference(const void *function, double alpha)
         x[i] = at->E.x_n[i] + u[i];
     }
     /* Rounding may say no where the reach of p said yes. */
-    bool allowed = incremental_potential_allowed(&at->E, u, x) &&
-                   rounding_confirms(newton);
+    bool allowed = incremental_potential_allows(&at->E, u, x) &&
+                   rounding_confirms_change(newton);
     return !allowed ? NAN : searches ? change : 0;
 }
 
 Status find_step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    SearchContext search = {newton, incremental_potential_on_line(&newton->at)};
+    SearchContext search = {newton,
+                            incremental_potential_prepare_line(&newton->at)};
     int looks;
     record->alpha = incremental_potential_max_step(&newton->at);
-    record->slope = search.along.smooth.q[0];
+    record->slope = search.line.polynomial.q[0];
     record->trials = 0;
     Status status =
         line_search_backtrack(step_difference, &search, &record->alpha, &looks);
@@ -63,7 +64,7 @@ Status find_step_length(Newton *newton)
     record->change = 0;
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
-    if (below_roundoff(newton, record->slope))
+    if (is_below_roundoff(newton, record->slope))
         return STATUS_ROUNDING_LIMIT;
     return record->slope > 0 ? STATUS_NOT_DESCENT : status;
 }

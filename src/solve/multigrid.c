@@ -31,17 +31,17 @@ struct Multigrid {
     Tiles tiles;
     Memory memory;     /* block of all arrays */
     double *g, *p;     /* [2 planes] grad E and direction at x */
-    double square;     /* |g|_(M^-1)^2 */
-    double bound;      /* m, upper bound of |p_x| + |p_y|, by g alone */
-    double last_bound; /* m, bound of the iteration before */
-    double moved;      /* m, bound of a node's way since the V-cycle's matrices
-                          were computed */
-    double largest;    /* J s^2, largest change of E in this step, < 0 */
-    Quartic along;     /* E(x + alpha p) - E(x), J s^2 */
+    double gradient_norm2;  /* |g|_(M^-1)^2 */
+    double p_bound;         /* m, upper bound of |p_x| + |p_y|, by g alone */
+    double last_p_bound;    /* m, bound of the iteration before */
+    double way_since_setup; /* m, bound of a node's way since the V-cycle's
+                       matrices were computed */
+    double largest_change;  /* J s^2, largest change of E in this step, < 0 */
+    Quartic line;           /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;  /* System.version of the numbers in the grid */
     double weight;     /* s^2, of P, for which the grid has the numbers */
     bool stalls;       /* tiles relax in each iteration */
-    bool hidden;       /* rounding hides what the last iteration changed */
+    bool was_hidden;   /* rounding hides what the last iteration changed */
 };
 
 Status multigrid_create(int segments, Multigrid **multigrid)
@@ -56,7 +56,7 @@ Status multigrid_create(int segments, Multigrid **multigrid)
         v_cycle_lay_out(&mg->grid, &mg->memory, &mg->cycle);
         tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
         for (int i = 0; i < 2; i++)
-            *vectors[i] = memory_take(
+            *vectors[i] = memory_take_piece(
                 &mg->memory, 2 * (size_t)mg->grid.rows.plane * sizeof(double));
     }
     if (status) {
@@ -78,7 +78,7 @@ void multigrid_free(Multigrid *mg)
 
 /* Why multigrid does not take it, or NULL: only springs, with or without
  * damping, may have an energy, and what draws nodes to points. */
-static const char *reason_against(const Newton *newton)
+static const char *find_refusal_reason(const Newton *newton)
 {
     const NewtonSettings *settings = &newton->settings;
     const System *system = newton->system;
@@ -106,24 +106,25 @@ bool multigrid_accepts(Newton *newton)
     bool wanted = solver == SOLVER_AUTO
                       ? newton->system->segments > AUTO_NEWTON_SEGMENTS
                       : solver == SOLVER_MULTIGRID;
-    newton->refusal = wanted ? reason_against(newton) : NULL;
+    newton->refusal = wanted ? find_refusal_reason(newton) : NULL;
     return wanted && !newton->refusal;
 }
 
 /* g at x, and the bound of |p_x| + |p_y| that it gives.  Returns OK,
  * NOT_FINITE.
  */
-static Status evaluate_grid_gradient(Multigrid *mg)
+static Status multigrid_evaluate_gradient(Multigrid *mg)
 {
-    mg->square = grid_gradient(&mg->grid, mg->g);
-    mg->last_bound = mg->bound;
-    mg->bound = sqrt(2 / mg->grid.lightest * mg->square) / mg->grid.length;
-    return isfinite(mg->square) ? STATUS_OK : STATUS_NOT_FINITE;
+    mg->gradient_norm2 = grid_gradient(&mg->grid, mg->g);
+    mg->last_p_bound = mg->p_bound;
+    mg->p_bound =
+        sqrt(2 / mg->grid.lightest * mg->gradient_norm2) / mg->grid.length;
+    return isfinite(mg->gradient_norm2) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
 /* Puts the step's problem on the grid.  Returns OK, OUT_OF_MEMORY, NOT_FINITE.
  */
-static Status read_problem(Newton *newton)
+static Status multigrid_read_problem(Newton *newton)
 {
     Iterate *at = &newton->at;
     const System *system = newton->system;
@@ -134,9 +135,9 @@ static Status read_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->stalls = mg->hidden = false;
-    mg->largest = 0;
-    incremental_potential_inertia(at, m, u_tilde);
+    mg->stalls = mg->was_hidden = false;
+    mg->largest_change = 0;
+    incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
         grid_read_system(&mg->grid, at, m);
         v_cycle_read_system(&mg->cycle);
@@ -144,31 +145,32 @@ static Status read_problem(Newton *newton)
     mg->weight = at->E.weight;
     mg->version = system->version;
     grid_read_state(&mg->grid, at, u_tilde);
-    mg->bound = mg->moved = INFINITY;
-    return evaluate_grid_gradient(mg);
+    mg->p_bound = mg->way_since_setup = INFINITY;
+    return multigrid_evaluate_gradient(mg);
 }
 
 /* ---- search direction ---- */
 
 /* p = -H^-1 g up to a remainder, and whether p passes the test. */
-static Status grid_direction(Newton *newton)
+static Status multigrid_find_direction(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    Status status = record->iteration == 0 ? read_problem(newton) : STATUS_OK;
+    Status status =
+        record->iteration == 0 ? multigrid_read_problem(newton) : STATUS_OK;
     Multigrid *mg = newton->multigrid;
     newton->passes = false;
     if (status)
         return status;
-    if (mg->moved > NEARBY * newton->rounding.shortest) {
-        mg->cycle.set_up = false;
-        mg->moved = 0;
+    if (mg->way_since_setup > NEARBY * newton->rounding.shortest) {
+        mg->cycle.is_set_up = false;
+        mg->way_since_setup = 0;
     }
     const double h = newton->settings.h * mg->grid.length;
     const double longest = h * newton->tolerance;
     double largest;
-    if (v_cycle_solve(&mg->cycle, mg->g, mg->square, longest, mg->p,
+    if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
                       &largest)) {
-        double square = grid_remainder(&mg->grid, mg->g, mg->p, &largest);
+        double square = grid_linear_residual(&mg->grid, mg->g, mg->p, &largest);
         newton->passes = v_cycle_passes(&mg->grid, largest, square, longest);
     }
     record->residual = largest / h;
@@ -180,7 +182,7 @@ static Status grid_direction(Newton *newton)
 /* A place where the quartic is below 0, at a minimum if rounding allows, looked
  * for from 1 on; 0 if there is none.
  *   trials  out, places looked at */
-static double lowest(const Quartic *quartic, int *trials)
+static double minimise_quartic(const Quartic *quartic, int *trials)
 {
     const double *q = quartic->q;
     double low = 0, high = INFINITY, a = 1, last = 0;
@@ -199,64 +201,65 @@ static double lowest(const Quartic *quartic, int *trials)
 
 /* Step length at which E is lowest along p, exactly: E is a quartic there.  The
  * last p is used whole, which keeps momentum. */
-static Status grid_step_length(Newton *newton)
+static Status multigrid_find_step_length(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
-    grid_line_polynomial(&mg->grid, mg->g, mg->p, mg->along.q);
+    grid_line_polynomial(&mg->grid, mg->g, mg->p, mg->line.q);
     for (int i = 0; i < 4; i++)
-        mg->along.q[i] /= mg->grid.energy;
-    record->slope = mg->along.q[0];
+        mg->line.q[i] /= mg->grid.energy;
+    record->slope = mg->line.q[0];
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
     if (!(record->slope <= 0))
         return STATUS_NOT_DESCENT;
-    if (newton->passes && quartic_value(&mg->along, 1) <= 0)
+    if (newton->passes && quartic_value(&mg->line, 1) <= 0)
         record->alpha = record->trials = 1;
     else
-        record->alpha = lowest(&mg->along, &record->trials);
+        record->alpha = minimise_quartic(&mg->line, &record->trials);
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
-    record->change = quartic_value(&mg->along, record->alpha);
+    record->change = quartic_value(&mg->line, record->alpha);
     return STATUS_OK;
 }
 
 /* x += alpha p; then tiles of nodes relax where the directions stall. */
-static Status grid_update(Newton *newton)
+static Status multigrid_update_iterate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     const double unit = mg->grid.energy;
     const int tiles = mg->tiles.high * mg->tiles.wide;
     grid_add_step(&mg->grid, record->alpha, mg->p);
-    mg->moved += record->alpha * record->residual * newton->settings.h;
+    mg->way_since_setup +=
+        record->alpha * record->residual * newton->settings.h;
     newton->counters.iterations++;
-    mg->stalls = mg->stalls || mg->bound > STALLS * mg->last_bound;
+    mg->stalls = mg->stalls || mg->p_bound > STALLS * mg->last_p_bound;
     if (mg->stalls && !newton->passes) {
         double pace = PACE * record->change * unit / tiles;
         record->change += tiles_relax(&mg->tiles, pace) / unit;
-        mg->moved = INFINITY;
+        mg->way_since_setup = INFINITY;
     }
-    newton->counters.local = mg->tiles.sweeps;
-    return evaluate_grid_gradient(mg);
+    newton->counters.tile_sweeps = mg->tiles.sweeps;
+    return multigrid_evaluate_gradient(mg);
 }
 
 /* The test; where multigrid has come to an end without passing it, such as
  * among rounding errors, Newton goes on from the iterate. */
-static Status grid_test(Newton *newton, Status status)
+static Status multigrid_test_iterate(Newton *newton, Status status)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     if (!mg)
         return status;
-    mg->largest = fmin(mg->largest, record->change);
-    bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest;
+    mg->largest_change = fmin(mg->largest_change, record->change);
+    bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest_change;
     bool last = record->iteration + 1 >= newton_most_iterations(newton);
     bool stuck = status != STATUS_OK || record->iteration >= HANDED_ITERATIONS;
-    bool ends =
-        newton->passes || (!stuck && mg->bound <= negligible_direction(newton));
+    bool ends = newton->passes ||
+                (!stuck && mg->p_bound <= negligible_direction_size(newton));
     if (ends && system_falls_freely(newton->system))
-        record->change += grid_keep_momentum(&mg->grid) / mg->grid.energy;
+        record->change += grid_correct_momentum(&mg->grid) / mg->grid.energy;
     if (ends || stuck || small || last ||
         newton->settings.observer) { /* otherwise unused */
         swap_iterates(newton);
@@ -266,15 +269,16 @@ static Status grid_test(Newton *newton, Status status)
         record->change += turn_free_body(newton);
     if (ends && status != STATUS_NOT_FINITE)
         return STATUS_OK;
-    bool hidden = small && below_roundoff(newton, record->change);
-    if (stuck || (hidden && mg->hidden)) {
-        newton->working = SOLVER_NEWTON;
+    bool hidden = small && is_below_roundoff(newton, record->change);
+    if (stuck || (hidden && mg->was_hidden)) {
+        newton->active_solver = SOLVER_NEWTON;
         newton->rounding.E = NAN;
-        newton->counters.taken_back++;
+        newton->counters.handed_over++;
     }
-    mg->hidden = hidden;
+    mg->was_hidden = hidden;
     return last ? STATUS_ITERATION_LIMIT : STATUS_RUNNING;
 }
 
-const NewtonPhases multigrid_phases = {grid_direction, grid_step_length,
-                                       grid_update, grid_test};
+const NewtonPhases multigrid_phases = {
+    multigrid_find_direction, multigrid_find_step_length,
+    multigrid_update_iterate, multigrid_test_iterate};

@@ -22,11 +22,12 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     newton->status = STATUS_RUNNING;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->has_gradient = false;
-    newton->search.moved = INFINITY; /* no factor of this minimisation yet */
+    newton->search.way_since_factor =
+        INFINITY; /* no factor of this minimisation yet */
     newton->clamps = 0;
     newton->change_sum = newton->change_abs_sum = 0;
     rounding_start(newton);
-    newton->working =
+    newton->active_solver =
         multigrid_accepts(newton) ? SOLVER_MULTIGRID : SOLVER_NEWTON;
 }
 
@@ -52,7 +53,7 @@ static Status update_iterate(Newton *newton)
         return STATUS_ROUNDING_LIMIT;
     }
     swap_iterates(newton);
-    newton->search.moved +=
+    newton->search.way_since_factor +=
         newton->record.alpha * newton->record.residual * newton->settings.h;
     newton->rounding.E = newton->rounding.E_trial;
     newton->has_gradient = false;
@@ -88,7 +89,7 @@ static Status test_iterate(Newton *newton, Status status)
     else if (status == STATUS_OK && next_direction_is_negligible(newton))
         status = STATUS_OK;
     else if (status == STATUS_OK)
-        status = rounding_stagnation(newton);
+        status = rounding_test_stagnation(newton);
     if (status == STATUS_RUNNING &&
         newton->record.iteration + 1 >= newton_most_iterations(newton))
         status = STATUS_ITERATION_LIMIT;
@@ -108,7 +109,7 @@ static Status test_iterate(Newton *newton, Status status)
 static void book_change(Newton *newton)
 {
     const Iterate *at = &newton->at;
-    const double first = newton->rounding.first;
+    const double first = newton->rounding.start_energy;
     double change = newton->change_sum;
     if (!isnan(first)) {
         double last = incremental_potential_value(&at->E, at->u, at->x);
@@ -141,13 +142,13 @@ Status newton_minimise(Newton *newton)
     NewtonRecord *record = &newton->record;
     bool pauses = false;
     while (newton->status == STATUS_RUNNING && !pauses) {
-        const NewtonPhases *phases = newton->working == SOLVER_MULTIGRID
+        const NewtonPhases *phases = newton->active_solver == SOLVER_MULTIGRID
                                          ? &multigrid_phases
                                          : &newton_phases;
         double start = clock_now();
         *record = (NewtonRecord){.step = newton->step,
                                  .iteration = record->iteration + 1,
-                                 .solver = newton->working};
+                                 .solver = newton->active_solver};
 
         /* Find the search direction p */
         Status status = phases->find_direction(newton);

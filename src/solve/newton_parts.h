@@ -35,7 +35,7 @@ Status find_direction(Newton *newton);
 
 /* Largest |p_x| + |p_y| of a negligible direction, m, which passes the test and
  * is at most a millionth of the shortest spring. */
-double negligible_direction(const Newton *newton);
+double negligible_direction_size(const Newton *newton);
 
 /* Whether the next direction is negligible, by a bound.  Computes g. */
 bool next_direction_is_negligible(Newton *newton);
@@ -78,12 +78,12 @@ extern const NewtonPhases multigrid_phases;
 void rounding_start(Newton *newton);
 
 /* Whether a change of E, J s^2, is at most a few units in its last place. */
-bool below_roundoff(const Newton *newton, double change);
+bool is_below_roundoff(const Newton *newton, double change);
 
 /* Whether E at u_trial, as large as it is, agrees that it has changed by
  * record.change or fallen more; true where energy_is_within_limit decides, or
  * nothing has to fall. */
-bool rounding_confirms(Newton *newton);
+bool rounding_confirms_change(Newton *newton);
 
 /* Whether E at u, x [2n] is as low as at the start; always true where the
  * minimisation is not held to it. */
@@ -93,6 +93,6 @@ bool energy_is_within_limit(const Newton *newton, const double *u,
 /* Judges an iteration whose p did not pass the test.  If the residual has not
  * become smaller for long, returns ROUNDING_LIMIT where E has stopped to fall,
  * and ITERATION_LIMIT where there is no line search.  Otherwise RUNNING. */
-Status rounding_stagnation(Newton *newton);
+Status rounding_test_stagnation(Newton *newton);
 
 #endif

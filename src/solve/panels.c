@@ -78,7 +78,7 @@ ROWS(four_rows, Two, 2)
 ROWS(four_rows_avx, Four, 1)
 ROWS(eight_rows_avx, Four, 2)
 
-INLINE void columns(const Product *at, int n, bool avx)
+INLINE void multiply_columns(const Product *at, int n, bool avx)
 {
     double inverse[GROUP];
     int i = 0;
@@ -100,16 +100,16 @@ INLINE void multiply_in_groups(const Product *at, bool avx)
 {
     switch (at->n) {
     case 1:
-        columns(at, 1, avx);
+        multiply_columns(at, 1, avx);
         break;
     case 2:
-        columns(at, 2, avx);
+        multiply_columns(at, 2, avx);
         break;
     case 3:
-        columns(at, 3, avx);
+        multiply_columns(at, 3, avx);
         break;
     default:
-        columns(at, GROUP, avx);
+        multiply_columns(at, GROUP, avx);
     }
 }
 
@@ -126,13 +126,13 @@ static void multiply(const Product *at)
         multiply_in_groups(at, false);
 }
 
-static int least(int a, int b)
+static int smaller_of(int a, int b)
 {
     return a < b ? a : b;
 }
 
 /* Marks a case that CHOLMOD does not use, by a pivot that is NaN. */
-static bool unknown(bool known, double *result)
+static bool mark_unsupported_case(bool known, double *result)
 {
     if (!known)
         *result = NAN;
@@ -145,11 +145,11 @@ void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
             const double *B, const int *ldb, const double *beta, double *C,
             const int *ldc)
 {
-    if (unknown(*transa == 'N' && *transb != 'N' && *alpha == 1 && *beta == 0,
-                C))
+    if (mark_unsupported_case(
+            *transa == 'N' && *transb != 'N' && *alpha == 1 && *beta == 0, C))
         return;
     for (int j = 0; j < *n; j += GROUP)
-        multiply(&(Product){*m, least(*n - j, GROUP), *k, A, B + j,
+        multiply(&(Product){*m, smaller_of(*n - j, GROUP), *k, A, B + j,
                             C + (size_t)j * *ldc, *lda, *ldb, *ldc, false, NULL,
                             0});
 }
@@ -160,10 +160,11 @@ void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k,
             const double *alpha, const double *A, const int *lda,
             const double *beta, double *C, const int *ldc)
 {
-    if (unknown(*uplo == 'L' && *trans == 'N' && *alpha == 1 && *beta == 0, C))
+    if (mark_unsupported_case(
+            *uplo == 'L' && *trans == 'N' && *alpha == 1 && *beta == 0, C))
         return;
     for (int j = 0; j < *n; j += GROUP)
-        multiply(&(Product){*n - j, least(*n - j, GROUP), *k, A + j, A + j,
+        multiply(&(Product){*n - j, smaller_of(*n - j, GROUP), *k, A + j, A + j,
                             C + (size_t)j * *ldc + j, *lda, *lda, *ldc, false,
                             NULL, 0});
 }
@@ -173,13 +174,13 @@ void dtrsm_(const char *side, const char *uplo, const char *trans,
             const char *diag, const int *m, const int *n, const double *alpha,
             const double *L, const int *ldl, double *B, const int *ldb)
 {
-    if (unknown(*side == 'R' && *uplo == 'L' && *trans != 'N' && *diag == 'N' &&
-                    *alpha == 1,
-                B))
+    if (mark_unsupported_case(*side == 'R' && *uplo == 'L' && *trans != 'N' &&
+                                  *diag == 'N' && *alpha == 1,
+                              B))
         return;
     for (int j = 0; j < *n; j += GROUP) {
         const double *D = L + (size_t)j * *ldl + j;
-        multiply(&(Product){*m, least(*n - j, GROUP), j, B, L + j,
+        multiply(&(Product){*m, smaller_of(*n - j, GROUP), j, B, L + j,
                             B + (size_t)j * *ldb, *ldb, *ldl, *ldb, true, D,
                             *ldl});
     }
@@ -211,7 +212,7 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
     if (*info)
         return;
     for (int j = 0; j < *n; j += GROUP) {
-        int wide = least(*n - j, GROUP), below = *n - j - wide;
+        int wide = smaller_of(*n - j, GROUP), below = *n - j - wide;
         double *D = A + (size_t)j * *lda + j;
         multiply(&(Product){*n - j, wide, j, A + j, A + j, D, *lda, *lda, *lda,
                             true, NULL, 0});
@@ -227,23 +228,24 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
 
 /* ---- solving with one right-hand side: four columns at a time ---- */
 
-static inline Two two(const double *a)
+static inline Two load_two(const double *a)
 {
     return *(const Two *)a;
 }
 
-static const double *panel_column(const Panel *panel, int j)
+static const double *panel_get_column(const Panel *panel, int j)
 {
     return panel->value + (size_t)j * (size_t)panel->rows;
 }
 
 /* Four columns, and the inverses of their pivots, which do not wait for one
  * another. */
-static inline void take_group(const Panel *panel, int j, const double *a[GROUP],
-                              double pivot[GROUP])
+static inline void load_column_group(const Panel *panel, int j,
+                                     const double *a[GROUP],
+                                     double pivot[GROUP])
 {
     for (int q = 0; q < GROUP; q++) {
-        a[q] = panel_column(panel, j + q);
+        a[q] = panel_get_column(panel, j + q);
         pivot[q] = 1 / a[q][j + q];
     }
 }
@@ -253,7 +255,7 @@ static void forward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP];
     double v[GROUP], pivot[GROUP];
-    take_group(panel, j, a, pivot);
+    load_column_group(panel, j, a, pivot);
     EACH (q, GROUP) {
         v[q] = w[j + q];
         EACH (p, q)
@@ -262,8 +264,9 @@ static void forward_group(const Panel *panel, int j, double *w)
     }
     int i = j + GROUP;
     for (; i + TWO <= panel->rows; i += TWO)
-        *(Two *)(w + i) -= (two(a[0] + i) * v[0] + two(a[1] + i) * v[1]) +
-                           (two(a[2] + i) * v[2] + two(a[3] + i) * v[3]);
+        *(Two *)(w + i) -=
+            (load_two(a[0] + i) * v[0] + load_two(a[1] + i) * v[1]) +
+            (load_two(a[2] + i) * v[2] + load_two(a[3] + i) * v[3]);
     for (; i < panel->rows; i++)
         w[i] -= (a[0][i] * v[0] + a[1][i] * v[1]) +
                 (a[2][i] * v[2] + a[3][i] * v[3]);
@@ -275,11 +278,11 @@ static void backward_group(const Panel *panel, int j, double *w)
     const double *a[GROUP];
     double v[GROUP], pivot[GROUP];
     Two s[GROUP] = {{0}};
-    take_group(panel, j, a, pivot);
+    load_column_group(panel, j, a, pivot);
     int i = j + GROUP;
     for (; i + TWO <= panel->rows; i += TWO)
         EACH (q, GROUP)
-            s[q] += two(a[q] + i) * two(w + i);
+            s[q] += load_two(a[q] + i) * load_two(w + i);
     for (int q = 0; q < GROUP; q++)
         v[q] = w[j + q] - (s[q][0] + s[q][1]);
     for (; i < panel->rows; i++)
@@ -300,7 +303,7 @@ void panel_forward(const Panel *panel, double *w)
     for (; j + GROUP <= panel->columns; j += GROUP)
         forward_group(panel, j, w);
     for (; j < panel->columns; j++) {
-        const double *a = panel_column(panel, j);
+        const double *a = panel_get_column(panel, j);
         w[j] /= a[j];
         for (int i = j + 1; i < panel->rows; i++)
             w[i] -= a[i] * w[j];
@@ -311,7 +314,7 @@ void panel_backward(const Panel *panel, double *w)
 {
     int j = panel->columns;
     while (j % GROUP > 0) {
-        const double *a = panel_column(panel, --j);
+        const double *a = panel_get_column(panel, --j);
         for (int i = j + 1; i < panel->rows; i++)
             w[j] -= a[i] * w[i];
         w[j] /= a[j];

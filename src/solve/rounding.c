@@ -33,8 +33,8 @@ void rounding_start(Newton *newton)
     const Iterate *at = &newton->at;
     const System *system = newton->system;
     Rounding *rounding = &newton->rounding;
-    if (rounding->known != system->version + 1) {
-        rounding->known = system->version + 1;
+    if (rounding->known_version != system->version + 1) {
+        rounding->known_version = system->version + 1;
         rounding->lightest = INFINITY;
         for (int i = 0; i < system->nodes; i++)
             rounding->lightest = fmin(rounding->lightest, system->m[i]);
@@ -44,23 +44,24 @@ void rounding_start(Newton *newton)
         rounding->shortest = sqrt(l2);
         rounding->stiffest = system_curvature_bound(system);
     }
-    rounding->best = INFINITY;
-    rounding->stagnant = 0;
+    rounding->best_residual = INFINITY;
+    rounding->stagnant_iterations = 0;
     rounding->E = NAN;
     double stiffness = at->E.weight * rounding->stiffest;
     rounding->stiff = stiffness > STIFF_MASSES * rounding->lightest;
     rounding->blurred = stiffness > BLURRED_MASSES * rounding->lightest;
-    rounding->most = INFINITY;
-    rounding->first = NAN;
+    rounding->energy_limit = INFINITY;
+    rounding->start_energy = NAN;
     if (newton->settings.search != LINE_SEARCH_NONE &&
         stiffness <= HIDDEN_MASSES * rounding->lightest)
         return;
-    rounding->first = incremental_potential_value(&at->E, at->u, at->x);
-    rounding->most = rounding->first +
-                     MARGIN * incremental_potential_scale(&at->E, at->u, at->x);
+    rounding->start_energy = incremental_potential_value(&at->E, at->u, at->x);
+    rounding->energy_limit =
+        rounding->start_energy +
+        MARGIN * incremental_potential_scale(&at->E, at->u, at->x);
 }
 
-bool below_roundoff(const Newton *newton, double change)
+bool is_below_roundoff(const Newton *newton, double change)
 {
     const Iterate *at = &newton->at;
     double E = incremental_potential_scale(&at->E, at->u, at->x);
@@ -69,7 +70,8 @@ bool below_roundoff(const Newton *newton, double change)
 
 /* How far E moves when each coordinate moves by some units in its last place.
  */
-static double blur(Newton *newton, const double *u, const double *x, double E)
+static double sample_coordinate_rounding(Newton *newton, const double *u,
+                                         const double *x, double E)
 {
     double *near_u = newton->search.r, *near_x = newton->search.b;
     for (int i = 0; i < 2 * newton->system->nodes; i++) {
@@ -82,13 +84,13 @@ static double blur(Newton *newton, const double *u, const double *x, double E)
 
 /* E may differ from the line's change by its own rounding and by the effect of
  * rounded coordinates, which is computed only if a simpler test fails. */
-bool rounding_confirms(Newton *newton)
+bool rounding_confirms_change(Newton *newton)
 {
     Rounding *rounding = &newton->rounding;
     const Iterate *at = &newton->at;
     const double *u = newton->u_trial, *x = newton->x_trial;
     if (newton->settings.search == LINE_SEARCH_NONE || !rounding->stiff ||
-        rounding->most < INFINITY)
+        rounding->energy_limit < INFINITY)
         return true;
     if (isnan(rounding->E))
         rounding->E = incremental_potential_value(&at->E, at->u, at->x);
@@ -98,32 +100,33 @@ bool rounding_confirms(Newton *newton)
         return true;
     double size = incremental_potential_scale(&at->E, at->u, at->x) +
                   incremental_potential_scale(&at->E, u, x);
-    return !(above >
-             AGREED * size + BLURS * (blur(newton, u, x, E) +
-                                      blur(newton, at->u, at->x, rounding->E)));
+    return !(above > AGREED * size +
+                         BLURS * (sample_coordinate_rounding(newton, u, x, E) +
+                                  sample_coordinate_rounding(
+                                      newton, at->u, at->x, rounding->E)));
 }
 
 bool energy_is_within_limit(const Newton *newton, const double *u,
                             const double *x)
 {
-    double most = newton->rounding.most;
+    double most = newton->rounding.energy_limit;
     return most == INFINITY ||
            incremental_potential_value(&newton->at.E, u, x) <= most;
 }
 
-Status rounding_stagnation(Newton *newton)
+Status rounding_test_stagnation(Newton *newton)
 {
     Rounding *rounding = &newton->rounding;
-    if (newton->record.residual < rounding->best) {
-        rounding->best = newton->record.residual;
-        rounding->stagnant = 0;
+    if (newton->record.residual < rounding->best_residual) {
+        rounding->best_residual = newton->record.residual;
+        rounding->stagnant_iterations = 0;
         return STATUS_RUNNING;
     }
-    rounding->stagnant++;
-    if (rounding->stagnant >= STAGNANT_ITERATIONS &&
-        below_roundoff(newton, newton->record.change))
+    rounding->stagnant_iterations++;
+    if (rounding->stagnant_iterations >= STAGNANT_ITERATIONS &&
+        is_below_roundoff(newton, newton->record.change))
         return STATUS_ROUNDING_LIMIT;
-    return rounding->stagnant >= CIRCLING_ITERATIONS &&
+    return rounding->stagnant_iterations >= CIRCLING_ITERATIONS &&
                    newton->settings.search == LINE_SEARCH_NONE
                ? STATUS_ITERATION_LIMIT
                : STATUS_RUNNING;

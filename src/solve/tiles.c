@@ -29,15 +29,16 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
     int wide = (grid->rows.count[0] + LANES - 1) / LANES;
     size_t count = (size_t)high * (size_t)wide;
     *tiles = (Tiles){.grid = grid, .high = high, .wide = wide};
-    tiles->activity = memory_take(memory, count * sizeof *tiles->activity);
-    tiles->change = memory_take(memory, count * sizeof *tiles->change);
-    tiles->chosen = memory_take(memory, count * sizeof *tiles->chosen);
+    tiles->activity =
+        memory_take_piece(memory, count * sizeof *tiles->activity);
+    tiles->change = memory_take_piece(memory, count * sizeof *tiles->change);
+    tiles->chosen = memory_take_piece(memory, count * sizeof *tiles->chosen);
 }
 
 /* Returns the longest of three step lengths a that lower E, or 0, where E
  * changes by a q[0] + ... + a^4 q[3].
  *   lower  out, the change of E */
-INLINE double lowering_step(const double q[4], double *lower)
+INLINE double find_lowering_step(const double q[4], double *lower)
 {
     const double far[3] = {SHORTER, 1, OVER_RELAXED};
     double go = 0;
@@ -71,7 +72,7 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
         double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
         double along[4], lower;
         node_line_polynomial(of, e, px, py, along);
-        double go = lowering_step(along, &lower);
+        double go = find_lowering_step(along, &lower);
         double to_x = ax[q] + go * px, to_y = ay[q] + go * py;
         ax[q] = to_x;
         ay[q] = to_y;
@@ -96,7 +97,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
             if (at.first < at.end)
                 relax_nodes(&grid, at, sum);
         }
-    return sum_of(sum);
+    return sum_lanes(sum);
 }
 
 /* Sweeps the tiles with at least this activity.  Tiles of one colour are not

@@ -57,12 +57,12 @@ double turn_free_body(Newton *newton)
         new_u[i] = u[i] + cosine_less_1 * arm + (i % 2 ? sine : -sine) * side;
         new_x[i] = newton->at.E.x_n[i] + new_u[i];
     }
-    if (!incremental_potential_allowed(&newton->at.E, new_u, new_x))
+    if (!incremental_potential_allows(&newton->at.E, new_u, new_x))
         return 0; /* rounding closed a gap */
     memcpy(u, new_u, (size_t)size * sizeof *u);
     memcpy(x, new_x, (size_t)size * sizeof *x);
     newton->has_gradient = false;
-    newton->search.moved = INFINITY;
+    newton->search.way_since_factor = INFINITY;
     newton->rounding.E = NAN;
     return change;
 }

@@ -22,24 +22,24 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
     for (int nodes = grid->rows.nodes, more = 1; more; nodes = nodes / 2 + 1) {
         Level *level = &cycle->level[cycle->levels++];
         more = nodes > COARSEST;
-        level->rows = rows_of(nodes);
+        level->rows = lay_out_rows(nodes);
         level->coarse = more ? level + 1 : NULL;
         size_t bytes = (size_t)level->rows.plane * sizeof(float);
         for (int i = 0; i < 3 * KINDS; i++)
-            level->K[i / 3][i % 3] = memory_take(memory, bytes);
+            level->K[i / 3][i % 3] = memory_take_piece(memory, bytes);
         for (int i = 0; i < 3; i++)
-            level->D[i] = memory_take(memory, bytes);
-        level->m = memory_take(memory, bytes);
+            level->D[i] = memory_take_piece(memory, bytes);
+        level->m = memory_take_piece(memory, bytes);
         float **vectors[] = {&level->x, &level->b, &level->w};
         for (int i = 0; i < 3; i++)
-            *vectors[i] = memory_take(memory, 2 * bytes);
+            *vectors[i] = memory_take_piece(memory, 2 * bytes);
     }
     size_t bytes = 2 * (size_t)grid->rows.plane * sizeof(float);
     for (int kind = 0; kind < KINDS; kind++)
-        cycle->c[kind] = memory_take(memory, bytes / 2);
+        cycle->c[kind] = memory_take_piece(memory, bytes / 2);
     float **vectors[] = {&cycle->p, &cycle->d, &cycle->Ad};
     for (int i = 0; i < 3; i++)
-        *vectors[i] = memory_take(memory, bytes);
+        *vectors[i] = memory_take_piece(memory, bytes);
 }
 
 /* ---- loops in stages ----
@@ -64,7 +64,7 @@ INLINE int rows_with_coarse(const Level *level)
 /* ---- tensors ---- */
 
 /* A number, or two pairs, in single precision. */
-INLINE Few narrow(Pair low, Pair high)
+INLINE Few narrow_to_single(Pair low, Pair high)
 {
 #ifdef __wasm_simd128__ /* clang makes no use of this instruction */
     v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
@@ -77,8 +77,8 @@ INLINE Few narrow(Pair low, Pair high)
 }
 
 /* Computes the tensors of the springs that start in row i, with negative
- * eigenvalues replaced by 0 (CLAMPED in grid_spring.h). */
-INLINE void tensor_row(const VCycle *cycle, int i)
+ * eigenvalues replaced by 0 (CLAMPED_TENSOR in grid_spring.h). */
+INLINE void compute_tensor_row(const VCycle *cycle, int i)
 {
     const Grid grid = *cycle->grid;
     const Level level = cycle->level[0];
@@ -90,11 +90,13 @@ INLINE void tensor_row(const VCycle *cycle, int i)
         const float *const own_c = cycle->c[kind] + at.first + (numbers);      \
         EACH_FEW (NEXT(at, WIDE_LANES)) {                                      \
             const int q = at.first + e;                                        \
-            Spring s = spring_of(&grid, kind, q, to, numbers);                 \
-            Spring z = spring_of(&grid, kind, q + PAIRED, to, numbers);        \
-            Few dx = narrow(s.dx, z.dx), dy = narrow(s.dy, z.dy);              \
-            Few t = narrow(s.s, z.s), c = FEW(own_c, e);                       \
-            CLAMPED(t, dx *dx + dy * dy + 1e-35f, iso, along);                 \
+            Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);      \
+            Spring z =                                                         \
+                evaluate_grid_spring(&grid, kind, q + PAIRED, to, numbers);    \
+            Few dx = narrow_to_single(s.dx, z.dx),                             \
+                dy = narrow_to_single(s.dy, z.dy);                             \
+            Few t = narrow_to_single(s.s, z.s), c = FEW(own_c, e);             \
+            CLAMPED_TENSOR(t, dx *dx + dy * dy + 1e-35f, iso, along);          \
             FEW(level.K[kind][0], q) = c * (iso + along * dx * dx);            \
             FEW(level.K[kind][1], q) = c * along * dx * dy;                    \
             FEW(level.K[kind][2], q) = c * (iso + along * dy * dy);            \
@@ -105,7 +107,7 @@ INLINE void tensor_row(const VCycle *cycle, int i)
         }
 }
 
-INLINE void invert_row(const Level *of, int i)
+INLINE void invert_diagonal_row(const Level *of, int i)
 {
     const Level level = *of;
     for (int odd = 0; odd < 2; odd++)
@@ -131,10 +133,10 @@ INLINE void invert_row(const Level *of, int i)
 
 /* WIDE_LANES columns of a coarse row, from column `first` on, to their places:
  * even ones and odd ones. */
-INLINE void split(const Rows *rows, int I, int first, const float *line,
-                  float *to)
+INLINE void split_even_odd(const Rows *rows, int I, int first,
+                           const float *line, float *to)
 {
-    float *even = to + place_of(rows, I, first), *odd = even + rows->half;
+    float *even = to + node_place(rows, I, first), *odd = even + rows->half;
     EACH_OF (AT_MOST(WIDE_LANES / 2, (rows->nodes - first + 1) / 2)) {
         even[e] = line[2 * e];
         odd[e] = line[2 * e + 1];
@@ -144,7 +146,7 @@ INLINE void split(const Rows *rows, int I, int first, const float *line,
 /* Numbers of the finer rows around coarse row I, from column `first` on: EVEN
  * those at the coarse columns, ODD those dj + 1/2 coarse columns further. */
 #define FINER(from)                                                            \
-    const float *const a = (from) + place_of(&fine, 2 * I, 0) + first
+    const float *const a = (from) + node_place(&fine, 2 * I, 0) + first
 #define EVEN(di)    a[(di)*fine.pitch + e]
 #define ODD(di, dj) a[(di)*fine.pitch + fine.half + e + (dj)]
 
@@ -160,7 +162,7 @@ INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
         FINER(level->K[kind][t]);                                              \
         EACH_OF (WIDE_LANES)                                                   \
             line[e] = 0.25f * (sum);                                           \
-        split(&rows, I, first, line, coarse->K[kind][t]);                      \
+        split_even_odd(&rows, I, first, line, coarse->K[kind][t]);             \
     }
             MEAN(RIGHT, EVEN(0) + EVEN(1) +
                             0.5f * ((ODD(0, -1) + ODD(1, -1)) +
@@ -187,25 +189,25 @@ INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
                 EVEN(0) +
                 0.5f * ((EVEN(-1) + EVEN(1)) + (ODD(0, -1) + ODD(0, 0))) +
                 0.25f * ((ODD(-1, -1) + ODD(-1, 0)) + (ODD(1, -1) + ODD(1, 0)));
-        split(coarse, I, first, line, to);
+        split_even_odd(coarse, I, first, line, to);
     }
 }
 
-FAST static void set_up(VCycle *cycle)
+FAST static void set_up_levels(VCycle *cycle)
 {
-    for (const Level *l = cycle->level; l && !cycle->set_up; l = l->coarse) {
+    for (const Level *l = cycle->level; l && !cycle->is_set_up; l = l->coarse) {
         const int nodes = l->rows.nodes, rows = rows_with_coarse(l);
         for (int row = 0; row < rows + 2; row++) {
             if (l == cycle->level && has_row(nodes, row))
-                tensor_row(cycle, row);
+                compute_tensor_row(cycle, row);
             if (has_row(nodes, row - 1))
-                invert_row(l, row - 1);
+                invert_diagonal_row(l, row - 1);
             int i = row - 2;
             if (l->coarse && i % 2 == 0 && has_row(rows, i))
                 coarsen_row(l, l->coarse, i / 2);
         }
     }
-    cycle->set_up = true;
+    cycle->is_set_up = true;
 }
 
 void v_cycle_read_system(VCycle *cycle)
@@ -214,7 +216,7 @@ void v_cycle_read_system(VCycle *cycle)
     const Rows *rows = &grid->rows;
     for (int i = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++) {
-            int q = place_of(rows, i, j), at = q + grid->node_shift[i];
+            int q = node_place(rows, i, j), at = q + grid->node_shift[i];
             cycle->level->m[q] = grid->per_m[at] > 0 ? (float)grid->m[at] : 0;
         }
     for (int kind = 0; kind < KINDS; kind++)
@@ -228,8 +230,8 @@ void v_cycle_read_system(VCycle *cycle)
             for (int J = 0; J < coarse->rows.nodes; J++) {
                 int i = 2 * I < last ? 2 * I : last;
                 int j = 2 * J < last ? 2 * J : last;
-                if (l->m[place_of(&l->rows, i, j)] == 0)
-                    coarse->m[place_of(&coarse->rows, I, J)] = 0;
+                if (l->m[node_place(&l->rows, i, j)] == 0)
+                    coarse->m[node_place(&coarse->rows, I, J)] = 0;
             }
         }
     }
@@ -240,9 +242,9 @@ void v_cycle_read_system(VCycle *cycle)
 /* The work of a pass over one colour of a row. */
 typedef enum Visit {
     FIRST, /* from x = 0: x = D b', with the springs to earlier colours in b' */
-    LEFT,  /* after FIRST, with the springs to later colours: w = b - A x */
-    SMOOTH, /* x += D (b - A x) */
-    PRODUCT /* w = A x, and the parts of x.b and x.w are added up */
+    RESIDUAL, /* after FIRST, with the springs to later colours: w = b - A x */
+    SMOOTH,   /* x += D (b - A x) */
+    PRODUCT   /* w = A x, and the parts of x.b and x.w are added up */
 } Visit;
 
 /* Visits one colour of row i: 2 for odd rows, plus 1 for odd columns.  Springs
@@ -253,7 +255,7 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
 {
     const Level level = *of;
     const int plane = level.rows.plane;
-    const bool from_0 = visit == FIRST || visit == LEFT;
+    const bool from_0 = visit == FIRST || visit == RESIDUAL;
     const bool along = !from_0 || (colour % 2 != 0) == (visit == FIRST);
     const bool across = !from_0 || (colour / 2 != 0) == (visit == FIRST);
     float *const x = level.x, *const y = x + plane;
@@ -297,7 +299,7 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
                 Few yy = FEW(level.D[2], q);
                 FEW(x, q) = hx + (xx * rx + xy * ry);
                 FEW(y, q) = hy + (xy * rx + yy * ry);
-            } else if (visit == LEFT) {
+            } else if (visit == RESIDUAL) {
                 FEW(wx, q) = WHERE(FEW(level.D[0], q) != 0, rx);
                 FEW(wy, q) = WHERE(FEW(level.D[0], q) != 0, ry);
             } else {
@@ -316,7 +318,7 @@ INLINE void smooth_row(const Level *level, int i, bool back)
 }
 
 /* sums  [2] x.b and x.w of the row are added */
-INLINE void product_row(const Level *level, int i, double *sums)
+INLINE void multiply_row(const Level *level, int i, double *sums)
 {
     float xb[WIDE_LANES] = {0}, xw[WIDE_LANES] = {0};
     visit_row(level, i, 0, PRODUCT, xb, xw);
@@ -335,9 +337,9 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
                         const float *from, float *to)
 {
     const Rows fine = level->rows;
-    const float *const a = from + place_of(coarse, i / 2, 0);
-    const float *const z = from + place_of(coarse, (i + 1) / 2, 0);
-    const int half = coarse->half, at = place_of(&fine, i, 0);
+    const float *const a = from + node_place(coarse, i / 2, 0);
+    const float *const z = from + node_place(coarse, (i + 1) / 2, 0);
+    const int half = coarse->half, at = node_place(&fine, i, 0);
     float *const even = to + at, *const odd = even + fine.half;
     const float *const D = level->D[0] + at, *const odd_D = D + fine.half;
     for (int first = 0; 2 * first < fine.count[0]; first += WIDE_LANES / 2)
@@ -356,7 +358,7 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
 /* Makes one forward Gauss-Seidel pass from x = 0, and restricts the residual to
  * b of the coarser level.  Even rows come before odd rows, and in each row even
  * columns before odd columns. */
-FAST static void descend(const Level *l)
+FAST static void descend_level(const Level *l)
 {
     const int nodes = l->rows.nodes, rows = rows_with_coarse(l);
     for (int row = 0; row < rows + 3; row++) {
@@ -369,13 +371,13 @@ FAST static void descend(const Level *l)
         if (i % 2 != 0 && has_row(nodes, i)) {
             visit_row(l, i, 2, FIRST, NULL, NULL);
             visit_row(l, i, 3, FIRST, NULL, NULL);
-            visit_row(l, i, 2, LEFT, NULL, NULL);
-            visit_row(l, i, 3, LEFT, NULL, NULL);
+            visit_row(l, i, 2, RESIDUAL, NULL, NULL);
+            visit_row(l, i, 3, RESIDUAL, NULL, NULL);
         }
         i = row - 2;
         if (i % 2 == 0 && has_row(nodes, i)) {
-            visit_row(l, i, 0, LEFT, NULL, NULL);
-            visit_row(l, i, 1, LEFT, NULL, NULL);
+            visit_row(l, i, 0, RESIDUAL, NULL, NULL);
+            visit_row(l, i, 1, RESIDUAL, NULL, NULL);
         }
         i = row - 3;
         if (l->coarse && i % 2 == 0 && has_row(rows, i))
@@ -388,7 +390,7 @@ FAST static void descend(const Level *l)
 
 /* x += P of the coarser level's, then backward in the opposite order; where
  * there are sums, also w = A x. */
-FAST static void ascend(const Level *l, double *sums)
+FAST static void ascend_level(const Level *l, double *sums)
 {
     const int nodes = l->rows.nodes;
     for (int row = 0; row < nodes + 3; row++) {
@@ -403,7 +405,7 @@ FAST static void ascend(const Level *l, double *sums)
                 smooth_row(l, i, true);
         }
         if (sums && has_row(nodes, row - 3))
-            product_row(l, row - 3, sums);
+            multiply_row(l, row - 3, sums);
     }
 }
 
@@ -417,15 +419,15 @@ FAST static void smooth_coarsest(const Level *l, bool back)
 
 /* x = about A^-1 b on all levels, and w = A x on the finest level.
  *   sums  [2] out, x.b and x.w */
-static void v_cycle(VCycle *cycle, double *sums)
+static void run_v_cycle(VCycle *cycle, double *sums)
 {
     sums[0] = sums[1] = 0;
     for (int l = 0; l < cycle->levels; l++)
-        descend(&cycle->level[l]);
+        descend_level(&cycle->level[l]);
     for (int t = 1; t < 2 * COARSEST_TIMES - 1; t++)
         smooth_coarsest(&cycle->level[cycle->levels - 1], t >= COARSEST_TIMES);
     for (int l = cycle->levels - 1; l >= 0; l--)
-        ascend(&cycle->level[l], l == 0 ? sums : NULL);
+        ascend_level(&cycle->level[l], l == 0 ? sums : NULL);
     cycle->cycles++;
 }
 
@@ -433,8 +435,8 @@ static void v_cycle(VCycle *cycle, double *sums)
 
 /* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d, with the
  * next x.  Returns |b|_(M^-1)^2, and the largest |p_x| + |p_y|. */
-FAST static double advance(const VCycle *of, float alpha, float beta,
-                           double *largest)
+FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
+                                               float beta, double *largest)
 {
     const VCycle cycle = *of;
     const Grid grid = *cycle.grid;
@@ -466,7 +468,7 @@ FAST static double advance(const VCycle *of, float alpha, float beta,
                 sum[e] +=
                     grid.per_m[at.first + at.node + e] * (double)square[e];
         }
-        total += sum_of(sum);
+        total += sum_lanes(sum);
     }
     *largest = 0;
     for (int e = 0; e < LANES; e++)
@@ -497,7 +499,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
     const double unit = power_of_two_scale(sqrt(square * grid->lightest));
     double last = 0, alpha = 1;
     bool passes = false;
-    set_up(cycle);
+    set_up_levels(cycle);
     for (int i = 0; i < 3; i++)
         memset((float *[]){cycle->p, cycle->d, cycle->Ad}[i], 0,
                (size_t)numbers * sizeof(float));
@@ -505,20 +507,21 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
         float *const b = cycle->level->b + q;
         const double *const from = g + q;
         EACH_FEW (WIDE_LANES)
-            FEW(b, e) =
-                narrow(-unit * PAIR(from, e), -unit * PAIR(from, e + PAIRED));
+            FEW(b, e) = narrow_to_single(-unit * PAIR(from, e),
+                                         -unit * PAIR(from, e + PAIRED));
     }
     *largest = 0;
     for (int i = 0; i < MAX_CYCLES && !passes; i++) {
         double sums[2];
-        v_cycle(cycle, sums);
+        run_v_cycle(cycle, sums);
         double xb = sums[0], beta = i > 0 ? xb / last : 0;
         double bend = sums[1] - beta * xb / alpha; /* d.A d */
         if (!(bend > 0 && xb > 0) || !isfinite(xb / bend))
             break;
         last = xb;
         alpha = xb / bend;
-        double rest = advance(cycle, (float)alpha, (float)beta, largest);
+        double rest = advance_conjugate_gradients(cycle, (float)alpha,
+                                                  (float)beta, largest);
         double share = sqrt(rest / square) / unit;
         *largest /= unit;
         passes = v_cycle_passes(

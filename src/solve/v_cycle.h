@@ -36,8 +36,8 @@ typedef struct VCycle {
     int levels;
     float *c[KINDS];   /* [plane] the grid's */
     float *p, *d, *Ad; /* [2 planes] of conjugate gradients */
-    bool set_up;       /* the tensors are those at grid->x; set to false when
-                          that moves */
+    bool is_set_up;    /* the tensors are those at grid->x; set to false when
+                       that moves */
     long cycles;       /* since somebody has set it to 0 */
 } VCycle;
 

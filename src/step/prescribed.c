@@ -31,7 +31,7 @@ enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
 enum { HAND_HALVINGS = 6, HAND_PARTS = 8 };
 
 /* Whether obstacle k moves in the rest of this step. */
-static bool moves(const Contact *contact, int k)
+static bool obstacle_moves(const Contact *contact, int k)
 {
     const double *v = contact->obstacle[k].v;
     bool stopped = contact->push.stopped && k == contact->push.obstacle;
@@ -39,10 +39,10 @@ static bool moves(const Contact *contact, int k)
 }
 
 /* Whether a hand moves an obstacle in the rest of this step. */
-static bool hand_moves(const Contact *contact)
+static bool hand_moves_obstacle(const Contact *contact)
 {
     return contact && contact->push.on &&
-           moves(contact, contact->push.obstacle);
+           obstacle_moves(contact, contact->push.obstacle);
 }
 
 /* Shortens the way of an obstacle that would pass its stop, to end there. */
@@ -64,11 +64,11 @@ bool prescribed_begin(TimeIntegrator *run)
     Contact *contact = contact_of(run->system);
     bool any = run->system->pin_v != NULL;
     double half_way = run->clock.now + 0.5 * run->h;
-    run->moved = 0;
-    run->left = 1;
-    run->part = 0;
+    run->moved_part = 0;
+    run->remaining_part = 1;
+    run->parts_made = 0;
     run->blocked = false;
-    run->before = run->newton ? run->newton->counters.iterations : 0;
+    run->iterations_before = run->newton ? run->newton->counters.iterations : 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         const Motion *motion = &obstacle->motion;
@@ -82,7 +82,7 @@ bool prescribed_begin(TimeIntegrator *run)
     if (contact)
         push_begin_step(contact, run->system, run->x, run->h);
     for (int k = 0; contact && k < contact->obstacles; k++)
-        any = any || moves(contact, k);
+        any = any || obstacle_moves(contact, k);
     return any;
 }
 
@@ -90,7 +90,7 @@ bool prescribed_begin(TimeIntegrator *run)
 static void move_obstacles(Contact *contact, double way)
 {
     for (int k = 0; contact && k < contact->obstacles; k++)
-        for (int c = 0; c < 2 && moves(contact, k); c++)
+        for (int c = 0; c < 2 && obstacle_moves(contact, k); c++)
             contact->obstacle[k].o[c] += way * contact->obstacle[k].v[c];
 }
 
@@ -98,14 +98,15 @@ static void move_obstacles(Contact *contact, double way)
  *   way     s, for which the obstacles have moved
  *   before  [2n] m, positions of the nodes before that
  *   u       [2n] m, displacements of the nodes, in and out */
-static void carry(const System *system, const Contact *contact, double way,
-                  const double *x_n, const double *before, double *u)
+static void carry_nodes(const System *system, const Contact *contact,
+                        double way, const double *x_n, const double *before,
+                        double *u)
 {
     for (int k = 0; contact && k < contact->obstacles; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
         double back[2] = {obstacle->o[0] - way * obstacle->v[0],
                           obstacle->o[1] - way * obstacle->v[1]};
-        if (!moves(contact, k))
+        if (!obstacle_moves(contact, k))
             continue;
         for (int i = 0; i < system->nodes; i++) {
             if (!contact_has_pair(contact, system, i, k) ||
@@ -127,7 +128,7 @@ static void carry(const System *system, const Contact *contact, double way,
 /* Moves obstacles, pins and carried nodes by a part of the step.  Sets new_x to
  * u: Newton's displacement plus that motion.  Returns whether all terms allow u
  * and no body passes through another; if not, moves the obstacles back. */
-static bool make_part(TimeIntegrator *run, double part)
+static bool move_part(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
     Contact *contact = contact_of(run->system);
@@ -135,20 +136,20 @@ static bool make_part(TimeIntegrator *run, double part)
     double *u = run->new_x, *x = run->new_v, way = part * run->h;
     double *before = run->newton->x_trial, *p = run->newton->u_trial;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        u[i] = p[i] = run->part == 0 ? 0 : run->newton->at.u[i];
+        u[i] = p[i] = run->parts_made == 0 ? 0 : run->newton->at.u[i];
         before[i] = x_n[i] + u[i];
         if (system->pin_v && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
     }
     move_obstacles(contact, way);
-    carry(system, contact, way, x_n, before, u);
+    carry_nodes(system, contact, way, x_n, before, u);
     for (int i = 0; i < 2 * system->nodes; i++) {
         x[i] = x_n[i] + u[i];
         p[i] = u[i] - p[i];
     }
     IncrementalPotential E = {
         .system = system, .weight = run->h * run->h, .x_n = x_n};
-    if (incremental_potential_allowed(&E, u, x) &&
+    if (incremental_potential_allows(&E, u, x) &&
         system_path_is_free(system, before, p))
         return true;
     move_obstacles(contact, -way);
@@ -160,11 +161,11 @@ static bool make_part(TimeIntegrator *run, double part)
  *   halvings  in, how many are tried, each half the one before
  *   parts     in, limit of the parts of a step so far
  * Returns the part, or 0 if there was no room. */
-static double make_most(TimeIntegrator *run, double part, int halvings,
-                        int parts)
+static double move_farthest(TimeIntegrator *run, double part, int halvings,
+                            int parts)
 {
-    for (int i = 0; i < halvings && run->part < parts; i++, part /= 2)
-        if (make_part(run, part))
+    for (int i = 0; i < halvings && run->parts_made < parts; i++, part /= 2)
+        if (move_part(run, part))
             return part;
     return 0;
 }
@@ -173,25 +174,26 @@ void prescribed_start(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     double part = 0;
-    if (hand_moves(contact)) {
-        part = make_most(run, fmin(run->left, push_max_step(contact, run->h)),
-                         HAND_HALVINGS, HAND_PARTS);
+    if (hand_moves_obstacle(contact)) {
+        part = move_farthest(
+            run, fmin(run->remaining_part, push_max_step(contact, run->h)),
+            HAND_HALVINGS, HAND_PARTS);
         contact->push.stopped = part == 0;
-        contact->push.moved = run->moved;
+        contact->push.moved = run->moved_part;
     }
     bool others = run->system->pin_v != NULL;
     for (int k = 0; contact && k < contact->obstacles; k++)
-        others = others || moves(contact, k);
+        others = others || obstacle_moves(contact, k);
     if (part == 0 && others)
-        part = make_most(run, run->left, MAX_HALVINGS, MAX_PARTS);
+        part = move_farthest(run, run->remaining_part, MAX_HALVINGS, MAX_PARTS);
     run->blocked = part == 0 && others;
     if (part == 0) /* no further motion in this step */
-        make_part(run, 0);
+        move_part(run, 0);
     else
-        run->moved += part;
-    run->left = part == 0 ? 0 : run->left - part;
-    run->part++;
-    bool guess = run->left > 0;
+        run->moved_part += part;
+    run->remaining_part = part == 0 ? 0 : run->remaining_part - part;
+    run->parts_made++;
+    bool guess = run->remaining_part > 0;
     double tolerance = run->newton->settings.tolerance;
     newton_start(run->newton, run->x, run->new_x, run->weight,
                  guess ? 10 * tolerance + 0.01 : tolerance);
@@ -212,17 +214,18 @@ static void report_end(const Newton *newton, Status status)
         settings->observer(settings->user, &end);
 }
 
-bool prescribed_goes_on(TimeIntegrator *run, Status *status)
+bool prescribed_end_part(TimeIntegrator *run, Status *status)
 {
     const Newton *newton = run->newton;
-    long updates = newton->counters.iterations - run->before;
+    long updates = newton->counters.iterations - run->iterations_before;
     if (status_is_failure(*status))
         return false;
     if (run->blocked && !*status)
         *status = STATUS_BLOCKED;
-    if (run->left > 0 && updates < newton_most_iterations(newton))
+    if (run->remaining_part > 0 && updates < newton_most_iterations(newton))
         return true;
-    if (run->left > 0) /* the parts of a step share one limit of iterations */
+    if (run->remaining_part >
+        0) /* the parts of a step share one limit of iterations */
         *status = STATUS_ITERATION_LIMIT;
     if (*status != newton->status)
         report_end(newton, *status);
@@ -258,7 +261,7 @@ double prescribed_work(const TimeIntegrator *run, double weight)
             int k = walk.element.source;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped = contact->push.stopped && k == contact->push.obstacle;
-            sum += (stopped ? contact->push.moved : run->moved) *
+            sum += (stopped ? contact->push.moved : run->moved_part) *
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }

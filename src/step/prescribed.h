@@ -2,7 +2,7 @@
  * obstacle that a hand pushes.
  *
  * A step has one or several minimisations: prescribed_start moves things as far
- * as there is room and starts one, prescribed_goes_on says whether another one
+ * as there is room and starts one, prescribed_end_part says whether another one
  * follows.
  */
 #ifndef ELASTO_PRESCRIBED_H
@@ -24,7 +24,7 @@ void prescribed_start(TimeIntegrator *run);
  * last one is reported to Newton's observer, where its status is another one.
  *   status  in: how the minimisation ended; out: how all of them did, BLOCKED
  *           where things could not be put where they belong */
-bool prescribed_goes_on(TimeIntegrator *run, Status *status);
+bool prescribed_end_part(TimeIntegrator *run, Status *status);
 
 /* Work of the prescribed motion in a step, J.  The pins' work is their
  * reaction, the gradient of E there, times their way.  The obstacles' work is

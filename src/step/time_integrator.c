@@ -10,7 +10,7 @@
 #include "model/pull_energy.h"
 #include "step/prescribed.h"
 
-const IntegratorMethod *integrator_method(const char *name)
+const IntegratorMethod *integrator_find_method(const char *name)
 {
     for (const IntegratorMethod *row = integrator_methods; row->name; row++)
         if (strcmp(row->name, name) == 0)
@@ -76,7 +76,7 @@ void time_integrator_free(TimeIntegrator *run)
  */
 
 /* Counts a step of h. */
-static void tick(StepClock *clock, double h)
+static void count_step(StepClock *clock, double h)
 {
     if (h != clock->h)
         *clock = (StepClock){.since = clock->now, .h = h};
@@ -160,7 +160,7 @@ static Status end_step(TimeIntegrator *run, Status status)
                                run->new_x + 2 * hand->node);
     memcpy(run->x, run->new_x, both * sizeof(double));
     run->steps++;
-    tick(&run->clock, run->h);
+    count_step(&run->clock, run->h);
     if (run->moves)
         run->work += prescribed_work(run, run->newton->at.E.weight);
     end_terms(run);
@@ -193,7 +193,7 @@ Status time_integrator_advance(TimeIntegrator *run)
             return status;
 
         /* Move walls and pins by the next part of their way */
-        if (run->moves && prescribed_goes_on(run, &status)) {
+        if (run->moves && prescribed_end_part(run, &status)) {
             prescribed_start(run);
             continue;
         }

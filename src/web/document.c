@@ -378,7 +378,8 @@ void document_write(const Player *player, char *text)
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
     put_formatted(to, "page\t%d\t%d\t%s\n",
-                  page ? (int)(page - lecture_pages) + 1 : 0, lecture_count(),
+                  page ? (int)(page - lecture_pages) + 1 : 0,
+                  lecture_count_pages(),
                   page ? page->name : player_simulation(player)->scene->name);
     put_formatted(to, "topic\t%s\nsentence\t%s\n",
                   content->strip.topic ? content->strip.topic : "",

@@ -191,7 +191,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page)
     session->player.screen.changed = true;
     if (page < 0)
         return;
-    Status status = lecture_options(row, &options, MESSAGE(message));
+    Status status = lecture_make_options(row, &options, MESSAGE(message));
     options.headless = options.quiet = true;
     options.steps = row->picture;
     if (!status)

@@ -69,7 +69,8 @@ static IncrementalPotential watch_potential(const Watch *watch)
 /* Walls have gone a part of this step's way. */
 static Moment watch_moment(const Watch *watch)
 {
-    double moved = watch->run->moves ? watch->run->moved * watch->run->h : 0;
+    double moved =
+        watch->run->moves ? watch->run->moved_part * watch->run->h : 0;
     return (Moment){watch_potential(watch), moved};
 }
 
@@ -247,7 +248,7 @@ static void judge_end(Watch *watch)
     double l2 = system->springs ? INFINITY : 1;
     for (int s = 0; s < system->springs; s++)
         l2 = fmin(l2, system->l2[s]);
-    bool guess = watch->run->moves && watch->run->left > 0;
+    bool guess = watch->run->moves && watch->run->remaining_part > 0;
     double limit = guess ? newton->tolerance : watch->tolerance;
     if (newton->passes)
         judge_convergence(watch, watch->u, limit);

@@ -77,7 +77,7 @@ static void pull(double times)
                  .strength = times * body->m[node] / (H * H),
                  .cell = 1.0 / body->segments,
                  .side = 1};
-    CHECK_OK(pull_set(body, &hand_energy, &hand));
+    CHECK_OK(pull_configure(body, &hand_energy, &hand));
 }
 
 /* ---- whole steps ------------------------------------------------------- */
@@ -140,9 +140,9 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
         newton->settings.user = &fall;
         for (int step = 0; step < (i == 0 ? 12 : 4); step++) {
             make_steps(square, 1);
-            CHECK(newton->working == SOLVER_MULTIGRID);
+            CHECK(newton->active_solver == SOLVER_MULTIGRID);
         }
-        CHECK(fall.judged > 1 && newton->counters.taken_back == 0);
+        CHECK(fall.judged > 1 && newton->counters.handed_over == 0);
         CHECK(i < 14 || fall.by_bound > 0);
     }
 }
@@ -205,7 +205,7 @@ TEST(bits_depend_on_the_step_alone)
                 newton->u_tilde[i] = at->u[i];
             }
         }
-        CHECK(newton->counters.local > 0);
+        CHECK(newton->counters.tile_sweeps > 0);
         multigrid_free(multigrid[0]);
         newton->multigrid = NULL;
     }
@@ -229,7 +229,7 @@ TEST(steps_take_no_more_work)
         CHECK_AT_MOST(newton->counters.cycles,
                       rough ? rows[i / 2].rough : rows[i / 2].smooth);
         CHECK(rough || newton->counters.iterations <= 5 * 5);
-        CHECK(rough || newton->counters.local == 0);
+        CHECK(rough || newton->counters.tile_sweeps == 0);
     }
 }
 
@@ -299,8 +299,8 @@ TEST(multigrid_serves_all_that_springs_do)
     for (int i = 0; i < 4; i++) {
         Simulation *it = check_same_minimum(lines[i], multigrid, 8, 100);
         const Newton *newton = it->run[0].newton;
-        CHECK(newton->working == SOLVER_MULTIGRID && !newton->refusal);
-        CHECK(newton->counters.cycles > 0 && newton->counters.taken_back == 0);
+        CHECK(newton->active_solver == SOLVER_MULTIGRID && !newton->refusal);
+        CHECK(newton->counters.cycles > 0 && newton->counters.handed_over == 0);
         CHECK(i < 2 || energy_now(it, 0, "fracture") > 0);
     }
 }
@@ -349,7 +349,7 @@ TEST(counters_count_what_was_done)
         CHECK((factored > 0) == rows[i].factors);
         CHECK((did.solves > 0) == rows[i].factors);
         CHECK((did.cycles > 0) == rows[i].cycles);
-        CHECK((did.local > 0) == rows[i].tiles);
+        CHECK((did.tile_sweeps > 0) == rows[i].tiles);
     }
 }
 
@@ -380,7 +380,7 @@ TEST(what_does_not_fit_is_left_to_newton)
             make_steps(simulate("--stretch 1.1 %s", rows[i].line), 1)
                 ->run[0]
                 .newton;
-        CHECK(newton->working == rows[i].working);
+        CHECK(newton->active_solver == rows[i].working);
         CHECK(!newton->refusal == !rows[i].refusal);
         CHECK(!rows[i].refusal || strstr(newton->refusal, rows[i].refusal));
     }
@@ -394,7 +394,7 @@ TEST(newton_takes_back_what_multigrid_cannot_end)
     for (int step = 0; step < 3; step++)
         CHECK(status_is_unconverged(simulation_step(square)));
     NewtonCounters did = simulation_sum_counters(square);
-    CHECK(did.taken_back == 3 && did.cycles > 0 && did.factorisations > 0);
+    CHECK(did.handed_over == 3 && did.cycles > 0 && did.factorisations > 0);
 }
 
 TESTS(NULL, NULL)

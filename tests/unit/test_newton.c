@@ -62,7 +62,7 @@ TEST(residuals_are_what_they_are_called)
             double residual = last.record.residual;
             double exact =
                 wide_direction(&E, last.u, PROJECTION_CLAMP, run->h, p);
-            bool multigrid = newton->working == SOLVER_MULTIGRID;
+            bool multigrid = newton->active_solver == SOLVER_MULTIGRID;
             seen[multigrid][last.record.kind]++;
             if (last.record.kind == RESIDUAL_VALUE)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
@@ -339,7 +339,7 @@ TEST(work_is_limited_by_the_size)
     run->newton->settings.max_iterations = 10;
     CHECK_STATUS(simulation_step(simulation), STATUS_ITERATION_LIMIT);
     CHECK_AT_MOST(run->newton->counters.iterations, 19);
-    CHECK(run->moved > 0 && run->moved < 1);
+    CHECK(run->moved_part > 0 && run->moved_part < 1);
     CHECK(smallest_gap(run->system, run->x) > 0);
 }
 

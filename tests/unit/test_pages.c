@@ -20,7 +20,7 @@ static Simulation *open_page(const char *name, const char *more)
     const LecturePage *page = lecture_find_page(name);
     assert_non_null(page);
     Simulation *simulation = simulate("%s %s", page->line, more);
-    lecture_enter(page, &simulation->options);
+    lecture_apply_page(page, &simulation->options);
     return simulation;
 }
 

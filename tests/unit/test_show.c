@@ -471,7 +471,7 @@ TEST(maps_have_levels_and_pulls)
     static const double levels[] = {0.2, 0.6, 1};
     stand_up("landscape --projection none --start 0.6,0.9 --timestep 0.1", 0);
     content.lecture.page = lecture_find_page("parts");
-    lecture_enter(content.lecture.page, &simulation.options);
+    lecture_apply_page(content.lecture.page, &simulation.options);
     simulation.exhibit.switches = PART_INERTIA;
     CHECK(is_drawn("0.6"));
     Plot stage = stage_create(&paper, &content, &layout, 0);
@@ -510,7 +510,7 @@ TEST(right_digits_are_marked)
                                         "1.17", "1.177993", "1.17799325406"};
     stand_up("tangent", 0);
     content.lecture.page = lecture_find_page("tangent");
-    lecture_enter(content.lecture.page, &simulation.options);
+    lecture_apply_page(content.lecture.page, &simulation.options);
     for (int i = 0; i <= 6; i++) {
         if (i > 0)
             CHECK(!simulation_step(&simulation));

@@ -82,10 +82,10 @@ static void make_contact(const Row *row, Random *random, Case *c)
         c->x_n[axis] = it.o[axis] + d * it.n[axis];
         c->x_n[2 + axis] = it.o[axis] + (it.node < 0 ? 9 * it.n[axis] : 0);
     }
-    CHECK_OK(contact_set(&c->system, &barrier, 1, &it));
+    CHECK_OK(contact_configure(&c->system, &barrier, 1, &it));
     if (row->rubs)
-        CHECK_OK(friction_set(&c->system, &friction_energy, true,
-                              random_logarithmic(random, 0.02, 50)));
+        CHECK_OK(friction_configure(&c->system, &friction_energy, true,
+                                    random_logarithmic(random, 0.02, 50)));
 }
 
 /* The numbers of an option that brings a term alone. */
@@ -96,7 +96,7 @@ static void set_option(const OptionRow *option, Random *random,
     for (int i = 0; i < 8; i++)
         number[i] = random_uniform(random, fmax(option->low, -3),
                                    fmin(option->high, 3));
-    CHECK_OK(option->term->set(system, mesh, number));
+    CHECK_OK(option->term->configure(system, mesh, number));
 }
 
 static void make_grid(const Row *row, Random *random, Case *c)
@@ -113,8 +113,9 @@ static void make_grid(const Row *row, Random *random, Case *c)
     }
     const double material[3] = {1, random_logarithmic(random, 0.1, 10),
                                 random_uniform(random, 0, 0.49)};
-    CHECK_OK(row->solid ? neo_hookean_energy.set(&c->system, &mesh, material)
-                        : cells_set(&c->system, &mesh, 5));
+    CHECK_OK(row->solid
+                 ? neo_hookean_energy.configure(&c->system, &mesh, material)
+                 : cells_configure(&c->system, &mesh, 5));
     if (row->option)
         set_option(row->option, random, &mesh, &c->system);
     if (row->shape == GRID && !row->solid && random_below(random, 2))
@@ -152,10 +153,10 @@ static void make_pair(const Row *row, Random *random, Case *c)
         x[0] = 0.5 + away + cos(angle) * right - sin(angle) * high;
         x[1] = up + sin(angle) * right + cos(angle) * high;
     }
-    CHECK_OK(self_contact_set(&c->system, &mesh, &barrier, 0.7));
+    CHECK_OK(self_contact_configure(&c->system, &mesh, &barrier, 0.7));
     if (row->rubs)
-        CHECK_OK(friction_set(&c->system, &self_friction_energy, true,
-                              random_logarithmic(random, 0.02, 50)));
+        CHECK_OK(friction_configure(&c->system, &self_friction_energy, true,
+                                    random_logarithmic(random, 0.02, 50)));
 }
 
 /* Nodes, springs and contacts of the row, at x_n. */
@@ -195,8 +196,8 @@ static void set_pulls(Random *random, double strength, System *system)
                       .k = 3 * strength,
                       .target = {random_uniform(random, -2, 2),
                                  random_uniform(random, -2, 2)}};
-    CHECK_OK(pull_set(system, &central_field, &all));
-    CHECK_OK(pull_set(system, &hand_energy, &one));
+    CHECK_OK(pull_configure(system, &central_field, &all));
+    CHECK_OK(pull_configure(system, &hand_energy, &one));
 }
 
 /* What else the row has: pulls, flow, damping. */
@@ -205,7 +206,7 @@ static void add_terms(const Row *row, Random *random, System *system)
     if (row->pull > 0)
         set_pulls(random, row->pull, system);
     if (row->yield > 0) {
-        CHECK_OK(plastic_energy.set(system, NULL, &row->yield));
+        CHECK_OK(plastic_energy.configure(system, NULL, &row->yield));
         Plasticity *flow = system_term_data(system, &plastic_energy);
         for (int s = 0; s < system->springs; s++) {
             flow->ep[s] = random_uniform(random, -0.3, 0.3);
@@ -213,7 +214,7 @@ static void add_terms(const Row *row, Random *random, System *system)
         }
     }
     if (row->damping > 0)
-        CHECK_OK(damping.set(system, NULL, &row->damping));
+        CHECK_OK(damping.configure(system, NULL, &row->damping));
 }
 
 /* Random u that all terms allow, and two directions. */
@@ -520,7 +521,7 @@ static void whole_step(Case *c, Random *random)
     if (!system_term_data(&c->system, &damping))
         near("E", incremental_potential_value(&E, c->u, c->x), part.f,
              noise.f + 1e-13L * size.f);
-    const LineEnergy along = incremental_potential_on_line(&iterate);
+    const LineEnergy along = incremental_potential_prepare_line(&iterate);
     spot.alpha = 1e-3L;
     Real change = oracle_step(&spot, u_tilde).f - part.f;
     near("E along p", line_energy_difference(&along, 1e-3), change,
@@ -578,7 +579,7 @@ int main(int argc, char **argv)
     int count = ROWS;
     memcpy(all, rows, sizeof rows);
     for (const OptionRow *option = option_rows; option->name; option++)
-        if (option->term && option->term->set)
+        if (option->term && option->term->configure)
             all[count++] = (Row){.name = option->name,
                                  .shape = GRID,
                                  .far = 1e3,
