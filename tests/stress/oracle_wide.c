@@ -5,59 +5,72 @@
 #include <float.h>
 #include <math.h>
 
-#include "testing.h"
+#define exact_rise        wide_exact_rise
+#define exact_residual    wide_exact_residual
+#define oracle_energy     wide_oracle_energy
+#define oracle_step       wide_oracle_step
+#define exact_potential   wide_exact_potential
+#define exact_strain      wide_exact_strain
+#define exact_derivatives wide_exact_derivatives
+#define exact_eigen       wide_exact_eigen
+#define exact_blocks      wide_exact_blocks
+#define exact_gap         wide_exact_gap
+#define smallest_gap      wide_smallest_gap
+#define smallest_cell     wide_smallest_cell
+#define exact_crossings   wide_exact_crossings
+#include "oracle.h"
 
-static Wide larger(Wide a, Wide b)
+static Real larger(Real a, Real b)
 {
     return a > b ? a : b;
 }
 
-static Wide smaller(Wide a, Wide b)
+static Real smaller(Real a, Real b)
 {
     return a < b ? a : b;
 }
 
-static Wide size_of(Wide a)
+static Real size_of(Real a)
 {
     return a < 0 ? -a : a;
 }
 
-static Wide with_sign(Wide size, Wide sign)
+static Real with_sign(Real size, Real sign)
 {
     return sign < 0 ? -size_of(size) : size_of(size);
 }
 
 /* Newton's method from the root in extended precision. */
-static Wide root_of(Wide a)
+static Real root_of(Real a)
 {
     if (!(a > 0))
-        return a == 0 ? 0 : (Wide)NAN;
-    Wide root = sqrtl((long double)a);
+        return a == 0 ? 0 : (Real)NAN;
+    Real root = sqrtl((long double)a);
     root = (root + a / root) / 2;
     return (root + a / root) / 2;
 }
 
-static Wide length_of(Wide x, Wide y)
+static Real length_of(Real x, Real y)
 {
     return root_of(x * x + y * y);
 }
 
 /* Of a = 1 ... 2: four roots, and 2 artanh((a - 1)/(a + 1)). */
-static Wide small_log_of(Wide a)
+static Real small_log_of(Real a)
 {
     for (int i = 0; i < 4; i++)
         a = root_of(a);
-    Wide r = (a - 1) / (a + 1), sum = 0, power = r;
+    Real r = (a - 1) / (a + 1), sum = 0, power = r;
     for (int i = 1; i < 30; i += 2, power *= r * r)
         sum += power / i;
     return 32 * sum;
 }
 
-static Wide log_of(Wide a)
+static Real log_of(Real a)
 {
     int k;
     if (!(a > 0))
-        return a == 0 ? -(Wide)INFINITY : (Wide)NAN;
+        return a == 0 ? -(Real)INFINITY : (Real)NAN;
     frexpl((long double)a, &k);
     return small_log_of(a / ldexpl(0.5L, k)) + (k - 1) * small_log_of(2);
 }
@@ -69,16 +82,4 @@ static Wide log_of(Wide a)
 #define fminl             smaller
 #define fmaxl             larger
 #define copysignl         with_sign
-#define exact_rise        wide_exact_rise
-#define exact_residual    wide_exact_residual
-#define oracle_energy     wide_oracle_energy
-#define oracle_step       wide_oracle_step
-#define exact_potential   wide_exact_potential
-#define exact_strain      wide_exact_strain
-#define exact_derivatives wide_exact_derivatives
-#define exact_eigen       wide_exact_eigen
-#define exact_gap         wide_exact_gap
-#define smallest_gap      wide_smallest_gap
-#define smallest_cell     wide_smallest_cell
-#define exact_crossings   wide_exact_crossings
 #include "../unit/oracle.c"

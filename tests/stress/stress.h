@@ -25,34 +25,14 @@ long double wide_energy(const Moment *moment, const double *u);
 long double wide_noise(const Moment *moment, const double *u,
                        const double *way);
 
-/* Gradient [2n] and Hessian [2n 2n] of E of springs and the central field, 0
- * and 1 for pinned nodes; negative eigenvalues of each spring as the projection
- * says. */
-void wide_derivatives(const IncrementalPotential *E, const double *u,
-                      Projection projection, Wide *g, Wide *H);
-
-/* H becomes its factors L D L^T, without pivots; false: a pivot is 0.
- *   negative  out, how many pivots are below 0 */
-bool wide_factor(int n, Wide *H, int *negative);
-
-/* b = (L D L^T)^-1 b */
-void wide_solve(int n, const Wide *H, Wide *b);
-
-/* max over nodes |p_x| + |p_y|, over h; p [n] */
-double wide_residual(int n, const Wide *p, double h);
-
-/* p = -H^-1 grad E [2n] out, of at most 25 nodes; returns its residual, m/s. */
-double wide_direction(const IncrementalPotential *E, const double *u,
-                      Projection projection, double h, Real *p);
-
 typedef enum LargeVerdict {
     LARGE_PASSED,
     LARGE_FAILED,
     LARGE_UNDECIDED /* too close to the tolerance, or too slow */
 } LargeVerdict;
 
-/* The test of Algorithm 3 with clamped blocks, at u of a minimisation by
- * springs alone, without a matrix.  tolerance in m/s */
+/* The test of Algorithm 3 with clamped blocks, at u of a minimisation, without
+ * a matrix.  tolerance in m/s */
 LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
                          double h, double tolerance);
 
@@ -84,7 +64,6 @@ typedef struct Watch {
     double *x_n;        /* [2n] where the present minimisation started */
     double *u;          /* [2n] m, last iterate of the minimisation */
     double *way;        /* [2n] workspace */
-    Wide *g, *H;        /* [2n], [2n 2n] workspace */
     long double start;  /* E at u = 0 */
     long double energy; /* E at u */
     int updates;        /* updates of the present minimisation so far */
@@ -110,6 +89,11 @@ Verdict watch_step(Watch *watch);
 /* ---- random scenes (stress_scenes.c) ----------------------------------- */
 
 enum { STRESS_LINE = 512 };
+
+/* Calls `take` with each row of tests/data/stress.txt below "= NAME" until it
+ * returns false; returns what the last call did. */
+bool stress_rows(const char *name, bool (*take)(void *user, char *row),
+                 void *user);
 
 /* The random scene with this number, as a command line; kinds are letters, of
  * which the scenes have one after the other:

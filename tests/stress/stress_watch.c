@@ -25,10 +25,7 @@ static const long double HUGE_ENERGY = 1e280L;
 /* Of a cell's area at rest: where coordinates hardly resolve what is left. */
 #define FLAT 1e-12
 
-/* Larger systems are not solved by a matrix: that costs n^3 in wide numbers. */
-enum { LARGEST_JUDGED = 80 };
-
-/* The same with terms of all kinds, in extended numbers. */
+/* Larger systems are not solved by a matrix: that costs n^3. */
 enum { LARGEST_SOLVED = 400 };
 
 /* Part of a direction that a factor may be wrong by where the program takes it
@@ -74,68 +71,7 @@ static Moment watch_moment(const Watch *watch)
     return (Moment){watch_potential(watch), moved};
 }
 
-static double residual_of_direction(const Watch *watch, const Wide *p)
-{
-    return wide_residual(watch_size(watch), p, watch->run->newton->settings.h);
-}
-
-/* What rounding of the gradient, where x_n + u has an ulp more or less, can
- * make of the residual.  watch->H holds the factor.  Rounding of the solver's
- * own factor is not forgiven: where it matters the solver has to know it. blur
- * of each number of the gradient besides, kg m */
-static double residual_noise(const Watch *watch, const double *u, Wide blur)
-{
-    IncrementalPotential E = watch_potential(watch);
-    int n = watch_size(watch);
-    Wide g[LARGEST_JUDGED], moved[LARGEST_JUDGED];
-    double x_n[LARGEST_JUDGED], most = 0;
-    Random random = {1};
-    wide_derivatives(&E, u, PROJECTION_NONE, g, NULL);
-    E.x_n = x_n;
-    for (int round = 0; round < 3; round++) {
-        for (int i = 0; i < n; i++)
-            x_n[i] = watch->x_n[i] + 2 * DBL_EPSILON *
-                                         random_uniform(&random, -1, 1) *
-                                         (fabs(watch->x_n[i]) + fabs(u[i]));
-        wide_derivatives(&E, u, PROJECTION_NONE, moved, NULL);
-        for (int i = 0; i < n; i++)
-            moved[i] = (random_below(&random, 2) ? 1 : -1) *
-                       (ROUNDINGS * (moved[i] - g[i]) + blur +
-                        ROUNDINGS * DBL_EPSILON * E.system->m[i / 2] *
-                            (fabs(u[i]) + fabs(E.u_tilde[i])));
-        wide_solve(n, watch->H, moved);
-        most = fmax(most, residual_of_direction(watch, moved));
-    }
-    return most;
-}
-
-/* Residual at u with the Hessian of this projection, and what rounding may add
- * to it where it exceeds the limit; infinite where there is no factor. */
-static double judged_residual(Watch *watch, const double *u,
-                              Projection projection, double limit,
-                              double *noise)
-{
-    IncrementalPotential E = watch_potential(watch);
-    int n = watch_size(watch), negative;
-    Wide largest = 0;
-    wide_derivatives(&E, u, projection, watch->g, watch->H);
-    for (int i = 0; i < n; i++)
-        largest = fmaxl((long double)largest, fabsl((long double)watch->g[i]));
-    *noise = INFINITY;
-    if (!wide_factor(n, watch->H, &negative))
-        return INFINITY;
-    wide_solve(n, watch->H, watch->g);
-    double residual = residual_of_direction(watch, watch->g);
-    /* 1e-8: as cholesky.h says of INDEFINITE */
-    bool indefinite =
-        watch->run->newton->settings.projection == PROJECTION_NONE;
-    *noise = residual <= limit
-                 ? 0
-                 : residual_noise(watch, u, indefinite ? largest * 1e-8L : 0);
-    return residual;
-}
-
-/* The same of many nodes, where there are eigenvalues to clamp. */
+/* Of many nodes and springs alone, where there are eigenvalues to clamp. */
 static void judge_large(Watch *watch, const double *u, double tolerance)
 {
     IncrementalPotential E = watch_potential(watch);
@@ -190,8 +126,6 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
 static void judge_terms(Watch *watch, const double *u, double limit)
 {
     double noise, residual;
-    if (watch_size(watch) > LARGEST_SOLVED)
-        return;
     watch->tally->judged++;
     limit *= 1 + DIGITS_OF_DIRECTION;
     if (residual_holds(watch, u, limit, exact_residual, NULL, &residual) ||
@@ -206,37 +140,13 @@ static void judge_terms(Watch *watch, const double *u, double limit)
               residual, limit, noise);
 }
 
-/* Where a minimisation says that the direction at u is below the limit, m/s:
- * once more, in wide numbers.  Projection on demand may have judged with either
- * Hessian. */
+/* Where a minimisation says that the direction at u is below the limit, m/s. */
 static void judge_convergence(Watch *watch, const double *u, double limit)
 {
-    const NewtonSettings *settings = &watch->run->newton->settings;
-    bool either = settings->projection == PROJECTION_ON_DEMAND;
-    double noise;
-    if (!watch->residuals)
-        return;
-    if (!watch->springs) {
+    if (watch->residuals && watch_size(watch) <= LARGEST_SOLVED)
         judge_terms(watch, u, limit);
-        return;
-    }
-    if (watch_size(watch) > LARGEST_JUDGED) {
+    else if (watch->residuals && watch->springs)
         judge_large(watch, u, limit);
-        return;
-    }
-    double residual = judged_residual(
-        watch, u, either ? PROJECTION_CLAMP : settings->projection, limit,
-        &noise);
-    watch->tally->judged++;
-    if (!(residual <= limit + noise) && either)
-        residual = judged_residual(watch, u, PROJECTION_NONE, limit, &noise);
-    if (!(residual <= limit) && !(residual <= limit + noise))
-        blame(
-            watch,
-            "converged, but the residual is %g m/s, tolerance %g, rounding %g",
-            residual, limit, noise);
-    if (noise > 1e-6 * limit)
-        watch->tally->blurred++;
 }
 
 /* The last direction passed the test, and was used; or the one after it passes
@@ -396,11 +306,6 @@ bool watch_create(TimeIntegrator *run, Tally *tally, Watch *watch)
             kind != &hand_energy)
             watch->springs = false;
     }
-    if (n <= LARGEST_JUDGED) {
-        watch->g = malloc(n * sizeof *watch->g);
-        watch->H = malloc(2 * n * n * sizeof *watch->H);
-        good = good && watch->g && watch->H;
-    }
     if (run->newton) {
         run->newton->settings.observer = watch_record;
         run->newton->settings.user = watch;
@@ -417,8 +322,6 @@ void watch_free(Watch *watch)
     free(watch->x_n);
     free(watch->u);
     free(watch->way);
-    free(watch->g);
-    free(watch->H);
     *watch = (Watch){0};
 }
 

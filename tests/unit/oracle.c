@@ -598,12 +598,6 @@ static int negative_part(const Spot *spot, int row, const void *data, int part,
     return n;
 }
 
-/* Coordinate i of the frame's six. */
-static int frame_coordinate(const Frame *frame, int i)
-{
-    return 2 * frame->node[i / 2] + i % 2;
-}
-
 static Outline outline_there(const Spot *spot)
 {
     Spot plain = *spot;
@@ -685,87 +679,126 @@ static int nodes_of(const Spot *spot, Parts parts, const void *data, int i,
     return count;
 }
 
-/* A step's gradient and Hessian while they are put together: g, and the sum of
- * the sizes of its parts [2n]; H [2n 2n]; p, q [2n] all 0. */
-typedef struct Assembly {
-    Real *g, *size, *H;
-    double *p, *q;
-    int n, lifts;
-} Assembly;
-
-/* `lifts` times what cutting its negative eigenvalues adds to a part. */
+/* `lifts` times what cutting its negative eigenvalues adds to a part.  The
+ * frame's nodes are those of the block, in their order. */
 static void add_lift(const Spot *spot, int row, const void *data, int part,
-                     const Assembly *to)
+                     int lifts, double *p, double *q, Block *block)
 {
     Frame frame;
     Real lift[4], rows[4][6];
-    int n =
-        negative_part(spot, row, data, part, to->p, to->q, &frame, lift, rows);
-    for (int i = 0; i < 36 * n; i++) {
-        int k = i / 36, r = i / 6 % 6, c = i % 6;
-        if (lift[k] > 0)
-            to->H[to->n * frame_coordinate(&frame, r) +
-                  frame_coordinate(&frame, c)] += to->lifts * spot->at->weight *
-                                                  lift[k] * rows[k][r] *
-                                                  rows[k][c];
-    }
+    int size = 2 * block->count;
+    int n = negative_part(spot, row, data, part, p, q, &frame, lift, rows);
+    for (int i = 0; i < size * size; i++)
+        for (int k = 0; k < n; k++)
+            block->H[i] += lifts * spot->at->weight * lift[k] *
+                           rows[k][i / size] * rows[k][i % size];
 }
 
-/* One part's gradient and Hessian. */
-static void add_part(Spot *spot, int row, const void *data, int part,
-                     const Assembly *to)
+/* Returns false where this part is nothing.  p, q [2n] all 0 */
+static bool evaluate_block(Spot *spot, int row, const void *data, int part,
+                           int lifts, double *p, double *q, Block *block)
 {
-    int node[3];
     long booked = spot->booked;
     Real w = spot->at->weight;
     Jet W = {0};
+    *block = (Block){0};
     formulas[row].part(spot, &W, data, part);
-    if (spot->booked == booked) /* there is nothing */
-        return;
-    int n = 2 * nodes_of(spot, formulas[row].parts, data, part, node);
+    if (spot->booked == booked)
+        return false;
+    block->count = nodes_of(spot, formulas[row].parts, data, part, block->node);
+    int n = 2 * block->count;
     for (int i = 0; i < n * n; i++) {
-        int r = 2 * node[i / n / 2] + i / n % 2;
-        int c = 2 * node[i % n / 2] + i % n % 2;
+        double *along = &p[2 * block->node[i / n / 2] + i / n % 2];
+        double *across = &q[2 * block->node[i % n / 2] + i % n % 2];
         W = (Jet){0};
-        to->p[r] = to->q[c] = 1;
+        *along = *across = 1;
         formulas[row].part(spot, &W, data, part);
-        to->p[r] = to->q[c] = 0;
-        to->H[to->n * r + c] += w * W.pq;
-        to->g[r] += i % n == 0 ? w * W.p : 0;
-        to->size[r] += i % n == 0 ? fabsl(w * W.p) : 0;
+        *along = *across = 0;
+        block->H[i] = w * W.pq;
+        block->g[i / n] = w * W.p;
     }
-    if (to->lifts && formulas[row].kind->place != PLACE_FRICTION)
-        add_lift(spot, row, data, part, to);
+    if (lifts && formulas[row].kind->place != PLACE_FRICTION)
+        add_lift(spot, row, data, part, lifts, p, q, block);
+    return true;
 }
 
-/* All of it; pinned nodes stand alone. */
-static void assemble(const Spot *there, const double *u, const double *u_tilde,
-                     const Assembly *to)
+/* Inertia of each node, then all parts of all terms. */
+static void walk_blocks(const Spot *there, const double *u,
+                        const double *u_tilde, int lifts,
+                        void (*take)(void *to, const Block *block), void *to)
 {
     const System *system = there->at->system;
     Outline outline = outline_there(there);
+    double *p = calloc(4 * (size_t)system->nodes, sizeof *p);
+    double *q = p + 2 * system->nodes;
     Spot spot = *there;
-    int n = to->n;
-    spot.p = to->p;
-    spot.q = to->q;
+    Block block;
+    CHECK(p != NULL);
+    spot.p = p;
+    spot.q = q;
     spot.outline = &outline;
-    memset(to->H, 0, (size_t)(n * n) * sizeof *to->H);
-    for (int i = 0; i < n; i++) {
-        to->g[i] = system->m[i / 2] * ((Real)u[i] - u_tilde[i]);
-        to->size[i] = fabsl(to->g[i]);
-        to->H[(n + 1) * i] = system->m[i / 2];
+    for (int i = 0; i < system->nodes; i++) {
+        Real m = system->m[i];
+        block = (Block){.count = 1, .node = {i}, .H = {m, 0, 0, m}};
+        for (int c = 0; c < 2; c++)
+            block.g[c] = m * ((Real)u[2 * i + c] - u_tilde[2 * i + c]);
+        take(to, &block);
     }
     for (int t = 0; t < system->terms; t++) {
         int row = formula_of(system->term[t].kind);
         const void *data = system->term[t].data;
         int count = row < 0 ? 0 : count_parts(&spot, formulas[row].parts, data);
         for (int i = 0; i < count; i++)
-            add_part(&spot, row, data, i, to);
+            if (evaluate_block(&spot, row, data, i, lifts, p, q, &block))
+                take(to, &block);
     }
-    for (int r = 0; r < n; r++) {
+    free(p);
+}
+
+void exact_blocks(const IncrementalPotential *E, const double *u, int lifts,
+                  void (*take)(void *to, const Block *block), void *to)
+{
+    EvalPoint at = eval_point_at(E->system, E->x_n, u, NULL);
+    at.weight = E->weight;
+    const Spot spot = {.at = &at, .h = sqrtl(E->weight)};
+    walk_blocks(&spot, u, E->u_tilde, lifts, take, to);
+}
+
+/* A step's gradient and Hessian: g, and the sum of the sizes of its parts [2n];
+ * H [2n 2n]. */
+typedef struct Assembly {
+    Real *g, *size, *H;
+    int n, lifts;
+} Assembly;
+
+static void add_block(void *assembly, const Block *block)
+{
+    const Assembly *to = assembly;
+    int n = 2 * block->count;
+    for (int i = 0; i < n; i++) {
+        int r = 2 * block->node[i / 2] + i % 2;
+        to->g[r] += block->g[i];
+        to->size[r] += fabsl(block->g[i]);
+        for (int k = 0; k < n; k++)
+            to->H[to->n * r + 2 * block->node[k / 2] + k % 2] +=
+                block->H[n * i + k];
+    }
+}
+
+/* All of it; pinned nodes stand alone. */
+static void assemble(const Spot *spot, const double *u, const double *u_tilde,
+                     const Assembly *to)
+{
+    const System *system = spot->at->system;
+    size_t n = (size_t)to->n;
+    memset(to->g, 0, n * sizeof *to->g);
+    memset(to->size, 0, n * sizeof *to->size);
+    memset(to->H, 0, n * n * sizeof *to->H);
+    walk_blocks(spot, u, u_tilde, to->lifts, add_block, (void *)to);
+    for (size_t r = 0; r < n; r++) {
         if (!system->pinned[r / 2])
             continue;
-        for (int c = 0; c < n; c++)
+        for (size_t c = 0; c < n; c++)
             to->H[n * r + c] = to->H[n * c + r] = r == c;
         to->g[r] = to->size[r] = 0;
     }
@@ -775,15 +808,13 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
                        const double *x, double h, int lifts, Real *g, Real *H)
 {
     size_t n = 2 * (size_t)E->system->nodes;
-    double *p = calloc(2 * n, sizeof *p);
     Real *size = calloc(n, sizeof *size);
-    CHECK(p != NULL && size != NULL);
+    CHECK(size != NULL);
     EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
     at.weight = E->weight;
     const Spot spot = {.at = &at, .h = h};
-    const Assembly to = {g, size, H, p, p + n, (int)n, lifts};
+    const Assembly to = {g, size, H, (int)n, lifts};
     assemble(&spot, u, E->u_tilde, &to);
-    free(p);
     free(size);
 }
 
@@ -873,24 +904,24 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
                                int lifts, int side, double *noise)
 {
     size_t n = 2 * (size_t)E->system->nodes;
-    double *p = calloc(4 * n, sizeof *p);
+    double *place = calloc(2 * n, sizeof *place);
     Real *g = calloc(n * (n + 2), sizeof *g), blur = 0;
     Random random = {1};
-    CHECK(p != NULL && g != NULL);
+    CHECK(place != NULL && g != NULL);
     EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
     at.weight = E->weight;
     const Spot spot = {
         .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
-    const Assembly to = {g, g + n, g + 2 * n, p, p + n, (int)n, lifts};
+    const Assembly to = {g, g + n, g + 2 * n, (int)n, lifts};
     assemble(&spot, u, E->u_tilde, &to);
     Real most = solve_densely(&to);
     for (int round = 0; noise && round < SAMPLES; round++)
         blur = fmaxl(
-            blur, fabsl(nearby(&spot, u, E->u_tilde, &to, &random, p + 2 * n) -
-                        most));
+            blur,
+            fabsl(nearby(&spot, u, E->u_tilde, &to, &random, place) - most));
     if (noise)
         *noise = (double)(blur / h);
-    free(p);
+    free(place);
     free(g);
     return (double)(most / h);
 }

@@ -46,13 +46,6 @@ void check_status(const char *what, Status got, Status expected,
                   const char *file, int line);
 void check_true(bool condition, const char *what, const char *file, int line);
 
-/* 34 digits, where the compiler has them. */
-#ifdef __SIZEOF_FLOAT128__
-typedef __float128 Wide;
-#else
-typedef long double Wide;
-#endif
-
 /* Whether all variations are asked for (make long-test), or each promise once
  * (make test). */
 bool tests_are_long(void);
