@@ -28,14 +28,14 @@ typedef struct Command {
     CommandKind kind;
     long number; /* index of a node, card, obstacle, row of options, ... */
     double x, y; /* place, m; x also the numeric value of an option */
-    char text[COMMAND_TEXT_SIZE]; /* name, or value of an option that is not in
-                                     x; else "" */
+    char text[COMMAND_TEXT_SIZE]; /* name, or value of an option that x does not
+                                     hold; else "" */
     bool joins; /* is undone together with the command before: "& set ..." */
 } Command;
 
 /* The part of the window that gets the keys; a row can name several. */
 typedef enum Keyboard {
-    AT_RUN = 1,       /* no other part is open */
+    AT_RUN = 1,       /* no number, list, field, sheet, question is open */
     AT_NUMBER = 2,    /* a number is selected */
     AT_LIST = 4,      /* the list of pages or of numbers is open */
     AT_FIELD = 8,     /* a text is typed: the field takes every key */
@@ -97,9 +97,9 @@ bool command_replaces(const Command *command, const Command *before);
  *     0 set timestep 0.01
  *     40 grab 12
  *     40 & drag 0.5 0.5
- * A command with & and the one of the line before are undone as one.  A line
- * waits until the run has reached its step, unless the run is paused or at its
- * end. */
+ * A command with & is undone together with the command of the line before.  A
+ * line waits until the run has reached its step, unless the run is paused or at
+ * its end. */
 typedef struct ScriptLine {
     long step;
     Command command;
@@ -112,8 +112,8 @@ typedef struct Script {
     size_t next;        /* index of the next line to be obeyed */
 } Script;
 
-/* Appends a line, or replaces the last one if the command does so in its
- * gesture.  Returns OK, OUT_OF_MEMORY. */
+/* Appends a line, or replaces the last line if the command replaces that one's
+ * in the same gesture (command_replaces).  Returns OK, OUT_OF_MEMORY. */
 Status script_add(Script *script, long step, const Command *command,
                   int gesture);
 

@@ -20,7 +20,7 @@ enum {
 
 /* A file that is written; zeroed: not open. */
 typedef struct Output {
-    FILE *file;                  /* NULL: not open */
+    FILE *file;                  /* stream; NULL: the output is not open */
     char name[OUTPUT_NAME];      /* name as given, for messages */
     char temporary[OUTPUT_NAME]; /* NAME.part; "": the file has no such part */
     char *message; /* [OUTPUT_MESSAGE] out, not owned: "NAME: why" of the first
@@ -60,7 +60,7 @@ bool output_is_standard(const char *name);
 
 enum {
     TABLE_COLUMNS = 32,  /* columns at most */
-    TABLE_NAME_SIZE = 16 /* bytes of a name */
+    TABLE_NAME_SIZE = 16 /* bytes of the name of a column */
 };
 
 /* A CSV file: a line of names, then a line for each row of numbers.  Numbers
@@ -84,7 +84,7 @@ void table_add_columns(Table *table, const char *names);
 /* Opens a table, and writes the line of names.  Returns as output_open. */
 Status table_open(const char *name, char *message, Table *table);
 
-/* Adds a row, value [columns]; table_check reports a failure of it. */
+/* Adds a row, value [columns].  table_check reports whether this failed. */
 void table_add_row(Table *table, const double *value);
 
 /* Returns FILE_FAILED (message) if a write has failed; OK also if the table is

@@ -18,7 +18,7 @@
  * of the topmost one counts.  A drag of a point or node sets a new state, which
  * its branch stores.
  *
- * To show a step, the machine of each pane loads the nearest stored state up to
+ * To show a step, the run of each pane loads the nearest stored state up to
  * that step, and makes the steps from there once more (past_iterate).
  *
  * The panes share their time and count of steps.  A step is one time step of
@@ -42,9 +42,9 @@
 
 /* A stored state, which entries of several branches can share. */
 typedef struct State {
-    int users;              /* number of entries that share it */
+    int users;              /* number of entries that share the state */
     size_t size;            /* bytes of memory, with this struct */
-    bool is_set;            /* a start or a drag has set it, no step made it */
+    bool is_set;            /* set by a start or a drag, not made by a step */
     const Control *control; /* control under which the state was saved */
     unsigned char bytes[];  /* the state (state_save) */
 } State;
@@ -53,24 +53,24 @@ typedef struct State {
 typedef struct Sample {
     double time; /* s */
     int rows;
-    Energy row[HISTORY_SERIES]; /* [rows] energies (picture_sample_energies) */
+    Energy row[HISTORY_SERIES]; /* [rows] energies of the plots */
 } Sample;
 
 /* The summary of a step, which outlives its iterations. */
 typedef struct Outcome {
     int updates;   /* number of Newton's updates in all substeps */
     Status status; /* worst status of the substeps */
-    double change; /* change of E, J s^2 */
+    double change; /* change of E in the step, J s^2 */
     double extent; /* m, largest coordinate of run 0 */
 } Outcome;
 
-/* A step of a pane that was made. */
+/* A step that a pane has made. */
 typedef struct Entry {
-    const Control *control; /* control of the next step; NULL: this step is not
-                               made yet */
+    const Control *control; /* control with which the next step is made; NULL:
+                               this entry's step is still being made */
     State *state;   /* state after the step, before `control`; NULL: not
                        stored */
-    Sample *sample; /* sample of the state under the control, or NULL */
+    Sample *sample; /* energies of the state under `control`, or NULL */
     int substeps; /* steps of the simulation in this step; 0: the scene is over,
                      or the pane has ended with the status of the outcome */
     Outcome outcome;
@@ -85,14 +85,14 @@ typedef struct Branch {
     int copied;  /* entries that were copied from the branch below: 1, or 2 if
                    the branch begins before the edited step */
     long shown;  /* step that was shown when the user left the branch */
-    long stride; /* each stride-th state is stored */
+    long stride; /* every stride-th entry stores its state */
     int panes;
     Entry *entry; /* [room][panes]; entry `count` is being made */
     int gesture;  /* id; edits of one gesture share a branch; 0: none */
     Command edit; /* edit that began the branch */
 } Branch;
 
-/* The simulation of a pane, and how far it is in the present branch. */
+/* The simulation of a pane, and its position in the present branch. */
 typedef struct PaneRun {
     Simulation simulation;
     const Control *start;   /* control at step 0 of the run, or NULL */
@@ -105,15 +105,15 @@ typedef struct PaneRun {
     Outcome outcome; /* outcome of the step in progress, else of the last one */
     bool failed;     /* the step after `step` could not be made */
     StepTrace trace; /* iterates of the last step that was made */
-    bool known;      /* trace and records belong to `step`, or to the step
-                        that failed after it */
+    bool known; /* trace and records are those of `step`, or of the step that
+                   failed after it */
     Records records; /* Newton's records of the last step, for the log */
 } PaneRun;
 
 /* Stages of the work that leads to the step that is to be shown. */
 typedef enum Work {
     WORK_DONE,    /* the step is shown */
-    WORK_LOADS,   /* machines load stored states */
+    WORK_LOADS,   /* the runs of panes load stored states */
     WORK_REPEATS, /* known steps are made once more */
     WORK_MAKES,   /* a new step is made; no pane has finished its part */
     WORK_MADE     /* a pane has finished its part of the new step */
@@ -122,7 +122,7 @@ typedef enum Work {
 typedef struct Past {
     Branch *branch;     /* [branches] */
     int branches, room; /* number of branches; memory is reserved for room */
-    int now;            /* index of the present branch; higher ones: undone */
+    int now; /* index of the present branch; branches above it are undone */
     long step;          /* step that is shown in all panes */
     PaneRun pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
@@ -135,7 +135,7 @@ typedef struct Past {
     int line_pane;       /* pane in which E along p is drawn; -1: none */
     Work work;           /* stage of the work that leads to `aim` */
     long aim;            /* step that is to be shown */
-    long from;           /* step that machines are brought to by WORK_LOADS */
+    long from;           /* step to which WORK_LOADS brings the runs of panes */
     bool samples_line;   /* E along p is sampled in each iteration of the aim */
     double target;       /* s, end of the new step */
     Status worst;        /* worst status of the panes in the new step */
@@ -190,38 +190,38 @@ Status past_iterate(Past *past);
 /* Repeats past_iterate while it returns RUNNING; returns its last status. */
 Status past_finish_work(Past *past);
 
-/* Prepares to make the shown step once more if E along p is to be drawn at this
- * place of its trace (-1: the end) but was not sampled.  past_iterate follows.
- */
+/* Prepares to make the shown step once more (past_iterate) if E along p is to
+ * be drawn at a place of its trace, but was not sampled there.
+ *   place  index of the place; -1: the end of the step */
 void past_sample_line_energy(Past *past, int place);
 
-/* Undoes one gesture (-1) or redoes it (1); past_iterate follows.  Returns the
- * edit that was undone or redone, or NULL. */
+/* Undoes one gesture (-1) or redoes one (1); past_iterate then shows the step.
+ * Returns the edit that was undone or redone, or NULL. */
 const Command *past_undo(Past *past, int way);
 
-/* Number of panes. */
+/* Returns the number of panes. */
 int past_panes(const Past *past);
 
-/* The newest step; the step that is being made does not count. */
+/* Returns the newest step; a step that is being made does not count. */
 long past_newest(const Past *past);
 
-/* The entry of a step; NULL: the step is not made yet. */
+/* Returns the entry of a step; NULL: the step is not made yet. */
 const Entry *past_entry(const Past *past, int pane, long step);
 
-/* The control that follows the shown step. */
+/* Returns the control that follows the shown step. */
 const Control *past_control(const Past *past, int pane);
 
-/* The control with which the run was started. */
+/* Returns the control with which the run was started. */
 const Control *past_start_control(const Past *past, int pane);
 
 /* Whether the shown state was set by a start or a drag, not made by a step. */
 bool past_is_state_set(const Past *past);
 
-/* The last step that a pane has made, if a failure has ended it before `step`;
- * else -1. */
+/* Returns the last step that a pane has made, if a failure has ended the pane
+ * before `step`; else -1. */
 long past_find_end_step(const Past *past, int pane, long step);
 
-/* The last step up to this one whose extent is at most PAST_EXPLODED. */
+/* Returns the last step up to `step` whose extent is at most PAST_EXPLODED. */
 long past_find_drawable_step(const Past *past, int pane, long step);
 
 /* Fills the energies over time that plots of a pane show. */

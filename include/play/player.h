@@ -4,7 +4,7 @@
  *   keys, mouse, chips, scripts, pages -> Command    (hands.c, command.h)
  *   player_obey: calls the command's function        (obey.c)
  *   this function: edits the past, or chooses the step to be shown
- *   player_work: past_iterate until it is shown      (steps.c)
+ *   player_work: past_iterate until that step is shown (steps.c)
  *
  * From a key to Newton's method: player_obey_input, player_obey, player_work,
  * past_iterate, simulation_advance, time_integrator_advance, newton_minimise.
@@ -57,7 +57,7 @@ typedef enum AfterWork {
 
 /* How a pane shows the present step. */
 typedef struct PaneView {
-    int place;             /* index in the step's trace; -1: the whole step */
+    int place; /* index in the trace of the step; -1: end of the step */
     double *ghost;         /* [2n] m, positions before an edit, or NULL */
     char ghost_label[256]; /* the edited setting, and the outcome before it */
 } PaneView;
@@ -68,7 +68,7 @@ typedef struct Time {
     TimeUnit unit; /* unit of "next" and "back" */
     AfterWork after;
     TracePlace place; /* place to show again after an edit; round -1: none */
-    int speed;  /* s: 2^s steps a frame, or a frame lasts 2^-s times as long */
+    int speed;  /* 2^speed steps a frame, or a step every 2^-speed frames */
     double due; /* s on the wall clock, time of the next step */
     double began; /* s on the wall clock, start of the present work; 0: none */
     bool warned;  /* the run has stopped at a step that did not converge */
@@ -88,7 +88,7 @@ typedef struct Queue {
     char note[SENTENCE_SIZE]; /* message at the end of the queue, or "" */
 } Queue;
 
-/* The order in which commands are obeyed and undone. */
+/* Commands that wait, and the gestures by which commands are undone. */
 typedef struct Commands {
     Queue queue;
     int gesture;         /* id of the present gesture, which is undone as one */
@@ -105,7 +105,7 @@ typedef struct Tour {
     const LecturePage *last_page; /* page that was last open, or NULL */
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
-    int guesses, right;          /* number of all guesses, of the right ones */
+    int guesses, right;          /* number of guesses, and of right guesses */
     bool opens;                  /* opening commands of a page are obeyed */
 } Tour;
 
@@ -116,11 +116,11 @@ typedef struct Frame {
     FrameContent content;
     History history[LAYOUT_PANES];
     Trace trace[LAYOUT_PANES];
-    char label[LAYOUT_PANES][LABEL_SIZE]; /* settings that differ by pane */
+    char label[LAYOUT_PANES][LABEL_SIZE]; /* options that differ by pane */
     char chip_key[LAYOUT_CHIPS][VALUE_SIZE];
     char chip_label[LAYOUT_CHIPS][VALUE_SIZE];
-    CommandKind chip[LAYOUT_CHIPS]; /* command of each chip */
-    int numbers;                    /* count of numbers in the row */
+    CommandKind chip[LAYOUT_CHIPS]; /* command that a click on the chip gives */
+    int numbers;                    /* number of options in the row */
     const OptionRow *number[OPTIONS_MAX_ROWS];
 } Frame;
 
@@ -149,10 +149,10 @@ typedef struct Screen {
 /* The mouse and what it drags. */
 typedef struct Mouse {
     double x, y;      /* pixels */
-    bool has_position; /* the position is known */
+    bool has_position; /* x and y are known */
     CommandKind drag; /* command of a drag; COMMAND_NONE: no button is down */
-    int index; /* index of the dragged node, point, number; -1: the stretch */
-    double from[2];  /* pixels, start of the drag; while panning last place */
+    int index; /* index of what is dragged, by `drag`; -1: edge of the square */
+    double from[2];  /* pixels, start of the drag, or of its last pan */
     bool moved;      /* the mouse has moved farther than a click may */
     double grip[2];  /* m, from the mouse to the dragged point */
     bool repins;     /* the dragged node is pinned again after the drag */
@@ -176,7 +176,7 @@ typedef struct Player {
     Given given;
     Past past;
     PaneView view_of_pane[OPTIONS_MAX_PANES];
-    int active; /* index of the pane whose numbers are shown */
+    int active; /* index of the active pane, whose numbers are shown */
     Recording recording;
     Time time;
     Commands commands;
@@ -187,8 +187,8 @@ typedef struct Player {
     char message[768];        /* why a command was refused, or "" */
     char note[SENTENCE_SIZE]; /* message below the picture, or "" */
     bool warning;             /* the note is a warning */
-    bool explains; /* the mouse has moved since the note was written, and may
-                      show a sentence in its place */
+    bool explains; /* the mouse has moved to another thing since the note was
+                      written; a sentence about the thing replaces the note */
 } Player;
 
 /* Creates a player.  If no screen can be opened, reports this on standard error
@@ -201,8 +201,8 @@ typedef struct Player {
 Status player_create(const Options *options, int count, char *const *words,
                      const volatile sig_atomic_t *stop, Player *player);
 
-/* Makes the next step, known or new, and records it; in a window it may only
- * begin.  Returns OK also for a step that did not converge. */
+/* Shows the next step, made before or new, and records it; with a window may
+ * only begin it.  Returns OK also for a step that did not converge. */
 Status player_make_step(Player *player);
 
 /* Obeys a command, then the commands in the queue.  Returns OK, INVALID_INPUT

@@ -44,8 +44,8 @@ typedef struct Film {
  * Returns OK, INVALID_INPUT (no such format, or no ffmpeg), FILE_FAILED. */
 Status film_open(const char *name, char *message, Film *film);
 
-/* Adds a frame some times, with the size of the first frame: larger canvases
- * are cut, smaller ones filled with white.  Returns OK, FILE_FAILED. */
+/* Adds a frame `times` times.  A canvas larger than the first one is cut, a
+ * smaller one filled with white.  Returns OK, FILE_FAILED. */
 Status film_add(Film *film, const Canvas *canvas, int times);
 
 /* Ends a film, if one runs.  Returns OK, FILE_FAILED; a film without frames is
@@ -84,11 +84,11 @@ typedef struct Recording {
 /* Opens the frames, film and tables that the options ask for; makes the folder.
  *   panes      in, number of panes
  *   recording  out; free it in any case
- * Returns OK, FILE_FAILED, OUT_OF_MEMORY, as all functions here do, or
- * INVALID_INPUT; the message says why. */
+ * Returns OK, FILE_FAILED, OUT_OF_MEMORY, or INVALID_INPUT with a message; the
+ * other functions here return the first three. */
 Status recording_open(const Options *options, int panes, Recording *recording);
 
-/* Writes the frame of a step to the folder, and some times to the film. */
+/* Writes the frame of a step to the folder, and `times` times to the film. */
 Status recording_write_frame(Recording *recording, const Canvas *canvas,
                              long step, int times);
 
@@ -99,11 +99,11 @@ Status recording_write_states(Recording *recording, bool energies_only,
                               const Simulation *const *simulation, int count,
                               long step);
 
-/* Writes a Newton iteration of a pane, from 1, to the log. */
+/* Writes a Newton iteration to the log; panes are numbered from 1. */
 Status recording_write_iteration(Recording *recording,
                                  const NewtonRecord *record, int pane);
 
-/* Closes all files.  If one of them fails, or has failed, none gets its name.
+/* Closes all files.  If a file has failed or fails now, no file gets its name.
  */
 Status recording_close(Recording *recording, Keep keep);
 

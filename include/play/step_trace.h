@@ -25,7 +25,7 @@ typedef struct Records {
     bool lost; /* memory was missing for a record */
 } Records;
 
-/* Reserves memory for so many records.  Returns false if memory is missing. */
+/* Reserves memory for `count` records.  Returns false if memory is missing. */
 bool records_reserve(Records *records, int count);
 
 /* A Newton iteration and its line search. */
@@ -33,8 +33,8 @@ typedef struct Round {
     double *x, *p, *u; /* [size] m, x^i, p^i, x^i - x_n; NULL: not stored */
     double first_trial; /* alpha, first trial of the line search */
     Quartic polynomial; /* polynomial part of E(x + alpha p) - E(x), J s^2 */
-    bool has_remainder; /* E along p is more than its polynomial part */
-    bool sampled;      /* `value` has E along p */
+    bool has_remainder; /* E along p is not only its polynomial part */
+    bool sampled;       /* `value` has the samples of E along p */
     double alpha;      /* step length that was taken */
     double change;     /* change of E at alpha, J s^2 */
     double *value;     /* [ROUND_VALUES] J s^2, samples of E along p */
@@ -51,7 +51,7 @@ typedef struct TracePlace {
 } TracePlace;
 
 typedef struct StepTrace {
-    Trace start;       /* h and epsilon of the step */
+    Trace start; /* h and tolerance of the step, for each picture of a place */
     int size;          /* 2n; 0: no rounds are stored */
     Records records;   /* Newton's record of each round */
     Round *round;      /* [records.count] */
@@ -70,8 +70,8 @@ typedef struct StepTrace {
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 
-/* Whether E along p of the round at a place was not sampled, but would be in a
- * trace with `all`.
+/* Whether E along p is to be drawn in the round of a place, but was not
+ * sampled.
  *   place  index of the place; -1: the last round */
 bool step_trace_lacks_samples(const StepTrace *trace, int place);
 
@@ -88,21 +88,21 @@ void step_trace_end(StepTrace *trace, const Options *options);
 void step_trace_clear(StepTrace *trace);
 void step_trace_free(StepTrace *trace);
 
-/* Finds the next place (way 1) or the one before (-1).
+/* Finds the next place (way 1) or the place before (-1).
  *   unit  in, UNIT_UPDATE stops at ends of updates, UNIT_LINE at each place
- * Returns its index, or `place` if the walk ends there. */
+ * Returns the index of this place, or `place` if the walk ends there. */
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way);
 
-/* Returns the index of the last place of a round up to a line; without this
- * round that of the last place of the step. */
+/* Returns the index of the last place in a round whose line is at most `line`;
+ * if the round has no such place, the index of the last place of the step. */
 int step_trace_find_place(const StepTrace *trace, int round, Line line);
 
-/* Returns the index of the place where E was highest, if E exploded, that is
- * rose by ten times the change in the whole step; else -1. */
+/* Returns the index of the place where E was highest, if E exploded: E rose by
+ * more than ten times its change in the whole step.  -1: E did not explode. */
 int step_trace_peak(const StepTrace *trace);
 
 /* Fills what a picture shows at a place; place -1: after the step.  Pointers of
- * `shown` lead into the rounds.  Returns the positions to draw, [size] m; NULL:
+ * `shown` lead into the trace.  Returns the positions to draw, [size] m; NULL:
  * the positions after the step. */
 const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown);
 

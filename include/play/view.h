@@ -42,7 +42,7 @@ void window_close(void);
 /* Finds the size of a paper that fills the window, pixels. */
 void window_find_size(int size[2]);
 
-/* Returns the size of letters that are well read, pixels. */
+/* Returns the size of letters that are easy to read in the window, pixels. */
 double window_find_font_size(void);
 
 /* Whether texts, numbers, keys and cards are elements of a web page. */

@@ -16,9 +16,9 @@ typedef struct Control {
     Options options;
     int hand;     /* node that the mouse holds; -1: none */
     int push;     /* obstacle that the mouse holds; -1: none */
-    double at[2]; /* m, place to which the mouse pulls or pushes */
+    double at[2]; /* m, place to which the hand pulls or pushes */
     int nodes;
-    unsigned char pinned[]; /* [nodes] 1: the node is pinned */
+    unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } Control;
 
 /* Return the present control of a simulation, or a copy of a control.  The only

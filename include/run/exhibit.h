@@ -13,10 +13,10 @@ typedef struct Simulation Simulation;
 /* A user's guess where the next step leads, and where the step does lead. */
 typedef struct Prediction {
     bool made;       /* the user has made a guess */
-    long step;       /* number of steps when the guess was made */
-    double at[2];    /* guess, m */
-    double end[2];   /* end of the step, m */
-    double distance; /* from guess to end, m; along x in one variable */
+    long step;       /* steps of the simulation when the user made the guess */
+    double at[2];    /* m, the guess */
+    double end[2];   /* m, where the step does lead */
+    double distance; /* m, from `at` to `end`; in one variable along x */
 } Prediction;
 
 /* ---- descents: minimisation by Newton's method, update by update --------- */
@@ -43,7 +43,7 @@ typedef struct Descent {
     double direction[2];              /* p at the iterate, m; 0: none */
     double slope;         /* gradient times p; negative is downhill */
     bool by_gradient;     /* Algorithm 1, whose loop tests |g| */
-    double residual;      /* tested number: |g|, or |p|/h in m/s */
+    double residual; /* compared with the tolerance: |g|, or |p|/h in m/s */
     ScalarEnergy *scalar; /* function of one unknown; NULL: two unknowns */
 } Descent;
 
@@ -66,7 +66,7 @@ typedef struct DialCurve {
 
 #define RACE_TIME 0.064 /* s, simulated time of each run */
 
-/* RACE_SHOWN_ROW is the index of the step size in the table of methods. */
+/* RACE_SHOWN_ROW is the step size whose runs the table of methods shows. */
 enum { RACE_SHOWN_ROW = 1, RACE_METHODS = 7, RACE_STEP_SIZES = 7 };
 
 /* An explicit run counts as stable if RACE_EXTRA_STEPS further steps, which are
@@ -83,8 +83,8 @@ typedef struct RacePoint {
                        the run failed */
     double seconds; /* s, processor time */
     bool converged; /* every step converged */
-    double energy_after_second; /* energy after a second over that of the start;
-                                   only of the runs of RACE_SHOWN_ROW */
+    double energy_after_second; /* energy after 1 s over that at the start; only
+                                   for the step size RACE_SHOWN_ROW */
     bool stable; /* the energy stays bounded when the run goes on */
 } RacePoint;
 
@@ -99,7 +99,7 @@ enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
 typedef struct EnvelopeCell {
     bool known;   /* the run of the cell was made */
-    Status worst; /* last status that is not OK */
+    Status worst; /* last status of the ENVELOPE_STEPS steps that is not OK */
     int updates;  /* Newton updates of all steps */
 } EnvelopeCell;
 
@@ -115,9 +115,9 @@ typedef struct EnvelopeMap {
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct Exhibit {
     double start[4];   /* m, m/s, start x, v of the exact path of one mass */
-    double target[2];  /* m, x_tilde; in one unknown target[0] */
-    unsigned switches; /* bit s: switch s is on; in landscape and dial enum
-                          LandscapePart; of kinds of springs 1 means off */
+    double target[2];  /* m, x_tilde; in one unknown only target[0] counts */
+    unsigned switches; /* bit s: part s of E is on (LandscapePart); for switches
+                          of kinds of springs, kind s is off */
     DialCurve dial;
     Race race;
     EnvelopeMap map;
@@ -135,7 +135,7 @@ int exhibit_list_switches(const struct Simulation *simulation,
  * switch s. */
 unsigned exhibit_find_flips(const struct Simulation *simulation);
 
-/* Whether the switches are the kinds of springs, which a page asks for. */
+/* Whether the switches turn kinds of springs on and off (LAYER_KINDS). */
 bool exhibit_has_kind_switches(const struct Simulation *simulation);
 
 /* Returns the kind of a spring: 0 horizontal, 1 vertical, 2 and 3 the

@@ -18,8 +18,8 @@ void make_one_line(char *text);
 void append(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Buffer for the message of a call that fails.  Into {0} no message is written.
- */
+/* Buffer for the message of a call that fails.  A caller that wants no message
+ * passes {0}. */
 typedef struct Message {
     char *text;
     size_t size; /* bytes of text */

@@ -21,15 +21,14 @@ struct LecturePage;
 
 /* Layers of a picture that can be added to its scene, as bits. */
 typedef enum Layer {
-    LAYER_NUMBERS = 1 << 0,    /* number of each node */
-    LAYER_FORCES = 1 << 1,     /* force on each node, as an arrow */
-    LAYER_MODES = 1 << 2,      /* fastest oscillation, or eigenvectors */
-    LAYER_KINDS = 1 << 3,      /* colour of each kind of spring; kinds are
-                                  switches */
-    LAYER_CUTS = 1 << 4,       /* no springs before the user has guessed */
-    LAYER_DOWNHILL = 1 << 5,   /* -grad E, and the half plane on its side */
-    LAYER_CURVES = 1 << 6,     /* curves on which a component of grad E is 0 */
-    LAYER_FIRST_STEP = 1 << 7, /* only the first step, in the whole picture */
+    LAYER_NUMBERS = 1 << 0,  /* number of each node */
+    LAYER_FORCES = 1 << 1,   /* force on each node, as an arrow */
+    LAYER_MODES = 1 << 2,    /* fastest oscillation; a spring's eigenvectors */
+    LAYER_KINDS = 1 << 3,    /* a colour and a switch for each kind of spring */
+    LAYER_CUTS = 1 << 4,     /* springs are hidden until the user has guessed */
+    LAYER_DOWNHILL = 1 << 5, /* -grad E, and the half plane where E falls */
+    LAYER_CURVES = 1 << 6,   /* curves on which a component of grad E is 0 */
+    LAYER_FIRST_STEP = 1 << 7, /* draws only the first step, and larger */
 } Layer;
 
 /* Effect of the key N. */
@@ -72,7 +71,7 @@ typedef struct Options {
             double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
             /* height, velocity, lowest height; velocity 0: no ceiling */
             double ceiling[3];
-            double barrier[2]; /* m, J/m^2; 0: side/100 and 4 k */
+            double barrier[2]; /* d_hat, m; kappa, J/m^2; 0: side/100, 4 k */
             double friction, slip_speed, cells, self_contact;
             double self_friction; /* between bodies; -1: equal to `friction` */
             double material;      /* 0: springs, 1: triangles */
@@ -105,7 +104,7 @@ typedef struct Options {
     const char *state;              /* CSV file with the start, or NULL */
     const char *state_springs;      /* CSV file with springs, or NULL */
     const char *frames, *states, *log, *energies, *springs, *film, *script;
-    int panes; /* runs side by side; 1: no option has a list of values */
+    int panes; /* runs side by side; 1 unless an option has a list of values */
 } Options;
 
 /* Slot of a number in Options.number: OPTION_SLOT(timestep). */
@@ -165,31 +164,30 @@ typedef struct OptionDisplay {
                          the number, or chooses the next name */
 } OptionDisplay;
 
-/* One option.  There are many fields because options differ in many ways; most
- * fields of a row are 0. */
+/* One option.  The struct has many fields because options differ in many ways;
+ * most fields of a row are 0. */
 typedef struct OptionRow {
     const char *name; /* without dashes; "": help is the heading of a section
                          of --help; NULL ends the table */
     char letter;      /* short form, or 0 */
-    const char *placeholder; /* letters for the value in --help; NULL: the
-                                option is a switch */
+    const char *placeholder; /* stands for the value in --help; NULL: the option
+                                is a switch */
     const char *help;        /* description in --help */
     OptionKind kind;
     int slot;              /* slot of the first number */
     size_t offset;         /* OPTION_TEXT: offset of the field in Options */
     bool is_table;         /* OPTION_TEXT: the file is a CSV table */
-    int count;             /* numbers in a value; 0: one */
-    unsigned short_counts; /* bit n: the first n numbers are a value, too */
-    const double *omitted; /* [count] numbers that a shorter value leaves out */
+    int count;             /* number of numbers in a value; 0: one */
+    unsigned short_counts; /* bit n: the first n numbers are enough */
+    const double *omitted; /* [count] defaults for numbers that are left out */
     char separator;        /* separator of the numbers; 0: a comma */
-    int max_times;         /* how often the option may be repeated; 0: the last
-                              value counts */
-    int counter;           /* max_times > 0: slot with the number of
-                              repetitions, whose values follow each other from
-                              `slot` on */
+    int max_times; /* how often the option may be given, each time with one more
+                      value; 0: the last value counts */
+    int counter; /* max_times > 0: slot of the count of given values; the values
+                    follow each other from `slot` on */
     double default_value;  /* default, as on the slides */
     double low, high;      /* range, both ends included */
-    const char *unit;      /* unit of the numbers, or "" */
+    const char *unit;      /* unit of the numbers, or "" if they have none */
     Names names;           /* OPTION_NAME: the values */
     unsigned needs; /* enum SceneNeeds: the scene must have one of these */
     /* Returns why the option has no effect beside the others; NULL: it has one.
@@ -236,7 +234,8 @@ void option_write(const OptionRow *row, double value, char *text, size_t size);
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size);
 
-/* Whether a number of the option is not 0, so that the energy has its term. */
+/* Whether a number of the option is not 0; else its term is not in the energy.
+ */
 bool option_is_on(const OptionRow *row, const Options *options);
 
 /* Returns what the window and the page call an option: "h" for timestep. */

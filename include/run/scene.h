@@ -72,17 +72,17 @@ typedef struct Scene {
     const char *line; /* options with other values than on the slides */
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);
-    double speed;    /* steps a frame when the scene opens; 0: 1 */
+    double speed;    /* steps a frame when the scene opens; 0 means 1 */
     double frame[4]; /* m, left, bottom, right, top of the view; 0: the choice
                         of the picture */
-    double strain_colour_max; /* strain with the full colour; 0: springs have no
-                                 colours at the start */
+    double strain_colour_max; /* strain that is drawn in the full colour; 0:
+                                 springs have no colours at the start */
     bool needs_dissipation;   /* the sentence describes a motion that dies away,
                                  which is true only of methods that dissipate */
     const char *step_name; /* name of a step, "iteration"; NULL: a time step */
     bool starts_paused;    /* the window waits at step 0, to be stepped
                               through */
-    const char *group;     /* heading of the group whose first scene this is */
+    const char *group;     /* heading of the group, in its first scene */
     bool only_by_name;     /* opens by name or by a page, neither by a key nor
                               from the overview */
     const char *pin;       /* value of --pin */

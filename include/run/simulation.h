@@ -24,10 +24,10 @@ typedef struct Gain {
     double energy; /* J, growth beyond the work, summed over `steps` */
 } Gain;
 
-/* Energies that a run has booked since its start. */
+/* Energies that a run has added up since its start. */
 typedef struct Ledger {
     double start; /* J, total energy at the start */
-    double work;  /* J, done by the mouse and by changed options */
+    double work;  /* J, work that the mouse and changed options have done */
     Gain gain;
 } Ledger;
 
@@ -43,16 +43,16 @@ struct Simulation {
     Options options;
     SquareMesh mesh;                  /* zero in scenes without a square */
     System system;                    /* system of run 0 or of all runs */
-    System more[SIMULATION_MAX_RUNS]; /* systems of runs 1 and 2, if each run
-                                         has its own */
+    System more[SIMULATION_MAX_RUNS]; /* systems of runs 1 and 2 if each run has
+                                         a system of its own */
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     RunVariant variant[SIMULATION_MAX_RUNS];
     Ledger ledger[SIMULATION_MAX_RUNS];
     int stepping; /* run whose step is being computed */
-    Status worst; /* last status of the runs before `stepping` that is not OK */
-    double energy_before;    /* J, energy less work of run `stepping` before its
-                                step */
+    Status worst; /* OK, or the last other status of a run in this step */
+    double energy_before; /* J, energy minus work of run `stepping` before this
+                             step */
     Descent descent;         /* zero in scenes that move in time */
     Exhibit exhibit;         /* zero in scenes of the square */
     Prediction prediction;   /* guess where the next step leads */
@@ -63,13 +63,13 @@ struct Simulation {
     int reasons[STATUS_COUNT];   /* unconverged steps by their status */
     Status status;               /* status of the last step */
     bool done;                   /* the scene has ended: a step does nothing */
-    NewtonCounters old_counters; /* counters of integrators before the present
-                                    ones */
+    NewtonCounters old_counters; /* counts of Newton's work by integrators that
+                                    another method has replaced */
 };
 
 /* A quantity of energy by its name: "elastic", "friction". */
 typedef struct Energy {
-    const char *name; /* not owned */
+    const char *name; /* name in a TermKind or a constant text */
     double value;     /* J */
 } Energy;
 
@@ -92,9 +92,9 @@ enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
 typedef struct Energies {
     double kinetic, gravity, total;
     double work;       /* work of walls, pins and hand */
-    double dissipated; /* by the integrator; negative: added by it */
+    double dissipated; /* energy that the integrator took out; < 0: added */
     int rows;
-    Energy row[ENERGY_ROWS]; /* energies in the order of legends */
+    Energy row[ENERGY_ROWS]; /* energies in the order of the plots' legend */
 } Energies;
 
 /* Creates the simulation of options->scene; free it in any case.
@@ -109,7 +109,7 @@ void simulation_free(Simulation *simulation);
 void options_fill_newton_settings(const Options *options,
                                   NewtonSettings *settings);
 
-/* Creates a run of a scene at x, v; for Scene.create. */
+/* Creates a run of a scene at x, v; functions Scene.create call it. */
 Status simulation_start_run(Simulation *simulation, int run,
                             const IntegratorMethod *method, System *system,
                             const double *x, const double *v);
@@ -121,10 +121,10 @@ Status simulation_start_run(Simulation *simulation, int run,
  * failure, and the run that failed did not move. */
 Status simulation_step(Simulation *simulation);
 
-/* Makes one step with pauses after Newton iterations, when the observer asks
- * for one: call begin, then advance while it returns RUNNING; the last status
- * is as from simulation_step.  A step that is left before its end must be
- * followed by state_restore. */
+/* Makes one step in parts: call simulation_begin_step, then simulation_advance
+ * while it returns RUNNING, which happens after each Newton iteration for which
+ * the observer asks for a pause.  The last status is as from simulation_step.
+ * A step that is left before its end must be followed by state_restore. */
 Status simulation_begin_step(Simulation *simulation);
 Status simulation_advance(Simulation *simulation);
 

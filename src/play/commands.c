@@ -28,7 +28,7 @@ static bool types_text(const char *key)
            strcmp(key, "Backspace") == 0;
 }
 
-/* Whether keys like "A|B" have this one. */
+/* Whether a list of keys, "A|B", has this key. */
 static bool has_key(const char *keys, const char *key)
 {
     size_t length = strlen(key);
@@ -99,7 +99,7 @@ static bool take_word(const char **line, char *word)
     return fits;
 }
 
-/* Returns the argument behind this one in CommandRow.takes, or NULL. */
+/* Returns the next argument in CommandRow.takes, or NULL. */
 static const char *next_argument(const char *at)
 {
     at = strchr(at, ' ');
@@ -209,7 +209,7 @@ Status script_add(Script *script, long step, const Command *command,
     ScriptLine line = {step, *command, gesture};
     ScriptLine *last = script->count ? script->line + script->count - 1 : NULL;
     bool same = gesture && last && last->gesture == gesture;
-    if (gesture) /* drags belong to their grab without & */
+    if (gesture) /* drag and release need no &: they join their grab */
         line.command.joins = same && command->kind != COMMAND_DRAG &&
                              command->kind != COMMAND_RELEASE;
     if (same && last->step == step &&

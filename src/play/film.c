@@ -6,8 +6,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Options of ffmpeg for pixels that all players can show; the width and height
- * become even, as this format needs. */
+/* Options of ffmpeg for pixels that all players can show.  Width and height
+ * become even, as this format of pixels needs. */
 #define COMMON "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"
 
 static const struct FilmKind {
@@ -64,7 +64,7 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
     if (setenv("ELASTO_FILM", film->output.temporary, 1) == 0)
         film->pipe = popen(line, "we");
     if (film->pipe)
-        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
+        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* a pipe's size */
 }
 
 Status film_add(Film *film, const Canvas *canvas, int times)

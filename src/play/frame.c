@@ -10,11 +10,11 @@
 #include "run/scene.h"
 
 static const double LONG_WORK = 0.3;  /* s, longer work is reported */
-static const double SMALL_LETTER = 9; /* pixels, without a window */
+static const double SMALL_LETTER = 9; /* pixels, smallest letters in files */
 
 /* ---- the list of keys ---------------------------------------------------- */
 
-/* Replaces the name of a key by its sign: "Right" by an arrow. */
+/* Replaces the name of a key by a sign: "Right" by an arrow. */
 static void shorten_key(char key[VALUE_SIZE])
 {
     static const char *const names[][2] = {
@@ -47,7 +47,7 @@ static void fill_help(FrameContent *content)
         const CommandRow *command = &command_rows[kind];
         if (!command->label)
             continue;
-        if (command->label[0]) /* "": the keys are in the row above */
+        if (command->label[0]) /* "": the keys belong to the row above */
             snprintf((row++)->text, SENTENCE_SIZE, "%s", command->label);
         for (const char *at = command->keys; *at; at += *at == '|') {
             char key[VALUE_SIZE], *keys = row[-1].key;
@@ -221,7 +221,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
         append(label, LABEL_SIZE, " (drawn: %ld)", seen);
 }
 
-/* Fills what the picture of a pane shows. */
+/* Fills the data from which the picture of a pane is drawn. */
 static void fill_pane(const Player *player, int p, Frame *frame)
 {
     const PaneRun *pane_run = &player->past.pane[p];
@@ -244,7 +244,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
     }
 }
 
-/* Returns the bar of a step in the time line. */
+/* Returns the bar of a step in the time line of the player `shown`. */
 static StepBar find_step_bar(const void *shown, long step)
 {
     const Player *player = shown;
@@ -270,7 +270,7 @@ static void fill_time(const Player *player, FrameContent *content)
     }
     content->time_line.paused = player_is_stopped(player);
     if (player_active_options(player)->next ==
-            NEXT_SPRING && /* each step assembles a spring */
+            NEXT_SPRING && /* the Hessian is being assembled */
         past->step < player_simulation(player)->system.springs) {
         snprintf(text, SENTENCE_SIZE, "spring %ld", past->step);
         return;
@@ -309,7 +309,7 @@ static void fill_frame(const Player *player, Frame *frame)
                                              : 0;
     content->in_document = player->screen.window && window_has_document();
     content->panes = past_panes(past);
-    if (content->panes > LAYOUT_PANES) /* scripts can add more */
+    if (content->panes > LAYOUT_PANES) /* scripts can have more panes */
         content->panes = LAYOUT_PANES;
     content->active = active < content->panes ? active : 0;
     for (int i = 0; i < content->panes; i++)
@@ -351,8 +351,8 @@ static void fill_frame(const Player *player, Frame *frame)
     frame_fill_texts(content);
 }
 
-/* Finds what is now under the mouse, if a body was there that may have moved.
- */
+/* Finds what is now under the mouse if the mouse was on a body, which may have
+ * moved. */
 static void update_hover(Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
@@ -379,8 +379,8 @@ void player_fill_frame(Player *player)
 
 Paper *player_prepare_paper(Player *player)
 {
-    static bool is_warned; /* stderr has the warning about the font */
-    const char *font = getenv("ELASTO_FONT"); /* "": without words */
+    static bool is_warned; /* the user was told that the font is missing */
+    const char *font = getenv("ELASTO_FONT"); /* "": pictures have no words */
     Paper *paper = &player->screen.paper;
     const Canvas *canvas = &paper->canvas;
     int size[2] = {player->screen.size[0], player->screen.size[1]};

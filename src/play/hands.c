@@ -12,19 +12,19 @@
 #include "run/scene.h"
 
 enum {
-    CLICK_ROOM = 4,   /* pixels that the mouse may move in a click */
-    NOTCH_PIXELS = 24 /* pixels of a drag for each notch of a number */
+    CLICK_ROOM = 4,   /* pixels that the mouse may move during a click */
+    NOTCH_PIXELS = 24 /* pixels that a drag moves a number by one notch */
 };
 
-static const double WHEEL_ZOOM = 1.15; /* factor for each notch */
+static const double WHEEL_ZOOM = 1.15; /* zoom by a notch of the wheel */
 
-/* The parts of window and scene under the mouse. */
+/* The parts of the window and of the scene to which the mouse points. */
 typedef struct MouseTarget {
     Layout layout; /* layout of the last frame */
-    Hit hit;       /* part of the window */
+    Hit hit;       /* part of the window under the mouse */
     int pane;
-    double at[2]; /* m, point in the world of this pane */
-    Pick pick;    /* part of the scene */
+    double at[2]; /* m, place of the mouse in the scene of this pane */
+    Pick pick;    /* part of the scene under the mouse */
 } MouseTarget;
 
 static MouseTarget find_mouse_target(Player *player)
@@ -41,7 +41,7 @@ static MouseTarget find_mouse_target(Player *player)
     int pane = held->on                        ? held->pane
                : target.hit.zone == ZONE_STAGE ? target.hit.index
                                                : target.pane;
-    if (pane < past_panes(&player->past)) /* a held pane may be closed */
+    if (pane < past_panes(&player->past)) /* the pane of a drag may be closed */
         target.pane = pane;
     held->away = false;
     Camera camera = camera_of_pane(content, &target.layout, target.pane);
@@ -51,7 +51,7 @@ static MouseTarget find_mouse_target(Player *player)
     return target;
 }
 
-/* Obeys a command with a place, as a part of the present gesture. */
+/* Obeys a command with a place, m, as a part of the present gesture. */
 static Status obey_at(Player *player, CommandKind kind, long number,
                       const double at[2])
 {
@@ -95,8 +95,8 @@ static Keyboard find_focus(const Player *player)
                                                             : AT_RUN;
 }
 
-/* Opens the page, or adds the number, that a line of the open list has.
- *   line  in, its number or the page's name */
+/* Opens the page, or adds the number, of a line of the open list.
+ *   line  in, number of the line, or name of the page */
 static Status choose_list_line(Player *player, const char *line)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
@@ -112,8 +112,8 @@ static Status choose_list_line(Player *player, const char *line)
     return obey(player, COMMAND_ADD, all[number - 1] - option_rows);
 }
 
-/* Uses the typed text: opens the page, adds or sets the number, or checks the
- * answer.  The field stays open if its text cannot be read. */
+/* Acts on the typed text: opens the page, adds or sets the number, or checks
+ * the answer.  The field stays open if its text cannot be read. */
 static Status enter_typed(Player *player)
 {
     const OptionRow *row = player->hands.selected;
@@ -157,7 +157,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
     if (row->display.increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
     else if (notches == rint(notches))
-        notches += 1e-9; /* whole notches would give round values */
+        notches += 1e-9; /* keeps option_turn_wheel from rounding */
     if (!edge)
         wanted = option_turn_wheel(row, &mouse->options, notches);
     return now.number[row->slot] == wanted ? STATUS_OK
@@ -188,13 +188,13 @@ static Status open_cell(Player *player, long cell)
     return status;
 }
 
-/* Whether drags place nodes and obstacles; else they pull and push them. */
+/* Whether drags place nodes and obstacles, instead of pulling and pushing. */
 static bool drags_place(const Player *player)
 {
     return player->time.mode == MODE_PAUSE || player->time.mode == MODE_END;
 }
 
-/* Begins a drag of the thing under the mouse, or obeys a click on it. */
+/* Begins a drag of a part of the scene, or obeys a click on the part. */
 static Status press_target(Player *player, const MouseTarget *target)
 {
     Mouse *mouse = &player->hands.mouse;
@@ -230,7 +230,7 @@ static Status press_target(Player *player, const MouseTarget *target)
         return obey_at(player, COMMAND_START, mouse->index, target->pick.point);
     default:
         if (target->pick.kind !=
-            PICK_NODE) /* a spring is not marked any more */
+            PICK_NODE) /* a click ends the highlight of a spring */
             player->screen.view.hover.kind = PICK_NONE;
         mouse->index = target->pick.nearest_node;
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
@@ -240,8 +240,8 @@ static Status press_target(Player *player, const MouseTarget *target)
     }
 }
 
-/* Adds a ball with a radius of 1/8 of the square, but at least 0.7 cells, too
- * much to fit between two nodes, and smaller near a node. */
+/* Adds a ball with a radius of 1/8 of the square, at least of 0.7 cells so that
+ * the ball cannot slip between two nodes, and less if a node is near. */
 static Status add_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_simulation(player);
@@ -261,8 +261,8 @@ static Status add_ball(Player *player, const double at[2])
     return status;
 }
 
-/* Moves a ground or a ball with the mouse: pushes it while time goes on; in a
- * pause places it, as far on the way to `at` as all panes have room. */
+/* Moves an obstacle with the mouse: pushes the obstacle while time goes on; in
+ * a pause, places it as far on the way to `at` as all panes have room. */
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
@@ -287,7 +287,7 @@ static Status drag_obstacle(Player *player, const double at[2])
     return obey_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
 }
 
-/* Goes on with the drag after a movement of the mouse. */
+/* Continues the drag after a movement of the mouse. */
 static Status go_on_dragging(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
@@ -297,7 +297,7 @@ static Status go_on_dragging(Player *player)
     Status status = STATUS_OK;
     mouse->moved = mouse->moved || math_hypot(dx, dy) > CLICK_ROOM;
     switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
-    case COMMAND_GRAB: /* a pinned node is freed for the drag */
+    case COMMAND_GRAB: /* a drag frees a pinned node */
         if (!player->hands.holds) {
             mouse->repins = simulation->system.pinned[mouse->index];
             if (mouse->repins)
@@ -336,7 +336,7 @@ static Status go_on_dragging(Player *player)
 
 /* ---- events -------------------------------------------------------------- */
 
-/* Notes what is under the mouse for the next frame; shows a cell of the
+/* Stores what is under the mouse for the next frame; runs a cell of the
  * envelope at once. */
 static Status note_hover(Player *player)
 {
@@ -362,11 +362,11 @@ static Status note_hover(Player *player)
                : STATUS_OK;
 }
 
-/* Selects a number of the row; a double click gives it its default. */
+/* Selects a number of the row; a double click sets its default. */
 static Status press_number(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->hands.mouse;
-    if (index >= player->screen.frame.numbers) /* the item "+ more" */
+    if (index >= player->screen.frame.numbers) /* the last item is "+ more" */
         return obey(player, COMMAND_OPTIONS, 0);
     player->hands.selected = player->screen.frame.number[index];
     player->screen.changed = true;
@@ -399,13 +399,13 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         return obey(player, COMMAND_ENLARGE, index);
     case ZONE_TIME:
         player->hands.mouse.drag = COMMAND_GOTO;
-        player->hands.mouse.moved = true; /* a click goes there, too */
+        player->hands.mouse.moved = true; /* a click counts, too */
         return go_on_dragging(player);
     case ZONE_SETTING:
         return press_number(player, index, clicks);
     case ZONE_LIST_CLOSE:
         return obey(player, COMMAND_ESCAPE, 0);
-    case ZONE_LIST: /* a line of a list */
+    case ZONE_LIST:
         index = frame_find_row(&player->screen.frame.content, &target->layout,
                                player->hands.mouse.x, player->hands.mouse.y);
         if (find_focus(player) != AT_LIST || index < 0)
@@ -482,7 +482,7 @@ static Status release_button(Player *player)
         return player_obey_queue(player, false);
     }
     if (drag == COMMAND_SET && mouse->moved)
-        player_deselect(player); /* after a click it waits for keys */
+        player_deselect(player); /* after a click the number stays selected */
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
         return raise_number(player, player->hands.selected, 1);
@@ -528,7 +528,7 @@ static Status obey_mouse(Player *player, const Input *input)
     return rests ? STATUS_OK : note_hover(player);
 }
 
-/* A drag is one gesture, and so are successive turns of the wheel. */
+/* A drag is one gesture.  Successive turns of the wheel are one, too. */
 Status player_obey_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
@@ -538,7 +538,7 @@ Status player_obey_input(Player *player, const Input *input)
     Status status = STATUS_OK;
     player->commands.gesture = mouse->gesture;
     if (press && mouse->drag != COMMAND_NONE)
-        status = release_button(player); /* two buttons are down */
+        status = release_button(player); /* a second button ends the drag */
     if (!status)
         status = player_obey_queue(player, press && player->hands.holds);
     if (status)

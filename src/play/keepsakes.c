@@ -9,7 +9,7 @@
 #include "play/playing.h"
 #include "run/scene.h"
 
-enum { NOTE_LINE = 100 }; /* longest command line of a note, bytes */
+enum { NOTE_LINE = 100 }; /* bytes, longest command line that the note shows */
 
 /* Finds a name that no file has: elasto_SCENE_000012.png, ..._2.png, ... */
 static void find_free_name(const Player *player, const char *end, char *name,
@@ -57,7 +57,7 @@ Status obey_film(Player *player, const Command *command)
     Status status =
         ends ? film_close(film, KEEP_WHOLE) : film_open(name, message, film);
     film->output.message = player->recording.message;
-    player->screen.drawn = -1; /* the film has the present frame, too */
+    player->screen.drawn = -1; /* the film begins with the present frame */
     if (status)
         player_note(player, "no film: %s", message);
     else if (ends)

@@ -7,13 +7,13 @@
 
 /* ---- the row ------------------------------------------------------------- */
 
-/* Returns the option of a command, or NULL. */
+/* Returns the option that a command names, or NULL. */
 static const OptionRow *find_command_option(const Command *command)
 {
     return command->number < 0 ? NULL : &option_rows[command->number];
 }
 
-/* Whether the scene uses this option, and it is a number or a choice. */
+/* Whether the scene uses an option whose value is a number or a choice. */
 static bool is_number(const Player *player, const OptionRow *row)
 {
     return (row->needs & player_active_options(player)->scene->needs) &&
@@ -116,7 +116,7 @@ Status obey_type(Player *player, const Command *command)
 
 /* ---- values -------------------------------------------------------------- */
 
-/* Puts the value of a command into the options of a pane. */
+/* Sets an option of a pane to the value of a command if obstacles have room. */
 static Status set_option_value(Player *player, int pane, const Command *command,
                                Options *options)
 {

@@ -17,8 +17,8 @@ static CommandFunction *const functions[COMMAND_KINDS] = {
 
 /* ---- commands ------------------------------------------------------------ */
 
-/* Returns how many nodes, obstacles, cards, ... the number of a command can
- * choose from. */
+/* Returns the number of nodes, obstacles, cards, ... that a command can name.
+ */
 static long count_targets(const Player *player, int pane, CommandKind kind)
 {
     const Simulation *simulation = &player->past.pane[pane].simulation;
@@ -84,7 +84,7 @@ static Command resolve_command(const Player *player, const Command *asked)
 }
 
 /* If a page waits for a guess, "next" and "play" show its answer and make no
- * step.  Returns whether this was so. */
+ * step.  Returns whether the answer was shown. */
 static bool reveal_answer_first(Player *player, const Command *command,
                                 Status *status)
 {
@@ -95,7 +95,7 @@ static bool reveal_answer_first(Player *player, const Command *command,
     return true;
 }
 
-/* Whether a step with the present place of the hand is due or being made. */
+/* Whether a step with the hand at its present place is due or being made. */
 static bool is_pull_due(const Player *player)
 {
     return past_makes(&player->past) ||
@@ -103,7 +103,7 @@ static bool is_pull_due(const Player *player)
             player->past.step <= player->hands.pulled);
 }
 
-/* Obeys the queue as player_obey_queue does, but returns INVALID_INPUT. */
+/* Obeys the queue as player_obey_queue, but returns INVALID_INPUT, too. */
 static Status obey_queue(Player *player, bool now)
 {
     Queue queue = player->commands.queue;
@@ -209,31 +209,31 @@ static bool waits_for_step(Player *player, const Command *command)
     return true;
 }
 
-Status player_obey(Player *player, const Command *asked)
+Status player_obey(Player *player, const Command *command)
 {
     Past *past = &player->past;
-    Command command = resolve_command(player, asked);
-    const unsigned flags = command_rows[command.kind].flags;
+    Command meant = resolve_command(player, command);
+    const unsigned flags = command_rows[meant.kind].flags;
     long step = past->step, newest = past_newest(past);
     int now = past->now;
     bool stops = false;
     Status status = STATUS_OK;
-    begin_command(player, &command);
-    if (waits_for_step(player, &command))
+    begin_command(player, &meant);
+    if (waits_for_step(player, &meant))
         return STATUS_OK;
-    if (reveal_answer_first(player, &command, &status))
+    if (reveal_answer_first(player, &meant, &status))
         return status ? status : obey_queue(player, false);
     if (past_works(past) && !(flags & KEEPS_STEP)) {
-        stops = command.kind == COMMAND_ESCAPE;
+        stops = meant.kind == COMMAND_ESCAPE;
         status = abandon_step(player);
     }
-    status = status ? status : check_target(player, &command);
+    status = status ? status : check_target(player, &meant);
     if (!status && stops)
         player_note(player, "step abandoned: the last whole one is shown");
     else if (!status)
-        status = functions[command.kind](player, &command);
+        status = functions[meant.kind](player, &meant);
     if (flags & IN_SCRIPT && status != STATUS_INVALID_INPUT &&
-        script_add(&player->commands.journal, step, &command,
+        script_add(&player->commands.journal, step, &meant,
                    player->commands.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_works(past);
@@ -242,7 +242,7 @@ Status player_obey(Player *player, const Command *asked)
         Status shown = player_work(player);
         status = status ? status : shown;
     }
-    if (past->now > now && command.kind != COMMAND_REDO &&
+    if (past->now > now && meant.kind != COMMAND_REDO &&
         !past->branch[past->now].fresh && step < newest)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",

@@ -45,7 +45,7 @@ Status output_open(const char *name, char *message, Output *output)
         output->file = stdout;
     else if (exists && !S_ISREG(info.st_mode))
         output->file = fopen(name, "wbe");
-    else if (!exists || access(name, W_OK) == 0) { /* writable */
+    else if (!exists || access(name, W_OK) == 0) { /* not read-only */
         snprintf(output->temporary, OUTPUT_NAME, "%.4096s.part", name);
         output->file = fopen(output->temporary, "wbe");
     }

@@ -3,7 +3,7 @@
 #include "run/scene.h"
 
 /* Returns the next method for a pane that key M can choose, all terms allow and
- * no pane has.  NULL: refused, there is none. */
+ * no pane has.  NULL: no method is left, and the command is refused. */
 static const IntegratorMethod *find_next_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.pane[pane].simulation;
@@ -37,8 +37,8 @@ Status obey_method(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Adds a pane with the run of the last one and the next method, unless a page
- * opens, whose commands then set what differs. */
+/* Adds a pane with the run of the last pane and the next method.  A page that
+ * opens keeps the method, since the commands of the page set what differs. */
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);

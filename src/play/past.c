@@ -34,9 +34,9 @@ static int find_pane_below(const Branch *branch, int pane)
     return pane < last ? pane : last;
 }
 
-/* Returns the entry of a step in a branch, or for steps before the branch in a
- * branch below; after the last step the entry that is being made.  NULL: no
- * such step. */
+/* Returns the entry of a step in this branch or, for an earlier step, in a
+ * branch below.  The step after the last one has the entry that is being made.
+ * Returns NULL if the step has no entry. */
 static Entry *find_branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first && !branch->fresh; branch--)
@@ -70,14 +70,14 @@ const Control *past_start_control(const Past *past, int pane)
     return branch->entry[pane].control;
 }
 
-/* Whether the outcome of an entry is a failure, which has ended its pane. */
+/* Whether a pane has failed at the step of an entry. */
 static bool entry_is_failure(const Entry *entry)
 {
     return status_is_failure(entry->outcome.status);
 }
 
-/* Whether a pane has no part in the step of an entry, since a failure has ended
- * it. */
+/* Whether a failure has ended a pane before the pane could make the step of an
+ * entry. */
 static bool pane_has_ended(const Entry *entry)
 {
     return entry->substeps == 0 && entry_is_failure(entry);
@@ -166,9 +166,9 @@ static void drop_branches(Past *past, int from)
 
 /* ---- states -------------------------------------------------------------- */
 
-/* Whether an entry keeps its state when the machine leaves its step.  In a
- * branch that was thinned entry 0 only keeps a state that no step can make
- * again. */
+/* Whether an entry keeps its state when the run of its pane leaves the step.
+ * In a thinned branch entry 0 keeps its state only if no step can make the
+ * state again. */
 static bool keeps_state(const Branch *branch, const Entry *entry)
 {
     long i = (entry - branch->entry) / branch->panes;
@@ -176,8 +176,8 @@ static bool keeps_state(const Branch *branch, const Entry *entry)
                                        !entry->state || entry->state->is_set);
 }
 
-/* Drops every second state of the branch with the smallest stride; among equals
- * the present branch comes last.  Returns false if no state is left to drop. */
+/* Drops every second state of the branch with the smallest stride, of the
+ * present branch last.  Returns false if no state is left to drop. */
 static bool thin_states(Past *past)
 {
     Branch *finest = NULL;
@@ -222,14 +222,14 @@ void past_fill_history(const Past *past, int pane, History *history)
     }
 }
 
-/* Stores the machine's state in an entry; drops other states beyond the limit.
- */
+/* Stores the state of a pane's run in an entry, and drops other states if
+ * memory would exceed its limit. */
 static Status store_state(Past *past, int pane, bool set, Entry *entry)
 {
     const PaneRun *pane_run = &past->pane[pane];
     const Simulation *simulation = &pane_run->simulation;
     size_t size = sizeof *entry->state + state_save(simulation, NULL);
-    size_t both = size + sizeof *entry->sample; /* the sample follows */
+    size_t both = size + sizeof *entry->sample; /* the sample is made next */
     drop_state(past, entry);
     while (past->bytes + both > past->limit && thin_states(past))
         continue;
@@ -243,8 +243,8 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     return STATUS_OK;
 }
 
-/* Leaves the step of a machine.  The state was stored for edits; only now it
- * can be dropped. */
+/* Leaves the step of a pane's run.  Until now an edit could have needed the
+ * state of the step; now the state is dropped unless its entry keeps it. */
 static void pane_run_leave_step(Past *past, int pane)
 {
     PaneRun *pane_run = &past->pane[pane];
@@ -265,9 +265,9 @@ static void leave_all_steps(Past *past)
         pane_run_leave_step(past, p);
 }
 
-/* Puts a branch on top of the present one, and drops undone ones.  The given
- * entries are copied from the branch below; the first one shares its state.
- * Returns NULL if memory is missing. */
+/* Puts a branch on top of the present one, and drops undone branches.  The
+ * first `copied` entries are copies from the branch below; entry 0 shares its
+ * state with the copied entry.  Returns NULL if memory is missing. */
 static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->now + 1);
@@ -309,9 +309,9 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     return branch;
 }
 
-/* ---- machines ------------------------------------------------------------ */
+/* ---- runs of panes ------------------------------------------------------- */
 
-/* Time step, s; 1 in scenes without time. */
+/* Returns the time step of a pane, s; 1 in scenes without time. */
 static double find_pane_timestep(const PaneRun *pane_run)
 {
     const Simulation *simulation = &pane_run->simulation;
@@ -329,15 +329,15 @@ static const Newton *find_traced_newton(const Simulation *simulation)
     return NULL;
 }
 
-/* Records a Newton iteration.  Returns false: Newton's loop pauses after each
- * one, so that the window can read the mouse and the program its signals. */
+/* Records a Newton iteration.  Returns false: Newton's loop pauses after each,
+ * so that the window can read the mouse and the program its signals. */
 static bool observe_newton(void *user, const NewtonRecord *record)
 {
     PaneRun *pane_run = user;
     if (!pane_run->iterating)
         return false;
     pane_run->outcome.updates += record->alpha != 0;
-    if (pane_run->simulation.scene->step) /* each step is one update */
+    if (pane_run->simulation.scene->step) /* a step is one update */
         pane_run->outcome.change = record->change;
     const Newton *newton = find_traced_newton(&pane_run->simulation);
     if (newton && pane_run->trace.size > 0 && record->iteration >= 0)
@@ -390,8 +390,8 @@ static Status pane_run_use_control(PaneRun *pane_run, const Control *control)
     return status;
 }
 
-/* Notes that the machine has the state of a step, gives it the control of the
- * next step, and samples the state if this control is new. */
+/* Notes that a pane's run has the state of a step, gives the run the control of
+ * the next step, and samples the energies if this control is new. */
 static Status pane_run_set_step(Past *past, int pane, long step)
 {
     PaneRun *pane_run = &past->pane[pane];
@@ -423,8 +423,8 @@ static Status pane_run_load_state(PaneRun *pane_run, const State *state)
     return status;
 }
 
-/* Brings the machine to the last step up to `goal` whose state is stored; if
- * states are not stored the machine is there already, or at step 0. */
+/* Brings a pane's run to the last step up to `goal` whose state is stored.  If
+ * states are not stored, the run is at that step already. */
 static Status pane_run_seek(Past *past, int pane, long goal)
 {
     PaneRun *pane_run = &past->pane[pane];
@@ -469,8 +469,8 @@ static void drop_new_entry(Past *past, int pane)
         drop_entry(past, entry);
 }
 
-/* Ends the present work at the last whole step; machines that have left this
- * step must load it again. */
+/* Ends the present work at the last whole step.  A run of a pane that has left
+ * this step must load its state again. */
 static void abandon_work(Past *past)
 {
     if (past->work == WORK_DONE)
@@ -496,8 +496,8 @@ static bool is_out_of_memory(Status status)
 static Status pane_run_finish_step(Past *past, int pane);
 static Status pane_run_iterate(Past *past, int pane);
 
-/* Ends a pane that has failed beside others; from here on the pane shows its
- * last state that can be seen. */
+/* Ends a pane that has failed while other panes go on.  From now on the pane
+ * shows its last state that a picture can show (PAST_EXPLODED). */
 static Status end_failed_pane(Past *past, int pane, Status why)
 {
     PaneRun *pane_run = &past->pane[pane];
@@ -518,8 +518,7 @@ static Status end_failed_pane(Past *past, int pane, Status why)
     return pane_run_finish_step(past, pane);
 }
 
-/* Ends the work after a failure; if other panes can go on only this pane ends.
- */
+/* Ends the work after a failure, or only this pane if other panes can go on. */
 static Status pane_run_fail(Past *past, int pane, Status status)
 {
     PaneRun *pane_run = &past->pane[pane];
@@ -534,13 +533,13 @@ static Status pane_run_fail(Past *past, int pane, Status status)
         pane_run->failed = pane_run->known = true;
         pane_run->outcome.status = status;
     }
-    /* Some runs of the simulation may already have made the next step. */
+    /* Some runs may have made the next step: the state is not of `step`. */
     pane_run->has_state = false;
     past->aim = past->step;
     return status;
 }
 
-/* Moves the machine to the entry of the step that it has finished. */
+/* Moves a pane's run to the entry of the step that the run has finished. */
 static Status pane_run_finish_step(Past *past, int pane)
 {
     PaneRun *pane_run = &past->pane[pane];
@@ -567,8 +566,8 @@ static Status pane_run_finish_step(Past *past, int pane)
     return status ? pane_run_fail(past, pane, status) : STATUS_RUNNING;
 }
 
-/* Goes on after an iteration: if a step of the simulation has ended, books its
- * outcome, and finishes the pane's step unless it has more substeps. */
+/* Acts on the status of an iteration: if it ended a step of the simulation,
+ * stores the outcome, and finishes the pane's step after the last substep. */
 static Status pane_run_end_iteration(Past *past, int pane, Status status)
 {
     PaneRun *pane_run = &past->pane[pane];
@@ -682,7 +681,7 @@ Status past_iterate(Past *past)
     }
     if (past->work == WORK_LOADS)
         past->work = WORK_REPEATS;
-    /* Panes in turn repeat known steps, then make their part of the new one. */
+    /* Each pane in turn repeats known steps and makes its part of a new one. */
     long newest = past_newest(past);
     long goal = past_makes(past) || past->aim < newest ? past->aim : newest;
     for (pane = 0; pane < panes; pane++)
@@ -699,10 +698,10 @@ Status past_finish_work(Past *past)
     return status;
 }
 
-/* Whether the trace of the step `aim` is missing, and is quick to make. */
+/* Whether the trace of the step `aim` is missing and is quick to make. */
 static bool can_trace_aim(const Past *past)
 {
-    enum { SHORT = 400000 }; /* nodes times updates */
+    enum { SHORT = 400000 }; /* limit of nodes times updates */
     long work = 0;
     for (int p = 0; p < past_panes(past); p++) {
         const PaneRun *pane_run = &past->pane[p];
@@ -747,8 +746,9 @@ void past_sample_line_energy(Past *past, int place)
 
 /* ---- edits --------------------------------------------------------------- */
 
-/* Invalidates the rows of tables after a step, the energies of this step, and
- * all its rows if its state has changed. */
+/* Marks rows of tables as invalid.  These are the rows of later steps, the
+ * energies of this step and, if the state has changed, all rows of this step.
+ */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
     if (past->written > step - changed)
@@ -813,8 +813,8 @@ static bool is_state_edit(const Command *edit)
            edit->kind == COMMAND_PLACE;
 }
 
-/* Whether an edit changes the state of its step; a pin does, as it stops its
- * node. */
+/* Whether an edit changes the state of its step.  A pin does: the pinned node
+ * stops. */
 static bool changes_state(const Command *edit)
 {
     return is_state_edit(edit) || edit->kind == COMMAND_PIN;
@@ -897,14 +897,14 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                            .copied = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
-    if (joins) /* undone branches began before this edit */
+    if (joins) /* undone branches end here */
         drop_branches(past, past->now + 1);
     else
         branch = push_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
     if (edit->kind == branch->edit.kind)
-        branch->edit = *edit; /* undo reports the last edit of a gesture */
+        branch->edit = *edit; /* undo reports the last edit of the gesture */
     invalidate_tables(past, past->step, changes_state(edit));
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)

@@ -14,10 +14,10 @@ enum {
     FRAME_SIZE = 900,       /* pixels of a frame without a window */
     WINDOWLESS_STEPS = 100, /* default number of steps without a window */
     FRAME_RATE = 60,        /* frames a second at most */
-    IDLE_WAIT = 200         /* ms, longest wait for inputs between signals */
+    IDLE_WAIT = 200         /* ms, longest wait; then signals are noticed */
 };
 
-static const double EARLY = 0.002; /* s by which a frame may be early */
+static const double EARLY = 0.002; /* s by which a frame may be drawn early */
 
 Status player_draw(Player *player)
 {
@@ -25,7 +25,7 @@ Status player_draw(Player *player)
     if (!player->screen.draws)
         return STATUS_OK;
     if (past_works(&player->past) && !past_makes(&player->past)) {
-        player->screen.changed = true; /* drawn when the step is there */
+        player->screen.changed = true; /* to be drawn when the step is there */
         return STATUS_OK;
     }
     Paper *paper = player_prepare_paper(player);
@@ -86,8 +86,8 @@ static Status obey_script(Player *player)
     return status;
 }
 
-/* Makes the steps of one frame, at most for SLICE.  Without a window each step
- * is a frame. */
+/* Makes the steps of one frame, for at most the time SLICE.  Without a window
+ * each step is a frame. */
 static Status make_due_steps(Player *player)
 {
     const Past *past = &player->past;
@@ -131,7 +131,7 @@ Status player_frame(Player *player)
     bool due = !player->screen.window || now >= player->time.due - EARLY;
     bool first = player->screen.drawn < 0 && player->screen.draws;
     bool works = past_works(&player->past);
-    bool begins = works && player->time.began > start; /* is drawn first */
+    bool begins = works && player->time.began > start; /* a frame comes first */
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);
@@ -174,7 +174,7 @@ Status player_run(Player *player)
 
 /* ---- beginning and end --------------------------------------------------- */
 
-/* Opens the window; if there is no screen, has frames written to files. */
+/* Opens the window.  If there is no screen, the frames are written to files. */
 static void open_view(Player *player)
 {
     Options *options = &player->given.options[0];
@@ -196,7 +196,7 @@ static void open_view(Player *player)
     }
     if (!player->screen.window && !options->script) {
         options->steps = options->steps < 0 ? WINDOWLESS_STEPS : options->steps;
-        options->paused = 0; /* no key could end a pause */
+        options->paused = 0; /* without a window no key can end a pause */
     }
     player->screen.draws =
         player->screen.window || options->frames || options->film;
@@ -232,7 +232,7 @@ Status player_create(const Options *options, int count, char *const *words,
     if (!status)
         status =
             player_begin_runs(player, player->given.options, count, &begin);
-    if (!status && player_is_stopped(player)) /* scripts begin running */
+    if (!status && player_is_stopped(player)) /* scripts start running */
         status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
     if (!status && player->given.asks && options->page)

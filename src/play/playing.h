@@ -1,5 +1,5 @@
-/* playing.h - functions that the sources of play share.  The files are in their
- * order from below: each calls only files before it.
+/* playing.h - functions that the sources of play share.  The sections are in
+ * the order of the calls: a file calls only files before it.
  */
 #ifndef ELASTO_PLAYING_H
 #define ELASTO_PLAYING_H
@@ -8,15 +8,15 @@
 #include "lesson/command_line.h"
 #include "run/message.h"
 
-/* Functions of commands have the same parameters, used or not. */
+/* The functions of commands have the same parameters; some use only one. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
-/* Longest time of a frame for steps, s; then inputs are read again. */
+/* s, time of a frame for steps; after it, inputs are read again */
 static const double SLICE = 0.05;
 
 /* ---- session.c ----------------------------------------------------------- */
 
-/* PaneRun, simulation and present options of the active pane. */
+/* Return the run, the simulation and the present options of the active pane. */
 const PaneRun *player_active_run(const Player *player);
 const Simulation *player_simulation(const Player *player);
 const Options *player_active_options(const Player *player);
@@ -25,8 +25,8 @@ const Options *player_active_options(const Player *player);
  * which some scenes change by themselves. */
 Options player_shown_options(const Player *player);
 
-/* Finds the default options of a page or, if it is NULL, of a scene; for the
- * scene of the command line these are the options given there.
+/* Finds the default options of a page or, if `page` is NULL, of a scene.  The
+ * scene of the command line has the options given there.
  *   options  [OPTIONS_MAX_PANES] out
  *   count    out, number of panes */
 Status player_find_defaults(Player *player, const char *scene,
@@ -42,15 +42,15 @@ bool player_is_stopped(const Player *player);
 /* Whether a single factorisation takes longer than SLICE. */
 bool player_is_slow(const Player *player);
 
-/* If a card draws E along p, has it sampled from now on, and the shown step
- * made once more if it was not sampled there; player_work follows. */
+/* Lets E along p be sampled from now on if a card draws it.  Prepares to make
+ * the shown step once more if its samples are missing; player_work makes it. */
 void player_sample_line_energy(Player *player);
 
 /* Returns the speed at the start of a run, SPEED_LEAST ... SPEED_MOST: from the
  * options; else from the scene, if the run is attended; else a step a frame. */
 int player_initial_speed(const Player *player, const Options *options);
 
-/* Whether a list is open whose lines have numbers. */
+/* Whether a list of pages or numbers is open, from which a number chooses. */
 bool player_shows_list(const Player *player);
 
 /* Deselects the number and closes the field. */
@@ -67,8 +67,8 @@ void player_note(Player *player, const char *format, ...);
 #define player_refuse(player, ...)                                             \
     refuse((Message){(player)->message, sizeof(player)->message}, __VA_ARGS__)
 
-/* Shows the reason of INVALID_INPUT as a message, and returns OK; returns any
- * other status. */
+/* Shows the reason of INVALID_INPUT as a message, and returns OK.  Returns any
+ * other status as it is. */
 Status player_show_refusal(Player *player, Status status);
 
 /* Pauses the run unless it has stopped already. */
@@ -81,21 +81,20 @@ Status player_tolerate_failure(Player *player, Status status);
 /* Returns the command that sets an option as a part of the present gesture. */
 Command command_of_set(const OptionRow *row, double value);
 
-/* Puts a command into the queue; the next place of a drag replaces the last
- * one.
- */
+/* Puts a command into the queue.  The next place of a drag replaces the place
+ * before. */
 void player_enqueue(Player *player, const Command *command);
 
 /* Puts a new value of an option into the queue. */
 void player_enqueue_set(Player *player, const OptionRow *row, double value);
 
-/* Puts lines of a script into the queue, separated by ;, or none for NULL.
+/* Puts lines of a script, separated by ;, into the queue; `lines` may be NULL.
  * Returns OK, INVALID_INPUT. */
 Status player_enqueue_lines(Player *player, const char *lines);
 
 /* ---- sheet.c ------------------------------------------------------------- */
 
-/* Makes steps of the scenes on the sheet, for a part of a frame's time. */
+/* Makes steps of the scenes on the sheet, for a part of the time of a frame. */
 void sheet_advance(Player *player);
 
 /* Fills what a frame shows of the open sheet. */
@@ -106,28 +105,28 @@ void sheet_close(Player *player);
 
 /* ---- steps.c ------------------------------------------------------------- */
 
-/* Begins new runs with these options at step 0; tables begin again.
- *   edit  in, command that the user undoes to leave the runs */
+/* Begins new runs with these options at step 0; the tables begin again.
+ *   edit  in, command that begins the runs, for undo and redo */
 Status player_begin_runs(Player *player, const Options *options, int count,
                          const Command *edit);
 
-/* Edits panes from ... to - 1 as past_edit does. */
+/* Edits the panes from ... to - 1 at the shown step (past_edit). */
 Status player_edit(Player *player, const Command *change, int from, int to,
                    bool again);
 
 /* Iterates until the chosen step is shown; in a window at most for SLICE. */
 Status player_work(Player *player);
 
-/* Chooses the step to be shown, 0 ... newest + 1.  player_work follows; after a
- * command player_obey calls it. */
+/* Chooses the step to be shown, 0 ... newest + 1.  player_work makes it;
+ * player_obey calls player_work after each command. */
 Status player_seek(Player *player, long step, AfterWork after);
 
-/* Edits panes from ... to - 1 and makes the present step once more with the
- * edit; the old outcome stays as a ghost in the active pane. */
+/* Edits the panes from ... to - 1 and makes the shown step once more.  The
+ * active pane shows the positions before the edit as a ghost. */
 Status player_repeat_step(Player *player, const Command *change, int from,
                           int to);
 
-/* Removes the ghosts, and leaves the lines of the shown step. */
+/* Removes the ghosts, and shows the end of the step, no line of Algorithm 3. */
 void player_forget_step(Player *player);
 
 /* Writes the steps that the tables do not have yet. */
@@ -140,7 +139,7 @@ Status player_write_remaining(Player *player);
 Status player_restart_runs(Player *player, const Options *options, int panes,
                            const Command *edit);
 
-/* Sets the pins again that a control had, and drops this control.
+/* Sets the pins of an earlier control again, and releases this control.
  *   before  in, or NULL */
 Status player_restore_pins(Player *player, const Control *before);
 
@@ -157,16 +156,15 @@ Status player_reveal_answer(Player *player, const char *typed);
 
 /* ---- numbers.c ----------------------------------------------------------- */
 
-/* Finds the numbers in the row, or all numbers of the scene.  Returns the count
- * of them. */
+/* Lists the options in the row of numbers, or all numbers of the scene.
+ * Returns how many there are. */
 int player_list_options(const Player *player, bool all,
                         const OptionRow *found[OPTIONS_MAX_ROWS]);
 
 /* Returns why a number has no effect now, or NULL. */
 const char *player_idle_reason(const Player *player, const OptionRow *row);
 
-/* Computes the value of a number after some notches of the wheel.
- */
+/* Computes the value of a number after some notches of the wheel. */
 Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
                          double *value);
 
@@ -175,11 +173,11 @@ Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
 /* Fills player->screen.frame, and finds what is now under the mouse. */
 void player_fill_frame(Player *player);
 
-/* Returns the paper in the present size; NULL if the player does not draw, or
- * memory is missing. */
+/* Returns the paper in the present size, and creates it if need be.  NULL: the
+ * player does not draw, or memory is missing. */
 Paper *player_prepare_paper(Player *player);
 
-/* Fills and draws the frame on a paper. */
+/* Fills the frame, and draws it on a paper. */
 void player_paint_frame(Player *player, Paper *paper);
 
 /* ---- panes.c, bodies.c, screen.c, keepsakes.c: functions of commands ----- */
@@ -196,19 +194,19 @@ typedef Status CommandFunction(Player *player, const Command *command);
 /* Obeys the opening commands of the page. */
 Status player_obey_page(Player *player);
 
-/* Obeys lines of a script, separated by ;, or none for NULL. */
+/* Obeys lines of a script, separated by ;.  `lines` may be NULL. */
 Status player_obey_lines(Player *player, const char *lines);
 
-/* Shows the answer of the page, as player_reveal_answer, and obeys its
- * commands. */
+/* Shows the answer of the page (player_reveal_answer), and obeys the page's
+ * commands for it. */
 Status player_answer_question(Player *player, const char *typed);
 
-/* Obeys the commands in the queue, up to one that must wait for the end of a
- * step; a release also waits for a step with the hand at its last place.
- *   now  no command waits */
+/* Obeys the commands in the queue, up to the first that must wait: for the end
+ * of a step, or a release for a step with the hand at its last place.
+ *   now  obeys all commands at once */
 Status player_obey_queue(Player *player, bool now);
 
-/* Goes on with the work that leads to a step; at its end obeys the queue. */
+/* Continues the work that leads to a step, and obeys the queue. */
 Status player_continue(Player *player);
 
 #endif

@@ -116,7 +116,7 @@ static int report_failure(const Player *player, Status status)
 
 /* ---- summary ------------------------------------------------------------- */
 
-/* Prints a quantity of the summary, its name in the first column. */
+/* Prints a quantity of the summary, with its name in the first column. */
 __attribute__((format(printf, 3, 4))) static void
 print_quantity(FILE *file, const char *name, const char *format, ...)
 {
@@ -129,8 +129,8 @@ print_quantity(FILE *file, const char *name, const char *format, ...)
     fprintf(file, "%-20s%s\n", name, line);
 }
 
-/* Prints the solver of the last step, why this was not multigrid, and counts of
- * Newton's work. */
+/* Prints the solver of the last step, the reason if it was not multigrid, and
+ * counts of Newton's work. */
 static void print_newton(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
@@ -138,7 +138,7 @@ static void print_newton(FILE *file, const Simulation *simulation)
     unsigned needs = simulation->scene->needs;
     const struct {
         const char *name;
-        long long count; /* 0: not printed */
+        long long count; /* 0: the row is not printed */
     } rows[] = {
         {"Newton iterations",
          needs & NEEDS_TIME ? sum.iterations : simulation->descent.count},
@@ -245,7 +245,7 @@ static void print_old_frames(const Recording *recording)
 
 int program_end(Player *player, Status status)
 {
-    /* player_finish may leave the step that failed, so this comes first. */
+    /* The report comes first, since player_finish may leave the failed step. */
     int failed = status ? report_failure(player, status) : EXIT_FINE;
     status = player_finish(player, status);
     if (failed)
@@ -277,8 +277,8 @@ static const char *find_option_file(const Options *options,
                : NULL;
 }
 
-/* Refuses a name that is given to two options, since one file would replace the
- * other. */
+/* Refuses a file name that two options have, as one file would replace another.
+ */
 static Status check_file_names(const Options *options, Message message)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
@@ -297,7 +297,7 @@ static Status check_file_names(const Options *options, Message message)
     return STATUS_OK;
 }
 
-/* Warns that --state leaves springs and walls as they are at a start. */
+/* Warns that after --state springs begin whole and the ceiling at its start. */
 static void warn_of_fresh_terms(const Options *options)
 {
     const Scene *scene = options->scene;

@@ -14,14 +14,14 @@
 
 /* ---- kinds of tables ----------------------------------------------------- */
 
-/* A run at a step, for the rows of tables. */
+/* A run at a step, from which the rows of tables are written. */
 typedef struct RunAtStep {
     const Simulation *simulation;
     const TimeIntegrator *run;
     double step, time;
     int run_index;            /* index of the run in its simulation */
     int pane;                 /* number of the pane, from 1 */
-    int runs, nodes, springs; /* counts in all runs before this one */
+    int runs, nodes, springs; /* numbers before this run in the tables */
 } RunAtStep;
 
 static void add_states(Table *table, const RunAtStep *at)
@@ -54,7 +54,7 @@ static void add_springs(Table *table, const RunAtStep *at)
     }
 }
 
-/* An energy that the run does not have is 0. */
+/* Writes the energies of a run.  An energy that the run does not have is 0. */
 static void add_energies(Table *table, const RunAtStep *at)
 {
     const Energies energies =
@@ -81,8 +81,8 @@ static const char *find_log_text(const char *column, int number)
 static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* columns of each table */
-    const char *pane_column; /* column for tables of several panes, or NULL */
-    void (*add_rows)(Table *table, const RunAtStep *at); /* NULL for the log */
+    const char *pane_column; /* further column with several panes, or NULL */
+    void (*add_rows)(Table *table, const RunAtStep *at); /* NULL: the log */
 } kinds[RECORDING_TABLES] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
      "pane:whole", add_states},
@@ -160,9 +160,9 @@ static void find_old_frames(Recording *recording)
 
 /* ---- all together -------------------------------------------------------- */
 
-/* Opens a table, if the options name its file.  The table of energies has a
- * column for each energy of any scene; with several panes the others have a
- * column for the pane. */
+/* Opens a table if the options name its file.  The table of energies has a
+ * column for each energy of any scene; with several panes the other tables have
+ * a column for the number of the pane. */
 static Status open_table(const Options *options, Recording *recording, int t)
 {
     Table *table = &recording->table[t];
@@ -247,7 +247,7 @@ Status recording_write_iteration(Recording *recording,
                                  const NewtonRecord *record, int pane)
 {
     Table *log = &recording->table[RECORDING_LOG];
-    /* Below 0: a prescribed motion has ended the step, no iteration. */
+    /* An iteration below 0 is the end of a step by a prescribed motion. */
     double iteration = record->iteration < 0 ? NAN : record->iteration;
     double row[] = {(double)record->step, iteration,         record->residual,
                     record->alpha,        record->trials,    record->slope,

@@ -109,7 +109,7 @@ Status obey_escape(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Zooms around a point, m, moves the picture by a distance, m, or fits it. */
+/* Zooms around a point, m, moves the picture, m, or fits the whole scene. */
 Status obey_camera(Player *player, const Command *command)
 {
     const Paper *paper = player_prepare_paper(player);
@@ -148,9 +148,9 @@ Status obey_card(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Chooses another cell of the sheet: with Left and Right the next one in the
- * row; with Up the last cell before that lies higher and not further right,
- * with Down the first cell behind that lies lower and not further left. */
+/* Chooses another cell of the sheet.  Left and Right choose the next cell; Up
+ * the last cell before it that lies higher and not further right; Down the
+ * first cell after it that lies lower and not further left. */
 Status obey_choose(Player *player, const Command *command)
 {
     const FrameContent *content = &player->screen.frame.content;

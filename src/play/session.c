@@ -12,8 +12,8 @@
 #include "scenes/scenes.h"
 
 enum {
-    SLOW_NODES = 50000, /* above it a factorisation takes longer than a SLICE */
-    UPDATE_SPEED = -5 /* speed of scenes without time: each step is an update */
+    SLOW_NODES = 50000, /* most nodes that are factorised within SLICE */
+    UPDATE_SPEED = -5   /* speed of scenes whose step is an update */
 };
 
 /* ---- the runs ------------------------------------------------------------ */
@@ -144,7 +144,7 @@ void player_format_value(const OptionRow *row, const Options *options,
     char value[COMMAND_TEXT_SIZE], unit[16];
     option_write_unit(row, unit, sizeof unit);
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
-        unit[0] = '\0'; /* the norm of a gradient has another unit */
+        unit[0] = '\0'; /* a tolerance of |g| is not in m/s */
     option_write_short(row, options, value, sizeof value);
     if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
         simulation->run[0].method != simulation->run[1].method)

@@ -12,7 +12,7 @@ enum {
     CELL_PAUSE = 24  /* frames between two steps in scenes without time */
 };
 
-/* Longest time of a frame for steps, s. */
+/* s, time of a frame for steps of the scenes */
 static const double STEP_TIME = 0.008;
 
 /* The first cell shows the pages of the tour in turn, each other cell a scene.
@@ -21,7 +21,7 @@ typedef struct Sheet {
     int cells;
     int next; /* index of the cell that gets the next step */
     int page; /* index of the page that the first cell shows next */
-    int age[LAYOUT_CELLS]; /* frames since the cell began for the first time */
+    int age[LAYOUT_CELLS]; /* frames in which the cell had its turn */
     Simulation simulation[LAYOUT_CELLS];
 } Sheet;
 
@@ -34,7 +34,7 @@ void sheet_close(Player *player)
     player->screen.sheet = NULL;
 }
 
-/* Closes the sheet, or opens it with the present scene or the tour chosen. */
+/* Closes the sheet, or opens it; the present scene is chosen, or the tour. */
 Status obey_sheet(Player *player, const Command *command)
 {
     const Options *options = player_active_options(player);
@@ -117,9 +117,9 @@ void sheet_fill(const Player *player, FrameContent *content)
     snprintf(content->strip.state, VALUE_SIZE, "digits: a page of the tour");
 }
 
-/* Closes the sheet and opens the scene or page of the chosen cell by a command,
- * which scripts can repeat.  If the chosen cell is the tour and a page is open
- * already, only closes the sheet. */
+/* Closes the sheet, and opens the scene or page of the chosen cell by a
+ * command, which scripts can repeat.  If the chosen cell is the tour and a page
+ * is open already, the page stays. */
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";

@@ -14,8 +14,8 @@
 #include "run/scene.h"
 #include "scenes/small_scenes.h"
 
-/* Begins another scene; in a pause if the last one was paused or if the new one
- * explains something. */
+/* Begins another scene.  The scene begins paused if the last one was paused, or
+ * if the user is to step through it (Scene.starts_paused). */
 Status obey_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -36,8 +36,8 @@ Status obey_scene(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Whether the page has opening commands, and the mesh still has their nodes. */
-static bool mesh_fits_page(Player *player, const Options *now)
+/* Whether the page has opening commands, and the mesh has their nodes. */
+static bool page_can_reopen(Player *player, const Options *now)
 {
     Options own;
     const LecturePage *page = now->page;
@@ -46,16 +46,16 @@ static bool mesh_fits_page(Player *player, const Options *now)
            own.segments == now->segments;
 }
 
-/* Whether the answer of the page is shown, and its commands play the run. */
+/* Whether the answer of the page is shown and its commands play the run. */
 static bool answer_plays_run(const Player *player, const LecturePage *page)
 {
     return page && page == player->tour.revealed && page->tell &&
            strstr(page->tell, "play");
 }
 
-/* Makes room for the body at its start: obstacles that overlap it go back to
- * where they were when the run began.  Returns OK, or INVALID_INPUT if the run
- * began with another number of obstacles. */
+/* Makes room for the body at its start.  Obstacles that overlap the body go
+ * back to their places when the run began.  Returns OK, or INVALID_INPUT if the
+ * run began with another number of obstacles. */
 static Status clear_obstacles_at_start(Player *player, int pane,
                                        Options *options)
 {
@@ -106,12 +106,12 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
 {
     const Control *before = control_retain(past_control(&player->past, 0));
     bool opens =
-        edit->kind == COMMAND_RESTART && mesh_fits_page(player, options);
+        edit->kind == COMMAND_RESTART && page_can_reopen(player, options);
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
     if (opens)
         player->time.unit = UNIT_STEP;
     if (!status && opens &&
-        player->given.asks) { /* scripts repeat these commands themselves */
+        player->given.asks) { /* a script has the opening commands as lines */
         player->commands.queue.pins = before;
         return player_enqueue_page(player);
     }
@@ -122,8 +122,8 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
 }
 
 /* Begins the run again with the present numbers, pins and obstacles.
- * COMMAND_START begins it at another point, in a pause.  A run that had ended
- * plays again, and so does a page that plays with its answer. */
+ * COMMAND_START begins the run at another point, in a pause.  A run that had
+ * ended plays again, and so does a page whose answer plays. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -212,8 +212,8 @@ Status player_reveal_answer(Player *player, const char *typed)
     return player_enqueue_lines(player, page->tell);
 }
 
-/* Opens a page: by its name; the next or previous one; outside of the lecture
- * the page that was open last, the one after it, or the first. */
+/* Opens a page by its name, the next page, or the previous page.  Outside of
+ * the lecture: the last open page, the page after it, or the first page. */
 Status obey_page(Player *player, const Command *command)
 {
     Options options;
@@ -253,8 +253,8 @@ Status obey_page(Player *player, const Command *command)
     return player_enqueue_page(player);
 }
 
-/* Stores a guess of the point to which the next step leads.  On a page that
- * asks for it, judges the guess, which may be wrong by a tenth of the way. */
+/* Stores a guess of the point to which the next step leads.  A page that asks
+ * for the guess judges it: the guess may be wrong by a tenth of the way. */
 Status obey_predict(Player *player, const Command *command)
 {
     double at[2];

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A line search with fewer trials is walked through trial by trial. */
+/* The walk stops at each trial of a line search with fewer trials. */
 enum { TRIALS_WALKED = 12 };
 
 bool records_reserve(Records *records, int count)
@@ -79,7 +79,7 @@ static bool reserve_round(StepTrace *trace)
 
 /* ---- rounds -------------------------------------------------------------- */
 
-/* Samples E along p, unless it is a polynomial. */
+/* Samples E along p unless the polynomial is all of E along p. */
 static void sample_line_energy(Round *round, const Iterate *at)
 {
     const LineEnergy along = {
@@ -115,8 +115,8 @@ bool step_trace_lacks_samples(const StepTrace *trace, int place)
     return round->has_remainder && round->x && !round->sampled;
 }
 
-/* Returns E(x + alpha p) - E(x): the polynomial, or the samples joined by
- * straight lines; without samples only at the step length that was taken. */
+/* Returns E(x + alpha p) - E(x): the polynomial, or samples joined by lines;
+ * without samples, NaN except at the step length that was taken. */
 static double evaluate_round_energy(const void *function, double alpha)
 {
     const Round *round = function;
@@ -190,7 +190,7 @@ void step_trace_add_round(StepTrace *trace, const Newton *newton,
     trace->records.count++;
     free(trace->end);
     trace->end = copy_array(trace, newton->at.x);
-    if (trace->x_tilde) /* only the first stage stores x_tilde */
+    if (trace->x_tilde) /* x_tilde of the step's first minimisation is kept */
         return;
     trace->x_tilde = copy_array(trace, newton->u_tilde);
     for (int i = 0; i < trace->size && trace->x_tilde; i++)
@@ -255,8 +255,8 @@ int step_trace_find_place(const StepTrace *trace, int round, Line line)
     return trace->places - 1;
 }
 
-/* The sum of the changes has a rounding error of some units in the last place
- * of the highest E, which a tenth of this E exceeds by far. */
+/* Rounding changes `sum` by some units in the last place of the highest E, far
+ * less than the tenth of E that decides. */
 int step_trace_peak(const StepTrace *trace)
 {
     enum { FAR = 10 };
@@ -273,8 +273,7 @@ int step_trace_peak(const StepTrace *trace)
     return far ? step_trace_find_place(trace, round, LINE_UPDATE) : -1;
 }
 
-/* Fills the numbers of a round as far as its lines up to a place compute them.
- */
+/* Fills the values of a round that the lines up to a place have computed. */
 static void fill_round_values(const StepTrace *trace, const TracePlace *at,
                               Trace *shown)
 {
@@ -310,7 +309,7 @@ const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
         over ? (TracePlace){count, LINE_END, 0} : trace->place[place];
     bool end = at.line == LINE_END;
     TracePlace source = at;
-    if (end && count > 0) /* the numbers are those of the last round */
+    if (end && count > 0) /* the end shows the values of the last round */
         source = (TracePlace){count - 1, LINE_END, last->trials};
     *shown = trace->start;
     shown->line = over ? LINE_NONE : at.line;

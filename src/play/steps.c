@@ -14,8 +14,8 @@
 
 /* ---- tables -------------------------------------------------------------- */
 
-/* Writes Newton's iterations of a step, which the machines have just made or
- * failed to make, to the log. */
+/* Writes to the log the Newton iterations of a step that the panes have just
+ * made or failed to make. */
 static Status record_iterations(Player *player, long step)
 {
     Recording *recording = &player->recording;
@@ -35,9 +35,9 @@ static Status record_iterations(Player *player, long step)
     return status;
 }
 
-/* Writes the shown step to the tables if it is the first one that they miss,
- * and all panes have its records; only its energies if the rest is up to date.
- */
+/* Writes the shown step to the tables if it is the next one to be written and
+ * all panes have its records.  Writes only the energies if only these are
+ * missing. */
 static Status record_step(Player *player)
 {
     Past *past = &player->past;
@@ -92,7 +92,7 @@ Status player_write_remaining(Player *player)
 
 /* ---- beginning ----------------------------------------------------------- */
 
-/* Shows the end of the step in all panes, no line of Algorithm 3. */
+/* Leaves the lines of Algorithm 3.  The panes show the end of the step. */
 static void end_line_walk(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
@@ -111,7 +111,7 @@ void player_forget_step(Player *player)
     }
 }
 
-/* Forgets what the hand holds, and its commands in the queue. */
+/* Forgets what the hand holds, and drops the commands in the queue. */
 static void release_hand_and_queue(Player *player)
 {
     player->hands.holds = false;
@@ -138,7 +138,7 @@ static void enter_scene(Player *player)
         window_set_title(title);
 }
 
-/* Adapts the player to a past that was edited: frame, active pane, scene. */
+/* Adapts the player to an edit of the past: frame, active pane, scene. */
 static void update_after_edit(Player *player)
 {
     const Past *past = &player->past;
@@ -176,7 +176,7 @@ Status player_edit(Player *player, const Command *change, int from, int to,
 {
     Past *past = &player->past;
     if (player->time.mode == MODE_REST)
-        player->time.mode = MODE_RUN; /* something may move again */
+        player->time.mode = MODE_RUN; /* bodies may move again */
     Status status =
         past_edit(past, change, from, to, again, player->commands.gesture);
     if (!status)
@@ -236,7 +236,7 @@ static void detect_rest(Player *player)
     int going = 0;
     const Options *options = player_active_options(player);
     if (player->given.options[0].steps >= 0 || !player->given.attended ||
-        (options->next == NEXT_SPRING && /* each step assembles a spring */
+        (options->next == NEXT_SPRING && /* the Hessian is being assembled */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
@@ -257,7 +257,7 @@ static void detect_rest(Player *player)
         player->time.mode = MODE_REST;
     else if (ended || (bad && !player->time.warned))
         player->time.mode = MODE_END;
-    if (ended) /* the sentence above the picture says how */
+    if (ended) /* the sentence above the picture says how the run ended */
         player->note[0] = '\0';
     player->time.warned = player->time.warned || bad;
     if (player->time.mode == MODE_REST)
@@ -270,14 +270,14 @@ static void detect_rest(Player *player)
 /* ---- inside a step ------------------------------------------------------- */
 
 /* Shows a line of Algorithm 3 in each pane whose step has some: the first line,
- * the last one, or the update at which E was highest in an explosion. */
+ * the last one, or the update at which E was highest if E exploded. */
 static void enter_line_walk(Player *player, AfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
         Trace shown;
         double far = 0;
-        int place = trace->places <= 2          ? -1 /* only start and end */
+        int place = trace->places <= 2          ? -1 /* no lines */
                     : after == AFTER_SHOW_FIRST ? 0
                     : after == AFTER_SHOW_LAST  ? trace->places - 1
                                                 : step_trace_peak(trace);
@@ -296,8 +296,8 @@ static void enter_line_walk(Player *player, AfterWork after)
     }
 }
 
-/* Goes one line or update on (1) or back (-1) in all panes.  Returns whether
- * any pane had one. */
+/* Moves all panes one line or update forward (1) or back (-1).  Returns whether
+ * any pane has moved. */
 static bool walk_lines(Player *player, int way)
 {
     bool moved = false;
@@ -388,9 +388,9 @@ Status player_repeat_step(Player *player, const Command *change, int from,
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* Records the step that the work has led to, and then acts by time.after.
+/* Records the step to which the work has led, then does what time.after asks.
  *   before  in, step that was shown before
- *   made    in, whether the step is a new one */
+ *   made    in, the step is a new one */
 static Status finish_work(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
@@ -453,8 +453,8 @@ Status player_work(Player *player)
     return STATUS_OK;
 }
 
-/* Releases, as a gesture of its own, what the control of an old step still
- * holds although the user's hand is empty. */
+/* Releases what the hand held in an old step, if the user holds nothing now.
+ * The release is a gesture of its own. */
 static Status release_old_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
@@ -507,7 +507,7 @@ Status obey_next(Player *player, const Command *command)
         return STATUS_OK;
     if (after == AFTER_SHOW_PEAK &&
         player->view_of_pane[player->active].place >= 0) {
-        end_line_walk(player); /* from the peak of E to the end */
+        end_line_walk(player); /* leaves the peak of E */
         return STATUS_OK;
     }
     return player_seek(player, player->past.step + 1, after);
@@ -522,8 +522,8 @@ static bool has_updates(const Player *player)
     return any;
 }
 
-/* Goes back by a step, an update or a line; from the first line of a step to
- * the end of the step before. */
+/* Goes back by a step, an update or a line.  From the first line of a step,
+ * goes to the end of the step before. */
 Status obey_back(Player *player, const Command *command)
 {
     long step = player->past.step;
@@ -604,7 +604,7 @@ static void describe_edit(const Player *player, const Command *edit, char *line,
     }
 }
 
-/* Undoes the last gesture or redoes it, and reports it. */
+/* Undoes the last gesture, or redoes it, and reports the edit. */
 Status obey_undo(Player *player, const Command *command)
 {
     Past *past = &player->past;

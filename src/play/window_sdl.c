@@ -19,8 +19,8 @@ enum {
 
 static SDL_Window *window;
 
-/* Tab and mouse at the time of the event that is read; SDL only knows the
- * present. */
+/* Tab key and mouse at the time of the event that is read.  SDL knows only
+ * their present state. */
 static bool tab_alone; /* Tab is down, and no other key was pressed since */
 static bool tab_held;
 static SDL_Point mouse;
@@ -108,7 +108,7 @@ void window_find_size(int size[2])
     size[1] = surface ? surface->h : 1;
 }
 
-/* Finds the pixels per point in each direction. */
+/* Finds the number of pixels per point in each direction. */
 static void find_pixels_per_point(double scale[2])
 {
     int size[2], points[2] = {0, 0};
@@ -152,7 +152,7 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
 {
     SDL_Keycode key = event->keysym.sym;
     SDL_Scancode place = event->keysym.scancode;
-    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* not Latin */
+    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* not a Latin letter */
         place >= SDL_SCANCODE_A && place <= SDL_SCANCODE_Z)
         key = SDLK_a + (SDL_Keycode)(place - SDL_SCANCODE_A);
     SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
@@ -178,8 +178,8 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
 
 /* ---- mouse and window ---------------------------------------------------- */
 
-/* Translates an event of the window.  When the window loses the keys a drag
- * ends, since another window may get the release of the button. */
+/* Translates an event of the window.  When the window loses the keyboard focus
+ * a drag ends, since another window may get the release of the button. */
 static InputKind read_window_event(const SDL_WindowEvent *event)
 {
     switch (event->event) {
@@ -215,7 +215,7 @@ static Input read_event(const SDL_Event *event)
     case SDL_KEYUP:
         read_key(&event->key, &input);
         break;
-    case SDL_TEXTINPUT: /* signs and digits */
+    case SDL_TEXTINPUT: /* a sign or a digit */
         if (isgraph((unsigned char)text[0]) &&
             !isalpha((unsigned char)text[0]) && text[1] == '\0') {
             input.kind = INPUT_KEY;

@@ -58,8 +58,8 @@ const char *window_failure(void)
     return "";
 }
 
-/* Shows pixels in a canvas, as red, green, blue and alpha.
- *   card  index of the card whose canvas it is; -1: the stage */
+/* Shows pixels on a canvas of the page, as red, green, blue and alpha.
+ *   card  index of the card that has the canvas; -1: the stage */
 static Status show_pixels(const Canvas *canvas, int card)
 {
     static uint32_t *rgba; /* [room] */
@@ -137,7 +137,7 @@ Input window_read_input(void)
     return input;
 }
 
-/* The page waits itself; no input arrives while C runs. */
+/* The page waits by itself: no input arrives while C runs. */
 void window_wait_for_input(int milliseconds)
 {
     (void)milliseconds;

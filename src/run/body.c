@@ -20,8 +20,8 @@
 /* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int sides_all; /* side of all nodes; 0: anywhere */
-    int sides_any; /* sides; each node is also on one of them; 0: anywhere */
+    int sides_all; /* each node is on all these sides; 0: any node */
+    int sides_any; /* each node is on one of these, too; 0: any node */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -392,8 +392,8 @@ static void name_obstacle(const Options *options, int number, char *name,
         snprintf(name, size, "the %s", kind);
 }
 
-/* Refuses an obstacle whose gap to a body, m, is not above 0; NaN: a ball is
- * inside the body. */
+/* Refuses an obstacle whose gap to a body, m, is not above 0.  A gap of NaN
+ * means that a ball is inside the body. */
 static Status refuse_place(const Options *options, int number, double gap,
                            Message message)
 {
@@ -410,12 +410,13 @@ static Status refuse_place(const Options *options, int number, double gap,
 }
 
 /* Checks that no node touches an obstacle, no cell is turned over, and no ball
- * is inside a cell: contact looks at nodes only, and a small ball may have none
- * near it.
- *   x      [2n] m
- *   apart  m, smallest gap to the obstacle `number`; to others it is 0 */
+ * is inside a cell.  Contact tests nodes, which may all be far from a small
+ * ball.
+ *   x        [2n] m
+ *   min_gap  m, least gap to the obstacle `number`; the gap to other obstacles
+ *            must be above 0 */
 static Status check_places(const Options *options, const System *system,
-                           const double *x, double apart, int number,
+                           const double *x, double min_gap, int number,
                            Message message)
 {
     const SquareMesh shape = body_make_mesh(options);
@@ -428,7 +429,7 @@ static Status check_places(const Options *options, const System *system,
         const Element *element = &walk.element;
         while (elements_next(&walk)) {
             bool own = kind == &contact_energy && element->source == number;
-            if (element->s > (own ? apart : 0))
+            if (element->s > (own ? min_gap : 0))
                 continue;
             return kind == &contact_energy
                        ? refuse_place(options, element->source, element->s,
@@ -475,12 +476,12 @@ static Status check_obstacles(const Options *options, Message message)
     return STATUS_OK;
 }
 
-/* Checks that the obstacles of these options overlap no body where it is now.
- *   apart  smallest gap to the obstacle `number`, as a part of the barrier's
- *          width; to others it is 0 */
+/* Checks that obstacles of the options overlap no body at its present place.
+ *   min_gap  least gap to the obstacle `number`, over the barrier's width
+ *            d_hat; the gap to other obstacles must be above 0 */
 static Status check_clearance(const Simulation *simulation,
-                              const Options *options, double apart, int number,
-                              Message message)
+                              const Options *options, double min_gap,
+                              int number, Message message)
 {
     Status status = check_obstacles(options, message);
     for (int run = 0; run < simulation->runs && !status; run++) {
@@ -494,7 +495,7 @@ static Status check_clearance(const Simulation *simulation,
         system.terms = 1;
         system.term[0] = (Term){&contact_energy, &contact};
         status = check_places(&own, &system, simulation->run[run].x,
-                              apart * contact.barrier.d_hat, number, message);
+                              min_gap * contact.barrier.d_hat, number, message);
     }
     return status;
 }
@@ -510,7 +511,7 @@ double simulation_find_free_way(const Simulation *simulation,
                                 const double to[2])
 {
     enum { HALVINGS = 20 };
-    static const double APART = 0.999; /* just inside the barrier's width */
+    static const double MIN_GAP = 0.999; /* in units of d_hat */
     Options moved = *options;
     double *at = options_obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
@@ -521,7 +522,7 @@ double simulation_find_free_way(const Simulation *simulation,
     for (int i = 0; i < HALVINGS; i++, step /= 2) {
         for (int c = 0; c < 2; c++)
             at[c] = from[c] + (free + step) * (to[c] - from[c]);
-        if (!check_clearance(simulation, &moved, APART, number, (Message){0}))
+        if (!check_clearance(simulation, &moved, MIN_GAP, number, (Message){0}))
             free += step;
     }
     return free;
@@ -540,7 +541,7 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
 {
     const double *a = x + 2 * one[0], *b = x + 2 * one[1];
     const double *c = x + 2 * other[0], *d = x + 2 * other[1];
-    for (int k = 0; k < 2; k++) /* bounding boxes apart */
+    for (int k = 0; k < 2; k++) /* the bounding boxes do not touch */
         if (fmax(a[k], b[k]) < fmin(c[k], d[k]) ||
             fmax(c[k], d[k]) < fmin(a[k], b[k]))
             return false;

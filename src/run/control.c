@@ -61,8 +61,8 @@ bool control_hand_holds(const Control *control)
     return control->hand >= 0 || control->push >= 0;
 }
 
-/* Returns how much higher an obstacle of a run is than in the options, m.  Only
- * grounds differ between runs; a ball has 0. */
+/* Returns the height, m, that RunVariant.lift adds to an obstacle of a run.
+ * Only grounds are lifted, not balls. */
 static double find_lift(const Simulation *simulation, int run,
                         const Obstacle *obstacle)
 {
@@ -81,7 +81,7 @@ void simulation_find_obstacle(const Simulation *simulation, int run, int number,
 void control_store_obstacle(Control *control, int number,
                             const Simulation *simulation)
 {
-    static const double SAME = 1e-9; /* sides; smallest difference of places */
+    static const double SAME = 1e-9; /* tolerance, in sides of the square */
     double *at = options_obstacle_at(&control->options, number);
     double place[2], other[2];
     simulation_find_obstacle(simulation, 0, number, place);
@@ -190,7 +190,7 @@ static void stop_node(TimeIntegrator *run, int node)
  * body's springs: the node follows the mouse, and the body gives way. */
 static Status apply_hand(Simulation *simulation, const Control *control)
 {
-    static const double TIMES = 1000; /* times the stiffness of the body */
+    static const double STIFFER = 1000; /* hand's stiffness over the body's */
     System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
@@ -209,7 +209,7 @@ static Status apply_hand(Simulation *simulation, const Control *control)
                 .side = mesh->side,
                 .mouse = {control->at[0], control->at[1]},
                 .target = {x[0], x[1]},
-                .strength = k > 0 ? TIMES * k : 1e5 * system->m[node]});
+                .strength = k > 0 ? STIFFER * k : 1e5 * system->m[node]});
 }
 
 /* Pushes the obstacle that the mouse holds, if there is one, in each run. */
@@ -258,7 +258,7 @@ Status simulation_place_node(Simulation *simulation, int node, double x,
                              double y, bool moves)
 {
     TimeIntegrator *run = &simulation->run[0];
-    double *before = run->new_x, *p = run->new_v; /* free between two steps */
+    double *before = run->new_x, *p = run->new_v; /* scratch arrays */
     if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
         !isfinite(y))
         return STATUS_INVALID_INPUT;

@@ -55,8 +55,8 @@ bool exhibit_has_kind_switches(const Simulation *simulation)
     return simulation->options.layers & LAYER_KINDS;
 }
 
-/* The order of the mesh: n (n + 1) horizontal springs, as many vertical ones,
- * and two diagonals for each cell. */
+/* The mesh lists its springs in this order: n (n + 1) horizontal springs, as
+ * many vertical ones, and two diagonals for each cell. */
 int exhibit_spring_kind(const Simulation *simulation, int spring)
 {
     int n = simulation->system.segments, half = n * (n + 1);
@@ -72,7 +72,7 @@ int exhibit_list_switches(const Simulation *simulation,
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
-    /* switches are hidden where N shortens a spring and nothing is flipped */
+    /* A page on which N shortens a spring hides switches that do not differ. */
     bool none = options->next == NEXT_NEARER && !options->flips;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)

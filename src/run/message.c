@@ -17,11 +17,11 @@ static bool is_control_character(long letter)
            (letter >= 0x2066 && letter <= 0x2069);
 }
 
-/* Returns how many bytes the first character of a text has; 0: the text
- * begins with a control character, or with what is not UTF-8. */
+/* Returns the number of bytes of the first character of a text, or 0 if the
+ * text begins with a control character or is not valid UTF-8 there. */
 static int count_bytes(const char *text)
 {
-    /* [bytes]: smallest character that needs so many bytes */
+    /* [bytes]: smallest character that needs this number of bytes */
     static const long least[] = {0, 0, 0x80, 0x800, 0x10000};
     unsigned char first = (unsigned char)text[0];
     int size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;

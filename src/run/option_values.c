@@ -41,7 +41,7 @@ static double parse_number(const OptionRow *row, const char *text)
 {
     static const struct {
         const char *prefix;
-        double per_unit; /* parts of the unit: 1000 for "m" */
+        double per_unit; /* 1000 for "m": 1000 mm are 1 m */
     } prefixes[] = {{"", 1},    {"k", 1e-3},     {"c", 1e2},     {"m", 1e3},
                     {"u", 1e6}, {"\u00b5", 1e6}, {"\u03bc", 1e6}};
     double number, divisor = 1;
@@ -112,7 +112,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
 
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
-    if (row && row->kind == OPTION_NAME) { /* -1: the first name */
+    if (row && row->kind == OPTION_NAME) { /* for -1 the first name */
         snprintf(text, size, "%s", names_at(row->names, (int)fmax(value, 0)));
         return;
     }
@@ -124,12 +124,12 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size)
 {
-    enum { MOST_DIGITS = 6, MOST_LETTERS = 20 }; /* lengths of a list */
+    enum { MOST_DIGITS = 6, MOST_LETTERS = 20 }; /* limits of the text */
     int count = row->count > 1 ? row->count : 1, times = 1;
     if (row->max_times)
         times = (int)options->number[row->counter];
     const double *value = options->number + row->slot + (times - 1) * count;
-    if (times < 1 || *value < row->low) /* the option is not given */
+    if (times < 1 || *value < row->low) /* the option was not given */
         snprintf(text, size, "none");
     else if (row->kind == OPTION_NAME)
         option_write(row, *value, text, size);
@@ -168,7 +168,7 @@ static double find_round_number(double index)
 double option_turn_wheel(const OptionRow *row, const Options *options,
                          double notches)
 {
-    static const double FIRST = 0.01; /* value after 0 */
+    static const double FIRST = 0.01; /* value to which a notch raises 0 */
     double value = options->number[row->slot];
     double increment = row->display.increment;
     char text[32];

@@ -48,7 +48,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
         if ((unsigned)options->flips >> i & 1)
             exhibit_flip_switch(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
-        simulation->ledger[r].start = /* dissipation is counted from here on */
+        simulation->ledger[r].start = /* dissipated energy begins at 0 */
             -simulation_energies(simulation, r).dissipated;
     return status;
 }
@@ -83,7 +83,7 @@ static Status finish_step(Simulation *simulation, Status status)
     if (status_is_failure(status))
         return status;
     simulation->steps++;
-    if (simulation->steps > guess->step + 1) /* about an earlier step */
+    if (simulation->steps > guess->step + 1) /* a guess counts for one step */
         *guess = (Prediction){0};
     if (status) {
         simulation->unconverged++;
@@ -109,8 +109,8 @@ static void book_gain(Simulation *simulation)
     simulation->ledger[run].gain.energy += gained;
 }
 
-/* The runs make their steps one after another.  The last status that is not OK
- * is returned. */
+/* The runs make their steps one after another.  Returns the last status of a
+ * run that is not OK, if there is one. */
 Status simulation_advance(Simulation *simulation)
 {
     while (simulation->stepping < simulation->runs) {
@@ -256,7 +256,7 @@ bool simulation_has_projection(const Simulation *simulation)
            (simulation->scene->needs & NEEDS_SPRINGS);
 }
 
-/* Newton's method searches along a line with springs, or in one variable. */
+/* Scenes of springs have a line search, and minimisations in one variable. */
 bool simulation_has_line_search(const Simulation *simulation)
 {
     return simulation_has_projection(simulation) || simulation->descent.scalar;
@@ -272,7 +272,7 @@ bool simulation_projects_springs(const Simulation *simulation)
 
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
 
-/* Power iterations, and numbers of the longest mode. */
+/* Iterations of the power method; capacity of arrays of a mode. */
 enum { ITERATIONS = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
 
 double simulation_find_fastest_mode(const Simulation *simulation,

@@ -21,10 +21,10 @@ enum { MAX_COLUMNS = 7 };
  * wanted columns are found by name, others are skipped. */
 typedef struct TableReader {
     FILE *file;
-    char *line_text;          /* present line */
-    size_t capacity;          /* bytes of text */
-    long line_number;         /* number of the present line, from 1 */
-    int columns;              /* number of columns */
+    char *line_text;  /* line that was read last, then cut into fields */
+    size_t capacity;  /* bytes that line_text has */
+    long line_number; /* number of this line, from 1 */
+    int columns;      /* number of columns of the table */
     const char *const *names; /* names of wanted columns, up to NULL */
     int column_index[MAX_COLUMNS]; /* index of each wanted column; -1: missing
                                     */
@@ -36,7 +36,7 @@ typedef struct TableReader {
 #define explain(reader, ...)                                                   \
     snprintf((reader)->why, sizeof(reader)->why, __VA_ARGS__)
 
-/* The numbers of the wanted columns in one row. */
+/* Numbers of the wanted columns in one row. */
 typedef struct TableRow {
     double value[MAX_COLUMNS];
 } TableRow;
@@ -135,14 +135,14 @@ typedef struct TablePart {
     const char *option;             /* option with the table, for messages */
     const char *file;               /* name of the file */
     const char *element;            /* "node" or "spring" */
-    const char *names[MAX_COLUMNS]; /* columns, up to NULL */
-    int size;                       /* rows of a run */
-    int run;                        /* run that is read */
+    const char *names[MAX_COLUMNS]; /* wanted columns, up to NULL */
+    int size; /* nodes or springs of a run, which is the number of its rows */
+    int run;  /* index of the run that is read */
 } TablePart;
 
-/* Reads the rows of the step of the options, or of all steps, of which the last
- * one remains.  A table has a step several times if the user went back; the
- * last one counts.
+/* Reads the rows of one run at the step options->state_step; -1 is the last
+ * step of the table.  A table has a step several times if the user went back;
+ * the last rows of a step count.
  *   row  [part->size] out */
 static void read_rows(TableReader *reader, const Options *options,
                       const TablePart *part, TableRow *row)

@@ -8,7 +8,7 @@
 #include "model/plasticity.h"
 #include "run/body.h"
 
-/* A place in the bytes of a state.  Saving, restoring and counting visit the
+/* Position in the bytes of a state.  Saving, restoring and counting visit the
  * pieces of a state by the same functions. */
 typedef struct Cursor {
     unsigned char *bytes; /* NULL: the pieces are only counted */
@@ -102,14 +102,14 @@ static void visit_all(Cursor *cursor, Simulation *simulation)
 size_t state_save(const Simulation *simulation, void *bytes)
 {
     Cursor cursor = {bytes, false, 0};
-    visit_all(&cursor, (Simulation *)simulation); /* saving changes nothing */
+    visit_all(&cursor, (Simulation *)simulation); /* saving only reads */
     return cursor.used;
 }
 
 void state_restore(const void *bytes, Simulation *simulation)
 {
     Cursor cursor = {(unsigned char *)bytes, true, 0};
-    simulation->prediction = (Prediction){0}; /* a guess is about one step */
+    simulation->prediction = (Prediction){0}; /* was for another step */
     visit_all(&cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         if (simulation->scene->needs & NEEDS_BODY)

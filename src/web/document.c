@@ -41,14 +41,14 @@
 #include "run/scene.h"
 #include "scenes/scenes.h"
 
-/* A text that grows; words beyond its size are left out. */
+/* A text that grows; words that do not fit in are left out. */
 typedef struct Writer {
     char *text; /* [DOCUMENT_SIZE] */
     size_t used;
 } Writer;
 
-__attribute__((format(printf, 2, 3))) static void
-put_formatted(Writer *to, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void print(Writer *to,
+                                                        const char *format, ...)
 {
     size_t room = DOCUMENT_SIZE - to->used;
     va_list arguments;
@@ -61,7 +61,7 @@ put_formatted(Writer *to, const char *format, ...)
 /* Returns the relative luminance of a colour (WCAG 2.1), 0 ... 1. */
 static double find_luminance(Colour colour)
 {
-    static const double parts[] = {0.0722, 0.7152, 0.2126}; /* blue, ... */
+    static const double parts[] = {0.0722, 0.7152, 0.2126}; /* b, g, r */
     double sum = 0;
     for (int k = 0; k < 3; k++) {
         double part = (colour >> 8 * k & 255) / 255.0;
@@ -73,7 +73,7 @@ static double find_luminance(Colour colour)
 
 unsigned document_colour(Colour colour)
 {
-    const double contrast = 4.6; /* with white; WCAG 2.1 asks for 4.5 */
+    const double contrast = 4.6; /* contrast with white; WCAG 2.1: 4.5 */
     Colour darker = colour & 0xffffff;
     for (int i = 99; 1.05 / (find_luminance(darker) + 0.05) < contrast; i--) {
         darker = 0;
@@ -83,20 +83,20 @@ unsigned document_colour(Colour colour)
     return darker;
 }
 
-/* Writes a line with this word for each known line of a text. */
+/* Writes the lines of a text whose values are all known, each after `word`. */
 static void put_text(Writer *to, const LiveValues *values, const char *word,
                      const char *text)
 {
     for (TextLine line = text_begin(values, text); text_next_line(&line);)
-        put_formatted(to, "%s\t#%06x\t%d\t%s\n", word,
-                      document_colour(line.colour), line.face == FACE_BOLD,
-                      line.words);
+        print(to, "%s\t#%06x\t%d\t%s\n", word, document_colour(line.colour),
+              line.face == FACE_BOLD, line.words);
 }
 
 /* ---- the page of the lecture ----------------------------------------------
  */
 
-/* Writes the texts of the page; while the answer is hidden, no look and try. */
+/* Writes the texts of the page; `look` and `try` only if the answer is shown.
+ */
 static void put_page_texts(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
@@ -106,12 +106,11 @@ static void put_page_texts(Writer *to, const FrameContent *content)
     put_text(to, values, "ask", page->ask);
     if (content->lecture.hides_answer) {
         double at[2];
-        put_formatted(
-            to, "asks\t%s\t%d\n",
-            page_wants_click(page) ? "place"
-            : page->answer         ? "number"
-                                   : "words",
-            simulation_find_point(active_pane(content)->simulation, at));
+        print(to, "asks\t%s\t%d\n",
+              page_wants_click(page) ? "place"
+              : page->answer         ? "number"
+                                     : "words",
+              simulation_find_point(active_pane(content)->simulation, at));
     } else {
         put_text(to, values, "look", page->look);
         put_text(to, values, "try", page->touch);
@@ -119,15 +118,15 @@ static void put_page_texts(Writer *to, const FrameContent *content)
     put_text(to, values, "claim", page->claim);
     put_text(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
-        put_formatted(to, "code\t%d\t%s\n",
-                      strstr(page->code[i], lecture_lit_code(content)) != NULL,
-                      page->code[i]);
+        print(to, "code\t%d\t%s\n",
+              strstr(page->code[i], lecture_lit_code(content)) != NULL,
+              page->code[i]);
 }
 
 /* ---- cards -----------------------------------------------------------------
  */
 
-/* Writes the known lines of an algorithm. */
+/* Writes the lines of an algorithm that the scene shows now. */
 static void put_algorithm(Writer *to, const FrameContent *content, int card,
                           const ListingRow *row)
 {
@@ -136,9 +135,8 @@ static void put_algorithm(Writer *to, const FrameContent *content, int card,
         if (!text_has_line(&pane->values, row->shown_if))
             continue;
         const ShownRow now = listing_show_row(pane, row);
-        put_formatted(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.lit,
-                      now.struck, row->indented, now.text.words,
-                      now.value.words);
+        print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.lit, now.struck,
+              row->indented, now.text.words, now.value.words);
     }
 }
 
@@ -147,8 +145,8 @@ static void put_energies(Writer *to, const Simulation *simulation)
 {
     const Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
-        put_formatted(to, "%s%s %s J", i ? ", " : "", energies.row[i].name,
-                      format_number(energies.row[i].value).text);
+        print(to, "%s%s %s J", i ? ", " : "", energies.row[i].name,
+              format_number(energies.row[i].value).text);
 }
 
 /* Describes a graph of energies, of residuals, or of E along p. */
@@ -159,14 +157,13 @@ static void put_description(Writer *to, const Pane *pane, const char *name)
         put_energies(to, pane->simulation);
     } else if (strcmp(name, "residual") == 0 && trace) {
         for (int i = 0; i < trace->updates; i++)
-            put_formatted(to, "%supdate %d: residual %s, step length %s",
-                          i ? "; " : "", i + 1,
-                          format_number(trace->record[i].residual).text,
-                          format_number(trace->record[i].alpha).text);
+            print(to, "%supdate %d: residual %s, step length %s", i ? "; " : "",
+                  i + 1, format_number(trace->record[i].residual).text,
+                  format_number(trace->record[i].alpha).text);
     } else if (strcmp(name, "line") == 0) {
         for (TextLine line = text_begin(&pane->values, text_trials);
              text_next_line(&line);)
-            put_formatted(to, "%s; ", line.words);
+            print(to, "%s; ", line.words);
     }
 }
 
@@ -186,19 +183,18 @@ static void put_table(Writer *to, const FrameContent *content, int index,
         if (i > 0 && i < rows - MOST_ROWS)
             continue;
         card->table(content, i, &row);
-        put_formatted(to, "cells\t%d\t#%06x", index,
-                      document_colour(row.colour));
+        print(to, "cells\t%d\t#%06x", index, document_colour(row.colour));
         for (int c = 0; c < row.columns; c++)
-            put_formatted(to, "\t%s", row.cell[c]);
-        put_formatted(to, "\n");
+            print(to, "\t%s", row.cell[c]);
+        print(to, "\n");
     }
     if (rows == 0)
-        put_formatted(to, "words\t%d\t#%06x\t0\t%s\n", index,
-                      document_colour(hint.colour), hint.words);
+        print(to, "words\t%d\t#%06x\t0\t%s\n", index,
+              document_colour(hint.colour), hint.words);
 }
 
-/* Writes a card: a line for its graph, and one with lines below it for its
- * text. */
+/* Writes a card: a line for its graph, and a line for its text with the rows of
+ * this text below. */
 static void put_card(Writer *to, const FrameContent *content, int index,
                      const Card *card)
 {
@@ -213,16 +209,16 @@ static void put_card(Writer *to, const FrameContent *content, int index,
     char word[24];
     snprintf(word, sizeof word, "words\t%d", index);
     if (graph) {
-        put_formatted(to, "card\t%d\t%s\t%s\t%d\t%s\t", index, card->name,
-                      star ? "star" : "graph", closed, title.words);
+        print(to, "card\t%d\t%s\t%s\t%d\t%s\t", index, card->name,
+              star ? "star" : "graph", closed, title.words);
         put_description(to, pane, card->name);
-        put_formatted(to, "\n");
+        print(to, "\n");
     }
     if (graph && !card->table && !text_has_line(&pane->values, card->words))
         return;
-    put_formatted(to, "card\t%d\t%s%s\t%s\t%d\t%s\t\n", index, card->name,
-                  graph ? "-text" : "", covered ? "covered" : "text", closed,
-                  title.words);
+    print(to, "card\t%d\t%s%s\t%s\t%d\t%s\t\n", index, card->name,
+          graph ? "-text" : "", covered ? "covered" : "text", closed,
+          title.words);
     put_text(to, &pane->values, word,
              covered ? "after your guess" : card->words);
     if (card->rows && !covered)
@@ -243,7 +239,7 @@ static void put_cards(Writer *to, const FrameContent *content)
 /* ---- what can be set -------------------------------------------------------
  */
 
-/* Whether a clause "Drag ..." of the text names the option. */
+/* Whether a sentence "Drag ..." of the text names the option. */
 static bool asks_to_drag(const char *text, const OptionRow *row)
 {
     const char *name = option_label(row);
@@ -272,16 +268,15 @@ static void put_numbers(Writer *to, const Player *player)
             shown = shown || player->screen.frame.number[k] == row[i];
         option_write_short(row[i], &now, value, sizeof value);
         option_write_unit(row[i], unit, sizeof unit);
-        put_formatted(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
-                      option_label(row[i]), value, unit);
+        print(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
+              option_label(row[i]), value, unit);
         bool named = row[i]->kind == OPTION_NAME;
         for (int k = 0; named && names_at(row[i]->names, k); k++)
-            put_formatted(to, "%s%s", k ? "|" : "", names_at(row[i]->names, k));
-        put_formatted(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
-                      !shown ? "more"
-                      : !named && page && asks_to_drag(page->touch, row[i])
-                          ? "tried"
-                          : "row");
+            print(to, "%s%s", k ? "|" : "", names_at(row[i]->names, k));
+        print(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
+              !shown                                                ? "more"
+              : !named && page && asks_to_drag(page->touch, row[i]) ? "tried"
+                                                                    : "row");
     }
 }
 
@@ -292,9 +287,9 @@ static void put_exhibit(Writer *to, const Simulation *simulation)
     int handles = exhibit_list_handles(simulation, at);
     int switches = exhibit_list_switches(simulation, part);
     for (int i = 0; i < handles; i++)
-        put_formatted(to, "point\t%d\t%.4g\t%.4g\n", i, at[i][0], at[i][1]);
+        print(to, "point\t%d\t%.4g\t%.4g\n", i, at[i][0], at[i][1]);
     for (int i = 0; i < switches; i++)
-        put_formatted(to, "switch\t%d\t%d\t%s\n", i, part[i].on, part[i].label);
+        print(to, "switch\t%d\t%d\t%s\n", i, part[i].on, part[i].label);
 }
 
 /* ---- what is seen, and what happened ---------------------------------------
@@ -308,16 +303,14 @@ static void put_shape(Writer *to, const Pane *pane)
     int nodes = simulation->system.nodes;
     if (nodes > 1) {
         pane_node_bounds(pane, 1, box);
-        put_formatted(to, " %d masses, %d springs, %s m wide and %s m high.",
-                      nodes, simulation->system.springs,
-                      format_number(box[2] - box[0]).text,
-                      format_number(box[3] - box[1]).text);
+        print(to, " %d masses, %d springs, %s m wide and %s m high.", nodes,
+              simulation->system.springs, format_number(box[2] - box[0]).text,
+              format_number(box[3] - box[1]).text);
     } else if (simulation_find_point(simulation, at) == 1)
-        put_formatted(to, " The point is at %s.", format_digits(at[0], 4).text);
+        print(to, " The point is at %s.", format_digits(at[0], 4).text);
     else if (simulation_find_point(simulation, at) == 2)
-        put_formatted(to, " The point is at (%s, %s).",
-                      format_digits(at[0], 4).text,
-                      format_digits(at[1], 4).text);
+        print(to, " The point is at (%s, %s).", format_digits(at[0], 4).text,
+              format_digits(at[1], 4).text);
 }
 
 /* Describes the picture: method and shape in each pane, the energies and the
@@ -327,27 +320,26 @@ static void put_picture(Writer *to, const Player *player)
     const FrameContent *content = &player->screen.frame.content;
     const Simulation *simulation = player_simulation(player);
     const LiveValues *values = &active_pane(content)->values;
-    put_formatted(to, "picture\t");
+    print(to, "picture\t");
     for (int p = 0; p < content->panes; p++) {
         const Pane *pane = &content->pane[p];
         const IntegratorMethod *method = pane->simulation->run[0].method;
         if (content->panes > 1)
-            put_formatted(to, " Picture %d of %d:", p + 1, content->panes);
+            print(to, " Picture %d of %d:", p + 1, content->panes);
         if (method && pane->simulation->scene->needs & NEEDS_TIME)
-            put_formatted(to, " %s.", method->label);
+            print(to, " %s.", method->label);
         put_shape(to, pane);
     }
-    put_formatted(to, " %s, %s.", content->time_line.text,
-                  content->strip.state);
+    print(to, " %s, %s.", content->time_line.text, content->strip.state);
     if (simulation->scene->needs & NEEDS_BODY) {
-        put_formatted(to, " Energies: ");
+        print(to, " Energies: ");
         put_energies(to, simulation);
-        put_formatted(to, ".");
+        print(to, ".");
     }
     for (TextLine line = text_begin(values, active_picture(content)->legend);
          text_next_line(&line);)
-        put_formatted(to, " %s.", line.words);
-    put_formatted(to, "\n");
+        print(to, " %s.", line.words);
+    print(to, "\n");
 }
 
 /* Describes the last step: "step 12: 3 updates, E fell by 13.8". */
@@ -357,18 +349,17 @@ static void put_event(Writer *to, const Player *player)
     const Trace *trace = active_pane(content)->shown_trace;
     const Outcome *outcome = &player_active_run(player)->outcome;
     const char *turn = player_simulation(player)->scene->step_name;
-    put_formatted(to, "event\t%s %ld", turn ? turn : "step",
-                  content->time_line.step);
+    print(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
     if (trace && trace->line != LINE_NONE) {
-        put_formatted(to, ": %s", content->strip.sentence);
+        print(to, ": %s", content->strip.sentence);
     } else if (outcome->updates > 0) {
-        put_formatted(to, ": %d update%s, %s %s by %s", outcome->updates,
-                      outcome->updates > 1 ? "s" : "",
-                      player_simulation(player)->scene->step ? "f" : "E",
-                      outcome->change > 0 ? "rose" : "fell",
-                      format_number(fabs(outcome->change)).text);
+        print(to, ": %d update%s, %s %s by %s", outcome->updates,
+              outcome->updates > 1 ? "s" : "",
+              player_simulation(player)->scene->step ? "f" : "E",
+              outcome->change > 0 ? "rose" : "fell",
+              format_number(fabs(outcome->change)).text);
     }
-    put_formatted(to, "\n");
+    print(to, "\n");
 }
 
 void document_write(const Player *player, char *text)
@@ -377,24 +368,23 @@ void document_write(const Player *player, char *text)
     const LecturePage *page = content->lecture.page;
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
-    put_formatted(to, "page\t%d\t%d\t%s\n",
-                  page ? (int)(page - lecture_pages) + 1 : 0,
-                  lecture_count_pages(),
-                  page ? page->name : player_simulation(player)->scene->name);
-    put_formatted(to, "topic\t%s\nsentence\t%s\n",
-                  content->strip.topic ? content->strip.topic : "",
-                  content->strip.sentence);
-    put_formatted(to, "time\t%s · %s · %s\n", content->time_line.text,
-                  content->strip.method, content->strip.state);
-    put_formatted(to, "told\t%d\t%s\n", content->strip.is_warning,
-                  content->strip.message);
-    put_formatted(to, "step\t%ld\t%ld\t%d\n", content->time_line.step,
-                  content->time_line.steps, content->time_line.paused);
+    print(to, "page\t%d\t%d\t%s\n", page ? (int)(page - lecture_pages) + 1 : 0,
+          lecture_count_pages(),
+          page ? page->name : player_simulation(player)->scene->name);
+    print(to, "topic\t%s\nsentence\t%s\n",
+          content->strip.topic ? content->strip.topic : "",
+          content->strip.sentence);
+    print(to, "time\t%s · %s · %s\n", content->time_line.text,
+          content->strip.method, content->strip.state);
+    print(to, "told\t%d\t%s\n", content->strip.is_warning,
+          content->strip.message);
+    print(to, "step\t%ld\t%ld\t%d\n", content->time_line.step,
+          content->time_line.steps, content->time_line.paused);
     if (page)
         put_page_texts(to, content);
     if (content->lecture.verdict && !content->lecture.hides_answer)
-        put_formatted(to, "verdict\t%s\t%d\t%d\n", content->lecture.verdict,
-                      content->lecture.right, content->lecture.guesses);
+        print(to, "verdict\t%s\t%d\t%d\n", content->lecture.verdict,
+              content->lecture.right, content->lecture.guesses);
     put_cards(to, content);
     put_numbers(to, player);
     put_exhibit(to, active_pane(content)->simulation);
@@ -407,12 +397,12 @@ void document_write_lists(char *text)
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
     for (const LecturePage *page = lecture_pages; page->name; page++)
-        put_formatted(to, "pages\t--lecture+%s\t%s\n", page->name, page->topic);
+        print(to, "pages\t--lecture+%s\t%s\n", page->name, page->topic);
     for (const Scene *scene = scenes; scene->name; scene++)
-        put_formatted(to, "scenes\t%s\t%s: %s\n", scene->name, scene->name,
-                      scene->sentence);
+        print(to, "scenes\t%s\t%s: %s\n", scene->name, scene->name,
+              scene->sentence);
     for (int kind = 1; kind < COMMAND_KINDS; kind++)
         if (command_rows[kind].keys && command_rows[kind].does)
-            put_formatted(to, "keys\t%s\t%s\n", command_rows[kind].keys,
-                          command_rows[kind].does);
+            print(to, "keys\t%s\t%s\n", command_rows[kind].keys,
+                  command_rows[kind].does);
 }

@@ -1,12 +1,13 @@
-/* document.h - the texts of a frame, which the page shows beside its canvas.
+/* document.h - writes the texts of a frame, which the page shows beside its
+ * canvas.
  */
 #ifndef ELASTO_DOCUMENT_H
 #define ELASTO_DOCUMENT_H
 
 #include "play/player.h"
 
-/* Shows the drawn card with this index on its canvas of the page, and the
- * picture for card -1.  window_web.c defines this function. */
+/* Shows a drawn card, or the picture for card -1, on its canvas in the page.
+ * window_web.c defines this function. */
 void window_show_card(const Canvas *canvas, int card);
 
 enum { DOCUMENT_SIZE = 48 << 10 };
@@ -16,7 +17,7 @@ enum { DOCUMENT_SIZE = 48 << 10 };
  *   text  [DOCUMENT_SIZE] out */
 void document_write(const Player *player, char *text);
 
-/* Returns the colour, darkened until letters in it can be read on white. */
+/* Returns a colour, darkened until letters in it can be read on white. */
 unsigned document_colour(Colour colour);
 
 /* Writes a line for each page of the lecture, each scene and each key:

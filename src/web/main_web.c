@@ -15,13 +15,13 @@
 
 enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
 
-/* Bytes for states of past steps; a tab may have little memory, and a state
- * that was dropped is computed again when it is shown. */
+/* Bytes for states of past steps, since a tab may have little memory.  A state
+ * that was dropped is computed again when its step is shown. */
 static const size_t PAST_ROOM = 8 << 20;
 
-/* A player and its command line, whose words the player's options point into.
- * There are two sessions: the next one begins beside the shown one, which goes
- * on if the new command line is wrong. */
+/* A player and its command line, into whose words the player's options point.
+ * Two sessions exist: the next one begins beside the shown one, which stays if
+ * the new command line is wrong. */
 typedef struct Session {
     Player player;
     char text[MOST_TEXT];
@@ -30,8 +30,8 @@ typedef struct Session {
 
 static volatile sig_atomic_t never = 0;
 static Session sessions[2];
-static Session *session = &sessions[0]; /* the session that is shown */
-static bool plays;                      /* a session is shown */
+static Session *session = &sessions[0]; /* session that the page shows */
+static bool plays;                      /* the page shows a session */
 
 /* Begins the program with the words of a command line, each on a line of its
  * own.  Returns PROGRAM_PLAYS, or the exit code if nothing new is shown. */
@@ -74,7 +74,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
         return words;
     int count, panes = player_copy_options(player, now);
     bool same = now->page == given->page && now->scene == given->scene;
-    base[0] = *given; /* options that are left out where they have this value */
+    base[0] = *given; /* base: an option that has this value is left out */
     if ((panes != given->panes && !now->page) ||
         (!same && player_find_defaults(player, now->scene->name, now->page,
                                        base, &count)))
@@ -107,7 +107,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_document(void)
     return text;
 }
 
-/* Returns the lists of pages, scenes and keys. */
+/* Returns lines for the lists of pages, scenes and keys. */
 EMSCRIPTEN_KEEPALIVE const char *web_list_contents(void)
 {
     static char text[DOCUMENT_SIZE];
@@ -124,8 +124,8 @@ EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
     return text;
 }
 
-/* Draws a card of the last frame on its canvas of the page.  Ignores an index
- * of the scene before, which the page may still have. */
+/* Draws a card of the last frame on the canvas of the card in the page.
+ * Ignores an index that the page still has from the scene before. */
 EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
 {
     static Paper paper;
@@ -205,7 +205,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page)
         status = player_obey(player, &next);
     if (!status && !row->lines)
         player_run(player);
-    player->screen.window = true; /* from here on as in the page */
+    player->screen.window = true; /* the texts are those of a window */
     player_fill_frame(player);
 }
 
