@@ -267,7 +267,7 @@ static void search_dir(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
     cholmod_common common;
     cholmod_start(&common);
     common.print = 0;    /* no messages of its own */
-    common.final_ll = 1; /* with L D L^T it would not see an indefinite H */
+    common.final_ll = 1; /* L D L^T would exist for an indefinite H, too */
     cholmod_sparse *H = ip_hess(solid, x, h, &common);
     cholmod_dense *g = cholmod_zeros(n, 1, CHOLMOD_REAL, &common), *y = NULL;
     if (g)
@@ -373,7 +373,7 @@ enum { PIXELS = 600, PICTURES = 100, HEAVY = 1 << 20 };
 typedef struct Screen {
     SDL_Surface *picture; /* drawn on if there is no window, or NULL */
     SDL_Renderer *renderer;
-    double scale, radius; /* pixels in a metre; of a node */
+    double scale, radius; /* pixels in a metre; pixels, radius of a node */
     Vec2 *x_start, mouse; /* [nodes] m, positions at the beginning; m */
     int held;             /* the node that the mouse pulls, or -1 */
     bool paused;
@@ -492,7 +492,7 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
         char name[40];
         snprintf(name, sizeof name, FOLDER "/step_%03d.bmp", step);
         if (SDL_SaveBMP(screen->picture, name) != 0) {
-            remove(name); /* half a picture */
+            remove(name); /* the picture is incomplete */
             FAIL(1, "cannot write %s: %s\n", name, SDL_GetError());
         }
         return step < PICTURES;
@@ -534,7 +534,7 @@ static void read_argument(const char *text, Parameter *const *p)
         p++;
     if (!*p)
         FAIL(2, "'%s' is none of " DEFAULTS "\n", text);
-    bool whole = (*p)->most < 1e30; /* whole numbers have a limit */
+    bool whole = (*p)->most < 1e30; /* no other limit is below 1e30 */
     if (!(value >= (*p)->least && value <= (*p)->most) || text[end] ||
         (whole && value != floor(value)))
         FAIL(2, "'%s': %s is a %snumber from %g to %g\n", text, name,
@@ -551,7 +551,7 @@ int main(int argc, char **argv)
     Parameter n_seg = {"n_seg", 4, 1, 1000};    /* on a side */
     Parameter h = {"h", 0.004, 1e-30, 1e30};    /* s */
     Parameter tol = {"tol", 1e-2, 1e-30, 1e30}; /* m/s */
-    Parameter method = {"method", 0, 0, 2};  /* implicit, symplectic, forward */
+    Parameter method = {"method", 0, 0, 2};  /* 1 symplectic, 2 forward Euler */
     Parameter steps = {"steps", -1, 0, 1e9}; /* -1: opens a window */
     Parameter *all[] = {&side_len, &rho, &k,      &stretch, &n_seg,
                         &h,        &tol, &method, &steps,   NULL};

@@ -26,8 +26,9 @@ Status options_parse_line(const char *line, Options *options, Message message);
 
 /* Sets an option that has a value.  An option that the scene cannot use, or
  * that does not fit the others, is refused with a message as above.
- *   text   in, as on the command line; "": the value is used
- *   value  number, or index of a name; NaN: refused as an empty text */
+ *   text   in, value as on the command line; "": take `value`
+ *   value  number, or index of a name; NaN counts as an empty text, which is
+ *          refused */
 Status options_set(Options *options, const OptionRow *row, const char *text,
                    double value, Message message);
 

@@ -65,7 +65,7 @@ typedef struct Letter {
 
 extern const Letter lecture_letters[];
 
-/* Number of all pages. */
+/* Returns the number of pages. */
 int lecture_count_pages(void);
 
 /* Returns the page with this name, or with this number from 1; NULL: no such
@@ -75,8 +75,8 @@ const LecturePage *lecture_find_page(const char *text);
 /* Whether the page asks for a click on the picture.  page may be NULL. */
 bool page_wants_click(const LecturePage *page);
 
-/* Writes a page, and the fields that it gives to options, into options of its
- * scene. */
+/* Sets options->page, and the options that the page gives beside its command
+ * line. */
 void lecture_apply_page(const LecturePage *page, Options *options);
 
 /* Sets options to the defaults, changed by the command line of the page.

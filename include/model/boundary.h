@@ -35,15 +35,15 @@ typedef struct Boundary {
     int points, edges;    /* numbers of points and edges */
     int *point;           /* [nodes] node of each point */
     Box2 *edge_box;       /* [springs] boxes of the edges, sorted */
-    Box2 *point_box;      /* [nodes] box of a node that is a point */
-    unsigned char *sides; /* [springs] number of solid triangles at it */
-    unsigned char *role;  /* [nodes] in a triangle, on an edge, both, neither */
+    Box2 *point_box;      /* [nodes] box of each point, by node */
+    unsigned char *sides; /* [springs] solid triangles at each spring */
+    unsigned char *role;  /* [nodes] bits: in a triangle, on an edge */
 
     /* Motion for which the boxes were made: from x by alpha (p - mean). */
     bool boxes_valid; /* whether the boxes belong to the present boundary */
     bool has_motion;  /* false: the boxes are those of x alone */
     double *x, *p;    /* [2n] m */
-    double alpha;     /* part of p that is covered */
+    double alpha;     /* part of p that the boxes cover */
     double mean[2];   /* m, mean of p over the points; a motion that all points
                          share brings none closer to an edge */
     double margin;    /* m, each box is wider by it at all sides */
@@ -69,7 +69,7 @@ void boundary_place_arrays(const SquareMesh *mesh, void *bytes,
 void boundary_update(Boundary *boundary, const System *system, const double *x,
                      const double *p, double alpha, double margin);
 
-/* The next edge that point i, 0 ... points-1, may meet.
+/* Returns the next edge that point i, 0 ... points-1, may meet.
  *   place  in/out, 0 before the first edge and after the last one
  * Returns the spring of the edge; -1 after the last edge. */
 int boundary_next_edge(const Boundary *boundary, const System *system, int i,

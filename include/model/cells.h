@@ -2,7 +2,7 @@
  * over.
  *
  *     d-----c     A spring has the same energy in a cell that is turned inside
- *     |\   /|     out, which therefore stays so.  This term gives each of the
+ *     |\   /|     out, which therefore stays so.  The term gives each of the
  *     |  X  |     four corner triangles of a cell a barrier in its area.  With
  *     |/   \|     e1 = x_b - x_a and e2 = x_c - x_a,
  *     a-----b       J = (e1 x e2)/(2 A0)   1 at rest, 0 if flat
@@ -24,8 +24,8 @@
 typedef struct Cells {
     int triangles;
     int *node;   /* [3 triangles] nodes a, b, c of each triangle */
-    int *spring; /* [3 triangles] its sides; the triangle ends with any of them
-                  */
+    int *spring; /* [3 triangles] sides of each triangle, which ends when one
+                    breaks */
     double area; /* m^2, A0 of each triangle */
     double c;    /* J, A0 k_c */
 } Cells;

@@ -60,23 +60,23 @@ typedef struct Gap {
     double r;    /* m, |x_i - x_b| for a ball, infinite for a wall */
 } Gap;
 
-/* The point o of an obstacle, or the node at the centre of the free ball.
- * x [2n] m, in. */
+/* Returns the point o of an obstacle, or the node at the centre of the free
+ * ball. x [2n] m, in. */
 const double *obstacle_origin(const Obstacle *obstacle, const double *x);
 
-/* The gap between a node and an obstacle.
+/* Measures the gap between a node and an obstacle.
  *   o       [2] m, in, position of the obstacle's point
  *   x_i     [2] m, in, position of the node
  *   radius  m, of the node; 0 for a point */
 Gap contact_measure_gap(const Obstacle *obstacle, const double *o,
                         const double *x_i, double radius);
 
-/* The force -dW/dd >= 0, N, on the node along n at the gap d > 0, m. */
+/* Returns the force -dW/dd >= 0, N, on the node along n at the gap d > 0, m. */
 double contact_normal_force(const Barrier *barrier, double d);
 
 /* ---- the term -------------------------------------------------------- */
 
-/* Enough for all obstacles of the command line and those that a scene adds. */
+/* Largest number of obstacles that a command line and a scene have together. */
 enum { CONTACT_MAX_OBSTACLES = 20 };
 
 /* An obstacle that a hand pulls to a point (push.c). */
@@ -86,7 +86,7 @@ typedef struct Push {
     double to[2];     /* m, target of the obstacle's point o */
     SquareMesh shape; /* mesh of the bodies, whose cells no ball may enter */
     bool stopped;     /* whether the obstacle was stopped in this step */
-    double moved;     /* part of the way in this step, when it was stopped */
+    double moved;     /* part of the step after which it was stopped */
 } Push;
 
 /* The data of the term is a struct of this type. */
@@ -108,7 +108,7 @@ extern const TermKind contact_energy;
 Status contact_configure(System *system, const Barrier *barrier, int obstacles,
                          const Obstacle *obstacle);
 
-/* Data of the term; NULL: the system has no obstacles. */
+/* Returns the data of the contact term; NULL: the system has no obstacles. */
 Contact *contact_of(const System *system);
 
 /* Whether the energy of this node and this obstacle counts.  The free ball's
@@ -116,7 +116,8 @@ Contact *contact_of(const System *system);
 bool contact_has_pair(const Contact *contact, const System *system, int node,
                       int obstacle);
 
-/* Radius of a node, m: R for the node of the free ball, 0 for all others. */
+/* Returns the radius of a node, m: R for the node of the free ball, 0 for all
+ * others. */
 double contact_node_radius(const Contact *contact, int node);
 
 /* ---- obstacle moved by a hand (push.c) --------------------------------- */
@@ -129,8 +130,8 @@ double contact_node_radius(const Contact *contact, int node);
 void push_begin_step(Contact *contact, const System *system, const double *x,
                      double h);
 
-/* The largest part of a step's way that the held obstacle may move at once: a
- * ball moves at most half its radius, so that it skips no node. */
+/* Returns the largest part of a step's way that the held obstacle may move at
+ * once: a ball moves at most half its radius, so that it skips no node. */
 double push_max_step(const Contact *contact, double h);
 
 #endif

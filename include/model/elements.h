@@ -26,16 +26,16 @@ typedef struct Element {
     int nodes;                 /* 1 ... 3 */
     int vectors;               /* 1: a alone, 2: a and b */
     int node[3];               /* [nodes] */
-    const double (*weight)[3]; /* [vectors] of the nodes in a and b */
+    const double (*weight)[3]; /* [vectors] of each node, in a and in b */
     int block;      /* block of the matrix with its entries; -1: none yet */
     int source;     /* contact: its obstacle; self-contact: its edge */
     int next_place; /* > 0: the next call of get has the same i and continues
                        here */
     double factor;  /* factor on gradient and Hessian: 1, or EvalPoint.weight
                        if the kind's functions do not multiply by it */
-    double v[4];    /* m, a and b; set by kinds that use it */
+    double v[4];    /* m, a and b, for kinds whose functions use them */
     double s;       /* argument of W: a gap, a ratio of areas or a slip */
-    double n[2], r; /* further numbers of the kind, see its TermKind */
+    double n[2], r; /* further numbers, told at the TermKind */
 } Element;
 
 /* Computes a and b, or their change along a direction.
@@ -96,8 +96,8 @@ struct ElementKind {
     double (*line_remainder)(const EvalPoint *at, const Element *element,
                              const double P[4], double alpha);
 
-    /* Returns the alpha along P at which s has lost the part ELEMENT_LIMIT.
-     * NULL: W exists for every s; else s must stay above 0. */
+    /* Returns the alpha along P at which s has lost the part ELEMENT_LIMIT of
+     * its value.  NULL: W exists for every s; else s must stay above 0. */
     double (*max_step)(const EvalPoint *at, const Element *element,
                        const double P[4]);
 

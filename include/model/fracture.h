@@ -28,7 +28,7 @@ typedef struct Fracture {
         *taken; /* [nodes] 1: a spring of the node broke in this step */
 } Fracture;
 
-/* Fracture as a term; data: Fracture; number of its option: s_c.  The term has
+/* Fracture as a term; data: Fracture; the option's number is s_c.  The term has
  * no value.  After a step it breaks springs and books the energy that they and
  * their cells had.  Fracture is last in the list, after all other terms have
  * ended the step. */

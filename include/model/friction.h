@@ -29,7 +29,8 @@ double friction_slope(double y, double e);
 
 /* A contact with a normal force in this step. */
 typedef struct SlidingContact {
-    Element element; /* v: t for its parts a, b; r: mu lambda, N */
+    Element element; /* element of the contact term, with v = t for its vectors
+                        a and b, and r = mu lambda, N */
     double travel;   /* m, h t.v_wall: travel of the obstacle along t */
 } SlidingContact;
 
@@ -38,7 +39,7 @@ typedef struct Friction {
     double slip_speed; /* m/s, eps_v > 0 */
     double e;          /* m, eps_v h */
     int contacts;      /* number of contacts with a normal force in this step */
-    int room;          /* allocated contacts */
+    int room;          /* number of contacts for which `contact` has room */
     SlidingContact contact[]; /* [room] contacts of this step */
 } Friction;
 

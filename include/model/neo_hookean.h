@@ -31,7 +31,7 @@ typedef struct NeoHookean {
     int triangles;
     double area;       /* m^2, A0 of each triangle */
     double mu, lambda; /* J/m^2: Lame's parameters times a thickness of 1 m */
-    int (*node)[3];    /* [triangles] anticlockwise from the right angle */
+    int (*node)[3]; /* [triangles] nodes, anticlockwise from the right angle */
 } NeoHookean;
 
 /* The sum of W over the triangles; data: NeoHookean.  Numbers of its option: 1
@@ -40,7 +40,7 @@ typedef struct NeoHookean {
  * which are drawn. */
 extern const TermKind neo_hookean_energy;
 
-/* Data of the term; NULL: the system consists of springs. */
+/* Returns the data of the term; NULL: the system consists of springs. */
 static inline const NeoHookean *neo_hookean_of(const System *system)
 {
     return system_term_data(system, &neo_hookean_energy);

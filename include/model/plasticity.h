@@ -22,12 +22,12 @@
 /* The function V of one spring in this step.  With damping (damping.h) V has
  * the further summand theta (e - e_n)^2/2. */
 typedef struct FlowLaw {
-    double ep;    /* plastic strain at the step's start, e = E - ep */
+    double ep;    /* plastic strain at the step's start */
     double yield; /* yield strain Y_n > 0 */
     double flow;  /* 1/(1 + H), in (0, 1] */
-    double hard;  /* 1 - flow */
+    double hard;  /* 1 - flow, the slope of V' beyond the yield strain */
     double theta; /* damping eta/h; 0: none */
-    double e_n;   /* e at the step's start */
+    double e_n;   /* elastic strain e = E - ep at the step's start */
 } FlowLaw;
 
 /* Returns tau = V'(e). */

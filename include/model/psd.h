@@ -14,11 +14,12 @@
 
 /* How the negative eigenvalues of a block are treated. */
 typedef enum Projection {
-    PROJECTION_CLAMP,     /* replaced by 0, as on the slides */
-    PROJECTION_NONE,      /* kept */
-    PROJECTION_ABS,       /* replaced by their absolute values */
-    PROJECTION_ON_DEMAND, /* kept while the whole Hessian has a Cholesky factor,
-                             else replaced by 0; in a single block: kept */
+    PROJECTION_CLAMP,     /* negative eigenvalues become 0, as on the slides */
+    PROJECTION_NONE,      /* negative eigenvalues stay */
+    PROJECTION_ABS,       /* eigenvalues become their absolute values */
+    PROJECTION_ON_DEMAND, /* eigenvalues stay while the whole Hessian has a
+                             Cholesky factor, else negative ones become 0; in a
+                             single block: they stay */
     PROJECTION_COUNT
 } Projection;
 
@@ -28,7 +29,7 @@ static inline bool projects_blocks(Projection projection)
     return projection == PROJECTION_CLAMP || projection == PROJECTION_ABS;
 }
 
-/* Returns an eigenvalue after CLAMP or ABS. */
+/* Returns the eigenvalue that replaces `value` with CLAMP or ABS. */
 static inline double project_eigenvalue(Projection projection, double value)
 {
     return value >= 0 ? value : projection == PROJECTION_ABS ? -value : 0;

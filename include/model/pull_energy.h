@@ -19,7 +19,7 @@ typedef struct Pull {
     double k;         /* J/m^2, stiffness */
     double target[2]; /* m, o */
 
-    /* The rest is for the hand alone. */
+    /* The following members are for the hand alone. */
     double mouse[2]; /* m, position of the mouse */
     double strength; /* J/m^2, stiffness with which the mouse pulls */
     double cell;     /* m, side of a cell of the pulled body */
@@ -43,7 +43,8 @@ Status pull_configure(System *system, const TermKind *kind, const Pull *pull);
 void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
                      double h, const double *free);
 
-/* Work of the hand, J, in a step that moved its node from x [2] to y [2], m. */
+/* Returns the work of the hand, J, in a step that moved its node from x [2] to
+ * y [2], m. */
 double hand_work(const Pull *hand, const double *x, const double *y);
 
 #endif

@@ -36,9 +36,10 @@ typedef struct SelfContact {
     double friction; /* coefficient of friction mu */
     Boundary boundary;
     int pairs;      /* number of blocks in this step */
-    int room;       /* allocated pairs */
+    int room;       /* number of pairs for which `pair` has room */
     int sorted;     /* number of pairs at the start of this step */
-    SelfPair *pair; /* [room] the first `sorted` ones are sorted */
+    SelfPair *pair; /* [room] the first `sorted` pairs are sorted by node, then
+                       by edge */
 } SelfContact;
 
 /* The sum of W over all points and edges; data: SelfContact.  An element is a
@@ -53,7 +54,7 @@ extern const TermKind self_contact_energy;
 Status self_contact_configure(System *system, const SquareMesh *mesh,
                               const Barrier *barrier, double friction);
 
-/* Data of the term; NULL: the system has no self-contact. */
+/* Returns the data of the term; NULL: the system has no self-contact. */
 SelfContact *self_contact_of(const System *system);
 
 #endif

@@ -6,7 +6,7 @@
  * i*(rows+1)+j is column i, row j, counted from the lower left.  The springs of
  * a body are in this order: horizontal, vertical, the two diagonals of each
  * cell. Only multigrid and the planes of the grid use these numbers directly;
- * all other code calls the functions below.
+ * other code calls the functions below.
  */
 #ifndef ELASTO_SQUARE_MESH_H
 #define ELASTO_SQUARE_MESH_H
@@ -70,8 +70,8 @@ void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
 void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
                               int side[3]);
 
-/* Returns the first of the cells cell ... end-1 that contains a point; -1:
- * none.  Contact tests nodes only, so a small ball could be inside a cell
+/* Returns the first of the cells cell ... end-1 that contains a point; -1: no
+ * cell does.  Contact tests nodes only, so a small ball could be inside a cell
  * unnoticed.
  *   x   [2n] m, in, positions of the nodes
  *   at  [2] m, in, the point */

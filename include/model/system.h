@@ -26,24 +26,26 @@ typedef struct Loss {
 } Loss;
 
 struct System {
-    int nodes;         /* n */
-    int springs;       /* number of springs */
-    int *e;            /* [2 springs] nodes of each spring */
-    double *m;         /* [n] kg, > 0; m, l2 and k share one allocation */
-    double *l2;        /* [springs] m^2, rest length squared, > 0 */
-    double *k;         /* [springs] J/m^2, stiffness; 0: broken, or not there */
-    double gravity[2]; /* m/s^2, acceleration of every node */
-    int *order;        /* [n] place of each node in the elimination order */
+    int nodes;   /* n */
+    int springs; /* number of springs */
+    int *e;      /* [2 springs] nodes of each spring */
+    double *m;   /* [n] kg, > 0; m, l2 and k share one allocation */
+    double *l2;  /* [springs] m^2, rest length squared, > 0 */
+    double *k;   /* [springs] J/m^2, stiffness; 0: broken or without energy */
+    double gravity[2];     /* m/s^2, acceleration of every node */
+    int *order;            /* [n] place of each node in the elimination order */
     unsigned char *pinned; /* [n] 1: pinned; e, order, pinned share one
                               allocation */
     double *pin_v;         /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
-    int segments; /* n, where nodes and springs are those of square_mesh.h */
+    int segments; /* segments a side if the system is the mesh of square_mesh.h;
+                     else 0 */
     unsigned version; /* goes up with every change of numbers or terms */
     unsigned pattern; /* goes up where the entries of the Hessian change too */
     int terms;
-    Term term[SYSTEM_MAX_TERMS]; /* the springs first, if there are any */
-    Loss lost[SYSTEM_MAX_TERMS]; /* up to a name that is NULL; a loss stays when
-                                    its term is removed */
+    Term term[SYSTEM_MAX_TERMS]; /* terms by place; the springs' term is the
+                                    first */
+    Loss lost[SYSTEM_MAX_TERMS]; /* energy lost by column, up to a NULL name; a
+                                    loss stays when its term is removed */
 };
 
 /* Allocates the arrays, filled with 0, and sets order[i] = i.  The list has the

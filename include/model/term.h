@@ -1,8 +1,9 @@
 /* term.h - one summand of the potential: P(x) is the sum of a system's terms.
  *
  * A System holds a list of terms.  A term that a scene lacks is not in its list
- * and costs nothing.  A term is one source file with one constant TermKind. All
- * functions loop over whole arrays, so a term costs one indirect call a pass.
+ * and costs nothing.  A term is one source file with one constant TermKind.
+ * The functions loop over whole arrays, so a term costs one indirect call a
+ * pass.
  *
  * A function pointer that is NULL means: this term adds nothing here.  Terms
  * ignore pins: the caller clears pinned nodes in g and in the Hessian.
@@ -26,8 +27,8 @@ typedef struct EvalPoint {
     double weight;     /* s^2, factor on everything that is added to an array;
                           h^2 for implicit Euler */
     const double *x_n; /* [2n] m, positions at the start of the step */
-    const double *u;   /* [2n] m, displacement x - x_n; NULL: no step */
-    const double *x;   /* [2n] m, current positions, x_n + u */
+    const double *u; /* [2n] m, displacement x - x_n; NULL: outside of a step */
+    const double *x; /* [2n] m, current positions, x_n + u */
     const struct Damping *damping; /* damping of this step; NULL: none */
     const double *k;  /* [springs] J/m^2, stiffness in this step (damping.h) */
     const double *l2; /* [springs] m^2, squared rest length in this step */
@@ -46,7 +47,7 @@ typedef struct TermStep {
     System *system;
     Term *term;
     const double *x; /* [2n] m, positions at the start or end of the step */
-    const double *v; /* [2n] m/s, velocities there */
+    const double *v; /* [2n] m/s, velocities at the start or end of the step */
     double h;        /* s, time step */
 } TermStep;
 
@@ -68,12 +69,14 @@ struct TermKind {
     /* Order of the list.  Equal places keep the order in which they were added.
      * Sums and end_step thus keep their order when a term is added later. */
     enum TermPlace {
-        PLACE_FORCE, /* springs, fields and all others */
+        PLACE_FORCE, /* springs, fields and all terms without a place of their
+                        own */
         PLACE_DAMPING,
         PLACE_CONTACT,
         PLACE_FRICTION,
         PLACE_CELLS,
-        PLACE_FRACTURE, /* books the energy that all those before lose */
+        PLACE_FRACTURE, /* after the terms above, whose loss of energy it books
+                         */
         PLACE_HAND,
     } place;
 
@@ -147,10 +150,10 @@ struct TermKind {
     /* Frees the allocations that data points to, not data itself. */
     void (*free)(void *data);
 
-    bool diagonal;            /* P is a sum of c/2 |x_i - o|^2 over nodes i, so
-                                 its Hessian is a diagonal matrix */
-    bool internal;            /* the forces add up to 0: the centre of mass does
-                                 not feel them */
+    bool diagonal; /* P is a sum of c/2 |x_i - o|^2 over nodes i, so
+                      its Hessian is a diagonal matrix */
+    bool internal; /* has forces that add up to 0 and do not move the centre of
+                      mass */
     bool depends_on_start;    /* P depends on x_n too, so that a turn of all
                                  nodes changes P */
     bool backward_euler_only; /* refused by all other integrators, since

@@ -9,8 +9,8 @@
  * last rows are scenes that open by name only. */
 extern const Scene scenes[];
 
-/* Returns the scene with this name, or with this number from 1; NULL: there is
- * no such scene. */
+/* Returns the scene with this name, or with this number from 1; NULL: no such
+ * scene. */
 const Scene *scene_find(const char *text);
 
 #endif

@@ -46,9 +46,10 @@ Status create_spring(Simulation *simulation);
  *   symplectic  v' = v + h a(x)  x' = x + h v'
  *   backward    v' = v + h a(x') x' = x + h v' */
 typedef struct MassStep {
-    double x[2], v[2], a[2];             /* m, m/s, m/s^2, at t_n */
-    double new_x[2], new_v[2], new_a[2]; /* m, m/s, m/s^2, at t_n + h */
-    bool by_old_v;                       /* x' = x + h v (forward Euler) */
+    /* Position, m, velocity, m/s, and acceleration, m/s^2: before the step, and
+     * after it. */
+    double x[2], v[2], a[2], new_x[2], new_v[2], new_a[2];
+    bool by_old_v; /* x' = x + h v (forward Euler) */
 } MassStep;
 
 /* Computes the next step of a run.
@@ -67,9 +68,9 @@ typedef struct SpringValues {
     double force[2];    /* -grad P, on the free end, N */
     double along;       /* eigenvalue of P's Hessian along d, J/m^2 */
     double across;      /* eigenvalue of P's Hessian across d, J/m^2 */
-    double root_energy; /* P_root, J */
-    double root_along, root_across; /* eigenvalues for P_root; root_across is
-                                       -infinity at d = 0 */
+    double root_energy; /* J, energy with the square root, P_root */
+    double root_along, root_across; /* J/m^2, eigenvalues of P_root's Hessian;
+                                       root_across is -infinity at d = 0 */
 } SpringValues;
 
 /* Evaluates a spring; d [2] m, l2 m^2, k J/m^2. */
@@ -146,7 +147,7 @@ Status create_race(Simulation *simulation);
 Status step_race(Simulation *simulation);
 
 /* Returns the longest time step so far with which a method was stable, s; NaN:
- * there is none. */
+ * the method was never stable. */
 double race_find_stable_h(const Race *race, int method);
 
 /* Returns method i of the race, 0 ... RACE_METHODS - 1. */

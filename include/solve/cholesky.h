@@ -15,16 +15,17 @@ typedef enum CholeskyKind {
     CHOLESKY_INDEFINITE, /* L D L^T without pivoting: allows D < 0 */
 } CholeskyKind;
 
-/* Symbolic analysis of the pattern of A, whose rows are in elimination order.
+/* Analyses the pattern of A, whose rows are in elimination order.
  *   A    in; must live as long as the handle, which reads its values
  *   out  the handle; free it with cholesky_free; NULL after a failure
  * Returns OK, OUT_OF_MEMORY, TOO_LARGE. */
 Status cholesky_create(const Sparse *A, CholeskyKind kind, Cholesky **out);
 void cholesky_free(Cholesky *cholesky);
 
-/* Numeric factorisation of the values that A has now.
- * Returns OK, NOT_POSITIVE_DEFINITE (a pivot not > 0; never for INDEFINITE),
- * NOT_FINITE (NaN or infinity in A), OUT_OF_MEMORY. */
+/* Factors A with its present values.
+ * Returns OK, NOT_POSITIVE_DEFINITE (a pivot
+ * not > 0; never for INDEFINITE), NOT_FINITE (NaN or infinity in A),
+ * OUT_OF_MEMORY. */
 Status cholesky_factor(Cholesky *cholesky);
 
 /* Solves A x = b with the last factor.  b [size] in, x [size] out; x may be b.
@@ -34,8 +35,8 @@ Status cholesky_factor(Cholesky *cholesky);
  * solution within 1e-8 of b). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
-/* The number of negative pivots of the last factor, of kind INDEFINITE, which
- * is the number of negative eigenvalues of A. */
+/* Returns the number of negative pivots of the last factor, of kind INDEFINITE,
+ * which is the number of negative eigenvalues of A. */
 int cholesky_negative_pivots(const Cholesky *cholesky);
 
 #endif

@@ -32,7 +32,7 @@ typedef struct Iterate {
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x);
 
-/* g = grad E(x).  u, x as above; g [2n] kg m, out. */
+/* Writes grad E(x) to g [2n] kg m.  u [2n] m, in: x - x_n; x [2n] m, in. */
 void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x,
                                     double *g);
@@ -57,20 +57,22 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
  * must then be made again.  *grown out.  Returns OK, OUT_OF_MEMORY. */
 Status incremental_potential_grow(const Iterate *iterate, bool *grown);
 
-/* A = Hessian of E at u, x, projected.  slot as above.
+/* Writes the projected Hessian of E at u, x to A.
+ *   slot  [count] in, from incremental_potential_pattern
  * Returns how many blocks of terms the projection changed. */
 int incremental_potential_hessian(const Iterate *at, Projection projection,
                                   const int *slot, Sparse *A);
 
-/* y = (projected) Hessian of E at u, x times q, without a matrix.
- *   q  [2n] in, 0 for pinned nodes; y [2n] out
+/* Multiplies the (projected) Hessian of E at u, x by q, without a matrix.
+ *   q  [2n] in, 0 for pinned nodes
+ *   y  [2n] out
  * Returns how many blocks of terms the projection changed. */
 int incremental_potential_product(const Iterate *at, Projection projection,
                                   const double *q, double *y);
 
 /* Turns springs that draw nodes to fixed points into masses:
  *   m/2 |u - u_tilde|^2 + w c/2 |x - o|^2 = (m + w c)/2 |u - v|^2 + constant.
- * Writes over g and p.
+ * g and p of the iterate serve as workspace.
  *   m        [2n] kg, out, m + w c
  *   u_tilde  [2n] m, out, v */
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
@@ -93,20 +95,20 @@ static inline double quartic_value(const Quartic *quartic, double alpha)
     return alpha * (q[0] + alpha * (q[1] + alpha * (q[2] + alpha * q[3])));
 }
 
-/* E(x + alpha p) - E(x): an exact polynomial, and the remainders of the terms
+/* E(x + alpha p) - E(x): an exact polynomial, plus the remainders of the terms
  * that are no polynomials. */
 typedef struct LineEnergy {
     Quartic polynomial;
     const Iterate *at;
-    bool has_remainder; /* some term is no polynomial along p, or forbids points
-                         */
+    bool has_remainder; /* has terms with a line_remainder (term.h) */
 } LineEnergy;
 
-/* Prepares the difference from u, x, g, p of the iterate. */
+/* Prepares E(x + alpha p) - E(x) from u, x, g, p of the iterate. */
 LineEnergy incremental_potential_prepare_line(const Iterate *iterate);
 
-/* Returns the difference at alpha; an EnergyDifference of the line search. */
-double line_energy_difference(const void *along, double alpha);
+/* Returns E(x + alpha p) - E(x), J s^2; an EnergyDifference of the line search.
+ *   function  in, the LineEnergy */
+double line_energy_difference(const void *function, double alpha);
 
 /* Returns the largest alpha, at most 1, up to which all terms allow x + alpha
  * p. */

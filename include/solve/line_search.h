@@ -1,7 +1,7 @@
 /* line_search.h - step length along a search direction (slide: Algorithm 2,
  * backtracking line search).
  *
- * The slides halve alpha while E(x + alpha p) > E(x).  Here a function returns
+ * The slides halve alpha while E(x + alpha p) > E(x).  A function here returns
  * the difference of the two (incremental_potential_prepare_line), so that
  * rounding of large energies does not hide a small decrease.
  */

@@ -27,14 +27,15 @@ enum { AUTO_NEWTON_SEGMENTS = 8 };
 /* How well the residual of a direction p is known. */
 typedef enum ResidualKind {
     RESIDUAL_VALUE,   /* p solves H p = -g up to rounding */
-    RESIDUAL_ESTIMATE /* p solves H p = -g up to a known remainder */
+    RESIDUAL_ESTIMATE /* p solves H p = -g up to a linear residual with a known
+                         bound */
 } ResidualKind;
 
 /* The record of an iteration of the loop. */
 typedef struct NewtonRecord {
-    long step;         /* time step, from 1 */
-    int iteration;     /* iteration of this minimisation, from 0 */
-    double residual;   /* m/s, max over nodes of |p_x| + |p_y|, over h */
+    long step;       /* number of the time step, from 1 */
+    int iteration;   /* number of the iteration in this minimisation, from 0 */
+    double residual; /* m/s, max over nodes of |p_x| + |p_y|, over h */
     ResidualKind kind; /* how well the residual is known */
     double alpha;      /* step length along p; 0: x has not moved */
     int trials;        /* energies that the line search looked at */
@@ -46,18 +47,19 @@ typedef struct NewtonRecord {
     bool factorised;   /* has a new factor of the Hessian */
     double shift;      /* kg, added to the diagonal of the Hessian */
     double seconds;    /* computing time of the iteration */
-    Status status;     /* RUNNING, or how the minimisation ended here */
-    Solver solver;     /* NEWTON or MULTIGRID */
-    double from[2];    /* start of the update, in scenes with one moving point;
-                          0 elsewhere */
-    double to[2];      /* end of the update, in the same scenes */
+    Status status;  /* RUNNING, or how the iteration ended the minimisation */
+    Solver solver;  /* NEWTON or MULTIGRID */
+    double from[2]; /* m, point before the update, in scenes with one moving
+                       point; else 0 */
+    double to[2]; /* m, point after the update, in scenes with one moving point;
+                     else 0 */
 } NewtonRecord;
 
 /* Called after each iteration.  Returns false to pause the loop. */
 typedef bool (*NewtonObserver)(void *user, const NewtonRecord *record);
 
 typedef struct NewtonSettings {
-    double h;                /* s, divides the residual */
+    double h; /* s, time step, by which |p| is divided in the residual */
     double tolerance;        /* m/s, epsilon of the slides */
     Solver solver;           /* how the minimiser is found */
     Projection projection;   /* how negative eigenvalues are replaced */
@@ -69,19 +71,19 @@ typedef struct NewtonSettings {
 
 /* Counts of the work since the object was made.  No decision reads them. */
 typedef struct NewtonCounters {
-    long iterations;     /* updates of x */
-    long factorisations; /* factors of the Hessian */
-    long solves;         /* solves with a factor */
+    long iterations;     /* number of updates of x */
+    long factorisations; /* number of factorisations of the Hessian */
+    long solves;         /* number of solves with a factor */
     long projected;      /* blocks projected, summed over factorisations */
     long cycles;         /* V-cycles of multigrid */
-    long tile_sweeps;    /* sweeps of multigrid's tiles, where folds run */
+    long tile_sweeps;    /* sweeps of multigrid's tiles (tiles.h) */
     long negative;       /* minimisations that converged with a last p from a
                             Hessian with negative pivots: perhaps a maximum */
     long handed_over;    /* minimisations that multigrid began and Newton
                            ended */
 } NewtonCounters;
 
-/* sum += counters */
+/* Adds each member of counters to sum. */
 void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
 
 /* The Hessian and its factor, and vectors of [2n] (direction.c).  Pattern,
@@ -91,24 +93,25 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
  * has no Cholesky factor in floating point.  Then H + shift I is factored, and
  * conjugate gradients on H itself, applied spring by spring, correct p. */
 typedef struct SearchDirection {
-    Projection projection; /* projection of the Hessian in A */
-    CholeskyKind kind;     /* kind of factor that cholesky holds */
-    unsigned pattern;      /* System.pattern at the symbolic analysis */
-    Sparse A;              /* Hessian, one triangle, in elimination order */
-    int *slot;             /* place of each triplet in A */
-    Cholesky *cholesky;    /* NULL: no matrix was needed yet */
-    double shift;          /* kg, added to the diagonal before factoring */
-    double way_since_factor; /* m, bound of a node's way since A was factored */
-    double *b;             /* right-hand side in elimination order */
-    double *r, *z, *q, *d; /* vectors of conjugate gradients */
+    Projection projection;   /* projection of the Hessian in A */
+    CholeskyKind kind;       /* kind of factor that cholesky holds */
+    unsigned pattern;        /* System.pattern at the symbolic analysis */
+    Sparse A;                /* Hessian, one triangle, in elimination order */
+    int *slot;               /* place of each triplet in A */
+    Cholesky *cholesky;      /* factor of A; NULL: not created yet */
+    double shift;            /* kg, added to the diagonal before factoring */
+    double way_since_factor; /* m, upper bound of a node's displacement since A
+                                was factored */
+    double *b;               /* right-hand side in elimination order */
+    double *r, *z, *q, *d;   /* vectors of conjugate gradients */
 } SearchDirection;
 
 /* Data for the rounding errors of a minimisation (rounding.c). */
 typedef struct Rounding {
-    unsigned known_version; /* 1 + System.version at which lightest, stiffest
-                       and shortest were computed */
-    double lightest; /* kg, the smallest mass */
-    double stiffest; /* J/m^2, the largest curvature of a term */
+    unsigned known_version; /* 1 + System.version for which lightest, stiffest
+                               and shortest hold; 0: not computed yet */
+    double lightest;        /* kg, the smallest mass */
+    double stiffest;        /* J/m^2, the largest curvature of a term */
     double shortest; /* m, the shortest spring at rest; 1 without springs */
     bool stiff;      /* w stiffest > 1e5 lightest, with w the weight of P in E:
                         a decrease of E is checked by a second computation */
@@ -116,8 +119,8 @@ typedef struct Rounding {
     double start_energy; /* J s^2, E at the start; NAN: not needed */
     double energy_limit; /* J s^2, upper limit of E: its value at the start plus
                       rounding; INFINITY: no limit */
-    double E;        /* J s^2, E at the iterate; NAN: not evaluated yet */
-    double E_trial;  /* J s^2, E at the end of the trial step */
+    double E;            /* J s^2, E at the iterate; NAN: not evaluated yet */
+    double E_trial;      /* J s^2, E at the end of the trial step */
     double best_residual;    /* m/s, smallest residual of this minimisation */
     int stagnant_iterations; /* iterations since the smallest residual */
 } Rounding;
@@ -129,7 +132,7 @@ typedef struct Newton {
     NewtonCounters counters;
     NewtonRecord record; /* record of the last iteration */
     Status status;       /* RUNNING, or how the minimisation ended */
-    long step;           /* time step, for the records */
+    long step;           /* number of the time step, for the records */
     double tolerance;    /* m/s, tolerance of this minimisation */
     const System *system;
     double *memory;  /* block of all arrays */
@@ -138,17 +141,17 @@ typedef struct Newton {
     double *u_trial, *x_trial; /* [2n] m, end of a trial step; after an update
                                   the iterate before the update */
     SearchDirection search;    /* the Hessian and its factor */
-    bool has_gradient;         /* g is the gradient at x */
+    bool has_gradient;         /* has the gradient at x in at.g */
     bool passes;               /* p of the last iteration passes the test */
     int clamps; /* iterations for which on-demand projection still clamps */
     Rounding rounding;
-    Multigrid *multigrid;  /* NULL: was not needed yet */
-    Solver active_solver;  /* NEWTON or MULTIGRID, in this minimisation */
-    const char *refusal;   /* why multigrid does not work, though wanted */
-    double change_sum;     /* J s^2, sum of the updates' changes of E */
-    double change_abs_sum; /* J s^2, sum of their absolute values */
-    double change; /* J s^2, E at the end - E at the start, summed over the
-                      minimisations since the caller has set it to 0 */
+    Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
+    Solver active_solver; /* solver of this minimisation: NEWTON or MULTIGRID */
+    const char *refusal;  /* why multigrid refused the minimisation, or NULL */
+    double change_sum;    /* J s^2, sum of the updates' changes of E */
+    double change_abs_sum; /* J s^2, sum of the absolute changes of E */
+    double change;         /* J s^2, E at the end - E at the start, summed over
+                              minimisations; the caller resets it to 0 */
 } Newton;
 
 /* Allocates for this system, which must outlive the object.

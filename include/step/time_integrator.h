@@ -22,7 +22,7 @@ typedef struct IntegratorMethod {
     bool at_end;       /* has the minimiser as x_(n+1), which contact, friction
                           and flow need */
     bool damps;        /* takes energy out of motion, which comes to rest */
-    bool by_name;      /* is chosen by name only; key M skips it */
+    bool by_name;      /* is chosen by name only, and skipped by key M */
     int memory;        /* arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; explicit: 0 */
     /* Fills newton->u_tilde and weight for the present stage.  Gravity is added
@@ -68,18 +68,18 @@ struct TimeIntegrator {
     Newton *newton;  /* NULL for explicit methods */
     /* State of an unfinished step: */
     int stage;     /* 0 ... stages - 1 */
-    Status worst;  /* last status of its minimisations that is not OK */
+    Status worst;  /* last status of the step's minimisations that is not OK */
     double weight; /* s^2, factor of P in E */
     double remaining_part; /* part of the prescribed way that is not done yet */
-    int parts_made;        /* parts of the prescribed way so far */
+    int parts_made;        /* number of parts of the prescribed way so far */
     long iterations_before; /* Newton's iterations before this step */
-    bool blocked;  /* walls and pins cannot move on: a body is in their way */
+    bool blocked; /* walls and pins cannot move on: a body is in their way */
 };
 
 /* The table of methods.  The last row has the name NULL. */
 extern const IntegratorMethod integrator_methods[];
 
-/* The row with this name, or NULL. */
+/* Returns the method with this name, or NULL. */
 const IntegratorMethod *integrator_find_method(const char *name);
 
 /* Whether the system has a term that the method is not right for. */
@@ -96,15 +96,16 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const double *v, TimeIntegrator *run);
 void time_integrator_free(TimeIntegrator *run);
 
-/* Begin a step, and continue it to its end or to the next pause.  Both
+/* Begin a step, and continue the step to the end or the next pause.  The
  * functions return RUNNING before the end of the step.  At its end they return
  * OK; or a status for which status_is_unconverged holds, where the step has the
  * last iterate; or a failure, after which x and v are still those of t_n.  A
- * caller who abandons a step restores the terms' memories and the walls. */
+ * caller that abandons a step has to restore the data of the terms and the
+ * place of the walls. */
 Status time_integrator_begin(TimeIntegrator *run);
 Status time_integrator_advance(TimeIntegrator *run);
 
-/* A whole step.  Returns as time_integrator_advance at its end. */
+/* Makes a whole step.  Returns as time_integrator_advance does at the end. */
 Status time_integrator_step(TimeIntegrator *run);
 
 #endif

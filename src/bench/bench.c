@@ -51,7 +51,7 @@ static Options make_slides_options(int segments)
 typedef struct Motion {
     const char *name;
     double stiffness; /* J/m^2 */
-    double stretch;   /* horizontal, at the start */
+    double stretch;   /* factor on all x at the start */
     double spin;      /* rad/s, angular velocity at the start */
     double time;      /* s, duration */
     int segments[4];  /* sizes of the square, then 0 */
@@ -69,7 +69,7 @@ enum { MOTIONS = sizeof motions / sizeof *motions };
 
 enum { FIRST_STEPS = 8, TARGETS = 5 };
 
-/* m, errors of the rows that name the fastest methods */
+/* m, errors for which the fastest methods are named */
 static const double targets[TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
 /* m, expected error of the first run */

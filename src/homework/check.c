@@ -22,7 +22,7 @@ typedef void Function(void);
 extern Function *const student[];
 
 enum {
-    /* same order as in student.c */
+    /* the order of student.c */
     TASK_inertia_val,
     TASK_inertia_grad,
     TASK_inertia_hess,
@@ -51,14 +51,14 @@ static jmp_buf program_ended;
 #define main       lecture_main
 int main(int argc, char **argv);
 #include "lecture.c"
-#include MISTAKES /* lecture.c's functions again, and Mistake mistakes[] */
+#include MISTAKES /* functions with mistakes, and the table mistakes[] */
 #undef main
 #undef exit
 
 enum {
-    MAX_TEXT = 400,    /* bytes of a sentence */
-    MAX_NUMBERS = 400, /* numbers of a result */
-    MAX_NODES = 9,     /* nodes of the largest case */
+    MAX_TEXT = 400,    /* limit of the bytes of a sentence */
+    MAX_NUMBERS = 400, /* limit of the numbers of a result */
+    MAX_NODES = 9,     /* number of nodes of the largest case */
     UNKNOWNS = 2 * MAX_NODES
 };
 
@@ -109,7 +109,7 @@ typedef struct Task {
     Function *truth;
     ResultKind kind;
     const char *case_names[5]; /* name of each case for messages, then NULL */
-    int steps;      /* calls of step_forward, the first with a table */
+    int steps;             /* calls of step_forward, the first with a table */
     unsigned needed_tasks; /* bits of the tasks whose functions are called */
 } Task;
 
@@ -192,7 +192,7 @@ static void make_arguments(const Task *task, int case_number, Case *c)
         make_random_solid(searches ? 0 : case_number, &c->solid);
     c->x_tilde = make_random_points(MAX_NODES, 0.7);
     c->p = make_random_points(MAX_NODES, 1);
-    c->p[1] = (Vec2){-1.5, -1.2}; /* largest |p_x| + |p_y|, both below 0 */
+    c->p[1] = (Vec2){-1.5, -1.2}; /* negative, with the largest sum */
     c->g = make_random_points(MAX_NODES, 900);
     memcpy(c->g_before, c->g, sizeof c->g_before);
     if (searches)
@@ -528,7 +528,7 @@ int main(int argc, char **argv)
         FAIL(1, "not enough memory\n");
     for (int t = 0; t < CHECKS; t++) {
         unsigned missing = tasks[t].needed_tasks & failed;
-        if (missing) { /* the lowest bit is the first task */
+        if (missing) { /* the lowest bit is that of the first task */
             shared->case_name[0] = '\0';
             report("not checked: it calls %s, which is not right",
                    tasks[__builtin_ctz(missing)].name);

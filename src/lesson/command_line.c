@@ -17,12 +17,12 @@ typedef struct Word {
     const OptionRow *row; /* option; NULL: the word is a scene */
     const char *text;     /* value, or name of the scene */
     const char *list;     /* list of values that contains the text, or NULL */
-    char list_item[64];   /* copy of the text, if it is part of a list */
+    char list_item[64];   /* copy of the text, if the text is part of `list` */
 } Word;
 
 enum { MAX_WORDS = 256 };
 
-/* A line while it is read. */
+/* A command line that is being read. */
 typedef struct Line {
     Options *options; /* out */
     Message message;  /* out, the first mistake */
@@ -141,7 +141,7 @@ static Status apply_word(const Line *line, const Word *word)
     }
 }
 
-/* Checks that the scene has what the option is about. */
+/* Checks that the scene has what the option needs. */
 static Status check_scene(const Options *options, const OptionRow *row,
                           Message message)
 {
@@ -297,7 +297,8 @@ static Status refuse_scene(const Line *line, const Word *word)
     snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
     if (option_find(name))
         snprintf(hint.text, sizeof hint.text, "; did you mean --%s?", text);
-    else if (strncmp(text, "\u2013", 2) == 0) /* U+2000 to U+203F */
+    else if (strncmp(text, "\u2013", 2) ==
+             0) /* dashes of an editor, U+2000 to U+203F */
         hint = (Phrase){"; an option begins with two signs '-'"};
     else if (!hint.text[0])
         hint = hint_at_split_value(word > line->word ? word - 1 : NULL, text);

@@ -126,8 +126,7 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
     "mean"
 
 /* Options, and values of options, that an earlier version had; "": the whole
- * option.  A row stays for one release, so that users learn what to use; the
- * last row takes the table with it. */
+ * option.  A row stays for one release, so that users learn what to use. */
 static const struct Removed {
     const char *option, *value;
     const char *replacement; /* end of a message: what to use now */

@@ -36,7 +36,8 @@ Status lecture_make_options(const LecturePage *page, Options *options,
 {
     Status status = options_parse_line(page->line, options, message);
     const char *pin = strstr(page->line, "--pin ");
-    if (pin) /* the last option, in text that outlives the call */
+    if (pin) /* options->pin must point into the page's text, where --pin is
+                last */
         options->pin = pin + strlen("--pin ");
     lecture_apply_page(page, options);
     options->flips = page->flips;

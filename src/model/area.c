@@ -12,7 +12,7 @@ void area_expand_along(const double f[4], double unit, const double P[4],
     *J2 = unit * cross(P, P + 2);
 }
 
-/* Solves most + alpha J1 + alpha^2 J2 = 0. */
+/* The alpha is the smallest positive root of most + alpha J1 + alpha^2 J2. */
 double area_max_step(const double f[4], double unit, double most,
                      const double P[4])
 {

@@ -47,7 +47,7 @@ double area_max_step(const double f[4], double unit, double most,
  * a = f+/|f+| and b = f-/|f-| to itself, with the matrix Q.  The other two
  * eigenvectors are across_a in the space of f+ and across_b in that of f-. */
 typedef struct AreaHessian {
-    double a[4], b[4], across_a[4], across_b[4]; /* length 1 */
+    double a[4], b[4], across_a[4], across_b[4]; /* unit vectors */
     double Q[3];                                 /* Q_aa, Q_ab, Q_bb */
     double on_plus, on_minus; /* eigenvalues of across_a and across_b */
 } AreaHessian;

@@ -20,8 +20,8 @@ double barrier_curvature(double s)
     return s < 1 ? (1 + s) / (s * s) : 0;
 }
 
-/* With r = z/(2 + z) log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z is
- * -z r. */
+/* With r = z/(2 + z): log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z is -z
+ * r. */
 double log1p_minus(double z)
 {
     if (!(fabs(z) < 0.25))
@@ -33,8 +33,8 @@ double log1p_minus(double z)
     return -z * r + 2 * r * q * series;
 }
 
-/* Inside the barrier, out of it, into it, and outside all the time.  Every
- * term is >= 0. */
+/* The four cases: s and s + t are inside the barrier, the step leaves the
+ * barrier, the step enters it, or both are outside.  Every summand is >= 0. */
 double barrier_taylor_remainder(double s, double t)
 {
     double end = s + t;

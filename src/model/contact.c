@@ -61,7 +61,7 @@ static const Barrier *contact_barrier(const EvalPoint *at)
     return &((const Contact *)at->term->data)->barrier;
 }
 
-/* Obstacle by obstacle, node by node; s is d. */
+/* Pairs are numbered obstacle by obstacle, in each by node. */
 static int contact_count(const EvalPoint *at)
 {
     const Contact *contact = at->term->data;
@@ -144,8 +144,7 @@ static bool contact_hessian(const EvalPoint *at, const Element *element,
     double along = barrier->c / (barrier->d_hat * barrier->d_hat) *
                    barrier_curvature(element->s / barrier->d_hat);
     double across = -contact_normal_force(barrier, element->s) / element->r;
-    bool changed =
-        across < 0 && projects_blocks(projection); /* a wall's is 0 */
+    bool changed = across < 0 && projects_blocks(projection); /* 0 for a wall */
     if (changed)
         across = project_eigenvalue(projection, across);
     H[0][0] = at->weight * (along * n[0] * n[0] + across * n[1] * n[1]);
@@ -154,9 +153,10 @@ static bool contact_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-/* For a ball |D + alpha P| = r - F d is the quadratic equation
- * a alpha^2 + 2 b alpha + c0 = 0.  The smaller root is computed without
- * cancellation. */
+/* Returns the alpha at which the gap d has lost the part F.  For a ball, with D
+ * from the centre to the node, |D + alpha P| = r - F d is the quadratic
+ * equation a alpha^2 + 2 b alpha + c0 = 0.  The smaller root is computed
+ * without cancellation. */
 static double contact_max_step(const EvalPoint *at, const Element *element,
                                const double P[4])
 {
@@ -173,8 +173,9 @@ static double contact_max_step(const EvalPoint *at, const Element *element,
     return discriminant > 0 ? c0 / (-b + sqrt(discriminant)) : INFINITY;
 }
 
-/* Along P the distance to the centre of a ball changes by pn + k.  The motion
- * across n contributes k = sqrt((r + pn)^2 + pt^2) - (r + pn). */
+/* Along P the distance to the centre of a ball changes by pn + k: pn is the
+ * part of P along n, and the part pt across n contributes k = sqrt((r + pn)^2 +
+ * pt^2) - (r + pn). */
 static double contact_line_remainder(const EvalPoint *at,
                                      const Element *element, const double P[4],
                                      double alpha)

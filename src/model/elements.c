@@ -14,8 +14,8 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
         most = fabs(p[i]) > most ? fabs(p[i]) : most;
     if (kind->prepare)
         kind->prepare(at, p, alpha);
-    /* a changes by alpha |sum w_k p_k|, with sum |w_k| <= 2 and |p_k| at
-     * most 1.5 times its larger coordinate. */
+    /* The change of a is alpha |sum w_k p_k|: sum |w_k| is at most 2, and |p_k|
+     * at most 1.5 times its larger coordinate. */
     double way = 3 * alpha * most;
     return (ElementIterator){at, kind, way, -1, kind->count(at), {0}};
 }

@@ -42,9 +42,11 @@ static double taylor_remainder_on_side(double y, double t, double e)
         return taylor_remainder_on_piece(y, t, z, e);
     if (y > e && z > e)
         return 0;
-    if (y > e) /* into [0, e]: from y to e, f0 is linear and adds 0 */
+    if (y > e) /* The step enters [0, e]: f0 is linear from y to e, so only the
+                  rest counts */
         return taylor_remainder_on_piece(e, z - e, z, e);
-    /* out of [0, e]: beyond e the slope is 1, at y it is 1 - missing^2 */
+    /* The step leaves [0, e]: the slope is 1 - missing^2 at y, and 1 beyond e
+     */
     double missing = 1 - y / e;
     return taylor_remainder_on_piece(y, e - y, e, e) +
            missing * missing * (z - e);
@@ -69,7 +71,8 @@ static double friction_taylor_remainder(double y, double t, double e)
 
 /* ---- the term ------------------------------------------------------------ */
 
-/* Returns t.(a, b), where a and b are those of displacements or a direction. */
+/* Returns the component along t of vectors a and b, which are those of
+ * displacements or of a direction. */
 static double tangential_component(const Element *row, const double vectors[4])
 {
     double sum = 0;
@@ -85,7 +88,8 @@ static double compute_slip(const SlidingContact *contact, const double *u)
     return tangential_component(&contact->element, vectors) - contact->travel;
 }
 
-/* Returns the point for the contact term whose elements have this friction. */
+/* Returns the evaluation point for the contact term whose elements have this
+ * friction. */
 static EvalPoint select_contact_term(const EvalPoint *at)
 {
     bool obstacles = at->term->kind == &friction_energy;
@@ -155,7 +159,8 @@ static int slip_count(const EvalPoint *at)
     return friction_of(at)->contacts;
 }
 
-/* s is the slip y.  Outside a step (u NULL) friction has no energy. */
+/* Element i is contact i, with the slip y as s.  Outside a step (u NULL)
+ * friction has no energy. */
 static bool slip_get_element(const EvalPoint *at, int i, double way,
                              Element *element)
 {

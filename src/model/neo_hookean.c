@@ -56,8 +56,8 @@ static double compute_volume_energy(double J)
     return J > 0.5 ? -log1p_minus(J - 1) : J - 1 - math_log(J);
 }
 
-/* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2) follows from
- * |F|^2 = 2 J + 2 |F-|^2.  All summands are positive, so none cancel. */
+/* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2) follows from |F|^2 =
+ * 2 J + 2 |F-|^2.  Every summand is positive, so none cancel. */
 static double neo_hookean_value(const EvalPoint *at, const Element *element)
 {
     const NeoHookean *data = at->term->data;
@@ -78,7 +78,7 @@ static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
     *on_minus = 2 * data->mu - *on_plus;
 }
 
-/* dW/dF = on_plus F+ + on_minus F-.  Both summands are 0 where the stress is 0,
+/* dW/dF = on_plus F+ + on_minus F-.  The summands are 0 where the stress is 0,
  * so rounding is proportional to the stress.  In mu F - mu F^-T rounding would
  * be proportional to mu, however small the difference. */
 static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
@@ -154,8 +154,8 @@ static double neo_hookean_max_step(const EvalPoint *at, const Element *element,
                          ELEMENT_LIMIT * element->s, P);
 }
 
-/* The bound at F = I, where the Hessian in F is
- * mu (I - K) + (lambda + mu) (K f)(K f)^T. */
+/* Bounds the curvature at F = I, where the Hessian in F is mu (I - K) + (lambda
+ * + mu) (K f)(K f)^T. */
 static double neo_hookean_curvature_bound(const EvalPoint *at)
 {
     const NeoHookean *data = at->term->data;

@@ -51,7 +51,7 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
 
 /* ---- the term -------------------------------------------------------- */
 
-/* Returns V of spring s without damping. */
+/* Returns the law V of spring s without damping. */
 static inline FlowLaw make_flow_law(const Plasticity *data, int s)
 {
     double H = data->hardening, flow = 1 / (1 + H);
@@ -72,7 +72,7 @@ FlowLaw plasticity_get_law(const System *system, int s)
 typedef struct FlowSpring {
     const int *e;
     double k, l2;
-    double d[2], d2; /* m, x_i - x_j; m^2 */
+    double d[2], d2; /* m, x_i - x_j, and m^2, its square */
     double strain;   /* elastic strain, E - ep */
     FlowLaw law;
 } FlowSpring;

@@ -65,7 +65,7 @@ static double pull_curvature_bound(const EvalPoint *at)
     return fabs(pull->k);
 }
 
-/* The functions of both terms. */
+/* The TermKind of both terms begins with these functions. */
 #define PULL                                                                   \
     .value = pull_value, .gradient = pull_gradient, .entries = pull_entries,   \
     .pattern = pull_pattern, .hessian = pull_hessian,                          \

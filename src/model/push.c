@@ -5,16 +5,17 @@
 #include "base/mathematics.h"
 #include "model/contact.h"
 
-/* The distance to the hand falls by the factor e in TIME s, by at most the part
- * MOST in a step.  The speed is SLOW to FAST sides of the body a second. */
+/* The distance to the hand falls by the factor e in TIME s, but by at most the
+ * part MOST in a step.  The speed is from SLOW to FAST, in sides of the body a
+ * second. */
 static const double TIME = 0.06, MOST = 0.5, SLOW = 0.1, FAST = 5;
 
 /* The limit of the way in a step is between SHORTEST and LONGEST sides,
  * whatever h is. */
 static const double LONGEST = 0.25, SHORTEST = 0.005;
 
-/* The hand is as strong as the barrier at this part of its width, where a wall
- * has long pressed the springs flat. */
+/* The hand's force is that of the barrier at this part of its width, which
+ * presses the springs flat. */
 static const double STRENGTH = 0.1;
 
 /* The obstacle keeps this part of the barrier's width from pinned nodes. */
@@ -22,7 +23,8 @@ static const double KEPT = 0.3;
 
 enum { HALVINGS = 8, MAX_PARTS = 16 };
 
-/* Writes the way of the obstacle in a step of h seconds if nothing stops it. */
+/* Writes the displacement of the obstacle in a step of h seconds if nothing
+ * stops it. */
 static void plan_obstacle_way(const Push *push, const double *o, double h,
                               double way[2])
 {
@@ -79,8 +81,8 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
            square_mesh_find_cell(shape, x, obstacle->o, 0, shape->cells) >= 0;
 }
 
-/* Returns the part of the way before the first place without room, by steps
- * that are halved there. */
+/* Returns the part of the way up to the first place without room, found by
+ * steps that are halved there. */
 static double find_free_part(const Contact *contact, const System *system,
                              const double *x, const double way[2])
 {

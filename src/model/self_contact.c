@@ -172,7 +172,8 @@ static bool is_below_rounding(const SelfContact *self, const Element *element,
     return !(element->s > least * least);
 }
 
-/* Point i with its next near edge.  The boxes of the boundary include `way`. */
+/* Element i is point i with its next near edge.  The boxes of the boundary
+ * allow for the motion, so `way` is not used. */
 static bool pair_get_element(const EvalPoint *at, int i, double way,
                              Element *element)
 {
@@ -236,7 +237,7 @@ static bool pair_hessian(const EvalPoint *at, const Element *element,
     double F = pair_force(self, S), length = sqrt(dot2(e, e));
     double bend = self->c / (self->d_hat * self->d_hat) *
                   (4 * S * barrier_curvature(S) + 2 * barrier_slope(S));
-    double sign = copysign(1, cross(e, n)); /* t = n turned back, along e */
+    double sign = copysign(1, cross(e, n)); /* t is along e */
     const double t[2] = {sign * n[1], -sign * n[0]};
     bool beside = r > 0 && r < 1;
     double Q[3] = {beside ? 0 : -F / d, beside ? F / length : 0,
@@ -253,13 +254,13 @@ static bool pair_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-/* A quadratic along a line with the value N + n1 + n2 at the end. */
+/* A quadratic along a line, by its coefficients. */
 typedef struct Quadratic {
-    double degree0, degree1, degree2; /* parts of degree 0, 1 and 2 */
+    double degree0, degree1, degree2;
 } Quadratic;
 
-/* The change of N^2/l along the line, where a negative N counts as 0 unless
- * `always`.  Adds the part of degree 1 to *first and returns the rest. */
+/* Returns the change of top^2/l along the line, less its part of degree 1,
+ * which is added to *first.  A negative top counts as 0 unless `always`. */
 static double square_ratio_change(Quadratic top, Quadratic l, bool always,
                                   double *first)
 {
@@ -297,7 +298,7 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
                   square_ratio_change(low, l, false, &first) +
                   square_ratio_change(high, l, false, &first);
     double S = element->s, slope = barrier_slope(S);
-    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* W is 0 at the end */
+    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* p leaves the barrier */
         return self->c * (-barrier_value(S) - slope * first / d_hat2);
     return self->c * (slope * rest / d_hat2 +
                       barrier_taylor_remainder(S, (first + rest) / d_hat2));
@@ -330,7 +331,7 @@ static double pair_max_step(const EvalPoint *at, const Element *element,
     return ELEMENT_LIMIT * first;
 }
 
-/* The limit is mu F, the slip is w_t. */
+/* The contact slides by w_t; t contains its weights. */
 static double pair_friction_limit(const EvalPoint *at, const Element *element,
                                   double t[4], double *speed)
 {

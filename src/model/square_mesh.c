@@ -170,7 +170,8 @@ static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
     return e;
 }
 
-/* The order is that of the slide: horizontal, vertical, diagonals by cell. */
+/* The springs have the order of the slide: horizontal, vertical, diagonals by
+ * cell. */
 void square_mesh_list_springs(const SquareMesh *shape, int *e)
 {
     int each = shape->nodes / shape->bodies, spring[6], c = 0;
@@ -196,7 +197,7 @@ typedef struct GridPart {
 enum { GRID_LEAF = 9 };
 
 /* Nested dissection (George 1973).  Numbers the nodes of a part from `next` on:
- * both halves first, then the line between them, which cuts the longer side.
+ * first the two halves, then the line between them, which cuts the longer side.
  * Returns the next free number.
  *   order  out, place of each node of this body */
 static int dissect_grid(const SquareMesh *shape, GridPart part, int next,

@@ -80,7 +80,7 @@ Status create_tear(Simulation *simulation)
     double rest[2];
     for (int i = 0; i < mesh->nodes && !status; i++) {
         square_mesh_rest_position(mesh, i, rest);
-        if (system->pinned[i]) /* pins that are set later stand still */
+        if (system->pinned[i]) /* pins that a user sets later stand still */
             system->pin_v[2 * i] = copysign(0.2 * mesh->side, rest[0]);
     }
     if (!status)
@@ -111,7 +111,7 @@ Status create_bend(Simulation *simulation)
         return status;
     double a = mesh->spacing, half = 0.5 * mesh->rows * a;
     simulation->system.m[mesh->nodes] = 60;
-    if (!simulation->options.state) /* a table of states has the velocity */
+    if (!simulation->options.state) /* --state would give the velocity */
         simulation->run[0].v[2 * mesh->nodes + 1] = -3;
     cut_springs(simulation, 0.5 * a, -2 * half, -half + 0.6 * a);
     return STATUS_OK;

@@ -6,18 +6,22 @@
 
 #include "run/body.h"
 
-/* Three blocks on slopes, with 0.5, 0.9 and 1.1 times the friction of the
- * options.  With the friction of the options a block just stays at rest. */
+/* Creates `slope`: three blocks on slopes, with 0.5, 0.9 and 1.1 times the
+ * friction of the options.  With the friction of the options a block just stays
+ * at rest. */
 Status create_slope(Simulation *simulation);
 
-/* A ceiling comes down on the square and goes up again. */
+/* Returns the ceiling of `squeeze`, which comes down on the square and goes up
+ * again. */
 Obstacle make_squeeze_ceiling(const Options *options);
 Status create_squeeze(Simulation *simulation);
 
-/* Two sides are pulled apart; a slit in the middle opens and runs. */
+/* Creates `tear`: two sides are pulled apart; a slit in the middle opens and
+ * runs. */
 Status create_tear(Simulation *simulation);
 
-/* A beam with a notch lies on two balls; a heavy third ball falls on it. */
+/* Returns the heavy third ball of `bend`, which falls on a beam with a notch
+ * that lies on two balls. */
 Obstacle make_bend_ball(const Options *options);
 Status create_bend(Simulation *simulation);
 

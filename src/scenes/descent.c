@@ -14,7 +14,7 @@ enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
 static const double POINT_MASS = 1;            /* kg */
 static const double LINE_STIFFNESS = 10;       /* J/m^2 */
 static const double LINE_LENGTH = 1;           /* m, at rest */
-static const double LINE_TARGET = 2;           /* m, x_tilde */
+static const double LINE_TARGET = 2;           /* m, x_tilde of node 0 */
 static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
 static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
 
@@ -60,8 +60,8 @@ static LocalModel evaluate_tangent_energy(const Simulation *simulation,
     return (LocalModel){.value = E, .g = {g}, .H = {H}};
 }
 
-/* Returns value and derivatives of parts of E for a time step h, in landscape
- * and dial, or of the function of one unknown.
+/* Returns parts of E with their derivatives, for a time step h, in landscape
+ * and dial; in overshoot and tangent the function of one unknown.
  *   parts  enum LandscapePart */
 static LocalModel evaluate_landscape(const Simulation *simulation,
                                      unsigned parts, double h,
@@ -140,7 +140,7 @@ static double newton_direction(const LocalModel *E, bool scalar, double p[2])
     }
     double determinant = H[0] * H[2] - H[1] * H[1], trace = H[0] + H[2];
     if (fabs(determinant) <= 1e-14 * trace * trace)
-        determinant = NAN; /* too small for an inverse */
+        determinant = NAN; /* H has no inverse */
     p[0] = (H[1] * g[1] - H[2] * g[0]) / determinant;
     p[1] = (H[1] * g[0] - H[0] * g[1]) / determinant;
     return g[0] * p[0] + g[1] * p[1];
@@ -236,7 +236,7 @@ void descent_find_direction(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     choose_stopping_test(simulation);
-    descent->start_value = INFINITY; /* not known yet */
+    descent->start_value = INFINITY; /* E at the start is computed below */
     Status status = evaluate_iterate(simulation, STATUS_RUNNING);
     simulation->status = simulation->done ? status : STATUS_OK;
     if (!descent->scalar)

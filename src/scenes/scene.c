@@ -5,7 +5,7 @@
 #include "scenes/contact_scenes.h"
 #include "scenes/small_scenes.h"
 
-/* Picture and parts of every scene with a body. */
+/* Picture and needs of every scene with a body. */
 #define SQUARE PICTURE_SQUARE, NEEDS_SQUARE
 
 /* Options of scenes in which a body of springs falls. */

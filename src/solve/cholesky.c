@@ -14,11 +14,11 @@ struct Cholesky {
     cholmod_common common;
     cholmod_factor *L; /* symbolic at first, then numeric */
     CholeskyKind kind;
-    const Sparse *matrix; /* the caller's */
-    double *b, *r;        /* [n] right-hand side; residual or workspace */
+    const Sparse *matrix; /* A, owned by the caller */
+    double *b, *r; /* [n] copy of the right-hand side; residual or workspace */
 };
 
-/* CHOLMOD's name for what went wrong, as ours. */
+/* Returns CHOLMOD's status as a Status. */
 static Status translate_cholmod_status(const cholmod_common *common)
 {
     if (common->status == CHOLMOD_OUT_OF_MEMORY)
@@ -28,7 +28,8 @@ static Status translate_cholmod_status(const cholmod_common *common)
     return common->status == CHOLMOD_OK ? STATUS_OK : STATUS_INVALID_INPUT;
 }
 
-/* The compressed columns of A as CHOLMOD wants to see them. */
+/* Returns the compressed columns of A as a matrix of CHOLMOD, without a copy.
+ */
 static cholmod_sparse sparse_view(const Sparse *A)
 {
     return (cholmod_sparse){
@@ -113,7 +114,8 @@ Status cholesky_factor(Cholesky *cholesky)
     if (!all_finite(A.x, A.nzmax))
         return STATUS_NOT_FINITE;
     common->status = CHOLMOD_OK;
-    if (cholesky->kind == CHOLESKY_INDEFINITE) /* pivots nearer to 0 go there */
+    /* Pivots nearer to 0 than dbound become dbound, with their sign. */
+    if (cholesky->kind == CHOLESKY_INDEFINITE)
         common->dbound = 1e-10 * largest_magnitude(A.x, A.nzmax);
     cholmod_factorize(&A, cholesky->L, common);
     /* cholmod_factorize returns TRUE for indefinite matrices too. */
@@ -160,9 +162,9 @@ static void solve_by_columns(const cholmod_factor *L, double *y)
     }
 }
 
-/* Without pivoting an indefinite factor can be inaccurate, and pivots next to
- * zero were moved away from it.  Iterative refinement with the matrix itself,
- * x += (L D L^T)^-1 (b - A x), gives the accuracy back. */
+/* Without pivoting an indefinite factor can be inaccurate, and pivots near 0
+ * were replaced.  Iterative refinement with the matrix itself, x +=
+ * (L D L^T)^-1 (b - A x), restores the accuracy. */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 {
     enum { MAX_SOLVES = 21 };

@@ -6,12 +6,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Iterations for which projection on demand clamps after it had to. */
+/* Number of iterations in which projection on demand clamps, once a Hessian had
+ * no Cholesky factor. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
 
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry.  A shift
- * changes few directions, so conjugate gradients need few solves to reduce the
- * squared remainder to ALL_DIGITS of the first. */
+ * changes few directions, so conjugate gradients need few solves until r.z has
+ * fallen to ALL_DIGITS of its first value. */
 enum { SHIFT_TRIES = 6, CONJUGATE_MAX_SOLVES = 59 };
 static const double ALL_DIGITS = 1e-28;
 
@@ -26,12 +27,13 @@ void direction_free_matrix(SearchDirection *search)
     search->slot = NULL;
 }
 
-/* A = the Hessian at x.  Pattern and symbolic analysis: once, and again only
- * when the system's pattern or the kind of factor is another, or x wants more.
- * Projection NONE: for a factor L D L^T, which allows negative eigenvalues;
- * ON_DEMAND: as it is, for one that does not.  Returns OK, TOO_LARGE,
- * OUT_OF_MEMORY.
- *   projected  out, blocks projected */
+/* Assembles A, the Hessian at x.  The pattern and the symbolic analysis are
+ * made again only if the system's pattern or the kind of factor has changed, or
+ * if x needs new entries.  With NONE the factor is L D L^T, which allows
+ * negative eigenvalues.  With ON_DEMAND it is L L^T, of a Hessian that is not
+ * projected.
+ *   projected  out, number of blocks projected
+ * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 static Status assemble_hessian(Newton *newton, Projection projection,
                                int *projected)
 {
@@ -60,7 +62,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     return status;
 }
 
-/* The largest entry of the diagonal, whose slots are the first 2n. */
+/* Returns the largest entry of A's diagonal, whose slots are the first 2n. */
 static double largest_diagonal(const Newton *newton)
 {
     const SearchDirection *search = &newton->search;
@@ -93,8 +95,8 @@ static Status factor_hessian(Newton *newton)
 }
 
 /* Assembles and factors the Hessian at x.  Projection on demand first tries the
- * unprojected Hessian; after a failure it clamps, also in the next
- * CLAMPS_AFTER_FAILURE iterations. */
+ * unprojected Hessian.  After a failure it clamps, now and in the next
+ * iterations (CLAMPS_AFTER_FAILURE). */
 static Status assemble_and_factor(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
@@ -119,7 +121,7 @@ static Status assemble_and_factor(Newton *newton)
     return assemble_and_factor(newton);
 }
 
-/* z = (H + shift I)^-1 r, both in the order of the nodes.
+/* Computes z = (H + shift I)^-1 r; r and z are in the order of the nodes.
  * Returns OK, NOT_FINITE, SINGULAR. */
 static Status apply_factor(Newton *newton, const double *r, double *z)
 {
@@ -161,8 +163,8 @@ typedef struct ConjugateGradients {
     double first_rz;  /* r.z before the first step */
 } ConjugateGradients;
 
-/* A step along the next direction, for a known z.  Returns false at the end:
- * the residual is small enough, or E bends down along d. */
+/* Makes a step of conjugate gradients, for a known z.  Returns false at the
+ * end: r.z is small enough, or the curvature along d is not positive. */
 static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
 {
     const SearchDirection *search = &newton->search;
@@ -181,7 +183,7 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
     double curvature = dot(n, d, q);
     double alpha = state->rz / curvature;
     if (!(curvature > 0) || !(alpha > 0) || !isfinite(alpha))
-        return false; /* E bends down, or rounding hides how it bends */
+        return false; /* E is not convex along d, or rounded */
     for (int i = 0; i < n; i++) {
         p[i] += alpha * d[i];
         r[i] -= alpha * q[i];
@@ -189,8 +191,9 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
     return true;
 }
 
-/* p = -H^-1 g (slide: search_dir) with the last factor.  Where that has a
- * shift, conjugate gradients improve p.  Returns OK, NOT_FINITE, SINGULAR. */
+/* Computes p = -H^-1 g (slide: search_dir) with the last factor.  If the factor
+ * has a shift, conjugate gradients improve p.  Returns OK, NOT_FINITE,
+ * SINGULAR. */
 static Status solve_with_factor(Newton *newton)
 {
     const Iterate *at = &newton->at;
@@ -204,7 +207,7 @@ static Status solve_with_factor(Newton *newton)
         return status;
     ConjugateGradients state = {search->projection, .tolerance = ALL_DIGITS};
     for (int i = 0; i < n; i++) {
-        search->z[i] = at->p[i]; /* factor^-1 (-g) already */
+        search->z[i] = at->p[i]; /* p is factor^-1 (-g), the first z */
         at->p[i] = search->d[i] = 0;
         search->r[i] = -at->g[i];
     }
@@ -215,13 +218,13 @@ static Status solve_with_factor(Newton *newton)
     return status;
 }
 
-/* How well p solves H p = -g, H applied term by term.
- *   error  out, kg^(1/2) m, a bound of |p - exact p|_M: |g + H p|_(M^-1) where
- *          H - M is positive semi-definite; else twice the correction that the
- *          factor proposes, which must be the factor of H itself.  A factor of
- *          an earlier Hessian may be far stiffer, where a contact has opened:
- *          projection on demand is then judged as if it projected here.
- * Returns as solve_with_factor. */
+/* Bounds the error of p, with H applied term by term.
+ *   error  out, kg^(1/2) m, bound of |p - exact p|_M.  Where H - M is positive
+ *          semi-definite: |g + H p|_(M^-1).  Else: twice the correction by the
+ *          factor, which must be the factor of H itself.  A factor of an
+ *          earlier Hessian may be far stiffer, where a contact has opened; with
+ *          projection on demand the bound is then that of the clamped H.
+ * Returns OK, NOT_FINITE, SINGULAR. */
 static Status direction_error_bound(Newton *newton, double *error)
 {
     const SearchDirection *search = &newton->search;
@@ -246,8 +249,8 @@ static Status direction_error_bound(Newton *newton, double *error)
 
 /* Makes linear momentum exact.  Internal forces cannot move the centre of mass,
  * so sum m (u + p) = sum m u_tilde, as H p = -g summed over all nodes says.
- * Rounding of a stiff H hides this sum; the same shift of all nodes of p
- * corrects it. */
+ * Rounding of a stiff H hides this sum; an equal shift of all nodes of p
+ * corrects the sum. */
 static void correct_momentum(Newton *newton)
 {
     const System *system = newton->system;
@@ -263,8 +266,8 @@ static void correct_momentum(Newton *newton)
         p[i] += missing[i % 2] / mass;
 }
 
-/* p = -H^-1 g where each coordinate stands alone in all terms, such as masses
- * without springs: H is diagonal, and H times ones is its diagonal. */
+/* Computes p = -H^-1 g where each coordinate stands alone in all terms, such as
+ * masses without springs: H is diagonal, and H times ones is its diagonal. */
 static void solve_diagonal(Newton *newton)
 {
     const Iterate *at = &newton->at;
@@ -277,8 +280,8 @@ static void solve_diagonal(Newton *newton)
         at->p[i] = at->g[i] == 0 ? 0 : -at->g[i] / H[i];
 }
 
-/* max over nodes of |p_x| + |p_y|, m; NaN where p has one.  (numpy's norm(p,
- * inf) of an array of shape (n, 2) is the largest row sum.) */
+/* Returns max over nodes of |p_x| + |p_y|, m; NaN if p has a NaN.  (numpy's
+ * norm(p, inf) of an array of shape (n, 2) is the largest row sum.) */
 static double largest_row_sum(int nodes, const double *p)
 {
     double largest = 0;
@@ -300,11 +303,11 @@ static const double NEGLIGIBLE = 1e-6;
  * p. */
 static const double NEARBY = 0.03, CONVERGES = 0.1, REFINED = 0.01;
 
-/* Near the end the Hessian hardly changes.  Then the factor of an iteration
- * before, and iterative refinement with the Hessian itself,
+/* Computes p with the factor of an earlier iteration, as the Hessian hardly
+ * changes near the end.  Iterative refinement with the present Hessian,
  *     p += factor^-1 (-g - H p),
- * give p without another factor.
- * Returns false where the corrections do not converge, or p is not downhill. */
+ * makes p accurate.  Returns false if the corrections do not converge, or p is
+ * not downhill. */
 static bool refine_with_last_factor(Newton *newton)
 {
     const SearchDirection *search = &newton->search;
@@ -335,8 +338,8 @@ static bool refine_with_last_factor(Newton *newton)
     return dot(n, g, p) <= 0;
 }
 
-/* m, bound of |p_x| + |p_y| of a direction with this |p|_M: each node has
- * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
+/* Returns an upper bound, m, of |p_x| + |p_y| of a direction with this |p|_M:
+ * each node has m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
 static double bound_largest_movement(const Newton *newton, double norm)
 {
     return sqrt(2 / newton->rounding.lightest) * norm;
@@ -383,8 +386,8 @@ double negligible_direction_size(const Newton *newton)
 }
 
 /* The projected Hessian is M plus something positive semi-definite, so
- * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  Projection on demand is
- * judged as if it projected here. */
+ * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  With projection on demand
+ * this bounds the p of the clamped Hessian. */
 bool next_direction_is_negligible(Newton *newton)
 {
     if (newton->settings.projection == PROJECTION_NONE)
@@ -395,7 +398,8 @@ bool next_direction_is_negligible(Newton *newton)
            negligible_direction_size(newton);
 }
 
-/* Whether the last factor is of a Hessian nearby, in the same minimisation. */
+/* Whether the last factor can serve again, since it was computed in this
+ * minimisation, nearby and without a shift. */
 static bool factor_is_near(const Newton *newton)
 {
     const SearchDirection *search = &newton->search;
@@ -404,7 +408,7 @@ static bool factor_is_near(const Newton *newton)
            search->way_since_factor <= NEARBY * newton->rounding.shortest;
 }
 
-/* p with a new factor, and its residual. */
+/* Computes p with a new factor, and the residual of p. */
 static Status solve_with_new_factor(Newton *newton)
 {
     Status status = assemble_and_factor(newton);

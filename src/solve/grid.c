@@ -10,14 +10,14 @@
 
 #include "model/spring_law.h"
 
-/* Bytes of a cache line, of the pages of memory, and how many lines one array
- * starts further than the one before. */
+/* Bytes of a cache line and of memory pages; STAGGER is the number of cache
+ * lines left free between two arrays. */
 enum { LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
 
 Rows lay_out_rows(int nodes)
 {
     int even = (nodes + 1) / 2;
-    int half = (even + PADDED) / PADDED * PADDED; /* has room for a ghost */
+    int half = (even + PADDED) / PADDED * PADDED; /* with room for a ghost */
     return (Rows){.nodes = nodes,
                   .count = {even, nodes / 2},
                   .half = half,
@@ -43,7 +43,7 @@ Status memory_create(Memory *memory)
         return STATUS_OUT_OF_MEMORY;
 #ifdef MADV_HUGEPAGE
     if (page == LARGE_PAGE)
-        madvise(memory->base, bytes, MADV_HUGEPAGE); /* may be refused */
+        madvise(memory->base, bytes, MADV_HUGEPAGE); /* may fail */
 #endif
     memset(memory->base, 0, bytes);
     return STATUS_OK;
@@ -70,8 +70,8 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
     grid->spring_shift = memory_take_piece(memory, shifts);
 }
 
-/* Stores equal rows that follow each other once, without gaps.  shift [nodes]
- * out: distance from a row's place to its stored numbers. */
+/* Removes rows that equal the row before them.
+ *   shift  [nodes] out, distance from a row's place to its stored numbers */
 static void share_rows(const Rows *rows, double *const *array, int arrays,
                        int *shift)
 {
@@ -124,8 +124,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         const int *e = system->e + 2 * s;
         int a = e[0] < e[1] ? e[0] : e[1], b = e[0] < e[1] ? e[1] : e[0];
         int i = a / rows->nodes, q = node_place(rows, i, a % rows->nodes);
-        int kind = i == b / rows->nodes
-                       ? UP /* kind of springs that start at a */
+        int kind = i == b / rows->nodes   ? UP
                    : b - a == rows->nodes ? RIGHT
                    : b - a > rows->nodes  ? DIAGONAL
                                           : ANTIDIAGONAL;

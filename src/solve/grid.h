@@ -4,18 +4,19 @@
  *   E = |x - x_tilde|_M^2 / 2 + sum over springs of c/4 (|d|^2 - l2)^2,
  * d = x_i - x_j, c = 2 w k/l2 (spring_law.h).
  *
- * A row of nodes stands with its even columns first, then its odd ones.  So
- * the nodes of a row that are `even` or `odd` are contiguous, no two of them
- * share a spring, loops go through them several nodes at once, and the even
- * ones of even rows are a coarser grid.  Around the nodes are ghosts, whose
- * springs have stiffness 0.  A vector has two planes, all x and then all y;
- * outside the nodes it is 0.  Lengths and masses have units of the
- * grid, powers of two near those of a cell, which change no bit: its numbers
- * are about 1.
+ * A row stores its nodes in even columns first, then those in odd columns.  The
+ * nodes of a row that are `even` or `odd` are therefore contiguous, no two of
+ * them share a spring, loops go through them several nodes at once, and the
+ * even ones of even rows are a coarser grid.  Around the nodes are ghosts,
+ * whose springs have stiffness 0.  A vector has two planes, all x and then all
+ * y; outside the nodes it is 0.  Lengths and masses have units of the grid,
+ * powers of two near those of a cell, which change no bit: its numbers are
+ * about 1.
  *
  * Sums have one shape whatever the width of the registers: each of LANES
- * neighbours has a part of its own, these add up in a fixed order for each band
- * of rows, and the bands in theirs.  So the bits are the same everywhere.
+ * neighbours has its own partial sum, the partial sums of a band of rows are
+ * added in a fixed order, and then the bands are.  The bits are therefore the
+ * same everywhere.
  */
 #ifndef ELASTO_GRID_H
 #define ELASTO_GRID_H
@@ -29,32 +30,33 @@
  * (i+1, j+1), (i+1, j-1). */
 enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
 
-/* Nodes at once in double and in single precision. */
+/* Number of nodes that a loop handles at once, in double and in single
+ * precision. */
 enum { LANES = 8, WIDE_LANES = 16 };
 
-/* The nodes of half a row are padded to a multiple of PADDED, for whole
- * vectors; in a browser vectors are shorter. */
+/* Half a row is padded to a multiple of PADDED nodes, so that whole vectors
+ * fit; vectors are shorter in a browser. */
 #ifdef __wasm_simd128__
 enum { PADDED = LANES };
 #else
 enum { PADDED = WIDE_LANES };
 #endif
 
-/* Rows of a band. */
+/* Number of rows in a band. */
 enum { BAND = 8 };
 
-/* Where the numbers of nodes x nodes nodes stand. */
+/* Layout of a plane: where the number of each node is stored. */
 typedef struct Rows {
     int nodes;    /* number of nodes in a row, and of rows: n + 1 */
-    int count[2]; /* even and odd columns */
-    int half;     /* from a row's even columns to its odd ones */
-    int pitch;    /* from one row to the next */
-    int plane;    /* numbers of one component */
+    int count[2]; /* number of even and of odd columns */
+    int half;     /* distance from a row's even columns to its odd ones */
+    int pitch;    /* distance from one row to the next */
+    int plane;    /* length of a plane, with the ghosts */
 } Rows;
 
 Rows lay_out_rows(int nodes);
 
-/* Returns the place of node (i, j). */
+/* Returns the index of node (i, j) in a plane. */
 static inline int node_place(const Rows *rows, int i, int j)
 {
     return (i + 1) * rows->pitch + (j & 1) * rows->half + j / 2;
@@ -63,29 +65,29 @@ static inline int node_place(const Rows *rows, int i, int j)
 typedef struct Grid {
     Rows rows;
     int segments, bands;
-    double length, mass, energy; /* units of the grid: 1/m, 1/kg, 1/(J s^2) */
-    /* Rows with the same masses, or the same springs, share one place: masses
-     * of row i stand node_shift[i] further than its nodes, springs of row i
-     * spring_shift[i + 1] further. */
-    int *node_shift, *spring_shift; /* [nodes + 1] */
-    double *c[KINDS];               /* [plane] 0: no spring */
-    double *l2[KINDS];              /* [plane] */
-    double *m, *per_m;              /* [plane] per_m: 0 for pins */
-    double lightest;                /* smallest mass of a node that moves */
-    double *x, *x_tilde, *u_tilde;  /* [2 planes] */
-    double *away;                   /* [2 planes] x - x_tilde in the digits of
-                                       u; pins: 0 */
+    double length, mass, energy; /* grid units in a m, kg, J s^2 */
+    /* Equal rows of masses share their place, and so do equal rows of springs.
+     * The mass of the node with index q in row i is m[q + node_shift[i]]; the
+     * springs that start at the node have the index q + spring_shift[i + 1]. */
+    int *node_shift, *spring_shift; /* [nodes + 1] shifts by row */
+    double *c[KINDS];  /* [plane] 2 w k/l2 by kind of spring; 0: no spring */
+    double *l2[KINDS]; /* [plane] squared rest length */
+    double *m, *per_m; /* [plane] mass and 1/mass; per_m is 0 at pins */
+    double lightest;   /* smallest mass of a node that moves */
+    double *x, *x_tilde, *u_tilde; /* [2 planes] u_tilde is x_tilde - x_n */
+    double *away; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
 } Grid;
 
-/* Pieces of one block of memory, which is laid out twice: first to count, with
- * base NULL, then in earnest. */
+/* A block of memory for several arrays.  The layout is made twice: first with
+ * base NULL, to count the bytes, then to place the arrays. */
 typedef struct Memory {
     char *base;
     size_t used;
 } Memory;
 
-/* The next piece.  Arrays of one size would all stand in the same lines of the
- * cache, so each starts some lines further than the one before. */
+/* Returns the next piece of the block; NULL while bytes are counted.  Pieces of
+ * one size would all start in the same lines of the cache, so each starts some
+ * lines further than the one before. */
 void *memory_take_piece(Memory *memory, size_t bytes);
 
 /* Allocates zeroed memory for all pieces that memory_take_piece counted, in
@@ -93,32 +95,37 @@ void *memory_take_piece(Memory *memory, size_t bytes);
  * caller frees base. */
 Status memory_create(Memory *memory);
 
-/* Arrays for segments x segments cells, everything else 0. */
+/* Places the arrays of a grid of segments x segments cells, and sets all other
+ * members to 0. */
 void grid_lay_out(int segments, Memory *memory, Grid *grid);
 
-/* The power of two that makes a number about 1. */
+/* Returns the power of two that makes a number about 1. */
 double power_of_two_scale(double a);
 
-/* Pins, stiffnesses and lengths of the system; m [2n] kg, masses. */
+/* Copies pins, stiffnesses and rest lengths of the system, and the masses m
+ * [2n] kg, into the grid. */
 void grid_read_system(Grid *grid, const Iterate *at, const double *m);
 
-/* x and away, with u_tilde [2n] m. */
+/* Copies x and u of the iterate, and u_tilde [2n] m, into the grid. */
 void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde);
 
-/* at->u = u_tilde + away, but for pins, and at->x. */
+/* Writes u and x of the grid to the iterate. */
 void grid_write_state(const Grid *grid, Iterate *at);
 
 /* ---- loops over all nodes (grid_energy.c); vectors have [2 planes] ---- */
 
-/* g = grad E; returns |g|_(M^-1)^2.  At pins and outside g is anything. */
+/* Writes grad E to g and returns |g|_(M^-1)^2.  g has no meaning at pins and
+ * outside of the nodes. */
 double grid_gradient(const Grid *grid, double *g);
 
-/* |g + H p|_(M^-1)^2, H clamped to be positive semi-definite (psd.h).
+/* Returns |r|_(M^-1)^2 of the linear residual r = -g - H p, with H clamped to
+ * be positive semi-definite (psd.h).
  *   largest  out, max over nodes of |p_x| + |p_y| */
 double grid_linear_residual(const Grid *grid, const double *g, const double *p,
                             double *largest);
 
-/* E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4; q out. */
+/* Writes the coefficients q of E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3
+ * + q[3] a^4. */
 void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
                           double quartic[4]);
 
@@ -126,7 +133,7 @@ void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
  * E where no node is pinned.  Returns the change of E, which is at most 0. */
 double grid_correct_momentum(const Grid *grid);
 
-/* x += a p */
+/* Adds a p to x. */
 void grid_add_step(const Grid *grid, double a, const double *p);
 
 #endif

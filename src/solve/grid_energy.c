@@ -3,7 +3,7 @@
 
 #include "solve/grid_spring.h"
 
-/* How each loop begins: a copy of the grid stays in registers. */
+/* Begins a loop over bands, with a copy of the grid that stays in registers. */
 #define BANDS                                                                  \
     const Grid grid = *of;                                                     \
     const int plane = grid.rows.plane;                                         \
@@ -39,8 +39,8 @@ FAST double grid_gradient(const Grid *of, double *g)
     return total;
 }
 
-/* By how much more one end of a spring moves than the other. */
-#define ALONG_SPRING(to)                                                       \
+/* Declares the difference u of p between the ends of a spring. */
+#define P_DIFFERENCE(to)                                                       \
     Pair ux = PAIR(px, q) - PAIR(px, q + (to));                                \
     Pair uy = PAIR(py, q) - PAIR(py, q + (to))
 
@@ -61,7 +61,7 @@ FAST double grid_linear_residual(const Grid *of, const double *g,
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);          \
-        ALONG_SPRING(to);                                                      \
+        P_DIFFERENCE(to);                                                      \
         CLAMPED_TENSOR(s.s, s.d2 + 1e-300, iso, along);                        \
         along *= s.dx * ux + s.dy * uy;                                        \
         fx += s.c * (iso * ux + along * s.dx);                                 \
@@ -104,7 +104,7 @@ FAST void grid_line_polynomial(const Grid *of, const double *g, const double *p,
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);          \
-        ALONG_SPRING(to);                                                      \
+        P_DIFFERENCE(to);                                                      \
         spring_line_polynomial(s, ux, uy, &f1, &f2, &f3);                      \
         IN_ORDER(f1, f2);                                                      \
         IN_ORDER(f3, p2);                                                      \

@@ -1,16 +1,15 @@
-/* grid_loops.h - how loops go through a grid: some nodes at once, each with its
- * springs.  Plain loops over LANES nodes, which the compiler vectorises.
- */
+/* grid_loops.h - loops over the nodes of a grid, several nodes at once, and
+ * over the springs of each node. */
 #ifndef ELASTO_GRID_LOOPS_H
 #define ELASTO_GRID_LOOPS_H
 
-#include <stdint.h> /* any header of the library: says whether it is glibc */
+#include <stdint.h> /* defines __GLIBC__ if the library is glibc */
 
 #include "solve/grid.h"
 
-/* A loop that is compiled for several widths of registers, of which the
- * processor's is taken as the program starts.  Sums have one shape and products
- * are not contracted, so that they agree in every bit. */
+/* Marks a function that is compiled for several widths of registers; the
+ * program takes the version of its processor when it starts.  Sums have one
+ * shape and products are not contracted, so all versions agree in every bit. */
 #ifndef FAST
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__OPTIMIZE__) &&      \
     !defined(__clang__)
@@ -20,18 +19,17 @@
 #endif
 #endif
 
-/* A function that is a part of a FAST loop. */
+/* Marks a function that is compiled into the FAST function that calls it. */
 #define INLINE static inline __attribute__((always_inline))
 
-/* Nodes of one row that stand side by side, and where their neighbours and
- * their numbers are. */
+/* Nodes of one row that are contiguous in memory, with the distances to their
+ * neighbours and numbers. */
 typedef struct NodeRun {
-    int first, end;    /* places of the first node, past the last one */
-    int next;          /* from a node to the next row */
-    int before, after; /* ... to the columns before and after its own */
-    int own, below;    /* ... to the numbers of springs that start in its row,
-                          and in the row before */
-    int node;          /* ... to its mass */
+    int first, end;    /* index of the first node, and past the last one */
+    int next;          /* distance from a node to the next row */
+    int before, after; /* distances to the columns before and after */
+    int own, below;    /* Grid.spring_shift of the row, and of the row before */
+    int node;          /* Grid.node_shift of the row */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
@@ -45,9 +43,9 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
                      .after = before + 1};
 }
 
-/* LANES (or WIDE_LANES) nodes from `first` on, of which none changes what
- * another one reads; e counts them.  A loop that is unrolled first is not
- * vectorised. */
+/* EACH_OF loops over nodes, counted by e, none of which changes what another
+ * one reads.  The compiler vectorises the loop, unless it unrolls the loop
+ * first. */
 #ifdef __clang__
 #define AT_ONCE _Pragma("clang loop vectorize(assume_safety) unroll(disable)")
 #else
@@ -55,8 +53,9 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 #endif
 #define EACH_OF(lanes) AT_ONCE for (int e = 0; e < (lanes); e++)
 
-/* The number of a run's next nodes, up to `lanes`.  Where registers are narrow,
- * lanes behind the end of the run, which stay 0, are left out. */
+/* NEXT is the number of nodes that a loop handles next: `lanes`, even past the
+ * end of the run, where all numbers stay 0.  In a browser, where registers are
+ * narrow, it is as many as are left, in whole vectors. */
 #ifdef __wasm_simd128__
 #define AT_MOST(lanes, left)                                                   \
     ((left) < (lanes) ? ((left) + (lanes) / 4 - 1) & -((lanes) / 4) : (lanes))
@@ -65,10 +64,11 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 #endif
 #define NEXT(at, lanes) AT_MOST(lanes, (at).end - (at).first)
 
-/* A loop whose numbers are Few (or Pairs): in a page so many of single (or
- * double) precision at once, for there what comes from several springs has to
- * be added up in order (IN_ORDER) to stay in registers; elsewhere one, as in
- * any loop. */
+/* Few and Pair are what EACH_FEW and EACH_PAIR handle at once.  In a browser
+ * they are four numbers in single and two in double precision, and
+ * contributions of springs have to be added one after the other (IN_ORDER) to
+ * stay in registers. Elsewhere they are one number, and the compiler vectorises
+ * the loop. */
 #ifdef __wasm_simd128__
 typedef float Few __attribute__((vector_size(16), aligned(4)));
 typedef double Pair __attribute__((vector_size(16), aligned(8)));
@@ -94,9 +94,9 @@ enum { PAIRED = 0 };
 #define WHERE(condition, a) ((condition) ? (a) : 0)
 #endif
 
-/* The springs of a node: their kind, where their other node is, and where their
- * numbers are.  Two are in the node's row, six lead to the next rows; four of
- * all start at the node. */
+/* Calls F for springs of a node, with the kind, the distance to the other node,
+ * and the distance to the spring's numbers.  Two springs are in the node's row,
+ * six lead to the next rows; four of all start at the node (OWN_SPRINGS). */
 #define ROW_SPRINGS(F, at)                                                     \
     F(UP, (at).after, (at).own)                                                \
     F(UP, (at).before, (at).own + (at).before)
@@ -114,7 +114,7 @@ enum { PAIRED = 0 };
     F(DIAGONAL, (at).next + (at).after, (at).own)                              \
     F(ANTIDIAGONAL, (at).next + (at).before, (at).own)
 
-/* nodes_in_row for row i of the step's grid, whose rows may share numbers. */
+/* Returns the nodes in even or odd columns of row i, with the row's shifts. */
 INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
 {
     NodeRun at = nodes_in_row(&grid->rows, i, odd);
@@ -125,7 +125,7 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
 }
 
 /* EACH_RUN_OF loops over the nodes of a band, LANES of a row at once in `at`;
- * EACH_NODE_OF also over their Pairs, counted by `e`. */
+ * EACH_NODE_OF loops over the Pairs of these nodes, too, counted by `e`. */
 #define EACH_RUN_OF(grid, band)                                                \
     for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
          i++)                                                                  \
@@ -136,7 +136,7 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     EACH_RUN_OF (grid, band)                                                   \
         EACH_PAIR (NEXT(at, LANES))
 
-/* The parts of a sum, in one order always. */
+/* Adds the partial sums of the lanes, always in the same order. */
 INLINE double sum_lanes(const double s[LANES])
 {
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));

@@ -1,9 +1,8 @@
 /* grid_spring.h - the law of a spring (spring_law.h) in the grid's loops, for a
- * Pair of nodes at once, and that of a node with all its springs.
+ * Pair of nodes at once, and the sums over a node's springs.
  *
  * A spring adds c/4 s^2 to E, s = |d|^2 - l2, c = 2 w k/l2.  The gradient is
- * c s d, the Hessian c (iso I + along d d^T) with iso = s and along = 2.
- */
+ * c s d, the Hessian c (iso I + along d d^T) with iso = s and along = 2. */
 #ifndef ELASTO_GRID_SPRING_H
 #define ELASTO_GRID_SPRING_H
 
@@ -15,7 +14,8 @@ typedef struct Spring {
     Pair dx, dy, d2, s, c, f;
 } Spring;
 
-/* From node q to node q + to, with its numbers at q + at. */
+/* Evaluates the spring from node q to node q + to, whose numbers have the index
+ * q + at. */
 INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, int q, int to,
                                    int at)
 {
@@ -26,17 +26,19 @@ INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, int q, int to,
     return (Spring){dx, dy, d2, s, c, c * s};
 }
 
-/* Declares iso and along of the clamped Hessian (psd.h), for Pairs or Few.  Its
- * eigenvalue across d is c iso, the one along d is c (iso + along |d|^2).
+/* Declares iso and along of the clamped Hessian c (iso I + along d d^T), in
+ * which negative eigenvalues are 0.  The eigenvalue across d is c iso, the one
+ * along d is c (iso + along |d|^2).
  *   d2  |d|^2 plus a tiny number, so that it is above 0 */
 #define CLAMPED_TENSOR(s, d2, iso, along)                                      \
     __typeof__(d2) iso = WHERE((s) > 0, s);                                    \
     __typeof__(d2) along = 2 + ((s)-iso) / (d2);                               \
     along = WHERE(along > 0, along)
 
-/* Adds a spring with u = p_i - p_j to the sums f1, f2, f3, from which E along a
- * direction p follows: E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 +
- * q[3] a^4, and q[1] has f1/4, q[2] has f2/2, q[3] has f3/4 of the springs. */
+/* Adds a spring to the sums f1, f2, f3, which give the change of E along p:
+ * E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4, where the
+ * springs contribute f1/4 to q[1], f2/2 to q[2] and f3/4 to q[3]. ux, uy
+ * difference p_i - p_j of the spring's ends */
 INLINE void spring_line_polynomial(Spring s, Pair ux, Pair uy, Pair *f1,
                                    Pair *f2, Pair *f3)
 {
@@ -48,14 +50,14 @@ INLINE void spring_line_polynomial(Spring s, Pair ux, Pair uy, Pair *f1,
 
 /* ---- a node that moves while the others stay ---- */
 
-/* The node's part of the gradient of E and of the Hessian, not clamped; sums
- * over its springs of c d, of c, and of the f below 0. */
-enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, AROUND };
+/* Sums over a node's springs: the gradient of E, its Hessian block, not
+ * clamped, c d, c, and the negative values of f. */
+enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, SUMS };
 
-typedef double NodeSums[AROUND][LANES];
+typedef double NodeSums[SUMS][LANES];
 
-/* The sums of LANES nodes of a row.  The steps that follow wait less for each
- * other in a loop of their own. */
+/* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
+ * that do not wait for each other are faster. */
 INLINE void gather_springs(const Grid *grid, NodeRun at, NodeSums of)
 {
     const double *const ax = grid->away, *const ay = ax + grid->rows.plane;
@@ -99,7 +101,8 @@ INLINE void gather_springs(const Grid *grid, NodeRun at, NodeSums of)
     }
 }
 
-/* The change of E, q[0] a + ... + q[3] a^4, as the node moves by a p; q out. */
+/* Writes the coefficients q of the change of E, q[0] a + ... + q[3] a^4, when
+ * the node moves by a p. */
 INLINE void node_line_polynomial(const NodeSums of, int e, double px, double py,
                                  double q[4])
 {

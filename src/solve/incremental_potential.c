@@ -61,7 +61,6 @@ void incremental_potential_gradient(const IncrementalPotential *E,
     system_clear_pinned(system, g);
 }
 
-/* The masses on the diagonal, then the terms one after the other. */
 Status incremental_potential_pattern(const System *system, Sparse *A,
                                      int **slot)
 {
@@ -88,8 +87,9 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
         status =
             *slot ? sparse_create(&triplets, A, *slot) : STATUS_OUT_OF_MEMORY;
     }
-    /* The terms' entries in rows or columns of pinned nodes are dropped.  A
-     * column begins with its diagonal, which is 1 here where it is pinned. */
+    /* Entries of terms in rows or columns of pinned nodes are dropped, into the
+     * last value of A.  A column begins with its diagonal entry, which is 1
+     * here in a pinned column. */
     for (int t = 0; t < triplets.count && !status; t++)
         if (t < masses)
             A->value[(*slot)[t]] = system->pinned[t / 2];
@@ -152,7 +152,8 @@ int incremental_potential_product(const Iterate *at, Projection projection,
     return projected;
 }
 
-/* The inertia energy is quadratic; g.p is the slope of all terms. */
+/* The slope g.p contains all terms; the inertia energy adds only to the
+ * coefficient of alpha^2. */
 LineEnergy incremental_potential_prepare_line(const Iterate *iterate)
 {
     const System *system = iterate->E.system;
@@ -168,8 +169,7 @@ LineEnergy incremental_potential_prepare_line(const Iterate *iterate)
         const TermKind *kind = eval_point_select_term(&at, t);
         if (kind->line_polynomial)
             kind->line_polynomial(&at, p, q + 1);
-        along.has_remainder =
-            along.has_remainder || kind->line_remainder || kind->is_feasible;
+        along.has_remainder = along.has_remainder || kind->line_remainder;
     }
     return along;
 }

@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-/* Halves alpha until E(x + alpha p) is at most E(x) (slide: Algorithm 2).
- * Returns LINE_SEARCH_LIMIT with alpha = 0 after too many halvings. */
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials)
 {
@@ -23,9 +21,9 @@ typedef struct SearchContext {
     LineEnergy line;
 } SearchContext;
 
-/* E(x + alpha p) - E(x), or anything that is not above 0 where no line search
- * is wanted; NaN where the terms do not allow the place, or E itself
- * contradicts the change. */
+/* Returns E(x + alpha p) - E(x), or 0 without a line search; NaN where a term
+ * does not allow the point, or E itself contradicts the change.  The point is
+ * left in u_trial and x_trial. */
 static double step_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;
@@ -42,7 +40,7 @@ static double step_difference(const void *function, double alpha)
         u[i] = at->u[i] + alpha * at->p[i];
         x[i] = at->E.x_n[i] + u[i];
     }
-    /* Rounding may say no where the reach of p said yes. */
+    /* Rounding may make a point infeasible that max_step allows. */
     bool allowed = incremental_potential_allows(&at->E, u, x) &&
                    rounding_confirms_change(newton);
     return !allowed ? NAN : searches ? change : 0;

@@ -13,42 +13,44 @@
  * of the shortest spring since they were computed. */
 static const double NEARBY = 0.02;
 
-/* Tiles relax once a direction lowers the gradient's bound by less than the
- * factor STALLS.  A sweep of a tile is worth it if it lowers E by more than
- * PACE of the last direction's decrease for each tile. */
+/* Tiles relax once a direction leaves more than STALLS of the bound of p.  A
+ * sweep of a tile is worth its time if it lowers E by more than PACE times the
+ * last direction's decrease, divided by the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.15;
 
-/* Iterations after which Newton takes over; most steps need ten. */
+/* Number of iterations after which Newton takes over from multigrid; most steps
+ * need ten. */
 enum { HANDED_ITERATIONS = 200 };
 
 /* A change of E that is at most this part of the step's largest change may be
- * rounding, and is compared with it. */
+ * rounding, and is compared with the rounding of E. */
 static const double SMALL_CHANGE = 1e-9;
 
 struct Multigrid {
     Grid grid;
     VCycle cycle;
     Tiles tiles;
-    Memory memory;     /* block of all arrays */
-    double *g, *p;     /* [2 planes] grad E and direction at x */
+    Memory memory;          /* block of all arrays */
+    double *g, *p;          /* [2 planes] grad E and direction at x */
     double gradient_norm2;  /* |g|_(M^-1)^2 */
-    double p_bound;         /* m, upper bound of |p_x| + |p_y|, by g alone */
-    double last_p_bound;    /* m, bound of the iteration before */
-    double way_since_setup; /* m, bound of a node's way since the V-cycle's
-                       matrices were computed */
+    double p_bound;         /* m, upper bound of |p_x| + |p_y|, from g alone */
+    double last_p_bound;    /* m, p_bound in the iteration before */
+    double way_since_setup; /* m, upper bound of a node's displacement since the
+                               V-cycle's matrices were computed */
     double largest_change;  /* J s^2, largest change of E in this step, < 0 */
     Quartic line;           /* E(x + alpha p) - E(x), J s^2 */
-    unsigned version;  /* System.version of the numbers in the grid */
-    double weight;     /* s^2, of P, for which the grid has the numbers */
-    bool stalls;       /* tiles relax in each iteration */
-    bool was_hidden;   /* rounding hides what the last iteration changed */
+    unsigned version;       /* System.version for which the grid was filled */
+    double weight;          /* s^2, weight of P for which the grid was filled */
+    bool stalls;            /* has tiles relax in each iteration */
+    bool was_hidden;        /* rounding hid the last iteration's change of E */
 };
 
 Status multigrid_create(int segments, Multigrid **multigrid)
 {
     Multigrid *mg = *multigrid = calloc(1, sizeof *mg);
     Status status = mg ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    for (int pass = 0; pass < 2 && !status; pass++) { /* the first one counts */
+    /* The first pass counts the bytes of the arrays. */
+    for (int pass = 0; pass < 2 && !status; pass++) {
         double **vectors[] = {&mg->g, &mg->p};
         if (pass > 0)
             status = memory_create(&mg->memory);
@@ -76,8 +78,9 @@ void multigrid_free(Multigrid *mg)
 
 /* ---- who makes a minimisation ---- */
 
-/* Why multigrid does not take it, or NULL: only springs, with or without
- * damping, may have an energy, and what draws nodes to points. */
+/* Returns why multigrid does not make the minimisation, or NULL if it does.
+ * Only springs, with or without damping, and terms that draw nodes to points
+ * may have an energy. */
 static const char *find_refusal_reason(const Newton *newton)
 {
     const NewtonSettings *settings = &newton->settings;
@@ -95,7 +98,7 @@ static const char *find_refusal_reason(const Newton *newton)
         return "the projection is not clamp";
     if (settings->search != LINE_SEARCH_BACKTRACK)
         return "there is no line search";
-    if (newton->rounding.blurred) /* the test would need more digits */
+    if (newton->rounding.blurred) /* a double has too few digits */
         return "springs outweigh the masses too far";
     return NULL;
 }
@@ -110,9 +113,8 @@ bool multigrid_accepts(Newton *newton)
     return wanted && !newton->refusal;
 }
 
-/* g at x, and the bound of |p_x| + |p_y| that it gives.  Returns OK,
- * NOT_FINITE.
- */
+/* Computes g at x, and the bound of |p_x| + |p_y| that g gives.  Returns OK,
+ * NOT_FINITE. */
 static Status multigrid_evaluate_gradient(Multigrid *mg)
 {
     mg->gradient_norm2 = grid_gradient(&mg->grid, mg->g);
@@ -122,8 +124,8 @@ static Status multigrid_evaluate_gradient(Multigrid *mg)
     return isfinite(mg->gradient_norm2) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
-/* Puts the step's problem on the grid.  Returns OK, OUT_OF_MEMORY, NOT_FINITE.
- */
+/* Copies the step's problem to the grid.  Returns OK, OUT_OF_MEMORY,
+ * NOT_FINITE. */
 static Status multigrid_read_problem(Newton *newton)
 {
     Iterate *at = &newton->at;
@@ -151,7 +153,7 @@ static Status multigrid_read_problem(Newton *newton)
 
 /* ---- search direction ---- */
 
-/* p = -H^-1 g up to a remainder, and whether p passes the test. */
+/* Computes p = -H^-1 g up to a linear residual, and tests p. */
 static Status multigrid_find_direction(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
@@ -179,9 +181,9 @@ static Status multigrid_find_direction(Newton *newton)
     return STATUS_OK;
 }
 
-/* A place where the quartic is below 0, at a minimum if rounding allows, looked
- * for from 1 on; 0 if there is none.
- *   trials  out, places looked at */
+/* Returns an alpha at which the quartic is below 0, at a minimum if rounding
+ * allows, searched from 1 on; 0 if there is none.
+ *   trials  out, number of places evaluated */
 static double minimise_quartic(const Quartic *quartic, int *trials)
 {
     const double *q = quartic->q;
@@ -199,8 +201,8 @@ static double minimise_quartic(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
-/* Step length at which E is lowest along p, exactly: E is a quartic there.  The
- * last p is used whole, which keeps momentum. */
+/* Finds the step length at which E, a quartic along p, is lowest.  The last p
+ * is used whole, which keeps momentum. */
 static Status multigrid_find_step_length(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
@@ -223,7 +225,7 @@ static Status multigrid_find_step_length(Newton *newton)
     return STATUS_OK;
 }
 
-/* x += alpha p; then tiles of nodes relax where the directions stall. */
+/* Adds alpha p to x, then relaxes tiles of nodes if the directions stall. */
 static Status multigrid_update_iterate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
@@ -244,8 +246,8 @@ static Status multigrid_update_iterate(Newton *newton)
     return multigrid_evaluate_gradient(mg);
 }
 
-/* The test; where multigrid has come to an end without passing it, such as
- * among rounding errors, Newton goes on from the iterate. */
+/* Decides whether the loop ends.  If multigrid cannot pass the test, for
+ * example because of rounding, Newton goes on from the iterate. */
 static Status multigrid_test_iterate(Newton *newton, Status status)
 {
     Multigrid *mg = newton->multigrid;
@@ -261,7 +263,7 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     if (ends && system_falls_freely(newton->system))
         record->change += grid_correct_momentum(&mg->grid) / mg->grid.energy;
     if (ends || stuck || small || last ||
-        newton->settings.observer) { /* otherwise unused */
+        newton->settings.observer) { /* newton->at is read now */
         swap_iterates(newton);
         grid_write_state(&mg->grid, &newton->at);
     }

@@ -7,16 +7,15 @@
  * directions (tiles.h).  No update raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g, which conjugate gradients know up
- * to a remainder r = -g - H p, computed in double precision.  H - M is positive
- * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M, and
- * the residual, max over nodes of |p_x| + |p_y|, over h, is known up to
- * sqrt(2/m)/h |r|_(M^-1) with the smallest m.  p passes the test if the
+ * to a linear residual r = -g - H p, computed in double precision.  H - M is
+ * positive semi-definite, so the error of p is at most |r|_(M^-1) in the norm
+ * of M, and the residual, max over nodes of |p_x| + |p_y|, over h, is known up
+ * to sqrt(2/m)/h |r|_(M^-1) with the smallest m.  p passes the test if the
  * residual and this bound together are at most the tolerance.  A step also ends
  * where the same bound with p = 0, r = -g, says that the next p is negligible.
  *
  * A step depends on its arguments alone.  Results have the same bits for every
- * width of registers.
- */
+ * width of registers. */
 #ifndef ELASTO_MULTIGRID_H
 #define ELASTO_MULTIGRID_H
 
@@ -28,8 +27,8 @@ Status multigrid_create(int segments, Multigrid **multigrid);
 void multigrid_free(Multigrid *multigrid);
 
 /* Whether multigrid makes the minimisation that newton->at describes: the
- * settings ask for it, and it knows all terms.  newton->refusal becomes the
- * reason why it cannot, or NULL. */
+ * settings ask for multigrid, and all terms suit it.  newton->refusal becomes
+ * the reason why multigrid cannot, or NULL. */
 bool multigrid_accepts(Newton *newton);
 
 #endif

@@ -41,8 +41,8 @@ void swap_iterates(Newton *newton)
     newton->x_trial = x;
 }
 
-/* u += alpha p, x = x_n + u, as the line search has tried them.  The iterate
- * stays if the result is not finite, or E would be above its start. */
+/* Makes the trial point of the line search, u + alpha p, the iterate.  The
+ * iterate stays if the trial point is not finite or its E exceeds the limit. */
 static Status update_iterate(Newton *newton)
 {
     if (!all_finite(newton->x_trial, 2 * (size_t)newton->system->nodes))
@@ -74,11 +74,11 @@ int newton_most_iterations(const Newton *newton)
                : newton->settings.max_iterations;
 }
 
-/* The test of Algorithm 3, and what else ends the loop: a failure, rounding, or
- * the number of iterations.  Where p passes the test and rounding hides what it
- * would gain, p is left out and the step has converged.  Without a line search
- * an end above the start is no success.
- *   status  of direction, step length and update */
+/* Decides whether the loop ends: by the test of Algorithm 3, a failure,
+ * rounding, or the number of iterations.  If p passes the test and rounding
+ * hides the decrease of E, the step has converged without p.  Without a line
+ * search an end above the start is DIVERGED.
+ *   status  in, result of direction, step length and update */
 static Status test_iterate(Newton *newton, Status status)
 {
     bool hidden = status == STATUS_ROUNDING_LIMIT;
@@ -161,7 +161,7 @@ Status newton_minimise(Newton *newton)
         if (status == STATUS_OK)
             status = phases->update(newton);
 
-        /* End the loop?  find_direction has tested p */
+        /* Decide whether the loop ends; find_direction has tested p */
         record->status = newton->status = phases->test(newton, status);
 
         newton->change_sum += record->change;

@@ -9,19 +9,21 @@
 /* The phases of an iteration, each of which may end it.  A phase reads and
  * writes the iterate newton->at and the record newton->record. */
 typedef struct NewtonPhases {
-    /* g and p at x, the residual of p, and newton->passes: whether it is at
-     * most the tolerance, and no turn may follow that turn.c does not make.
-     * Returns OK or a failure. */
+    /* Computes g and p at x, and the residual of p.  Sets newton->passes if the
+     * residual is at most the tolerance, unless a turn may follow
+     * (turns_may_follow) that turn_free_body does not make.  Returns OK or a
+     * failure. */
     Status (*find_direction)(Newton *newton);
-    /* alpha, trials, slope and change; u_trial and x_trial.  Returns OK, or why
-     * no step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT,
-     * NOT_FINITE; alpha and change are then 0. */
+    /* Computes alpha, trials, slope and change, and the end of the step in
+     * u_trial and x_trial.  Returns OK, or why no step lowers E:
+     * LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT, NOT_FINITE; alpha and
+     * change are then 0. */
     Status (*find_step_length)(Newton *newton);
-    /* Makes the end of the trial step the iterate (u and x).  Returns OK,
-     * NOT_FINITE, ROUNDING_LIMIT. */
+    /* Makes the end of the step the iterate (u and x).  Returns OK, NOT_FINITE,
+     * ROUNDING_LIMIT. */
     Status (*update)(Newton *newton);
-    /* Whether the loop ends.
-     *   status  in, of the phases before
+    /* Decides whether the loop ends.
+     *   status  in, result of the phases before
      * Returns RUNNING, OK, or how the minimisation failed. */
     Status (*test)(Newton *newton, Status status);
 } NewtonPhases;
@@ -33,8 +35,8 @@ void direction_free_matrix(SearchDirection *search);
 
 Status find_direction(Newton *newton);
 
-/* Largest |p_x| + |p_y| of a negligible direction, m, which passes the test and
- * is at most a millionth of the shortest spring. */
+/* Returns the largest |p_x| + |p_y|, m, of a negligible direction, which passes
+ * the test and is at most a millionth of the shortest spring. */
 double negligible_direction_size(const Newton *newton);
 
 /* Whether the next direction is negligible, by a bound.  Computes g. */
@@ -51,48 +53,51 @@ void swap_iterates(Newton *newton);
 
 /* ---- turn.c: turns of free bodies, which Newton's directions cannot make */
 
-/* Whether the next direction may turn nodes by more than the tolerance although
- * p passes.  Forces g at x resist a turn; at x + p most of them are gone, and
- * the masses alone resist it, against a torque of at most sum |p_i| |g_i|. */
+/* Whether the next direction may turn the nodes by more than the tolerance,
+ * although p passes the test.  At x the forces g resist a turn.  At x + p most
+ * of these forces are gone, and only the masses resist the remaining torque,
+ * which is at most sum |p_i| |g_i|. */
 bool turns_may_follow(const Newton *newton);
 
-/* Turns all nodes to the angle at which E is lowest, where P stays the same
- * (system_turns_freely), in stiff scenes or after a last p that needs it.  Then
- * sum m d x (u - u_tilde) = 0, d the arm from the pivot: angular momentum is
- * exact.  Straight directions stretch what they turn, so a stiff body would
- * turn by tiny steps, which pass the test.  Returns the change of E, J s^2. */
+/* Turns all nodes to the angle at which E is lowest.  Does nothing unless P
+ * stays the same in a turn (system_turns_freely) and the scene is stiff or
+ * turns_may_follow.  Then angular momentum is exact:
+ * sum m d x (u - u_tilde) = 0, with d the vector from the pivot to a node.
+ * Newton's directions are straight and stretch what they turn, so a stiff body
+ * would turn by tiny steps, which pass the test.  Returns the change of E, J
+ * s^2. */
 double turn_free_body(Newton *newton);
 
 /* ---- multigrid.c: the same phases for large squares, without a factor */
 
 extern const NewtonPhases multigrid_phases;
 
-/* ---- rounding.c: what guards the digits.  Two places lose them.  Near a
- * minimum every further decrease may be smaller than the rounding of E.  And
- * where w k outweighs the masses beyond the 16 digits of a double, the gradient
- * itself may be rounding, and along a far direction its slope anything.  In the
- * second kind of scene, and in every one without a line search, a minimisation
- * is held to what E really is. */
+/* ---- rounding.c: tests of whether rounding hides a decrease of E.  Near a
+ * minimum every further decrease may be smaller than the rounding of E.  Where
+ * w k outweighs the masses beyond the 16 digits of a double, the gradient and
+ * the slope along p may be rounding errors.  In such a scene, and without a
+ * line search, E itself is compared with its start. */
 
-/* Starts the guard at the start of a minimisation. */
+/* Prepares newton->rounding for a minimisation. */
 void rounding_start(Newton *newton);
 
-/* Whether a change of E, J s^2, is at most a few units in its last place. */
+/* Whether a change of E, J s^2, is at most a few units in the last place of E.
+ */
 bool is_below_roundoff(const Newton *newton, double change);
 
-/* Whether E at u_trial, as large as it is, agrees that it has changed by
- * record.change or fallen more; true where energy_is_within_limit decides, or
- * nothing has to fall. */
+/* Whether E at u_trial confirms record.change: E is not higher than predicted
+ * by more than rounding explains.  True without a test if the scene is not
+ * stiff, if there is no line search, or if energy_is_within_limit decides. */
 bool rounding_confirms_change(Newton *newton);
 
-/* Whether E at u, x [2n] is as low as at the start; always true where the
- * minimisation is not held to it. */
+/* Whether E at u, x [2n] is at most rounding.energy_limit. */
 bool energy_is_within_limit(const Newton *newton, const double *u,
                             const double *x);
 
-/* Judges an iteration whose p did not pass the test.  If the residual has not
- * become smaller for long, returns ROUNDING_LIMIT where E has stopped to fall,
- * and ITERATION_LIMIT where there is no line search.  Otherwise RUNNING. */
+/* Decides whether rounding ends the minimisation after a p that did not pass
+ * the test.  After many iterations without a smaller residual, returns
+ * ROUNDING_LIMIT if the last change of E is below roundoff, and ITERATION_LIMIT
+ * if there is no line search.  Otherwise RUNNING. */
 Status rounding_test_stagnation(Newton *newton);
 
 #endif

@@ -9,18 +9,19 @@
 
 #include "solve/grid_loops.h"
 
-/* Columns that are worked on at once. */
+/* Number of columns that a loop handles at once. */
 enum { GROUP = 4 };
 
-/* Two and four numbers side by side, an extension of C that gcc and clang
- * share.  The first number may be any number of an array. */
+/* Vectors of two and four numbers, an extension of C that gcc and clang share.
+ * A vector may start at any number of an array. */
 enum { TWO = 2, FOUR = 4 };
 typedef double Two
     __attribute__((vector_size(TWO * sizeof(double)), aligned(sizeof(double))));
 typedef double Four __attribute__((vector_size(FOUR * sizeof(double)),
                                    aligned(sizeof(double))));
 
-/* A function for registers of four, and whether the processor has them. */
+/* AVX marks a function for registers of four numbers; HAS_AVX tells whether the
+ * processor has such registers. */
 #if defined(__x86_64__) && !defined(AVX)
 #define AVX       __attribute__((target("avx2")))
 #define HAS_AVX() __builtin_cpu_supports("avx2")
@@ -131,7 +132,8 @@ static int smaller_of(int a, int b)
     return a < b ? a : b;
 }
 
-/* Marks a case that CHOLMOD does not use, by a pivot that is NaN. */
+/* Whether a call is a case that CHOLMOD never uses.  The result then becomes
+ * NaN, so that the factorisation fails. */
 static bool mark_unsupported_case(bool known, double *result)
 {
     if (!known)
@@ -154,8 +156,8 @@ void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
                             0});
 }
 
-/* The lower triangle of C = A A^T.  Writes over the entries right of it in a
- * group of columns. */
+/* Computes the lower triangle of C = A A^T.  Entries right of the triangle are
+ * overwritten within a group of columns. */
 void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k,
             const double *alpha, const double *A, const int *lda,
             const double *beta, double *C, const int *ldc)
@@ -186,8 +188,8 @@ void dtrsm_(const char *side, const char *uplo, const char *trans,
     }
 }
 
-/* L L^T of D [n, n], n at most 4.  Returns the first pivot that is not above
- * 0, counted from 1; 0: all are. */
+/* Factors D [n, n], n at most 4, as L L^T in place.  Returns the number, from
+ * 1, of the first pivot that is not positive, or 0. */
 static int factor_block(int n, double *D, int ldd)
 {
     for (int q = 0; q < n; q++) {
@@ -204,7 +206,7 @@ static int factor_block(int n, double *D, int ldd)
     return 0;
 }
 
-/* The lower triangle of A = L L^T; info: as factor_block returns it. */
+/* Factors A as L L^T in its lower triangle; info: as factor_block returns. */
 void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
              int *info)
 {
@@ -238,8 +240,8 @@ static const double *panel_get_column(const Panel *panel, int j)
     return panel->value + (size_t)j * (size_t)panel->rows;
 }
 
-/* Four columns, and the inverses of their pivots, which do not wait for one
- * another. */
+/* Finds four columns from column j on, and the inverses of their pivots.  The
+ * divisions do not wait for one another. */
 static inline void load_column_group(const Panel *panel, int j,
                                      const double *a[GROUP],
                                      double pivot[GROUP])
@@ -325,8 +327,8 @@ void panel_backward(const Panel *panel, double *w)
 
 /* ---- what else CHOLMOD and OpenMP ask for ---- */
 
-/* CHOLMOD's complex matrices, which there are none of: an archive of it asks
- * for these, too. */
+/* Complex matrices do not occur, but a static library of CHOLMOD needs these
+ * functions, too. */
 #define NOTHING(name)                                                          \
     void name(void);                                                           \
     void name(void)                                                            \

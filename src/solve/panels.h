@@ -1,5 +1,5 @@
-/* panels.h - what is done with the dense panels of a Cholesky factor, with the
- * same bits on every processor.
+/* panels.h - products and solves with the dense panels of a Cholesky factor,
+ * with the same bits on every processor.
  *
  * Columns of L with the same rows below them are one supernode, stored as a
  * panel (Davis et al.: A Survey of Direct Methods for Sparse Linear Systems,
@@ -8,21 +8,21 @@
  * the processor: three kinds of processors gave three factors.  The program
  * therefore has its own four functions, each for the one case that CHOLMOD
  * uses; the linker takes them before those of the library.  Every entry is one
- * sum over ascending columns: lanes of any width give its bits.
+ * sum over ascending columns, which has the same bits with lanes of any width.
  *
  * With one right-hand side CHOLMOD would call BLAS three times for each panel;
  * on the small panels of a square mesh these calls take longer than the
- * arithmetic.  Here four columns go through a panel at a time: half the time at
- * 32 segments, four fifths at 64 and above.
+ * arithmetic.  In panels.c four columns go through a panel at a time: half the
+ * time at 32 segments, four fifths at 64 and above.
  */
 #ifndef ELASTO_PANELS_H
 #define ELASTO_PANELS_H
 
 typedef struct Panel {
     int columns, rows;
-    const int *row;      /* [rows] the columns first */
-    const double *value; /* [rows * columns] by columns; anything above the
-                            diagonal */
+    const int *row; /* [rows] row of L; the first are those of the columns */
+    const double *value; /* [rows * columns] by columns; entries above the
+                            diagonal have no meaning */
 } Panel;
 
 /* Forward: solves for the panel's columns of L w = b, and subtracts their share

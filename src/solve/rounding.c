@@ -1,4 +1,4 @@
-/* rounding.c - guards the digits of a minimisation. */
+/* rounding.c - tests of whether rounding hides a decrease of E. */
 #include "solve/newton_parts.h"
 
 #include <float.h>
@@ -13,14 +13,14 @@ enum { STAGNANT_ITERATIONS = 20 };
  * contact one converged later.) */
 enum { CIRCLING_ITERATIONS = 500 };
 
-/* Ratios of w k to m: beyond the first, rounding of the gradient may hide that
- * E rises along p; beyond the second, a direction from a factor may be wrong by
- * more than 1e-5 of itself; beyond the third, a sum of both is w k alone in the
- * digits of a double. */
+/* Limits of the ratio of w k to m.  Above STIFF_MASSES, rounding of the
+ * gradient may hide that E rises along p.  Above BLURRED_MASSES, a direction
+ * from a factor may be wrong by more than 1e-5 of itself.  Above HIDDEN_MASSES,
+ * m + w k rounds to w k. */
 static const double STIFF_MASSES = 1e5, BLURRED_MASSES = 1e10,
                     HIDDEN_MASSES = 1e16;
 
-/* E may seem to rise by this part of its size. */
+/* E may exceed its start by this part of its size, since E is rounded. */
 static const double MARGIN = 1e-12;
 
 /* E contradicts a change along a line if it is higher by more than AGREED of
@@ -68,8 +68,8 @@ bool is_below_roundoff(const Newton *newton, double change)
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
 }
 
-/* How far E moves when each coordinate moves by some units in its last place.
- */
+/* Returns by how much E changes when each coordinate changes by some units in
+ * its last place. */
 static double sample_coordinate_rounding(Newton *newton, const double *u,
                                          const double *x, double E)
 {
@@ -82,8 +82,9 @@ static double sample_coordinate_rounding(Newton *newton, const double *u,
     return fabs(incremental_potential_value(&newton->at.E, near_u, near_x) - E);
 }
 
-/* E may differ from the line's change by its own rounding and by the effect of
- * rounded coordinates, which is computed only if a simpler test fails. */
+/* E may differ from record.change by its own rounding and by that of the
+ * coordinates.  The second estimate is expensive, and is computed only if a
+ * simpler test fails. */
 bool rounding_confirms_change(Newton *newton)
 {
     Rounding *rounding = &newton->rounding;

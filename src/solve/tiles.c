@@ -5,22 +5,24 @@
 
 #include "solve/grid_spring.h"
 
-/* Rows of a tile, whose columns are LANES even and LANES odd ones. */
+/* Number of rows of a tile, whose columns are LANES even and LANES odd ones. */
 enum { TILE_ROWS = 4 };
 
-/* Newton's step of a node is made longer by this factor; a shorter one is
- * tried, too. */
+/* Step lengths that are tried for a node besides 1. */
 static const double OVER_RELAXED = 1.8, SHORTER = 0.25;
 
-/* A block of the Hessian is used as it is where its determinant is larger than
- * this share of its trace's square; else clamped. */
+/* A node's block of the Hessian is not clamped if its determinant is larger
+ * than this share of its trace's square. */
 static const double DEFINITE = 0.0025;
 
-/* Tiles relax that may lower E by SHARE of what the best one may, of which
- * their neighbours hear SPREAD, while the best stands out from the mean. */
+/* A round sweeps the tiles with at least SHARE of the largest activity.  A
+ * sweep adds SPREAD of its change of E to the activity of the tiles around.
+ * Rounds end when the largest activity is less than STANDS_OUT times the mean.
+ */
 static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
 
-/* Most rounds of a relaxation, where E falls by less than its rounding. */
+/* Limit of the rounds of a relaxation, for a decrease of E below its rounding.
+ */
 enum { MAX_ROUNDS = 10000 };
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
@@ -35,8 +37,8 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
     tiles->chosen = memory_take_piece(memory, count * sizeof *tiles->chosen);
 }
 
-/* Returns the longest of three step lengths a that lower E, or 0, where E
- * changes by a q[0] + ... + a^4 q[3].
+/* Returns the longest of three step lengths a that lower E, or 0; E changes by
+ * a q[0] + ... + a^4 q[3].
  *   lower  out, the change of E */
 INLINE double find_lowering_step(const double q[4], double *lower)
 {
@@ -51,7 +53,8 @@ INLINE double find_lowering_step(const double q[4], double *lower)
     return go;
 }
 
-/* LANES nodes of a row, none of which share a spring. */
+/* Moves LANES nodes of a row, none of which share a spring.  Adds the changes
+ * of E to sum. */
 INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
 {
     const int plane = grid->rows.plane;
@@ -82,7 +85,8 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
     }
 }
 
-/* Even rows, then odd ones, of each the even columns, then the odd ones. */
+/* Moves each node of a tile once: even rows first, then odd rows, in each of
+ * them the even columns first.  Returns the change of E. */
 INLINE double relax_tile(const Tiles *tiles, int tile)
 {
     const Grid grid = *tiles->grid;
@@ -101,7 +105,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
 }
 
 /* Sweeps the tiles with at least this activity.  Tiles of one colour are not
- * neighbours, so their order is without effect.
+ * neighbours, so their order has no effect.
  *   visits  out, number of sweeps
  * Returns the change of E. */
 FAST static double relax_active(Tiles *tiles, double activity, int *visits)
@@ -118,7 +122,7 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
         for (int t = 0; t < count; t++)
             tiles->change[tiles->chosen[t]] =
                 relax_tile(tiles, tiles->chosen[t]);
-        for (int t = 0; t < count; t++) { /* spreads changes to neighbours */
+        for (int t = 0; t < count; t++) { /* neighbours may lower E, too */
             int tile = tiles->chosen[t], i = tile / wide, j = tile % wide;
             for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < high; a++)
                 for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < wide; b++)

@@ -36,7 +36,7 @@ double turn_free_body(Newton *newton)
         centre[c] = pivot < 0 ? centre[c] / mass : x[2 * pivot + c];
         moved[c] = pivot < 0 ? moved[c] / mass : 0;
     }
-    /* Arms of the nodes: d of x, d + b of x_tilde. */
+    /* From the centre d leads to x, and d + b to x_tilde. */
     for (int i = 0; i < size; i += 2) {
         double dx = x[i] - centre[0], dy = x[i + 1] - centre[1];
         double bx = u_tilde[i] - u[i] - moved[0];

@@ -12,8 +12,8 @@
 #include <wasm_simd128.h>
 #endif
 
-/* The coarsest level has at most so many nodes a side, and is smoothed so many
- * times each way; the others once. */
+/* The coarsest level has at most COARSEST nodes a side and is smoothed
+ * COARSEST_TIMES each way; finer levels are smoothed once. */
 enum { COARSEST = 5, COARSEST_TIMES = 2 };
 
 void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
@@ -63,10 +63,10 @@ INLINE int rows_with_coarse(const Level *level)
 
 /* ---- tensors ---- */
 
-/* A number, or two pairs, in single precision. */
+/* Converts one number, or in a browser two pairs, to single precision. */
 INLINE Few narrow_to_single(Pair low, Pair high)
 {
-#ifdef __wasm_simd128__ /* clang makes no use of this instruction */
+#ifdef __wasm_simd128__ /* clang does not find this instruction by itself */
     v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
     v128_t more = wasm_f32x4_demote_f64x2_zero((v128_t)high);
     return (Few)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);
@@ -77,7 +77,7 @@ INLINE Few narrow_to_single(Pair low, Pair high)
 }
 
 /* Computes the tensors of the springs that start in row i, with negative
- * eigenvalues replaced by 0 (CLAMPED_TENSOR in grid_spring.h). */
+ * eigenvalues replaced by 0. */
 INLINE void compute_tensor_row(const VCycle *cycle, int i)
 {
     const Grid grid = *cycle->grid;
@@ -131,8 +131,8 @@ INLINE void invert_diagonal_row(const Level *of, int i)
             }
 }
 
-/* WIDE_LANES columns of a coarse row, from column `first` on, to their places:
- * even ones and odd ones. */
+/* Stores WIDE_LANES columns of coarse row I, from column `first` on, even
+ * columns apart from odd ones. */
 INLINE void split_even_odd(const Rows *rows, int I, int first,
                            const float *line, float *to)
 {
@@ -143,8 +143,8 @@ INLINE void split_even_odd(const Rows *rows, int I, int first,
     }
 }
 
-/* Numbers of the finer rows around coarse row I, from column `first` on: EVEN
- * those at the coarse columns, ODD those dj + 1/2 coarse columns further. */
+/* With J = first + e: EVEN(di) is the number in row 2 I + di and column 2 J of
+ * the finer level, ODD(di, dj) the one in column 2 (J + dj) + 1. */
 #define FINER(from)                                                            \
     const float *const a = (from) + node_place(&fine, 2 * I, 0) + first
 #define EVEN(di)    a[(di)*fine.pitch + e]
@@ -176,7 +176,7 @@ INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
         }
 }
 
-/* Restricts one plane of coarse row I: to = P^T from. */
+/* Restricts a plane of the finer level to coarse row I: to = P^T from. */
 INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
                          const float *from, float *to)
 {
@@ -239,17 +239,18 @@ void v_cycle_read_system(VCycle *cycle)
 
 /* ---- the V-cycle: A x = b ---- */
 
-/* The work of a pass over one colour of a row. */
+/* Result of a pass over one colour of a row. */
 typedef enum Visit {
-    FIRST, /* from x = 0: x = D b', with the springs to earlier colours in b' */
-    RESIDUAL, /* after FIRST, with the springs to later colours: w = b - A x */
-    SMOOTH,   /* x += D (b - A x) */
-    PRODUCT   /* w = A x, and the parts of x.b and x.w are added up */
+    FIRST,    /* x = D (b + K x' of springs to earlier colours), from x = 0 */
+    RESIDUAL, /* w = b - A x after FIRST, which is K x' of springs to later
+                 colours */
+    SMOOTH,   /* x += D (b - A x), a Gauss-Seidel pass */
+    PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
 } Visit;
 
-/* Visits one colour of row i: 2 for odd rows, plus 1 for odd columns.  Springs
- * lead to earlier colours along the row from odd columns, and across rows from
- * odd ones. */
+/* Makes a pass over one colour of row i.  The colour is 2 in odd rows, plus 1
+ * in odd columns.  Springs lead to earlier colours along the row from odd
+ * columns, and across rows from odd rows. */
 INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
                       float *xb, float *xw)
 {
@@ -266,7 +267,7 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
         EACH_FEW (NEXT(at, WIDE_LANES)) {
             const int q = at.first + e;
             Few hx = {0}, hy = {0}, ax = {0}, ay = {0};
-            if (visit == FIRST) { /* from 0: -A x, not A x */
+            if (visit == FIRST) { /* a is b - A x here, else A x */
                 ax = FEW(bx, q);
                 ay = FEW(by, q);
             } else if (!from_0) {
@@ -317,7 +318,7 @@ INLINE void smooth_row(const Level *level, int i, bool back)
     visit_row(level, i, !back, SMOOTH, NULL, NULL);
 }
 
-/* sums  [2] x.b and x.w of the row are added */
+/* Computes w = A x in row i.  Adds x.b and x.w of the row to sums [2]. */
 INLINE void multiply_row(const Level *level, int i, double *sums)
 {
     float xb[WIDE_LANES] = {0}, xw[WIDE_LANES] = {0};
@@ -332,7 +333,8 @@ INLINE void multiply_row(const Level *level, int i, double *sums)
     sums[1] += row[1];
 }
 
-/* Adds P from to one plane of row i; 0 stays where nodes are held. */
+/* Adds P from, P the interpolation, to one plane of row i; held nodes stay 0.
+ */
 INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
                         const float *from, float *to)
 {
@@ -388,8 +390,8 @@ FAST static void descend_level(const Level *l)
     }
 }
 
-/* x += P of the coarser level's, then backward in the opposite order; where
- * there are sums, also w = A x. */
+/* Adds the interpolated x of the coarser level, then makes a backward pass in
+ * the opposite order.  If sums is not NULL, also computes w = A x. */
 FAST static void ascend_level(const Level *l, double *sums)
 {
     const int nodes = l->rows.nodes;
@@ -417,7 +419,8 @@ FAST static void smooth_coarsest(const Level *l, bool back)
             smooth_row(l, i, back);
 }
 
-/* x = about A^-1 b on all levels, and w = A x on the finest level.
+/* Approximates x = A^-1 b by one V-cycle, and computes w = A x on the finest
+ * level.
  *   sums  [2] out, x.b and x.w */
 static void run_v_cycle(VCycle *cycle, double *sums)
 {
@@ -433,8 +436,9 @@ static void run_v_cycle(VCycle *cycle, double *sums)
 
 /* ---- conjugate gradients ---- */
 
-/* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d, with the
- * next x.  Returns |b|_(M^-1)^2, and the largest |p_x| + |p_y|. */
+/* Makes a step of conjugate gradients: d = x + beta d, A d = w + beta A d,
+ * p += alpha d, b -= alpha A d.  Returns |b|_(M^-1)^2.
+ *   largest  out, max over nodes of |p_x| + |p_y| */
 FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
                                                float beta, double *largest)
 {
@@ -482,13 +486,14 @@ bool v_cycle_passes(const Grid *grid, double largest, double square,
     return largest + sqrt(2 / grid->lightest * square) <= longest;
 }
 
-/* Most V-cycles for one direction. */
+/* Limit of the V-cycles for one direction. */
 enum { MAX_CYCLES = 60 };
 
-/* Conjugate gradients end when p passes the test even with MARGIN times the
- * bound of its error.  A p longer than HOPEFUL times the longest that passes
- * needs a further direction anyway: for it a residual of LOOSE times the
- * gradient is enough, in the norm of M^-1.  Single precision reaches LEAST. */
+/* Conjugate gradients end when p would pass the test even with MARGIN times the
+ * bound of its error.  If p is longer than HOPEFUL times the longest p that
+ * passes, a further direction is needed anyway; then a linear residual of LOOSE
+ * times the gradient is enough, in the norm of M^-1.  Else the limit is LEAST,
+ * which is all that single precision reaches. */
 static const double MARGIN = 2, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
 
 FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,

@@ -3,14 +3,15 @@
  *
  * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
  * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level
- * is every second node: its tensors are means of the finer ones, as stiffness
- * does not depend on the spacing in two dimensions; its masses are P^T m with P
- * bilinear.  Where the finer node in a node's place is pinned, it is held.
+ * is every second node.  The tensors are means of the finer ones, as stiffness
+ * does not depend on the spacing in two dimensions; the masses are P^T m with
+ * the bilinear interpolation P.  A coarse node is held if the fine node at its
+ * place is pinned.
  *
  * A cycle smooths by Gauss-Seidel, node by node in four colours (row and column
- * even or odd), before and, in the opposite order, after what the coarser level
- * adds; so it is symmetric and positive definite.  Nodes of a colour do not
- * see each other, so the bits do not depend on lanes.
+ * even or odd), before the coarser level's correction and, in the opposite
+ * order, after it; so the cycle is symmetric and positive definite.  Nodes of
+ * one colour share no spring, so the bits do not depend on the number of lanes.
  */
 #ifndef ELASTO_V_CYCLE_H
 #define ELASTO_V_CYCLE_H
@@ -21,32 +22,34 @@ enum { MAX_LEVELS = 24 };
 
 typedef struct Level {
     Rows rows;
-    struct Level *coarse; /* NULL: it is the coarsest */
+    struct Level *coarse; /* next coarser level; NULL: there is none */
     /* [plane] blocks of A that join two nodes, by kind of spring: parts xx, xy,
-     * yy, stored at the first of the two */
+     * yy, stored at the spring's first node */
     float *K[KINDS][3];
-    float *D[3];      /* [plane] inverse 2x2 blocks; 0 where held, outside */
-    float *m;         /* [plane] 0 where held */
-    float *x, *b, *w; /* [2 planes] about A^-1 b; what is left, or A x */
+    float *D[3]; /* [plane] inverse of the node's block of A: xx, xy, yy; 0 at
+                    held nodes and outside */
+    float *m;    /* [plane] mass; 0 at held nodes */
+    float *x, *b, *w; /* [2 planes] x is about A^-1 b; w is b - A x, or A x */
 } Level;
 
 typedef struct VCycle {
     const Grid *grid;
-    Level level[MAX_LEVELS]; /* the finest first */
+    Level level[MAX_LEVELS]; /* the finest level first */
     int levels;
-    float *c[KINDS];   /* [plane] the grid's */
-    float *p, *d, *Ad; /* [2 planes] of conjugate gradients */
-    bool is_set_up;    /* the tensors are those at grid->x; set to false when
-                       that moves */
-    long cycles;       /* since somebody has set it to 0 */
+    float *c[KINDS];   /* [plane] Grid.c in single precision */
+    float *p, *d, *Ad; /* [2 planes] solution, direction d and A d of conjugate
+                          gradients */
+    bool is_set_up; /* has the tensors at grid->x; set to false when x moves */
+    long cycles;    /* number of V-cycles so far */
 } VCycle;
 
 void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle);
 
-/* Masses and pins, from the grid's. */
+/* Copies masses, pins and stiffnesses from the grid, and coarsens the masses.
+ */
 void v_cycle_read_system(VCycle *cycle);
 
-/* p = -H^-1 g, up to a remainder.
+/* Computes p = -H^-1 g up to a linear residual.
  *   g        [2 planes] grad E; anything at pins
  *   square   |g|_(M^-1)^2
  *   longest  largest |p_x| + |p_y| of a node with which p passes the test
@@ -57,10 +60,11 @@ bool v_cycle_solve(VCycle *cycle, const double *g, double square,
 
 /* Whether the exact direction passes the test.  H - M is positive
  * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M,
- * where r = -g - H p is the remainder of p, and at most sqrt(2/m) times that at
- * a node.
- *   square            |r|_(M^-1)^2
- *   largest, longest  as above, of p */
+ * where r = -g - H p is the linear residual, and at most sqrt(2/m) |r|_(M^-1)
+ * at a node.
+ *   largest  max over nodes of |p_x| + |p_y|
+ *   square   |r|_(M^-1)^2
+ *   longest  largest |p_x| + |p_y| of a node with which p passes the test */
 bool v_cycle_passes(const Grid *grid, double largest, double square,
                     double longest);
 

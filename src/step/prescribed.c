@@ -1,12 +1,11 @@
-/* prescribed.c - walls and pins that move as prescribed, and an obstacle that a
- * hand pushes.
+/* prescribed.c - motion of walls, of pins, and of an obstacle that a hand
+ * pushes, within a step.
  *
- * Within a step they get their final position before E is minimised.  No stiff
- * spring draws them there, so the position is exact and E stays soft.  Where
- * the way would close a gap or turn a cell over, half of it is made first, then
- * E is minimised, then the rest follows: each minimisation begins at a point
- * that all terms allow.
- */
+ * Walls and pins get their final position before E is minimised.  No stiff
+ * spring draws them there, so the position is exact and E stays soft.  If the
+ * way would close a gap or turn a cell over, half of the way is made first,
+ * then E is minimised, then the rest follows: each minimisation begins at a
+ * point that all terms allow. */
 #include "step/prescribed.h"
 
 #include <math.h>
@@ -16,14 +15,15 @@
 #include "model/friction.h"
 #include "model/inertia_energy.h"
 
-/* Most halvings of a part of the way, and most parts of it.  A wall at 50 m/s
- * in steps of 0.01 s onto cells of 1/8 m needs 19 parts.  A body that leaves
- * room for less than a thousandth of the way is pressed flat, and the step
- * ends, because each further part takes more updates than the one before. */
+/* Limits of the halvings of a part of the way, and of the parts of a step.  A
+ * wall at 50 m/s in steps of 0.01 s onto cells of 1/8 m needs 19 parts.  A body
+ * that leaves room for less than a thousandth of the way is pressed flat, and
+ * the step ends, because each further part takes more updates than the one
+ * before. */
 enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
 
-/* Nodes that a wall would touch are carried along and keep this much of the
- * barrier's width. */
+/* Nodes that a wall would touch are carried along and keep this part of the
+ * barrier's width as their gap. */
 #define CARRIED_GAP 0.3
 
 /* Limits like MAX_HALVINGS and MAX_PARTS for an obstacle that a hand moves:
@@ -52,9 +52,9 @@ static void stop_obstacle(Obstacle *obstacle, double h)
     double way[2];
     for (int c = 0; c < 2; c++) {
         way[c] = obstacle->motion.stop[c] - obstacle->o[c];
-        left += way[c] * v[c]; /* times |v|^2, s */
+        left += way[c] * v[c]; /* time to the stop, times |v|^2 */
     }
-    bool here = left <= 1e-9 * h * square; /* up to rounding */
+    bool here = left <= 1e-9 * h * square; /* at the stop, up to rounding */
     for (int c = 0; c < 2; c++)
         v[c] = here ? 0 : left < h * square ? way[c] / h : v[c];
 }
@@ -86,7 +86,7 @@ bool prescribed_begin(TimeIntegrator *run)
     return any;
 }
 
-/* o += way v of all obstacles. */
+/* Moves all obstacles for `way` seconds: o += way v. */
 static void move_obstacles(Contact *contact, double way)
 {
     for (int k = 0; contact && k < contact->obstacles; k++)
@@ -95,9 +95,9 @@ static void move_obstacles(Contact *contact, double way)
 }
 
 /* Carries along the nodes in front of obstacles that come nearer.
- *   way     s, for which the obstacles have moved
- *   before  [2n] m, positions of the nodes before that
- *   u       [2n] m, displacements of the nodes, in and out */
+ *   way     s, time for which the obstacles have moved
+ *   before  [2n] m, positions of the nodes before this motion
+ *   u       [2n] m, in/out, displacements of the nodes */
 static void carry_nodes(const System *system, const Contact *contact,
                         double way, const double *x_n, const double *before,
                         double *u)
@@ -126,8 +126,8 @@ static void carry_nodes(const System *system, const Contact *contact,
 }
 
 /* Moves obstacles, pins and carried nodes by a part of the step.  Sets new_x to
- * u: Newton's displacement plus that motion.  Returns whether all terms allow u
- * and no body passes through another; if not, moves the obstacles back. */
+ * u: Newton's displacement plus this motion.  Returns whether all terms allow u
+ * and no body passes through another.  If not, moves the obstacles back. */
 static bool move_part(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
@@ -156,9 +156,10 @@ static bool move_part(TimeIntegrator *run, double part)
     return false;
 }
 
-/* Makes the largest part of the rest of the way that there is room for.
- *   part      in, the first one that is tried
- *   halvings  in, how many are tried, each half the one before
+/* Moves obstacles and pins by the largest part of the step for which there is
+ * room.
+ *   part      in, the first part that is tried
+ *   halvings  in, number of parts that are tried, each half the one before
  *   parts     in, limit of the parts of a step so far
  * Returns the part, or 0 if there was no room. */
 static double move_farthest(TimeIntegrator *run, double part, int halvings,
@@ -199,8 +200,8 @@ void prescribed_start(TimeIntegrator *run)
                  guess ? 10 * tolerance + 0.01 : tolerance);
 }
 
-/* Reports the end of a step that the prescribed motion has ended: the record is
- * of no iteration. */
+/* Reports the end of a step that the prescribed motion has ended, by a record
+ * without an iteration. */
 static void report_end(const Newton *newton, Status status)
 {
     const NewtonSettings *settings = &newton->settings;

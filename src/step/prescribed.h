@@ -1,10 +1,9 @@
-/* prescribed.h - within a step: walls and pins that move as prescribed, and an
- * obstacle that a hand pushes.
+/* prescribed.h - motion of walls, of pins, and of an obstacle that a hand
+ * pushes, within a step.
  *
- * A step has one or several minimisations: prescribed_start moves things as far
- * as there is room and starts one, prescribed_end_part says whether another one
- * follows.
- */
+ * A step has one or several minimisations: prescribed_start moves walls and
+ * pins as far as there is room and starts one, prescribed_end_part says whether
+ * another one follows. */
 #ifndef ELASTO_PRESCRIBED_H
 #define ELASTO_PRESCRIBED_H
 
@@ -20,15 +19,17 @@ bool prescribed_begin(TimeIntegrator *run);
  * is no room; walls and pins go on. */
 void prescribed_start(TimeIntegrator *run);
 
-/* Whether another minimisation follows the one that has ended.  The end of the
- * last one is reported to Newton's observer, where its status is another one.
- *   status  in: how the minimisation ended; out: how all of them did, BLOCKED
- *           where things could not be put where they belong */
+/* Ends the part of the way whose minimisation has ended.  Returns whether
+ * another part follows.  After the last part, a status that differs from that
+ * of the minimisation is reported to Newton's observer.
+ *   status  in: how the minimisation ended; out: how the step ends, BLOCKED if
+ *           walls or pins could not move all their way */
 bool prescribed_end_part(TimeIntegrator *run, Status *status);
 
-/* Work of the prescribed motion in a step, J.  The pins' work is their
- * reaction, the gradient of E there, times their way.  The obstacles' work is
- * the force on the nodes, normal and of friction, times the obstacle's way.
+/* Returns the work of the prescribed motion in a step, J.  The pins' work is
+ * their reaction, the gradient of E there, times their way.  The obstacles'
+ * work is the force on the nodes, normal and of friction, times the obstacle's
+ * way.
  *   weight  s^2, factor of P in E */
 double prescribed_work(const TimeIntegrator *run, double weight);
 

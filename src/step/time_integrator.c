@@ -75,7 +75,7 @@ void time_integrator_free(TimeIntegrator *run)
  *     v = (x - x_n) / h        method->finish
  */
 
-/* Counts a step of h. */
+/* Advances the clock by a step of h. */
 static void count_step(StepClock *clock, double h)
 {
     if (h != clock->h)
@@ -84,7 +84,8 @@ static void count_step(StepClock *clock, double h)
     clock->now = clock->since + (double)clock->steps * h;
 }
 
-/* The terms begin a step, such as friction, which reads the contacts at x_n. */
+/* Lets the terms begin a step; friction, for example, reads the contacts at
+ * x_n. */
 static Status begin_terms(TimeIntegrator *run)
 {
     System *system = run->system;
@@ -96,7 +97,7 @@ static Status begin_terms(TimeIntegrator *run)
     return status;
 }
 
-/* The terms end a step, such as plasticity, which flows. */
+/* Lets the terms end a step; plastic springs, for example, flow. */
 static void end_terms(TimeIntegrator *run)
 {
     System *system = run->system;
@@ -117,7 +118,7 @@ static void begin_hand(TimeIntegrator *run)
     if (!run->newton) {
         hand->k = 0;
         system_acceleration(system, run->x, run->new_x);
-        run->memory_h = 0; /* Verlet's a_n had no hand */
+        run->memory_h = 0; /* a_n has to be computed again, with the hand */
     }
     hand_begin_step(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
                     run->newton ? NULL : run->new_x + i);
@@ -146,7 +147,7 @@ static void begin_stage(TimeIntegrator *run)
  * unconverged one. */
 static Status end_step(TimeIntegrator *run, Status status)
 {
-    size_t both = 2 * run->size; /* v is behind x, new_v behind new_x */
+    size_t both = 2 * run->size; /* x and v are one array */
     run->status = status;
     if (status_is_failure(status))
         return status;
