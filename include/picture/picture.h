@@ -35,6 +35,7 @@ typedef struct Card {
     bool starts_closed;
     bool needs_line_energy; /* draws E along p, which play then computes */
     bool below_picture;     /* stands below the picture if a page enlarges it */
+    bool beside_picture; /* stands beside the picture if a page enlarges it */
     bool only_in_lecture;   /* is hidden outside of the lecture */
     const char *words;      /* text; lines with unknown numbers are left out */
     const struct ListingRow *rows; /* algorithm line by line (cards.h) */

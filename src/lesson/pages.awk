@@ -98,7 +98,7 @@ BEGIN {
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
     numbers["pause"]
     of_next["nearer"] of_next["spring"]
-    split("numbers forces modes kinds cuts downhill curves first_step", layer)
+    split("numbers forces modes kinds cuts downhill curves first_step velocity", layer)
     for (i in layer)
         layers[layer[i]]
 }

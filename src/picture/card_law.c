@@ -176,7 +176,7 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap)
     LawPoint now;
     const Law *law = find_law(simulation, 0, &now);
     if (!law || simulation->runs > 1 || isnan(now.x) ||
-        (law->value != gap_energy && law->value != friction_force_at))
+        law->value != gap_energy)
         return false;
     bool self = law->source == &self_contact_energy;
     gap->d_hat = now.d_hat;

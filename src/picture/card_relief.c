@@ -244,7 +244,7 @@ static void draw_relief_axes(const Relief *relief)
 
 void relief_draw(const Plot *card)
 {
-    static const double bounds[4] = {-1.95, -0.75, 2.05, 2.2}; /* m */
+    static const double bounds[4] = {-1.62, -0.75, 1.88, 2.2}; /* m */
     Relief relief = {card->simulation, *card, find_rim(card->simulation), 0};
     relief.level = plot_round_up(relief.rim / LEVELS);
     relief.plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);

@@ -123,16 +123,23 @@ void step_energy_draw(const Plot *card)
 }
 
 /* Fills a row for each update so far; the row of the current update has the
- * cells that are known at this line. */
+ * cells that are known at this line.  Without projection the table has the
+ * number of negative eigenvalues of the Hessian, and the slope along p. */
 bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
-    static const CardTableRow heads = {5,
-                                       COLOUR_TEXT,
-                                       {"update", "projected",
-                                        "\u2016{p}\u2016_{\u221e}/h, m/s",
-                                        "{alpha}", "change of E, J s\u00b2"}};
-    const Trace *trace = active_pane(content)->trace;
-    *cells = heads;
+    static const CardTableRow heads[] = {
+        {5,
+         COLOUR_TEXT,
+         {"update", "projected", "\u2016{p}\u2016_{\u221e}/h, m/s", "{alpha}",
+          "change of E, J s\u00b2"}},
+        {6,
+         COLOUR_TEXT,
+         {"update", "\u03bb < 0", "\u2016{p}\u2016_{\u221e}/h, m/s", "{alpha}",
+          "change of E, J s\u00b2", "g \u00b7 {p}, J s\u00b2"}}};
+    const Pane *pane = active_pane(content);
+    const Trace *trace = pane->trace;
+    bool raw = pane->simulation->options.projection == PROJECTION_NONE;
+    *cells = heads[raw];
     if (!trace || row == 0)
         return trace;
     int made = count_added_updates(trace);
@@ -144,7 +151,8 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
         return false;
     memset(cells->cell, 0, sizeof cells->cell);
     snprintf(cells->cell[0], CARD_CELL, "%d", row);
-    snprintf(cells->cell[1], CARD_CELL, "%d", update->projected);
+    snprintf(cells->cell[1], CARD_CELL, "%d",
+             raw ? update->negative : update->projected);
     if (line >= LINE_SOLVE)
         snprintf(cells->cell[2], CARD_CELL, "%s %s \u03b5",
                  format_number(update->residual).text,
@@ -155,6 +163,9 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     if (line >= LINE_UPDATE)
         snprintf(cells->cell[4], CARD_CELL, "%s",
                  format_number(update->change).text);
+    if (line >= LINE_SOLVE)
+        snprintf(cells->cell[5], CARD_CELL, "%s",
+                 format_number(update->slope).text);
     return true;
 }
 
@@ -174,13 +185,15 @@ double updates_needed_height(const FrameContent *content, double wide,
  * newest updates. */
 void updates_draw(const Plot *card)
 {
-    static const double right[] = {0.05, 0.25, 0.52, 0.63, 1};
+    static const double ends[2][6] = {{0.05, 0.25, 0.52, 0.63, 1},
+                                      {0.05, 0.2, 0.6, 0.67, 1, 0.38}};
     double pitch = UPDATE_PITCH * card->em, y = card->box.y + 0.2 * card->em;
     int room = (int)(card->box.height / pitch - 1), rows = 0;
     CardTableRow cells;
     while (updates_fill_row(card->content, rows, &cells))
         rows++;
     int skipped = rows - 1 > room ? rows - 1 - room : 0;
+    const double *right = ends[cells.columns > 5];
     for (int i = 0; i < rows - skipped; i++) {
         updates_fill_row(card->content, i > 1 ? i + skipped : i, &cells);
         for (int c = i == 0; c < cells.columns; c++)

@@ -72,6 +72,7 @@ BEGIN {
     values["hover"] values["sample"]
     switches["has_no_curves"] switches["half_width"] switches["half_width_on_page"]
     switches["starts_closed"] switches["below_picture"]
+    switches["beside_picture"]
     switches["needs_line_energy"] switches["only_in_lecture"]
     switches["stretched"] switches["own_handles"] switches["takes_clicks"]
     switches["shows_scale"] switches["indented"]

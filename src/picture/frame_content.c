@@ -183,11 +183,17 @@ static Box box_of_switch(const Plot *stage, int i)
     const Box *box = &stage->box;
     int wide = (int)(SWITCH_WIDTH * stage->em);
     int high = (int)(SWITCH_HEIGHT * stage->em), gap = (int)(0.4 * stage->em);
+    Switch switches[SCENE_MAX_SWITCHES];
+    int count = exhibit_list_switches(stage->simulation, switches);
+    bool narrow = box->width < 3 * wide; /* the legend needs the upper edge */
+    int top =
+        narrow ? box->height - (count + 1) * (high + gap) : high + 3 * gap;
     return (Box){box->x + box->width - wide - gap,
-                 box->y + 3 * gap + i * (high + gap) + high, wide, high};
+                 box->y + top + i * (high + gap), wide, high};
 }
 
-/* Draws the scene's switches as chips in the upper right corner. */
+/* Draws the scene's switches as chips in the upper right corner, or in the
+ * lower one of a narrow stage. */
 static void draw_switches(const Plot *stage)
 {
     Paper *paper = stage->paper;

@@ -200,9 +200,8 @@ static void draw_directions(const Plot *plot, bool both)
     const Point place[2] = {point_along(from, 1, p), point_along(from, far, p)};
     plot_to_pixel(plot, place->at, tip);
     if (other && box_contains(plot->box, tip[0], tip[1]))
-        plot_label(plot, 2, place->at, colour, "%s (slope %s)",
-                   raw ? "with projection" : "without",
-                   format_digits(slope, 2).text);
+        plot_label(plot, 2, place->at, colour, "with %s: %s J s\u00b2",
+                   raw ? "\u0124" : "H", format_digits(slope, 2).text);
 }
 
 /* Returns a length beyond the diagonal of the view, m. */

@@ -18,7 +18,9 @@ static const double MIN_COLUMN = 27;    /* width of the column */
 static const double MIN_PAIR = 28; /* width of a column for cards in pairs */
 
 static const double BOLD = 1.12;        /* width of a bold letter, in letters */
-static const double STAR_REST = 0.4;    /* part of the stage below a star */
+static const double STAR_REST = 0.4;    /* part of the stage beside a star */
+static const double BESIDE_WIDTH = 15; /* ems, least width of a picture there */
+static const double BELOW_BESIDE = 0.56; /* part of a stage too narrow for it */
 static const double BELOW_FACTOR = 1.3; /* height of a star, in card heights */
 static const double FOLDS = 1.15;       /* cards fold in less of their height */
 static const double LOW_ROW = 0.75;     /* settings: part of a low window */
@@ -188,14 +190,27 @@ typedef struct CardRow {
     double weight;   /* share of the height left over */
 } CardRow;
 
+/* Whether the card is open and is the star of the page. */
+static bool card_is_star(const FrameContent *content, int card)
+{
+    const char *star = active_pane(content)->simulation->options.main_card;
+    return star &&
+           !((content->cards.hidden | content->cards.closed) >> card & 1) &&
+           card == picture_find_card(active_picture(content), star);
+}
+
 /* Whether the card is the star of the page and stands below the picture. */
 static bool card_is_below(const FrameContent *content, int card)
 {
-    const Picture *picture = active_picture(content);
-    const char *star = active_pane(content)->simulation->options.main_card;
-    return star && picture->cards[card]->below_picture &&
-           !((content->cards.hidden | content->cards.closed) >> card & 1) &&
-           card == picture_find_card(picture, star);
+    return card_is_star(content, card) &&
+           active_picture(content)->cards[card]->below_picture;
+}
+
+/* Whether the card is the star of the page and stands beside the picture. */
+static bool card_is_beside(const FrameContent *content, int card)
+{
+    return card_is_star(content, card) &&
+           active_picture(content)->cards[card]->beside_picture;
 }
 
 /* Finds the rows of all visible cards.  If `pairs`, two cards of half width
@@ -213,7 +228,8 @@ static int find_rows(const FrameContent *content, double wide, double em,
         bool bar = sets->closed >> i & 1 || (large && i != sets->large);
         bool half = card->half_width ||
                     (card->half_width_on_page && content->lecture.page);
-        if (sets->hidden >> i & 1 || card_is_below(content, i))
+        if (sets->hidden >> i & 1 || card_is_below(content, i) ||
+            (card_is_beside(content, i) && !bar))
             continue;
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].cards = 2;
@@ -368,9 +384,15 @@ static void place_star(const FrameContent *content, Layout *layout)
                     fmin((needs + 2 * GAP) * layout->em, 0.6 * stage->height));
         return;
     }
-    if (place.width < 1 && !layout->has_list)
+    if (place.width < 1 && !layout->has_list && !card_is_beside(content, star))
         return;
-    if (place.height < bar)
+    if (card_is_beside(content, star) &&
+        STAR_REST * stage->width > BESIDE_WIDTH * layout->em)
+        place = box_cut_off(stage, EDGE_RIGHT, (int)(STAR_REST * stage->width));
+    else if (card_is_beside(content, star))
+        place = box_cut_off(stage, EDGE_BOTTOM,
+                            (int)(BELOW_BESIDE * stage->height));
+    else if (place.height < bar)
         place =
             box_cut_off(stage, EDGE_BOTTOM, (int)(STAR_REST * stage->height));
     layout->card[star] = box_inset(*stage, layout_pixels(layout, GAP));

@@ -140,6 +140,8 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(
         values, simulation->exhibit.switches ? "over h" : "over time", true);
     values_add(values, "methods", RACE_METHODS);
+    if (race->count > 0)
+        values_add(values, "longest h", 1e3 * race->point[0].h);
     values_add_flag(values, "failed", simulation->status);
 }
 
@@ -152,15 +154,16 @@ static void put_cell(char cell[CARD_CELL], const char *sign, double value,
                  format_digits(value, digits).text, unit);
 }
 
-/* Fills the row of a method: error, quotient of errors each time h is halved
+/* Fills the row of a method: error, m, quotient of errors each time h is halved
  * (or epsilon below the reference's error), energy left after a second, longest
  * stable h, run time. */
 bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     static const CardTableRow heads = {CARD_COLUMNS,
                                        COLOUR_TEXT,
-                                       {"", "error, m", "h/2", "h/4", "h/8",
-                                        "h/16", "energy", "stable h", "time"}};
+                                       {"", "4 ms", "2 ms", "1 ms", "0.5 ms",
+                                        "0.25 ms", "energy", "stable h",
+                                        "time"}};
     const Race *race = &active_pane(content)->simulation->exhibit.race;
     int method = row - 1;
     *cells = heads;
@@ -209,8 +212,8 @@ void race_table_draw(const Plot *card)
         "4.4\u00b710^{\u22125}",
         "\u00f7 6.4",
         "\u00f7 6.4",
-        "\u00f7 6.4",
-        "\u00f7 6.4",
+        "0.5 ms",
+        "0.25 ms",
         "\u00d7 8.9\u00b710^{\u22128}",
         "(if linear)",
         "0.0055 ms"};

@@ -205,9 +205,10 @@ static Plot create_tangent_plot(const Plot *stage, int half)
     Plot part = *stage;
     part.box.height /= 2;
     part.box.y += half * part.box.height;
-    Plot plot =
-        plot_on_stage(&part, (Axis){.label = half ? "x in m" : NULL},
-                      (Axis){.low = half ? -0.25 * high : -high, .high = high});
+    Plot plot = plot_on_stage(&part, (Axis){.label = half ? "x in m" : NULL},
+                              (Axis){.low = half ? -0.25 * high : -high,
+                                     .high = high,
+                                     .label = half ? "J s\u00b2" : "kg m"});
     plot_line(&plot, (double[2]){plot.x.low, 0}, (double[2]){plot.x.high, 0}, 1,
               COLOUR_GREY);
     return plot;

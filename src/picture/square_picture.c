@@ -21,6 +21,7 @@ static const double MIN_ARROW = 1.5; /* ems, the longest arrow of p, at least */
 static const double MAX_VIEW = 1e303; /* largest view, times the first view */
 static const double ROOM = 1.14; /* size of the stage, in sides of the square */
 static const double BARE_ROOM = 1.75; /* size of a bare stage, in sides */
+static const double VELOCITY_TIME = 0.1; /* s, way of the velocity arrow */
 static const double MAGNIFIER = 12;   /* ems, side of the magnifier, at most */
 static const double BALL_REACH = 4;   /* reach for balls, times the view */
 static const double GROUND_REACH = 2; /* reach for grounds, times the view */
@@ -455,6 +456,29 @@ static void draw_page_arrows(const SquarePen *pen)
                "node %d", system->nodes - 1);
 }
 
+/* Draws the velocity of the centre of mass, as the way of VELOCITY_TIME. */
+static void draw_mean_velocity(const SquarePen *pen)
+{
+    const System *system = pen->system;
+    double mass = 0, x[2] = {0}, v[2] = {0};
+    for (int i = 0; i < system->nodes; i++) {
+        mass += system->m[i];
+        for (int c = 0; c < 2; c++) {
+            x[c] += system->m[i] * pen->x[2 * i + c];
+            v[c] += system->m[i] * pen->v[2 * i + c];
+        }
+    }
+    for (int c = 0; c < 2; c++) {
+        x[c] /= mass;
+        v[c] /= mass;
+    }
+    const Point tip = point_along(x, VELOCITY_TIME, v);
+    plot_arrow(pen->stage, x, v, VELOCITY_TIME, 4, COLOUR_VELOCITY);
+    plot_label(pen->stage, 1, tip.at, COLOUR_VELOCITY, "%s m/s",
+               format_digits(vector_length(v), 2).text);
+    plot_legend(pen->stage, COLOUR_VELOCITY, "velocity of the centre of mass");
+}
+
 /* Draws springs in the colours of their kinds.  On a page with switches for the
  * kinds, springs of the kind of the newest spring are wider. */
 static void draw_kinds(const SquarePen *pen)
@@ -601,6 +625,8 @@ void square_draw(Plot *stage)
         draw_numbers(pen);
     if (pen->colour_range > 0)
         add_colour_legend(pen);
+    if (layers & LAYER_VELOCITY)
+        draw_mean_velocity(pen);
     draw_slide(stage);
     draw_magnifier(pen);
 }

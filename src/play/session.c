@@ -144,7 +144,8 @@ void player_format_value(const OptionRow *row, const Options *options,
     char value[COMMAND_TEXT_SIZE], unit[16];
     option_write_unit(row, unit, sizeof unit);
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
-        unit[0] = '\0'; /* a tolerance of |g| is not in m/s */
+        snprintf(unit, sizeof unit, "%s", /* unit of the gradient's norm */
+                 simulation->scene->picture == PICTURE_CURVE ? "" : "kg m");
     option_write_short(row, options, value, sizeof value);
     if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
         simulation->run[0].method != simulation->run[1].method)
