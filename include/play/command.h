@@ -56,7 +56,7 @@ enum {
 typedef struct CommandRow {
     const char *word;  /* name in scripts; NULL: none */
     const char *does;  /* explanation for --help commands */
-    unsigned flags;    /* REPEATS, KEPT, ... */
+    unsigned flags;    /* bits REPEATS, IN_SCRIPT, ... */
     const char *keys;  /* "Space", "Ctrl+R"; several: "?|F1"; "*": any key;
                           "letters": keys that type text; NULL: none */
     const char *label; /* text in the list of keys; "": the keys are listed with
@@ -112,8 +112,8 @@ typedef struct Script {
     size_t next;        /* index of the next line to be obeyed */
 } Script;
 
-/* Appends a line, or replaces the last line if the command replaces that one's
- * in the same gesture (command_replaces).  Returns OK, OUT_OF_MEMORY. */
+/* Appends a line.  A command of the same gesture that the new one replaces
+ * (command_replaces) is overwritten.  Returns OK, OUT_OF_MEMORY. */
 Status script_add(Script *script, long step, const Command *command,
                   int gesture);
 

@@ -51,7 +51,7 @@ typedef struct TracePlace {
 } TracePlace;
 
 typedef struct StepTrace {
-    Trace start; /* h and tolerance of the step, for each picture of a place */
+    Trace start;       /* h and tolerance, which all places show */
     int size;          /* 2n; 0: no rounds are stored */
     Records records;   /* Newton's record of each round */
     Round *round;      /* [records.count] */

@@ -138,7 +138,7 @@ typedef struct Names {
 #define NAMES_OF(table) ((Names){table, sizeof *(table)})
 
 /* Returns name i; NULL after the last name. */
-const char *names_at(Names names, int i);
+const char *names_get(Names names, int i);
 
 /* Returns the index of a name; -1: the table has no such name. */
 int names_find(Names names, const char *name);

@@ -46,7 +46,7 @@ static void describe_option(const OptionRow *row, char *words, size_t size)
         append(words, size, " %g ... %g", row->low, row->high);
     if (is_name && row->default_value >= 0)
         append(words, size, " [%s]",
-               names_at(row->names, (int)row->default_value));
+               names_get(row->names, (int)row->default_value));
     else if (row->high > row->low && !row->count &&
              row->default_value >= row->low)
         append(words, size, " [%g]", row->default_value);

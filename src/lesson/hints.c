@@ -14,7 +14,7 @@ Phrase list_names(Names names)
 {
     Phrase list = {""};
     const char *name;
-    for (int i = 0; (name = names_at(names, i)); i++)
+    for (int i = 0; (name = names_get(names, i)); i++)
         append(list.text, sizeof list.text, "%s%s", i > 0 ? ", " : "", name);
     return list;
 }
@@ -102,7 +102,7 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
     int letters = (int)strlen(text);
     int fewest = letters > 2 ? (letters + 1) / 3 + 1 : 1;
     bool is_comparable = letters > 1 && letters <= NAME_LETTERS;
-    for (int i = 0; is_comparable && (name = names_at(names, i)); i++) {
+    for (int i = 0; is_comparable && (name = names_get(names, i)); i++) {
         int mistakes = count_mistakes(text, name);
         if (name[0] && mistakes < fewest) {
             fewest = mistakes;

@@ -100,7 +100,7 @@ static bool take_word(const char **line, char *word)
 }
 
 /* Returns the next argument in CommandRow.takes, or NULL. */
-static const char *next_argument(const char *at)
+static const char *find_next_argument(const char *at)
 {
     at = strchr(at, ' ');
     return at ? at + 1 : NULL;
@@ -163,7 +163,7 @@ Status command_parse(const char *line, Command *command, Message message)
     command->kind = (CommandKind)kind;
     const char *takes = command_rows[kind].takes;
     bool good = true;
-    for (const char *at = takes; at && good; at = next_argument(at))
+    for (const char *at = takes; at && good; at = find_next_argument(at))
         good = take_word(&line, next) && read_argument(next, *at, command);
     if (good && line[strspn(line, blanks)] == '\0')
         return STATUS_OK;
@@ -178,7 +178,7 @@ void command_format(const Command *command, char *line, size_t size)
     if (row->takes && row->takes[0] == 'O' && command->number >= 0)
         option = &option_rows[command->number];
     snprintf(line, size, "%s%s", command->joins ? "& " : "", row->word);
-    for (const char *at = row->takes; at; at = next_argument(at)) {
+    for (const char *at = row->takes; at; at = find_next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'N')
             snprintf(word, sizeof word, "%ld", command->number);

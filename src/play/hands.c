@@ -67,7 +67,7 @@ static Status obey(Player *player, CommandKind kind, long number)
 
 static Status obey_value(Player *player, const OptionRow *row, double value)
 {
-    const Command command = command_of_set(row, value);
+    const Command command = make_set_command(row, value);
     return player_obey(player, &command);
 }
 
@@ -124,7 +124,7 @@ static Status enter_typed(Player *player)
         return status;
     }
     if (row) {
-        Command made = command_of_set(row, 0);
+        Command made = make_set_command(row, 0);
         if (row->count > 1 ||
             !option_read(row, 1, player->hands.typed, &made.x))
             memcpy(made.text, player->hands.typed, sizeof player->hands.typed);
@@ -153,7 +153,8 @@ static Status drag_number(Player *player, const MouseTarget *target)
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
-        return raise_number(player, row, 1); /* refuses several numbers */
+        /* raise_number refuses several numbers. */
+        return raise_number(player, row, 1);
     if (row->display.increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
     else if (notches == rint(notches))
@@ -189,7 +190,7 @@ static Status open_cell(Player *player, long cell)
 }
 
 /* Whether drags place nodes and obstacles, instead of pulling and pushing. */
-static bool drags_place(const Player *player)
+static bool drag_places_things(const Player *player)
 {
     return player->time.mode == MODE_PAUSE || player->time.mode == MODE_END;
 }
@@ -200,7 +201,7 @@ static Status press_target(Player *player, const MouseTarget *target)
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
-    bool places = drags_place(player);
+    bool places = drag_places_things(player);
     mouse->index = target->pick.index;
     player->screen.view.held = frame_hold_bounds(&player->screen.frame.content,
                                                  &target->layout, target->pane);
@@ -245,7 +246,7 @@ static Status press_target(Player *player, const MouseTarget *target)
 static Status add_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_simulation(player);
-    Command command = command_of_set(option_find("ball"), 0);
+    Command command = make_set_command(option_find("ball"), 0);
     double radius =
         fmax(simulation->options.side / 8, 0.7 * simulation->mesh.spacing);
     for (int i = 0; i < simulation->system.nodes; i++) {
@@ -268,7 +269,7 @@ static Status drag_obstacle(Player *player, const double at[2])
     Past *past = &player->past;
     int number = player->hands.mouse.index;
     double part = 1, from[2];
-    if (player->hands.holds || !drags_place(player)) {
+    if (player->hands.holds || !drag_places_things(player)) {
         Status status = player->hands.holds
                             ? STATUS_OK
                             : obey(player, COMMAND_PUSH, number);
@@ -399,7 +400,8 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         return obey(player, COMMAND_ENLARGE, index);
     case ZONE_TIME:
         player->hands.mouse.drag = COMMAND_GOTO;
-        player->hands.mouse.moved = true; /* a click counts, too */
+        /* A click without a movement goes to its step, too. */
+        player->hands.mouse.moved = true;
         return go_on_dragging(player);
     case ZONE_SETTING:
         return press_number(player, index, clicks);

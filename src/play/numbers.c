@@ -14,7 +14,7 @@ static const OptionRow *find_command_option(const Command *command)
 }
 
 /* Whether the scene uses an option whose value is a number or a choice. */
-static bool is_number(const Player *player, const OptionRow *row)
+static bool is_scene_number(const Player *player, const OptionRow *row)
 {
     return (row->needs & player_active_options(player)->scene->needs) &&
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
@@ -27,7 +27,7 @@ int player_list_options(const Player *player, bool all,
     int own = all ? 0 : options_list_visible(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool more = all || player->hands.added >> (row - option_rows) & 1;
-        more = more && is_number(player, row);
+        more = more && is_scene_number(player, row);
         for (int i = 0; i < own; i++)
             more = more && found[i] != row;
         if (more)
@@ -60,7 +60,7 @@ const char *player_idle_reason(const Player *player, const OptionRow *row)
 Status obey_add(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
-    if (!row || !is_number(player, row))
+    if (!row || !is_scene_number(player, row))
         return player_refuse(player, "this scene has no such number");
     const char *idle = player_idle_reason(player, row);
     if (idle)

@@ -103,7 +103,7 @@ static bool is_pull_due(const Player *player)
             player->past.step <= player->hands.pulled);
 }
 
-/* Obeys the queue as player_obey_queue, but returns INVALID_INPUT, too. */
+/* Obeys the queue like player_obey_queue, but returns a refusal. */
 static Status obey_queue(Player *player, bool now)
 {
     Queue queue = player->commands.queue;

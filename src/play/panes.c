@@ -52,8 +52,8 @@ Status obey_add_pane(Player *player, const Command *command)
         player->tour.opens ? run->method : find_next_method(player, panes - 1);
     if (!next)
         return STATUS_INVALID_INPUT;
-    const Command change = command_of_set(option_find("integrator"),
-                                          (double)(next - integrator_methods));
+    const Command change = make_set_command(
+        option_find("integrator"), (double)(next - integrator_methods));
     Status status = player_edit(player, command, 0, 0, false);
     if (!status && !player->tour.opens)
         status = player_edit(player, &change, panes, panes + 1, false);

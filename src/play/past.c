@@ -176,8 +176,8 @@ static bool keeps_state(const Branch *branch, const Entry *entry)
                                        !entry->state || entry->state->is_set);
 }
 
-/* Drops every second state of the branch with the smallest stride, of the
- * present branch last.  Returns false if no state is left to drop. */
+/* Drops every second state of the branch with the smallest stride; the present
+ * branch has its turn last.  Returns false if no state is left to drop. */
 static bool thin_states(Past *past)
 {
     Branch *finest = NULL;
@@ -229,7 +229,8 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     const PaneRun *pane_run = &past->pane[pane];
     const Simulation *simulation = &pane_run->simulation;
     size_t size = sizeof *entry->state + state_save(simulation, NULL);
-    size_t both = size + sizeof *entry->sample; /* the sample is made next */
+    /* Memory for the state and for the sample, which is made next. */
+    size_t both = size + sizeof *entry->sample;
     drop_state(past, entry);
     while (past->bytes + both > past->limit && thin_states(past))
         continue;
@@ -533,7 +534,7 @@ static Status pane_run_fail(Past *past, int pane, Status status)
         pane_run->failed = pane_run->known = true;
         pane_run->outcome.status = status;
     }
-    /* Some runs may have made the next step: the state is not of `step`. */
+    /* Some runs may have made the next step, so the state is not of `step`. */
     pane_run->has_state = false;
     past->aim = past->step;
     return status;
@@ -807,7 +808,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
 }
 
 /* Whether an edit sets a new state, which its branch stores. */
-static bool is_state_edit(const Command *edit)
+static bool edit_sets_state(const Command *edit)
 {
     return edit->kind == COMMAND_HANDLE || edit->kind == COMMAND_FLIP ||
            edit->kind == COMMAND_PLACE;
@@ -815,9 +816,9 @@ static bool is_state_edit(const Command *edit)
 
 /* Whether an edit changes the state of its step.  A pin does: the pinned node
  * stops. */
-static bool changes_state(const Command *edit)
+static bool edit_changes_state(const Command *edit)
 {
-    return is_state_edit(edit) || edit->kind == COMMAND_PIN;
+    return edit_sets_state(edit) || edit->kind == COMMAND_PIN;
 }
 
 /* Returns the control after an edit, or NULL if memory is missing.
@@ -859,7 +860,7 @@ static Status edit_entry(Past *past, int pane, const Command *edit,
                          Entry *entry)
 {
     Simulation *simulation = &past->pane[pane].simulation;
-    if (!is_state_edit(edit)) {
+    if (!edit_sets_state(edit)) {
         const Control *control =
             make_edited_control(entry->control, edit, simulation);
         if (!control)
@@ -891,13 +892,13 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     bool joins = gesture && branch->gesture == gesture && !branch->fresh &&
                  panes == branch->panes && !again &&
                  past->step == past_newest(past) &&
-                 is_state_edit(edit) == is_state_edit(&branch->edit) &&
-                 (!is_state_edit(edit) || branch->count == 1);
+                 edit_sets_state(edit) == edit_sets_state(&branch->edit) &&
+                 (!edit_sets_state(edit) || branch->count == 1);
     const Branch wanted = {.first = past->step - again,
                            .copied = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
-    if (joins) /* undone branches end here */
+    if (joins) /* the edit replaces undone branches */
         drop_branches(past, past->now + 1);
     else
         branch = push_branch(past, wanted, edit);
@@ -905,7 +906,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
         return STATUS_OUT_OF_MEMORY;
     if (edit->kind == branch->edit.kind)
         branch->edit = *edit; /* undo reports the last edit of the gesture */
-    invalidate_tables(past, past->step, changes_state(edit));
+    invalidate_tables(past, past->step, edit_changes_state(edit));
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)
             status = edit_entry(past, p, edit,
@@ -926,7 +927,7 @@ const Command *past_undo(Past *past, int way)
     for (int b = low + 1; b <= high; b++)
         invalidate_tables(past, past->branch[b].first,
                           past->branch[b].fresh ||
-                              changes_state(&past->branch[b].edit));
+                              edit_changes_state(&past->branch[b].edit));
     abandon_work(past);
     leave_all_steps(past);
     present_branch(past)->shown = past->step;

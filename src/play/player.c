@@ -25,7 +25,8 @@ Status player_draw(Player *player)
     if (!player->screen.draws)
         return STATUS_OK;
     if (past_works(&player->past) && !past_makes(&player->past)) {
-        player->screen.changed = true; /* to be drawn when the step is there */
+        /* The frame is drawn when the work has led to its step. */
+        player->screen.changed = true;
         return STATUS_OK;
     }
     Paper *paper = player_prepare_paper(player);
@@ -131,7 +132,8 @@ Status player_frame(Player *player)
     bool due = !player->screen.window || now >= player->time.due - EARLY;
     bool first = player->screen.drawn < 0 && player->screen.draws;
     bool works = past_works(&player->past);
-    bool begins = works && player->time.began > start; /* a frame comes first */
+    /* Work that begins in this frame waits until the frame is drawn. */
+    bool begins = works && player->time.began > start;
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);
@@ -232,7 +234,8 @@ Status player_create(const Options *options, int count, char *const *words,
     if (!status)
         status =
             player_begin_runs(player, player->given.options, count, &begin);
-    if (!status && player_is_stopped(player)) /* scripts start running */
+    /* A script starts running, so the journal needs the pause. */
+    if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
     if (!status && player->given.asks && options->page)

@@ -79,7 +79,7 @@ void player_pause(Player *player);
 Status player_tolerate_failure(Player *player, Status status);
 
 /* Returns the command that sets an option as a part of the present gesture. */
-Command command_of_set(const OptionRow *row, double value);
+Command make_set_command(const OptionRow *row, double value);
 
 /* Puts a command into the queue.  The next place of a drag replaces the place
  * before. */

@@ -21,7 +21,7 @@ typedef struct RunAtStep {
     double step, time;
     int run_index;            /* index of the run in its simulation */
     int pane;                 /* number of the pane, from 1 */
-    int runs, nodes, springs; /* numbers before this run in the tables */
+    int runs, nodes, springs; /* number of earlier runs, their nodes, springs */
 } RunAtStep;
 
 static void add_states(Table *table, const RunAtStep *at)
@@ -81,8 +81,8 @@ static const char *find_log_text(const char *column, int number)
 static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* columns of each table */
-    const char *pane_column; /* further column with several panes, or NULL */
-    void (*add_rows)(Table *table, const RunAtStep *at); /* NULL: the log */
+    const char *pane_column; /* column that several panes add, or NULL */
+    void (*write_rows)(Table *table, const RunAtStep *at); /* NULL: the log */
 } kinds[RECORDING_TABLES] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
      "pane:whole", add_states},
@@ -231,9 +231,9 @@ Status recording_write_states(Recording *recording, bool energies_only,
             at.run_index = r;
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLES; t++)
-                if (kinds[t].add_rows && recording->table[t].output.file &&
+                if (kinds[t].write_rows && recording->table[t].output.file &&
                     (!energies_only || t == RECORDING_ENERGIES))
-                    kinds[t].add_rows(&recording->table[t], &at);
+                    kinds[t].write_rows(&recording->table[t], &at);
             at.runs++;
             at.nodes += at.run->system->nodes;
             at.springs += at.run->system->springs;

@@ -213,7 +213,7 @@ void player_enqueue(Player *player, const Command *command)
         queue->command[queue->count++] = *command;
 }
 
-Command command_of_set(const OptionRow *row, double value)
+Command make_set_command(const OptionRow *row, double value)
 {
     return (Command){.kind = COMMAND_SET,
                      .number = row - option_rows,
@@ -223,7 +223,7 @@ Command command_of_set(const OptionRow *row, double value)
 
 void player_enqueue_set(Player *player, const OptionRow *row, double value)
 {
-    const Command command = command_of_set(row, value);
+    const Command command = make_set_command(row, value);
     player_enqueue(player, &command);
 }
 

@@ -111,7 +111,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
     if (opens)
         player->time.unit = UNIT_STEP;
     if (!status && opens &&
-        player->given.asks) { /* a script has the opening commands as lines */
+        player->given.asks) { /* a script repeats the opening commands itself */
         player->commands.queue.pins = before;
         return player_enqueue_page(player);
     }

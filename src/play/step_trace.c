@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The walk stops at each trial of a line search with fewer trials. */
+/* From this number of trials on, the walk shows only the last trial. */
 enum { TRIALS_WALKED = 12 };
 
 bool records_reserve(Records *records, int count)
@@ -199,7 +199,7 @@ void step_trace_add_round(StepTrace *trace, const Newton *newton,
 
 /* ---- the listing --------------------------------------------------------- */
 
-static void add_place(StepTrace *trace, int round, Line line, int trials)
+static void append_place(StepTrace *trace, int round, Line line, int trials)
 {
     trace->place[trace->places++] = (TracePlace){round, line, trials};
 }
@@ -214,26 +214,26 @@ void step_trace_end(StepTrace *trace, const Options *options)
     if (!place)
         return;
     trace->place = place;
-    add_place(trace, 0, LINE_START, 0);
+    append_place(trace, 0, LINE_START, 0);
     for (int i = 0; i < count; i++) {
         const NewtonRecord *record = &trace->records.row[i];
         bool searches = options->line_search != LINE_SEARCH_NONE;
         bool fails = record->alpha == 0, passes = record->status == STATUS_OK;
         int trials = record->trials;
-        add_place(trace, i, LINE_DO, 0);
+        append_place(trace, i, LINE_DO, 0);
         if (options->projection != PROJECTION_NONE)
-            add_place(trace, i, LINE_PROJECT, 0);
-        add_place(trace, i, LINE_SOLVE, 0);
+            append_place(trace, i, LINE_PROJECT, 0);
+        append_place(trace, i, LINE_SOLVE, 0);
         for (int t = 1; searches && t < trials && trials < TRIALS_WALKED; t++)
-            add_place(trace, i, LINE_SEARCH, t);
+            append_place(trace, i, LINE_SEARCH, t);
         if (searches || fails)
-            add_place(trace, i, LINE_SEARCH, trials);
+            append_place(trace, i, LINE_SEARCH, trials);
         if (!fails)
-            add_place(trace, i, LINE_UPDATE, trials);
+            append_place(trace, i, LINE_UPDATE, trials);
         if (!fails || passes)
-            add_place(trace, i, LINE_TEST, trials);
+            append_place(trace, i, LINE_TEST, trials);
     }
-    add_place(trace, count, LINE_END, 0);
+    append_place(trace, count, LINE_END, 0);
 }
 
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)

@@ -514,7 +514,7 @@ Status obey_next(Player *player, const Command *command)
 }
 
 /* Whether the steps of any pane consist of Newton's updates. */
-static bool has_updates(const Player *player)
+static bool panes_have_updates(const Player *player)
 {
     bool any = false;
     for (int p = 0; p < past_panes(&player->past); p++)
@@ -530,7 +530,7 @@ Status obey_back(Player *player, const Command *command)
     player_pause(player);
     if (step == 0)
         player_note(player, "this is step 0: nothing was before it");
-    if (player->time.unit == UNIT_STEP || !has_updates(player))
+    if (player->time.unit == UNIT_STEP || !panes_have_updates(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
     if (player->view_of_pane[player->active].place < 0 && step > 0) {
         if (!player_active_run(player)->known)
@@ -549,7 +549,7 @@ Status obey_finer(Player *player, const Command *command)
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
     if (player_active_options(player)->next == NEXT_NEARER ||
-        (!has_updates(player) && player->time.unit == UNIT_STEP))
+        (!panes_have_updates(player) && player->time.unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
     player->time.unit = (player->time.unit + 1) % UNITS;
     player_pause(player);

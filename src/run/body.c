@@ -415,9 +415,9 @@ static Status refuse_place(const Options *options, int number, double gap,
  *   x        [2n] m
  *   min_gap  m, least gap to the obstacle `number`; the gap to other obstacles
  *            must be above 0 */
-static Status check_places(const Options *options, const System *system,
-                           const double *x, double min_gap, int number,
-                           Message message)
+static Status check_gaps_and_cells(const Options *options, const System *system,
+                                   const double *x, double min_gap, int number,
+                                   Message message)
 {
     const SquareMesh shape = body_make_mesh(options);
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
@@ -494,8 +494,9 @@ static Status check_clearance(const Simulation *simulation,
             contact.ball = count - 1;
         system.terms = 1;
         system.term[0] = (Term){&contact_energy, &contact};
-        status = check_places(&own, &system, simulation->run[run].x,
-                              min_gap * contact.barrier.d_hat, number, message);
+        status = check_gaps_and_cells(&own, &system, simulation->run[run].x,
+                                      min_gap * contact.barrier.d_hat, number,
+                                      message);
     }
     return status;
 }
@@ -511,7 +512,7 @@ double simulation_find_free_way(const Simulation *simulation,
                                 const double to[2])
 {
     enum { HALVINGS = 20 };
-    static const double MIN_GAP = 0.999; /* in units of d_hat */
+    static const double MIN_GAP = 0.999; /* gap over d_hat */
     Options moved = *options;
     double *at = options_obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
@@ -551,8 +552,9 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
 
 /* Checks that no body is inside another one.  The outlines do not cross, so one
  * node of each body is enough. */
-static Status check_inside(const Options *options, const SquareMesh *shape,
-                           const double *x, Message message)
+static Status check_nested_bodies(const Options *options,
+                                  const SquareMesh *shape, const double *x,
+                                  Message message)
 {
     int cells = shape->cells / shape->bodies;
     int nodes = shape->nodes / shape->bodies;
@@ -569,8 +571,8 @@ static Status check_inside(const Options *options, const SquareMesh *shape,
 }
 
 /* Checks that the outlines of bodies do not cross each other or themselves. */
-static Status check_overlap(const Options *options, const double *x,
-                            Message message)
+static Status check_crossing_outlines(const Options *options, const double *x,
+                                      Message message)
 {
     const SquareMesh shape = body_make_mesh(options);
     int edge[2], other[2];
@@ -594,7 +596,7 @@ static Status check_overlap(const Options *options, const double *x,
                                    a, b);
         }
     }
-    return check_inside(options, &shape, x, message);
+    return check_nested_bodies(options, &shape, x, message);
 }
 
 Status body_check(const Options *options, Message message)
@@ -609,9 +611,9 @@ Status body_check(const Options *options, Message message)
     double *x = NULL;
     status = build_body(options, 0, &system, &x, message);
     if (!status)
-        status = check_overlap(options, x, message);
+        status = check_crossing_outlines(options, x, message);
     if (!status)
-        status = check_places(options, &system, x, 0, -1, message);
+        status = check_gaps_and_cells(options, &system, x, 0, -1, message);
     free(x);
     system_free(&system);
     return status;

@@ -63,8 +63,8 @@ bool control_hand_holds(const Control *control)
 
 /* Returns the height, m, that RunVariant.lift adds to an obstacle of a run.
  * Only grounds are lifted, not balls. */
-static double find_lift(const Simulation *simulation, int run,
-                        const Obstacle *obstacle)
+static double get_lift(const Simulation *simulation, int run,
+                       const Obstacle *obstacle)
 {
     return obstacle->kind == OBSTACLE_WALL ? simulation->variant[run].lift : 0;
 }
@@ -75,7 +75,7 @@ void simulation_find_obstacle(const Simulation *simulation, int run, int number,
     const Contact *contact = contact_of(simulation->run[run].system);
     const Obstacle *obstacle = &contact->obstacle[number];
     at[0] = obstacle->o[0];
-    at[1] = obstacle->o[1] - find_lift(simulation, run, obstacle);
+    at[1] = obstacle->o[1] - get_lift(simulation, run, obstacle);
 }
 
 void control_store_obstacle(Control *control, int number,
@@ -226,7 +226,7 @@ static void apply_push(Simulation *simulation, const Control *control)
                                .shape = simulation->mesh};
         if (contact->push.on)
             contact->push.to[1] +=
-                find_lift(simulation, r, &contact->obstacle[control->push]);
+                get_lift(simulation, r, &contact->obstacle[control->push]);
     }
 }
 

@@ -72,7 +72,7 @@ int exhibit_list_switches(const Simulation *simulation,
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
-    /* A page on which N shortens a spring hides switches that do not differ. */
+    /* Where N shortens a spring, switches show only if a page flips some. */
     bool none = options->next == NEXT_NEARER && !options->flips;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)

@@ -112,8 +112,8 @@ bool option_read(const OptionRow *row, int count, const char *text,
 
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
-    if (row && row->kind == OPTION_NAME) { /* for -1 the first name */
-        snprintf(text, size, "%s", names_at(row->names, (int)fmax(value, 0)));
+    if (row && row->kind == OPTION_NAME) { /* index -1: the first name */
+        snprintf(text, size, "%s", names_get(row->names, (int)fmax(value, 0)));
         return;
     }
     snprintf(text, size, "%.15g", value);
@@ -124,7 +124,8 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size)
 {
-    enum { MOST_DIGITS = 6, MOST_LETTERS = 20 }; /* limits of the text */
+    /* Most digits of a number, most letters of several numbers. */
+    enum { MOST_DIGITS = 6, MOST_LETTERS = 20 };
     int count = row->count > 1 ? row->count : 1, times = 1;
     if (row->max_times)
         times = (int)options->number[row->counter];

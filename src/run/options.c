@@ -310,7 +310,7 @@ const OptionRow *option_find(const char *name)
     return place >= 0 && name[0] ? &option_rows[place] : NULL;
 }
 
-const char *names_at(Names names, int i)
+const char *names_get(Names names, int i)
 {
     const char *row = (const char *)names.table + (size_t)i * names.size;
     return *(const char *const *)row;
@@ -319,7 +319,7 @@ const char *names_at(Names names, int i)
 int names_find(Names names, const char *name)
 {
     for (int i = names_count(names) - 1; i >= 0; i--)
-        if (strcmp(names_at(names, i), name) == 0)
+        if (strcmp(names_get(names, i), name) == 0)
             return i;
     return -1;
 }
@@ -336,7 +336,7 @@ int names_find_or_parse(Names names, const char *text)
 int names_count(Names names)
 {
     int count = 0;
-    while (names_at(names, count))
+    while (names_get(names, count))
         count++;
     return count;
 }

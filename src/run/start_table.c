@@ -23,7 +23,7 @@ typedef struct TableReader {
     FILE *file;
     char *line_text;  /* line that was read last, then cut into fields */
     size_t capacity;  /* bytes that line_text has */
-    long line_number; /* number of this line, from 1 */
+    long line_number; /* number of the line in line_text, from 1 */
     int columns;      /* number of columns of the table */
     const char *const *names; /* names of wanted columns, up to NULL */
     int column_index[MAX_COLUMNS]; /* index of each wanted column; -1: missing

@@ -71,7 +71,7 @@ static void visit_exhibit(Cursor *cursor, Simulation *simulation)
 }
 
 /* Visits the whole state. */
-static void visit_all(Cursor *cursor, Simulation *simulation)
+static void visit_state(Cursor *cursor, Simulation *simulation)
 {
     VISIT(simulation->steps);
     VISIT(simulation->unconverged);
@@ -102,15 +102,15 @@ static void visit_all(Cursor *cursor, Simulation *simulation)
 size_t state_save(const Simulation *simulation, void *bytes)
 {
     Cursor cursor = {bytes, false, 0};
-    visit_all(&cursor, (Simulation *)simulation); /* saving only reads */
+    visit_state(&cursor, (Simulation *)simulation); /* saving only reads */
     return cursor.used;
 }
 
 void state_restore(const void *bytes, Simulation *simulation)
 {
     Cursor cursor = {(unsigned char *)bytes, true, 0};
-    simulation->prediction = (Prediction){0}; /* was for another step */
-    visit_all(&cursor, simulation);
+    simulation->prediction = (Prediction){0}; /* a guess is not saved */
+    visit_state(&cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         if (simulation->scene->needs & NEEDS_BODY)
             body_update(simulation, r);

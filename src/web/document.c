@@ -271,8 +271,8 @@ static void put_numbers(Writer *to, const Player *player)
         print(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
               option_label(row[i]), value, unit);
         bool named = row[i]->kind == OPTION_NAME;
-        for (int k = 0; named && names_at(row[i]->names, k); k++)
-            print(to, "%s%s", k ? "|" : "", names_at(row[i]->names, k));
+        for (int k = 0; named && names_get(row[i]->names, k); k++)
+            print(to, "%s%s", k ? "|" : "", names_get(row[i]->names, k));
         print(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
               !shown                                                ? "more"
               : !named && page && asks_to_drag(page->touch, row[i]) ? "tried"
@@ -280,7 +280,7 @@ static void put_numbers(Writer *to, const Player *player)
     }
 }
 
-static void put_exhibit(Writer *to, const Simulation *simulation)
+static void put_handles_and_switches(Writer *to, const Simulation *simulation)
 {
     double at[SCENE_MAX_HANDLES][2];
     Switch part[SCENE_MAX_SWITCHES];
@@ -387,7 +387,7 @@ void document_write(const Player *player, char *text)
               content->lecture.right, content->lecture.guesses);
     put_cards(to, content);
     put_numbers(to, player);
-    put_exhibit(to, active_pane(content)->simulation);
+    put_handles_and_switches(to, active_pane(content)->simulation);
     put_picture(to, player);
     put_event(to, player);
 }

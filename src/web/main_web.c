@@ -205,7 +205,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page)
         status = player_obey(player, &next);
     if (!status && !row->lines)
         player_run(player);
-    player->screen.window = true; /* the texts are those of a window */
+    player->screen.window = true; /* fills the texts as for a window */
     player_fill_frame(player);
 }
 
