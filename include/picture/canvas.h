@@ -84,10 +84,10 @@ void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
                   double width, double head, Colour colour);
 
 /* A filled triangle.
- *   corners  x, y, x, y, x, y
- *   smooth   anti-aliases the edges; else triangles with a common edge have no
- *            seam between them */
-void canvas_triangle(Canvas *canvas, const double corners[6], bool smooth,
+ *   c       corners x, y, x, y, x, y
+ *   smooth  anti-aliases the edges; else triangles with a common edge have no
+ *           seam between them */
+void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                      Colour colour);
 
 /* A circle drawn with this line width. */

@@ -485,10 +485,10 @@ Status options_parse(int argc, char **argv, int pane, Options *options,
     return status ? status : apply_words(&line, pane);
 }
 
-Status options_parse_line(const char *text, Options *options, Message message)
+Status options_parse_line(const char *line, Options *options, Message message)
 {
     char copy[512];
-    Line line = {options, message, 0, {{0}}};
-    Status status = split_words(text, copy, sizeof copy, &line);
-    return status ? status : apply_words(&line, 0);
+    Line words = {options, message, 0, {{0}}};
+    Status status = split_words(line, copy, sizeof copy, &words);
+    return status ? status : apply_words(&words, 0);
 }

@@ -68,12 +68,12 @@ Status multigrid_create(int segments, Multigrid **multigrid)
     return status;
 }
 
-void multigrid_free(Multigrid *mg)
+void multigrid_free(Multigrid *multigrid)
 {
-    if (!mg)
+    if (!multigrid)
         return;
-    free(mg->memory.base);
-    free(mg);
+    free(multigrid->memory.base);
+    free(multigrid);
 }
 
 /* ---- who makes a minimisation ---- */
