@@ -37,7 +37,6 @@ typedef struct RunVariant {
     double lift;            /* m, added to the heights of body and grounds */
 } RunVariant;
 
-/* A scene while it runs. */
 struct Simulation {
     const Scene *scene;
     Options options;

@@ -224,8 +224,8 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
 /* Fills the data from which the picture of a pane is drawn. */
 static void fill_pane(const Player *player, int p, Frame *frame)
 {
-    const PaneRun *pane_run = &player->past.pane[p];
-    const Simulation *simulation = &pane_run->simulation;
+    const PaneRun *run = &player->past.pane[p];
+    const Simulation *simulation = &run->simulation;
     const PaneView *view = &player->view_of_pane[p];
     Pane *pane = &frame->content.pane[p];
     past_fill_history(&player->past, p, &frame->history[p]);
@@ -234,13 +234,12 @@ static void fill_pane(const Player *player, int p, Frame *frame)
                    .history = &frame->history[p],
                    .ghost = view->ghost,
                    .ghost_label = view->ghost_label,
-                   .failure = pane_run->outcome.status};
+                   .failure = run->outcome.status};
     if (past_panes(&player->past) > 1)
         pane->label = frame->label[p];
-    if (pane_run->known && simulation_has_updates(simulation)) {
+    if (run->known && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
-        pane->x =
-            step_trace_fill(&pane_run->trace, view->place, &frame->trace[p]);
+        pane->x = step_trace_fill(&run->trace, view->place, &frame->trace[p]);
     }
 }
 

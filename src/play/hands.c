@@ -288,7 +288,6 @@ static Status drag_obstacle(Player *player, const double at[2])
     return obey_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
 }
 
-/* Continues the drag after a movement of the mouse. */
 static Status go_on_dragging(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
@@ -510,7 +509,6 @@ static Status turn_wheel(Player *player, double amount)
     return STATUS_OK;
 }
 
-/* Obeys an input of the mouse. */
 static Status obey_mouse(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;

@@ -226,8 +226,8 @@ void past_fill_history(const Past *past, int pane, History *history)
  * memory would exceed its limit. */
 static Status store_state(Past *past, int pane, bool set, Entry *entry)
 {
-    const PaneRun *pane_run = &past->pane[pane];
-    const Simulation *simulation = &pane_run->simulation;
+    const PaneRun *run = &past->pane[pane];
+    const Simulation *simulation = &run->simulation;
     size_t size = sizeof *entry->state + state_save(simulation, NULL);
     /* Memory for the state and for the sample, which is made next. */
     size_t both = size + sizeof *entry->sample;
@@ -237,7 +237,7 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     State *state = malloc(size);
     if (!state)
         return STATUS_OUT_OF_MEMORY;
-    *state = (State){1, size, set, control_retain(pane_run->control)};
+    *state = (State){1, size, set, control_retain(run->control)};
     state_save(simulation, state->bytes);
     past->bytes += size;
     entry->state = state;
@@ -248,16 +248,16 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
  * state of the step; now the state is dropped unless its entry keeps it. */
 static void pane_run_leave_step(Past *past, int pane)
 {
-    PaneRun *pane_run = &past->pane[pane];
+    PaneRun *run = &past->pane[pane];
     const Branch *branch = present_branch(past);
-    if (!pane_run->has_state)
+    if (!run->has_state)
         return;
-    while (pane_run->step < branch->first && !branch->fresh)
+    while (run->step < branch->first && !branch->fresh)
         branch--;
-    Entry *entry = find_entry(past, pane, pane_run->step);
+    Entry *entry = find_entry(past, pane, run->step);
     if (!keeps_state(branch, entry))
         drop_state(past, entry);
-    pane_run->has_state = false;
+    run->has_state = false;
 }
 
 static void leave_all_steps(Past *past)
@@ -313,9 +313,9 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 /* ---- runs of panes ------------------------------------------------------- */
 
 /* Returns the time step of a pane, s; 1 in scenes without time. */
-static double find_pane_timestep(const PaneRun *pane_run)
+static double find_pane_timestep(const PaneRun *run)
 {
-    const Simulation *simulation = &pane_run->simulation;
+    const Simulation *simulation = &run->simulation;
     return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
                                                  : 1;
 }
@@ -334,16 +334,16 @@ static const Newton *find_traced_newton(const Simulation *simulation)
  * so that the window can read the mouse and the program its signals. */
 static bool observe_newton(void *user, const NewtonRecord *record)
 {
-    PaneRun *pane_run = user;
-    if (!pane_run->iterating)
+    PaneRun *run = user;
+    if (!run->iterating)
         return false;
-    pane_run->outcome.updates += record->alpha != 0;
-    if (pane_run->simulation.scene->step) /* a step is one update */
-        pane_run->outcome.change = record->change;
-    const Newton *newton = find_traced_newton(&pane_run->simulation);
-    if (newton && pane_run->trace.size > 0 && record->iteration >= 0)
-        step_trace_add_round(&pane_run->trace, newton, record);
-    Records *records = &pane_run->records;
+    run->outcome.updates += record->alpha != 0;
+    if (run->simulation.scene->step) /* a step is one update */
+        run->outcome.change = record->change;
+    const Newton *newton = find_traced_newton(&run->simulation);
+    if (newton && run->trace.size > 0 && record->iteration >= 0)
+        step_trace_add_round(&run->trace, newton, record);
+    Records *records = &run->records;
     if (records_reserve(records, records->count + 1))
         records->row[records->count++] = *record;
     else
@@ -352,42 +352,41 @@ static bool observe_newton(void *user, const NewtonRecord *record)
 }
 
 /* Discards the records of the last step. */
-static void pane_run_forget_step(PaneRun *pane_run)
+static void pane_run_forget_step(PaneRun *run)
 {
-    pane_run->known = pane_run->failed = false;
-    pane_run->substeps = 0;
-    pane_run->trace.places = pane_run->records.count = 0;
-    pane_run->records.lost = false;
+    run->known = run->failed = false;
+    run->substeps = 0;
+    run->trace.places = run->records.count = 0;
+    run->records.lost = false;
 }
 
-static void pane_run_free(PaneRun *pane_run)
+static void pane_run_free(PaneRun *run)
 {
-    simulation_free(&pane_run->simulation);
-    control_release(pane_run->control);
-    control_release(pane_run->start);
-    pane_run->control = pane_run->start = NULL;
-    pane_run->has_state = pane_run->iterating = false;
-    pane_run_forget_step(pane_run);
+    simulation_free(&run->simulation);
+    control_release(run->control);
+    control_release(run->start);
+    run->control = run->start = NULL;
+    run->has_state = run->iterating = false;
+    pane_run_forget_step(run);
 }
 
 /* Creates a simulation at its step 0. */
-static Status pane_run_create(PaneRun *pane_run, const Options *options)
+static Status pane_run_create(PaneRun *run, const Options *options)
 {
-    pane_run_free(pane_run);
-    return simulation_create(options, observe_newton, pane_run,
-                             &pane_run->simulation);
+    pane_run_free(run);
+    return simulation_create(options, observe_newton, run, &run->simulation);
 }
 
-static Status pane_run_use_control(PaneRun *pane_run, const Control *control)
+static Status pane_run_use_control(PaneRun *run, const Control *control)
 {
-    if (pane_run->control == control)
+    if (run->control == control)
         return STATUS_OK;
-    Status status = control_apply(&pane_run->simulation, control);
+    Status status = control_apply(&run->simulation, control);
     control_retain(control);
-    control_release(pane_run->control);
-    pane_run->control = control;
+    control_release(run->control);
+    run->control = control;
     if (status)
-        pane_run_free(pane_run);
+        pane_run_free(run);
     return status;
 }
 
@@ -395,13 +394,13 @@ static Status pane_run_use_control(PaneRun *pane_run, const Control *control)
  * the next step, and samples the energies if this control is new. */
 static Status pane_run_set_step(Past *past, int pane, long step)
 {
-    PaneRun *pane_run = &past->pane[pane];
+    PaneRun *run = &past->pane[pane];
     Entry *entry = find_entry(past, pane, step);
     bool samples = past->stores_states &&
-                   (!entry->sample || pane_run->control != entry->control);
-    Status status = pane_run_use_control(pane_run, entry->control);
-    pane_run->step = step;
-    pane_run->has_state = !status;
+                   (!entry->sample || run->control != entry->control);
+    Status status = pane_run_use_control(run, entry->control);
+    run->step = step;
+    run->has_state = !status;
     if (status || !samples)
         return status;
     if (!entry->sample) {
@@ -409,18 +408,18 @@ static Status pane_run_set_step(Past *past, int pane, long step)
         past->bytes += entry->sample ? sizeof *entry->sample : 0;
     }
     if (entry->sample) {
-        entry->sample->time = simulation_time(&pane_run->simulation);
+        entry->sample->time = simulation_time(&run->simulation);
         entry->sample->rows =
-            picture_sample_energies(&pane_run->simulation, entry->sample->row);
+            picture_sample_energies(&run->simulation, entry->sample->row);
     }
     return STATUS_OK;
 }
 
-static Status pane_run_load_state(PaneRun *pane_run, const State *state)
+static Status pane_run_load_state(PaneRun *run, const State *state)
 {
-    Status status = pane_run_use_control(pane_run, state->control);
+    Status status = pane_run_use_control(run, state->control);
     if (!status)
-        state_restore(state->bytes, &pane_run->simulation);
+        state_restore(state->bytes, &run->simulation);
     return status;
 }
 
@@ -428,32 +427,31 @@ static Status pane_run_load_state(PaneRun *pane_run, const State *state)
  * states are not stored, the run is at that step already. */
 static Status pane_run_seek(Past *past, int pane, long goal)
 {
-    PaneRun *pane_run = &past->pane[pane];
+    PaneRun *run = &past->pane[pane];
     const Control *start = past_start_control(past, pane);
     long from = goal;
     while (past->stores_states && from > 0 &&
            !find_entry(past, pane, from)->state)
         from--;
-    bool is_near = pane_run->has_state && pane_run->step <= goal &&
-                   (pane_run->step >= from || pane_run->step >= goal - 1);
-    if (is_near &&
-        pane_run->control == find_entry(past, pane, pane_run->step)->control)
-        return pane_run_set_step(past, pane, pane_run->step);
+    bool is_near = run->has_state && run->step <= goal &&
+                   (run->step >= from || run->step >= goal - 1);
+    if (is_near && run->control == find_entry(past, pane, run->step)->control)
+        return pane_run_set_step(past, pane, run->step);
     const Entry *entry = find_entry(past, pane, from);
     if (!entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
-    if (!pane_run->has_state || pane_run->step != from) {
+    if (!run->has_state || run->step != from) {
         pane_run_leave_step(past, pane);
-        pane_run_forget_step(pane_run);
-        pane_run->outcome = entry->outcome;
+        pane_run_forget_step(run);
+        run->outcome = entry->outcome;
     }
-    if (pane_run->start != start) {
-        status = pane_run_create(pane_run, &start->options);
-        pane_run->start = status ? NULL : control_retain(start);
+    if (run->start != start) {
+        status = pane_run_create(run, &start->options);
+        run->start = status ? NULL : control_retain(start);
     }
     if (!status)
-        status = pane_run_load_state(pane_run, entry->state);
+        status = pane_run_load_state(run, entry->state);
     return status ? status : pane_run_set_step(past, pane, from);
 }
 
@@ -477,12 +475,12 @@ static void abandon_work(Past *past)
     if (past->work == WORK_DONE)
         return;
     for (int p = 0; p < past_panes(past); p++) {
-        PaneRun *pane_run = &past->pane[p];
-        if (pane_run->iterating || pane_run->substeps > 0 ||
-            pane_run->step > past_newest(past))
-            pane_run->has_state = false;
-        pane_run->iterating = false;
-        pane_run->substeps = 0;
+        PaneRun *run = &past->pane[p];
+        if (run->iterating || run->substeps > 0 ||
+            run->step > past_newest(past))
+            run->has_state = false;
+        run->iterating = false;
+        run->substeps = 0;
         if (past_makes(past))
             drop_new_entry(past, p);
     }
@@ -501,19 +499,18 @@ static Status pane_run_iterate(Past *past, int pane);
  * shows its last state that a picture can show (PAST_EXPLODED). */
 static Status end_failed_pane(Past *past, int pane, Status why)
 {
-    PaneRun *pane_run = &past->pane[pane];
-    long step = pane_run->step,
-         last = past_find_drawable_step(past, pane, step);
+    PaneRun *run = &past->pane[pane];
+    long step = run->step, last = past_find_drawable_step(past, pane, step);
     pane_run_leave_step(past, pane);
     Status status = pane_run_seek(past, pane, last);
-    while (pane_run->step < last && (!status || status == STATUS_RUNNING))
+    while (run->step < last && (!status || status == STATUS_RUNNING))
         status = pane_run_iterate(past, pane);
     if (status && status != STATUS_RUNNING)
         return status;
-    pane_run->step = step;
-    pane_run->substeps = 0;
-    pane_run->outcome = past_entry(past, pane, last)->outcome;
-    pane_run->outcome.status = past->worst = why;
+    run->step = step;
+    run->substeps = 0;
+    run->outcome = past_entry(past, pane, last)->outcome;
+    run->outcome.status = past->worst = why;
     if (past_makes(past))
         past->work = WORK_MADE;
     return pane_run_finish_step(past, pane);
@@ -522,7 +519,7 @@ static Status end_failed_pane(Past *past, int pane, Status why)
 /* Ends the work after a failure, or only this pane if other panes can go on. */
 static Status pane_run_fail(Past *past, int pane, Status status)
 {
-    PaneRun *pane_run = &past->pane[pane];
+    PaneRun *run = &past->pane[pane];
     if (past_makes(past) && past->panes_fail_alone && past_panes(past) > 1 &&
         !is_out_of_memory(status)) {
         status = end_failed_pane(past, pane, status);
@@ -530,12 +527,12 @@ static Status pane_run_fail(Past *past, int pane, Status status)
             return status;
     }
     abandon_work(past);
-    if (!is_out_of_memory(status) && pane_run->start) {
-        pane_run->failed = pane_run->known = true;
-        pane_run->outcome.status = status;
+    if (!is_out_of_memory(status) && run->start) {
+        run->failed = run->known = true;
+        run->outcome.status = status;
     }
     /* Some runs may have made the next step, so the state is not of `step`. */
-    pane_run->has_state = false;
+    run->has_state = false;
     past->aim = past->step;
     return status;
 }
@@ -543,23 +540,23 @@ static Status pane_run_fail(Past *past, int pane, Status status)
 /* Moves a pane's run to the entry of the step that the run has finished. */
 static Status pane_run_finish_step(Past *past, int pane)
 {
-    PaneRun *pane_run = &past->pane[pane];
-    long step = pane_run->step + 1;
+    PaneRun *run = &past->pane[pane];
+    long step = run->step + 1;
     Entry *to = find_entry(past, pane, step);
     Status status = STATUS_OK;
     if (step > past_newest(past)) {
         if (!to->control)
             to->control =
                 control_retain(find_entry(past, pane, step - 1)->control);
-        to->substeps = pane_run->substeps;
-        to->outcome = pane_run->outcome;
+        to->substeps = run->substeps;
+        to->outcome = run->outcome;
     }
-    if (past_makes(past) && pane_run->substeps > 0)
+    if (past_makes(past) && run->substeps > 0)
         past->work = WORK_MADE;
-    pane_run->substeps = 0;
+    run->substeps = 0;
     pane_run_leave_step(past, pane);
     if (to->state && to->state->is_set)
-        status = pane_run_load_state(pane_run, to->state);
+        status = pane_run_load_state(run, to->state);
     else if (past->stores_states && !to->state)
         store_state(past, pane, false, to);
     if (!status)
@@ -571,15 +568,15 @@ static Status pane_run_finish_step(Past *past, int pane)
  * stores the outcome, and finishes the pane's step after the last substep. */
 static Status pane_run_end_iteration(Past *past, int pane, Status status)
 {
-    PaneRun *pane_run = &past->pane[pane];
-    const Simulation *simulation = &pane_run->simulation;
-    Outcome *outcome = &pane_run->outcome;
+    PaneRun *run = &past->pane[pane];
+    const Simulation *simulation = &run->simulation;
+    Outcome *outcome = &run->outcome;
     if (status == STATUS_RUNNING)
         return status;
-    pane_run->iterating = false;
+    run->iterating = false;
     if (past->stores_states)
-        step_trace_end(&pane_run->trace, &simulation->options);
-    bool moved = simulation->steps > pane_run->before;
+        step_trace_end(&run->trace, &simulation->options);
+    bool moved = simulation->steps > run->before;
     outcome->status = status ? status : outcome->status;
     outcome->extent = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
@@ -589,14 +586,13 @@ static Status pane_run_end_iteration(Past *past, int pane, Status status)
             outcome->change += simulation->run[r].newton->change;
     if (status && !moved && (is_out_of_memory(status) || !simulation->done))
         return pane_run_fail(past, pane, status);
-    pane_run->known = past->stores_states;
-    pane_run->substeps += moved;
+    run->known = past->stores_states;
+    run->substeps += moved;
     if (past_makes(past) && status)
         past->worst = status;
-    double middle =
-        simulation_time(simulation) + 0.5 * find_pane_timestep(pane_run);
-    const Entry *to = past_entry(past, pane, pane_run->step + 1);
-    bool more = to ? pane_run->substeps < to->substeps
+    double middle = simulation_time(simulation) + 0.5 * find_pane_timestep(run);
+    const Entry *to = past_entry(past, pane, run->step + 1);
+    bool more = to ? run->substeps < to->substeps
                    : moved && middle < past->target &&
                          (simulation->scene->needs & NEEDS_TIME);
     return more ? STATUS_RUNNING : pane_run_finish_step(past, pane);
@@ -605,29 +601,29 @@ static Status pane_run_end_iteration(Past *past, int pane, Status status)
 /* Makes the next iteration of a pane, or begins its next step. */
 static Status pane_run_iterate(Past *past, int pane)
 {
-    PaneRun *pane_run = &past->pane[pane];
-    const Entry *from = past_entry(past, pane, pane_run->step);
-    const Entry *to = past_entry(past, pane, pane_run->step + 1);
-    if (pane_run->iterating)
-        return pane_run_end_iteration(
-            past, pane, simulation_advance(&pane_run->simulation));
-    if (pane_run->substeps == 0) {
-        pane_run->outcome = (Outcome){0};
-        pane_run_forget_step(pane_run);
+    PaneRun *run = &past->pane[pane];
+    const Entry *from = past_entry(past, pane, run->step);
+    const Entry *to = past_entry(past, pane, run->step + 1);
+    if (run->iterating)
+        return pane_run_end_iteration(past, pane,
+                                      simulation_advance(&run->simulation));
+    if (run->substeps == 0) {
+        run->outcome = (Outcome){0};
+        pane_run_forget_step(run);
     }
     if (pane_has_ended(from)) {
-        pane_run->outcome = from->outcome;
+        run->outcome = from->outcome;
         return pane_run_finish_step(past, pane);
     }
     if (to && entry_is_failure(to))
         return end_failed_pane(past, pane, to->outcome.status);
     if (past->stores_states)
-        step_trace_begin(&pane_run->trace, &pane_run->simulation,
-                         past->samples_line, pane == past->line_pane);
-    pane_run->before = pane_run->simulation.steps;
-    pane_run->iterating = true;
+        step_trace_begin(&run->trace, &run->simulation, past->samples_line,
+                         pane == past->line_pane);
+    run->before = run->simulation.steps;
+    run->iterating = true;
     return pane_run_end_iteration(past, pane,
-                                  simulation_begin_step(&pane_run->simulation));
+                                  simulation_begin_step(&run->simulation));
 }
 
 /* ---- work ---------------------------------------------------------------- */
@@ -637,13 +633,12 @@ static Status begin_new_step(Past *past)
 {
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
-        const PaneRun *pane_run = &past->pane[p];
-        double pace = find_pane_timestep(pane_run);
-        if (pace <= longest ||
-            pane_has_ended(past_entry(past, p, pane_run->step)))
+        const PaneRun *run = &past->pane[p];
+        double pace = find_pane_timestep(run);
+        if (pace <= longest || pane_has_ended(past_entry(past, p, run->step)))
             continue;
         longest = pace;
-        past->target = simulation_time(&pane_run->simulation) + pace;
+        past->target = simulation_time(&run->simulation) + pace;
     }
     past->worst = STATUS_OK;
     if (reserve_entry(past, present_branch(past)))
@@ -705,12 +700,12 @@ static bool can_trace_aim(const Past *past)
     enum { SHORT = 400000 }; /* limit of nodes times updates */
     long work = 0;
     for (int p = 0; p < past_panes(past); p++) {
-        const PaneRun *pane_run = &past->pane[p];
-        const Simulation *simulation = &pane_run->simulation;
+        const PaneRun *run = &past->pane[p];
+        const Simulation *simulation = &run->simulation;
         const Entry *entry = past_entry(past, p, past->aim);
-        long behind = past->aim - pane_run->step;
-        bool is_known = pane_run->has_state &&
-                        (behind == 1 || (behind == 0 && pane_run->known));
+        long behind = past->aim - run->step;
+        bool is_known =
+            run->has_state && (behind == 1 || (behind == 0 && run->known));
         if (!is_known && simulation->run[0].newton && entry->substeps > 0 &&
             simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
@@ -773,19 +768,19 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
     abandon_work(past);
     leave_all_steps(past);
     for (int p = 0; p < panes && !status; p++) {
-        PaneRun *pane_run = &past->pane[p];
-        status = pane_run_create(pane_run, &options[p]);
+        PaneRun *run = &past->pane[p];
+        status = pane_run_create(run, &options[p]);
         Control *control =
-            status ? NULL : control_from_simulation(&pane_run->simulation);
+            status ? NULL : control_from_simulation(&run->simulation);
         if (!control) {
             status = status ? status : STATUS_OUT_OF_MEMORY;
             break;
         }
         control->options = options[p];
-        pane_run->start = control;
-        pane_run->control = control_retain(control);
-        pane_run->outcome = (Outcome){.status = pane_run->simulation.status};
-        step_trace_clear(&pane_run->trace);
+        run->start = control;
+        run->control = control_retain(control);
+        run->outcome = (Outcome){.status = run->simulation.status};
+        step_trace_clear(&run->trace);
     }
     if (status && past->now >= 0)
         past_choose_step(past, past->step, false);

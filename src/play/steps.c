@@ -22,11 +22,11 @@ static Status record_iterations(Player *player, long step)
     Status status = STATUS_OK;
     for (int p = 0; p < past_panes(&player->past) && p < recording->panes;
          p++) {
-        const PaneRun *pane_run = &player->past.pane[p];
-        if (pane_run->records.lost)
+        const PaneRun *run = &player->past.pane[p];
+        if (run->records.lost)
             status = STATUS_OUT_OF_MEMORY;
-        for (int i = 0; i < pane_run->records.count && !status; i++) {
-            NewtonRecord row = pane_run->records.row[i];
+        for (int i = 0; i < run->records.count && !status; i++) {
+            NewtonRecord row = run->records.row[i];
             if (recording->panes > 1)
                 row.step = step;
             status = recording_write_iteration(recording, &row, p + 1);
@@ -46,9 +46,9 @@ static Status record_step(Player *player)
     long step = past->step;
     bool due = step == past->booked + 1, again = step <= past->written;
     for (int p = 0; p < panes; p++) {
-        const PaneRun *pane_run = &past->pane[p];
-        simulation[p] = &pane_run->simulation;
-        due = due && (pane_run->known || !past->stores_states || step == 0 ||
+        const PaneRun *run = &past->pane[p];
+        simulation[p] = &run->simulation;
+        due = due && (run->known || !past->stores_states || step == 0 ||
                       past_entry(past, p, step)->substeps == 0);
     }
     if (!due)
@@ -112,7 +112,7 @@ void player_forget_step(Player *player)
 }
 
 /* Forgets what the hand holds, and drops the commands in the queue. */
-static void release_hand_and_queue(Player *player)
+static void drop_hand_and_queue(Player *player)
 {
     player->hands.holds = false;
     player->commands.queue.count = 0;
@@ -166,7 +166,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     player->time.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
     player->screen.drawn = -1;
     player->time.warned = player->time.gained = false;
-    release_hand_and_queue(player);
+    drop_hand_and_queue(player);
     update_after_edit(player);
     return record_step(player);
 }
@@ -240,17 +240,16 @@ static void detect_rest(Player *player)
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
-        const PaneRun *pane_run = &past->pane[p];
-        const Simulation *simulation = &pane_run->simulation;
+        const PaneRun *run = &past->pane[p];
+        const Simulation *simulation = &run->simulation;
         if (past_find_end_step(past, p, past->step) >= 0)
             continue;
         going++;
-        ended = ended && (simulation->done || pane_run->failed);
+        ended = ended && (simulation->done || run->failed);
         rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
-                simulation->runs == 1 &&
-                !control_hand_holds(pane_run->control) &&
+                simulation->runs == 1 && !control_hand_holds(run->control) &&
                 simulation_is_at_rest(simulation);
-        bad = bad || pane_run->outcome.status;
+        bad = bad || run->outcome.status;
     }
     bad = bad && past_panes(past) == 1;
     if (rests && going > 0)
@@ -363,14 +362,14 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     Past *past = &player->past;
     PaneView *view = &player->view_of_pane[player->active];
     const OptionRow *row = &option_rows[change->number];
-    const PaneRun *pane_run = player_active_run(player);
-    const Simulation *simulation = &pane_run->simulation;
+    const PaneRun *run = player_active_run(player);
+    const Simulation *simulation = &run->simulation;
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
-    bool failed = pane_run->failed;
+    bool failed = run->failed;
     long step = past->step + failed;
     player->time.place = (TracePlace){.round = -1};
     if (view->place >= 0 && player->time.unit != UNIT_STEP)
-        player->time.place = pane_run->trace.place[view->place];
+        player->time.place = run->trace.place[view->place];
     player_forget_step(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
@@ -474,7 +473,7 @@ Status player_seek(Player *player, long step, AfterWork after)
     bool known = step <= past_newest(past);
     Status status = known ? STATUS_OK : record_step(player);
     if (known)
-        release_hand_and_queue(player);
+        drop_hand_and_queue(player);
     if (!status && !known)
         status = release_old_hand(player);
     if (status)
@@ -616,7 +615,7 @@ Status obey_undo(Player *player, const Command *command)
                                              : "nothing was undone");
     const Command edit = *made;
     player->time.mode = MODE_PAUSE;
-    release_hand_and_queue(player);
+    drop_hand_and_queue(player);
     player->hands.mouse.gesture = ++player->commands.gestures;
     update_after_edit(player);
     player_forget_step(player);

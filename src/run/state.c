@@ -70,7 +70,6 @@ static void visit_exhibit(Cursor *cursor, Simulation *simulation)
         run->newton->settings.h = run->h;
 }
 
-/* Visits the whole state. */
 static void visit_state(Cursor *cursor, Simulation *simulation)
 {
     VISIT(simulation->steps);
