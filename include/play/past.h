@@ -120,7 +120,7 @@ typedef enum Work {
 } Work;
 
 typedef struct Past {
-    Branch *branch;     /* [branches] */
+    Branch *branch;     /* [branches] branches from the bottom of the stack */
     int branches, room; /* number of branches; memory is reserved for room */
     int now; /* index of the present branch; branches above it are undone */
     long step;          /* step that is shown in all panes */

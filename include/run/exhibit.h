@@ -89,7 +89,7 @@ typedef struct RacePoint {
 } RacePoint;
 
 typedef struct Race {
-    int count; /* runs so far */
+    int count; /* number of runs that were made so far */
     RacePoint point[RACE_METHODS * RACE_STEP_SIZES];
 } Race;
 

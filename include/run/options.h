@@ -77,7 +77,7 @@ typedef struct Options {
             double self_friction; /* between bodies; -1: equal to `friction` */
             double material;      /* 0: springs, 1: triangles */
             double young, poisson;
-            double yield, hardening, tear; /* 0: no spring flows or breaks */
+            double yield, hardening, tear; /* 0: no spring yields or breaks */
             double damping;
             double timestep, tolerance;
             double integrator;  /* row of integrator_methods; -1: the scene's
@@ -132,7 +132,7 @@ typedef enum OptionKind {
  */
 typedef struct Names {
     const void *table;
-    size_t size; /* bytes of a row */
+    size_t size; /* bytes of a row of the table */
 } Names;
 
 #define NAMES_OF(table) ((Names){table, sizeof *(table)})
@@ -151,16 +151,16 @@ int names_count(Names names);
 
 /* When a changed option takes effect. */
 typedef enum Effect {
-    EFFECT_START, /* from the start of a new run on */
-    EFFECT_LIVE,  /* from the next step on */
-    EFFECT_AGAIN  /* from the present step on, which is computed again */
+    EFFECT_START, /* takes effect in a new run */
+    EFFECT_LIVE,  /* takes effect in the next step */
+    EFFECT_AGAIN  /* takes effect in the present step, made again */
 } Effect;
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionDisplay {
     int place;        /* position in the window's row of numbers, from 1; 0: the
                          row has the option after the user has added it */
-    int letters;      /* length of the longest value */
+    int letters;      /* letters of the longest value */
     double increment; /* change by a notch of the wheel; 0: a notch multiplies
                          the number, or chooses the next name */
 } OptionDisplay;
@@ -170,7 +170,7 @@ typedef struct OptionDisplay {
 typedef struct OptionRow {
     const char *name; /* without dashes; "": help is the heading of a section
                          of --help; NULL ends the table */
-    char letter;      /* short form, or 0 */
+    char letter;      /* letter of the short form, or 0 */
     const char *placeholder; /* stands for the value in --help; NULL: the option
                                 is a switch */
     const char *help;        /* description in --help */

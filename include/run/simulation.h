@@ -40,7 +40,7 @@ typedef struct RunVariant {
 struct Simulation {
     const Scene *scene;
     Options options;
-    SquareMesh mesh;                  /* zero in scenes without a square */
+    SquareMesh mesh; /* mesh of the square; zero in other scenes */
     System system;                    /* system of run 0 or of all runs */
     System more[SIMULATION_MAX_RUNS]; /* systems of runs 1 and 2 if each run has
                                          a system of its own */
@@ -52,8 +52,8 @@ struct Simulation {
     Status worst; /* OK, or the last other status of a run in this step */
     double energy_before; /* J, energy minus work of run `stepping` before this
                              step */
-    Descent descent;         /* zero in scenes that move in time */
-    Exhibit exhibit;         /* zero in scenes of the square */
+    Descent descent;      /* minimisation; zero in scenes that move in time */
+    Exhibit exhibit;      /* data of small scenes, and of switches */
     Prediction prediction;   /* guess where the next step leads */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;              /* argument of observer */

@@ -64,7 +64,7 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
     if (setenv("ELASTO_FILM", film->output.temporary, 1) == 0)
         film->pipe = popen(line, "we");
     if (film->pipe)
-        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* a pipe's size */
+        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
 }
 
 Status film_add(Film *film, const Canvas *canvas, int times)

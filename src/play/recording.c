@@ -80,7 +80,7 @@ static const char *find_log_text(const char *column, int number)
 /* The tables, in the order of RecordingTable. */
 static const struct {
     size_t file;         /* offset of the file's name in Options */
-    const char *columns; /* columns of each table */
+    const char *columns; /* names of columns, for table_add_columns */
     const char *pane_column; /* column that several panes add, or NULL */
     void (*write_rows)(Table *table, const RunAtStep *at); /* NULL: the log */
 } kinds[RECORDING_TABLES] = {

@@ -135,7 +135,7 @@ typedef struct TablePart {
     const char *option;             /* option with the table, for messages */
     const char *file;               /* name of the file */
     const char *element;            /* "node" or "spring" */
-    const char *names[MAX_COLUMNS]; /* wanted columns, up to NULL */
+    const char *names[MAX_COLUMNS]; /* names of columns, up to NULL */
     int size; /* nodes or springs of a run, which is the number of its rows */
     int run;  /* index of the run that is read */
 } TablePart;
