@@ -23,7 +23,7 @@ $(B)/tests/unit/test_show $(B)/tests/unit/test_session: \
   LIBS += $(call wrap,text_draw)
 $(B)/tests/unit/test_player: LIBS += $(call wrap,clock_gettime)
 $(B)/tests/unit/test_pages: \
-  LIBS += $(call wrap,font_glyph text_draw plot_curve)
+  LIBS += $(call wrap,font_get_glyph text_draw plot_curve)
 
 $(B)/tests/unit/test_document: $(B)/web/document.o
 

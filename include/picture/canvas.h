@@ -22,15 +22,16 @@ typedef struct Box {
     int x, y, width, height;
 } Box;
 
-/* Rounds a coordinate to a whole pixel.  NaN and coordinates that are too large
- * for an int become the nearest number that an int can hold safely. */
+/* Converts a coordinate to an int, towards 0. A coordinate that is too large
+ * becomes the nearest safe number, NaN the least one. */
 int pixel_from_coordinate(double place);
 
-/* Returns the box without a margin on each side, at least 0 pixels large. */
+/* Returns the box without a margin on each side; width and height are at least
+ * 0. */
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);
 
-/* Cuts a strip of so many pixels off one edge of `rest`, and returns it. */
+/* Cuts a strip, `pixels` wide, off one edge of `rest`. Returns the strip. */
 typedef enum Edge { EDGE_TOP, EDGE_BOTTOM, EDGE_LEFT, EDGE_RIGHT } Edge;
 Box box_cut_off(Box *rest, Edge edge, int pixels);
 
@@ -77,9 +78,8 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
 void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
                    double width, double unit, double *phase, Colour colour);
 
-/* A line with a filled head of this length at (x1, y1), shorter on a short
- * line.
- */
+/* A line with a filled head at (x1, y1), which is `head` pixels long, or
+ * shorter on a short line. */
 void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
                   double width, double head, Colour colour);
 

@@ -18,8 +18,8 @@ enum {
     VALUE_SIZE = 32      /* bytes of a setting's value */
 };
 
-/* Line of Algorithm 3 that the run is at.  The work of this line and of all
- * lines before it is done: at LINE_SOLVE p is known, at LINE_SEARCH alpha. */
+/* The present line of Algorithm 3. The work of this line and of all lines
+ * before it is done: at LINE_SOLVE p is known, at LINE_SEARCH alpha. */
 typedef enum Line {
     LINE_NONE,    /* between two steps; no line is lit */
     LINE_START,   /* 1  x^i <- x^n */
@@ -33,8 +33,8 @@ typedef enum Line {
     LINE_COUNT
 } Line;
 
-/* The minimisation of a step, or a descent, up to the line that the run is at.
- * The present update is known from line 3 on. */
+/* The minimisation of a step, or a descent, up to the present line of the
+ * algorithm.  The present update is known from LINE_PROJECT on. */
 typedef struct Trace {
     Line line;
     double h, tolerance;         /* s, m/s, settings of the step */
@@ -42,15 +42,15 @@ typedef struct Trace {
     const NewtonRecord *record;  /* [updates] */
     int iteration;               /* number of the present update, from 0 */
     const double *x;             /* [2n] m, present iterate x^i */
-    const double *p;             /* [2n] m, NULL before line 4 */
+    const double *p;             /* [2n] m, NULL before LINE_SOLVE */
     double residual;             /* |p|/h, m/s */
-    bool given_up;               /* has ended without convergence */
+    bool given_up;               /* the step has ended without convergence */
     double slope;                /* grad E . p, J s^2 */
     int projected;               /* number of projected blocks; < 0: unknown */
     const double *x_tilde;       /* [2n] m, drawn as a ghost; or NULL */
     EnergyDifference difference; /* change of E along p, J s^2, or NULL */
     const void *difference_data; /* first argument of `difference` */
-    double first_alpha;          /* first trial of the line search; 0: 1 */
+    double first_alpha;          /* first trial of the line search; 0 means 1 */
     int trials;                  /* number of trials alpha so far */
     bool accepted;               /* the last trial was accepted */
 } Trace;
@@ -60,17 +60,17 @@ enum { VALUES_MOST = 160, VALUES_RUNS = 3 };
 /* A value that texts use by its name (live_values.h). */
 typedef struct LiveValue {
     const char *name;
-    int run;           /* value of run 1, 2 or 3 alone; 0: of all runs */
-    const char *words; /* NULL: a number or a point */
+    int run;           /* run 1, 2 or 3 that has the value; 0: all runs */
+    const char *words; /* NULL: the value is a number or a point */
     double value[2];
-    bool point; /* is a point, written as "(1, 0.5)" */
+    bool is_point; /* value is a point, written as "(1, 0.5)" */
 } LiveValue;
 
 /* The values of a pane. */
 typedef struct LiveValues {
     int count;
-    int run; /* run whose values are being added; 0: values of all runs */
-    Colour colour[VALUES_RUNS + 1]; /* colour of a run; [0]: of other lines */
+    int run; /* run of the values that are added next; 0: all runs */
+    Colour colour[VALUES_RUNS + 1]; /* colours of runs; [0]: of other lines */
     LiveValue entry[VALUES_MOST];
 } LiveValues;
 
@@ -80,11 +80,10 @@ enum { HISTORY_SERIES = 16, HISTORY_POINTS = 1024 };
 
 /* Quantities over time, for plots. */
 typedef struct History {
-    int series; /* number of quantities */
-    const char
-        *name[HISTORY_SERIES];   /* not owned; an energy's total is first */
-    int count;                   /* points in time */
-    double time[HISTORY_POINTS]; /* s, ascending */
+    int series;                       /* number of quantities */
+    const char *name[HISTORY_SERIES]; /* not owned; the total energy is first */
+    int count;                        /* number of points in time */
+    double time[HISTORY_POINTS];      /* s, ascending */
     double value[HISTORY_SERIES][HISTORY_POINTS];
 } History;
 
@@ -101,7 +100,7 @@ typedef struct DescentTrace {
     Trace trace;
     const Simulation *simulation;
     double from[2], p[2]; /* m, start and direction of the update */
-    double value;         /* E at the start, J s^2 */
+    double value;         /* E at `from`, J s^2 */
 } DescentTrace;
 
 /* A simulation that the stage shows. */
@@ -109,15 +108,15 @@ typedef struct Pane {
     const Simulation *simulation;
     const double *x;         /* [2n] m, drawn positions; NULL: those of run 0 */
     const double *ghost;     /* [2n] m, outcome with other settings, or NULL */
-    const char *ghost_label; /* "projection none: ..." */
+    const char *ghost_label; /* settings of the ghost, "projection none: ..." */
     const History *history;  /* energies or radii over time */
-    const Trace *trace;      /* trace of the step, or NULL */
-    const char *label;       /* written over the pane if there are several */
+    const Trace *trace;      /* trace of the time step, or NULL */
+    const char *label;       /* differences from other panes, "h 0.01, k 5" */
     Status failure;          /* failure of the shown step, or STATUS_OK */
-    /* The last three are filled by frame_fill_values. */
+    /* frame_fill_values fills values, descent and shown_trace. */
     LiveValues values;
     DescentTrace descent;
-    const Trace *shown_trace; /* trace of the step or of the descent, or NULL */
+    const Trace *shown_trace; /* trace, or else descent.trace, or NULL */
 } Pane;
 
 /* Part of a picture that the mouse can find. */
@@ -125,9 +124,9 @@ typedef enum PickKind {
     PICK_NONE,
     PICK_NODE,     /* Pick.index: number of the node */
     PICK_SPRING,   /* Pick.index: number of the spring */
-    PICK_OBSTACLE, /* Pick.index: number of a ground or, after those, a ball */
-    PICK_EDGE,     /* Pick.index: 0 left, 1 right edge, which set the stretch */
-    PICK_PLACE,    /* a place on a map or curve, where a click starts */
+    PICK_OBSTACLE, /* Pick.index: ground, or number of grounds + ball */
+    PICK_EDGE,     /* Pick.index: 0 left, 1 right edge of the square */
+    PICK_PLACE,    /* any place on a map or curve that takes clicks */
     PICK_HANDLE,   /* Pick.index: number of a handle, which can be dragged */
     PICK_SWITCH,   /* Pick.index: number of a switch of the scene */
     PICK_CELL      /* Pick.index: row * ENVELOPE_COLUMNS + column of a cell */
@@ -136,15 +135,15 @@ typedef enum PickKind {
 typedef struct Pick {
     PickKind kind;
     int pane, index;
-    int nearest_node; /* nearest node within 3/4 of a spring; -1: none */
+    int nearest_node; /* nearest node within 3/4 of a spacing; -1: none */
     double point[2];  /* m, position of the mouse in the world */
 } Pick;
 
-/* Bounds of a pane while something in it is dragged: the view stands still, so
- * that the dragged thing stays under the mouse. */
+/* Bounds of a pane's view while the mouse drags a thing: the view stands still,
+ * so that the thing stays under the mouse. */
 typedef struct HeldBounds {
     bool on;
-    bool away; /* the mouse is outside of the stage, and the view moves again */
+    bool away; /* the mouse has left the stage, so the view is free for now */
     int pane;
     double bounds[4]; /* left, bottom, right, top, m */
 } HeldBounds;
@@ -155,7 +154,7 @@ typedef struct View {
     Pick hover; /* part of the picture under the mouse */
     Hit mouse;  /* part of the window under the mouse */
     HeldBounds held;
-    int chosen; /* selected cell of the overview */
+    int chosen; /* index of the selected cell of the overview */
 } View;
 
 /* ---- around the stage --------------------------------------------------- */
@@ -164,19 +163,19 @@ typedef struct View {
 typedef struct Strip {
     const char *topic;            /* "Algorithm 3: projected Newton" */
     char sentence[SENTENCE_SIZE]; /* sentence about the present state */
-    char method[SENTENCE_SIZE];   /* "backward Euler" */
-    char state[VALUE_SIZE];       /* "paused", "at rest"; "": running */
+    char method[SENTENCE_SIZE];   /* name of the method, "backward Euler" */
+    char state[VALUE_SIZE];       /* "paused", "at rest"; "" while running */
     char message[SENTENCE_SIZE];  /* shown instead of the sentence; or "" */
     bool is_warning;              /* the message is a warning */
 } Strip;
 
 /* A number or a choice in the row of settings. */
 typedef struct Setting {
-    const char *name;       /* "h", "stretch", "projection" */
-    char value[VALUE_SIZE]; /* "0.02 s", "backward Euler" */
-    int letters;            /* letters of the longest value; 0: of this value */
+    const char *name;       /* name of the option: "h", "stretch" */
+    char value[VALUE_SIZE]; /* as shown: "0.02 s", "backward Euler" */
+    int letters;            /* least number of letters that have room */
     bool changed;           /* differs from the scene's default */
-    bool off;               /* is a method that is switched off */
+    bool off;               /* the method of the setting is switched off */
 } Setting;
 
 typedef struct SettingsRow {
@@ -185,7 +184,7 @@ typedef struct SettingsRow {
     int selected; /* index of the setting selected by Tab; -1: none */
 } SettingsRow;
 
-/* A step in the time line. */
+/* The bar of a step in the time line, as high as the step has updates. */
 typedef struct StepBar {
     int updates;
     bool unconverged;
@@ -194,16 +193,16 @@ typedef struct StepBar {
 typedef struct TimeLine {
     long steps;  /* number of known steps */
     long step;   /* the step on the stage, 0 ... steps */
-    bool paused; /* time stands still */
+    bool paused; /* the run is paused */
     /* Returns the bar of a step 1 ... steps.  NULL: no bars are drawn. */
     StepBar (*bar)(const void *bar_data, long step);
     const void *bar_data;     /* first argument of bar */
-    char text[SENTENCE_SIZE]; /* "step 12   t = 0.24 s   2 steps a frame" */
+    char text[SENTENCE_SIZE]; /* text at the handle: "step 12   t = 0.24 s" */
 } TimeLine;
 
 /* A key and what it does now. */
 typedef struct Chip {
-    const char *key, *label; /* "Space", "play" */
+    const char *key, *label; /* name of the key, effect: "Space", "play" */
     bool lit;                /* is the key to press next */
 } Chip;
 
@@ -227,14 +226,14 @@ typedef struct CardSets {
     unsigned closed;  /* cards of which only the title is drawn */
     unsigned hidden;  /* cards that the picture or the page leaves out */
     unsigned covered; /* cards whose content is not drawn before a guess */
-    int large;        /* index of the enlarged card; -1: none */
+    int large;        /* index of the card that fills the column; -1: none */
 } CardSets;
 
 /* A row of a list: a key or a number, and what it does. */
 typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
-    bool grey; /* a key without a meaning now, or an extra page */
-    bool head; /* a heading, without a key */
+    bool grey; /* is grey: a key without effect now, or an extra page */
+    bool head; /* is a heading, without a key */
 } ListRow;
 
 typedef struct List {
@@ -246,7 +245,7 @@ typedef struct List {
 typedef struct SheetCell {
     const char *name;
     const char *group;            /* heading above the cell, or NULL */
-    const Simulation *simulation; /* NULL: not made yet */
+    const Simulation *simulation; /* NULL: the scene is not ready yet */
 } SheetCell;
 
 /* The overview of all scenes; without cells the overview is closed. */
@@ -258,31 +257,31 @@ typedef struct SheetContent {
 /* The page of the lecture and the guesses at its question. */
 typedef struct LectureContent {
     const LecturePage *page; /* NULL outside of the lecture */
-    bool hides_answer;       /* a guess is awaited before the answer is shown */
+    bool hides_answer;       /* the page waits for the user's guess */
     const char *verdict;     /* verdict on the guess at this page, or NULL */
-    int guesses, right;      /* guesses at all pages, and the right ones */
+    int guesses, right;      /* numbers of guesses and of right guesses */
 } LectureContent;
 
 /* ---- all of it ----------------------------------------------------------- */
 
 typedef struct FrameContent {
-    int panes;  /* 1 ... LAYOUT_PANES */
+    int panes;  /* number of panes, 1 ... LAYOUT_PANES */
     int active; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_PANES];
     const View *view;
-    const struct Control *hand; /* pulls in the active pane, or NULL */
+    const struct Control *hand; /* pull of the mouse, or NULL */
     bool shows_strain;          /* springs are coloured by strain */
-    bool bare;                  /* the picture of the slide and nothing else */
-    bool in_document;  /* the stage alone: a web page beside it has the rest */
-    struct Text *text; /* measures a page's words; NULL: widths are guessed */
-    double min_em;     /* pixels; 0: the usual minimum */
+    bool bare;                  /* shows pictures without words */
+    bool in_document;           /* shows the stage alone, as on the web page */
+    struct Text *text;          /* measures the page's texts; NULL: estimates */
+    double min_em; /* pixels, least size of an em; 0: the usual minimum */
     Strip strip;
     SettingsRow settings;
     TimeLine time_line;
     ChipRow chips;
     Column column;
     CardSets cards;
-    List list; /* for COLUMN_PAGES and the kinds after it */
+    List list; /* shown if `column` is not COLUMN_CARDS or COLUMN_CODE */
     SheetContent sheet;
     LectureContent lecture;
 } FrameContent;
@@ -316,7 +315,7 @@ Layout layout_create(const FrameContent *content, int width, int height);
 Camera camera_of_pane(const FrameContent *content, const Layout *layout,
                       int pane);
 
-/* Returns the present bounds of a pane, for View.held. */
+/* Returns the present bounds of a pane's view, to hold them in View.held. */
 HeldBounds frame_hold_bounds(const FrameContent *content, const Layout *layout,
                              int pane);
 
@@ -328,16 +327,16 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
 int frame_find_row(const FrameContent *content, const Layout *layout, double x,
                    double y);
 
-/* Finds the step 0 ... steps whose place in the time line is at x. */
+/* Finds the step 0 ... steps that the time line has at pixel column x. */
 long frame_find_step(const FrameContent *content, const Layout *layout,
                      double x);
 
 /* ---- live values --------------------------------------------------------- */
 
-/* Adds what a page of the lecture sets, if the simulation's options name one:
- * topic and cards.  Fills the list of pages or letters if it is open.  Must
- * come before frame_fill_texts.
- *   column  in, contents that the user chose; code exists only on a page
+/* If the simulation shows a page of the lecture, adds the page's topic and
+ * hidden cards.  Fills the list of pages or letters if the column shows it.
+ * Must come before frame_fill_texts.
+ *   column  in, contents that the user chose; COLUMN_CODE exists only on a page
  *   left    in, page that was last open, which the list marks; or NULL */
 void frame_add_lecture(Column column, const struct LecturePage *left,
                        FrameContent *content);
@@ -345,19 +344,19 @@ void frame_add_lecture(Column column, const struct LecturePage *left,
 /* Fills the values of all panes. */
 void frame_fill_values(FrameContent *content);
 
-/* Fills the values of all panes.  Fills topic, sentence, method and state where
- * they are empty, for the active pane.  Must come last before drawing. */
+/* Fills the values of all panes, then topic, sentence, method and state of the
+ * active pane where they are empty.  Must come last before drawing. */
 void frame_fill_texts(FrameContent *content);
 
-/* Returns the number with this name in the active pane; NaN: unknown. */
+/* Returns the live value with this name in the active pane; NaN: unknown. */
 double frame_find_number(FrameContent *content, const char *name);
 
-/* Whether an open card of the scene or page needs E along p.
+/* Whether an open card of the scene or page draws E along p.
  *   toggled  bit c: card c was opened or closed by hand */
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);
 
-/* Samples the state for the history of the scene's picture.  Returns the number
- * of quantities.
+/* Samples the energies that the scene's picture plots over time.  Returns the
+ * number of quantities.
  *   row  [HISTORY_SERIES] out */
 int picture_sample_energies(const Simulation *simulation,
                             Energy row[HISTORY_SERIES]);

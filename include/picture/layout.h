@@ -1,7 +1,7 @@
 /* layout.h - places of all parts of the window.
  *
- * The layout depends on the window's size and on the open parts.  The numbers
- * in them do not change it, so that the zones stand still.  layout_create
+ * The layout depends on the window's size and on the open parts, but not on the
+ * numbers that are shown, so that the zones stand still.  layout_create
  * (frame_content.h) makes it.
  *
  *     +------------------------------------------------------+
@@ -30,25 +30,25 @@ enum {
     LAYOUT_SETTINGS = 16,
     LAYOUT_CHIPS = 16,
     LAYOUT_CELLS = 32,
-    LAYOUT_ROWS = 128 /* rows of a list */
+    LAYOUT_ROWS = 128 /* most rows of a list */
 };
 
-/* A box without width is not drawn. */
+/* The boxes of all parts.  A box without width is not drawn. */
 typedef struct Layout {
     int width, height; /* pixels of the window */
-    double em;         /* pixels, size of the texts */
+    double em;         /* pixels of an em, the size of plain text */
     Box strip, stage, column, settings_row, time_line, chip_row;
     int panes, cards, settings, chips;
-    bool has_list;          /* the column has code or a list, not cards */
-    Box pane[LAYOUT_PANES]; /* inside the stage */
-    Box card[LAYOUT_CARDS]; /* inside the column, or on the stage */
+    bool has_list;          /* the column shows code or a list, not cards */
+    Box pane[LAYOUT_PANES]; /* the panes of the stage */
+    Box card[LAYOUT_CARDS]; /* the cards; a main card is on the stage */
     Box setting[LAYOUT_SETTINGS];
     Box chip[LAYOUT_CHIPS]; /* a chip that does not fit has no width */
     int chips_left_out;     /* number of chips that do not fit */
     Box bars;               /* bars of the steps, inside the time line */
     int cells;
-    Box cell[LAYOUT_CELLS]; /* a square, and below it the line of the name; a
-                               heading is above the cell */
+    Box cell[LAYOUT_CELLS]; /* square with the name below; a heading stands
+                               above the box */
 } Layout;
 
 typedef enum Zone {
@@ -57,8 +57,8 @@ typedef enum Zone {
     ZONE_STAGE,      /* Hit.index: number of the pane */
     ZONE_CARD,       /* Hit.index: number of the card */
     ZONE_CARD_CLOSE, /* the cross of a card; Hit.index: number of the card */
-    ZONE_LIST,       /* code or a list */
-    ZONE_LIST_CLOSE, /* the cross of the code or list */
+    ZONE_LIST,       /* the column with code or a list */
+    ZONE_LIST_CLOSE, /* the cross that closes code or list */
     ZONE_SETTING,    /* Hit.index: number of the setting */
     ZONE_TIME,
     ZONE_CHIP, /* Hit.index: number of the chip */
@@ -85,10 +85,10 @@ typedef struct Camera {
     double origin[2]; /* pixels, image of the point (0, 0) */
 } Camera;
 
-/* Zoom and pan by the user, relative to the view that fits the scene. */
+/* The user's zoom and pan, relative to the view that fits the scene. */
 typedef struct Lens {
     double zoom;   /* magnification; 0 means 1 */
-    double pan[2]; /* shift of the middle, times the size of the fitting view */
+    double pan[2]; /* shift in widths and heights of the box at zoom 1 */
 } Lens;
 
 extern const Lens LENS_FITS;

@@ -13,7 +13,7 @@ typedef struct Paper {
     Text *text;        /* NULL: no font was found; texts are left out */
     double em;         /* pixels */
     double unit;       /* pixels, 1/14 em */
-    double min_letter; /* ems; only scripts may be smaller */
+    double min_letter; /* ems, least size of letters except scripts */
 } Paper;
 
 /* Creates white paper of this size in pixels.  The caller frees it, also after
@@ -36,12 +36,12 @@ void paper_shorten(Paper *paper, double size, int width, char *words,
                    size_t room);
 
 /* Draws a line in the middle of a box's height.  A line wider than the box
- * shrinks to at least 0.6 of the size.  Returns the width in pixels. */
+ * shrinks to at least 0.6 of its size.  Returns the width in pixels. */
 int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
                        Box box, Align align, const char *markup);
 
-/* Draws a line on a translucent white ground, legible on a picture.  Returns
- * the width in pixels. */
+/* Draws a line on a translucent white panel, so that it can be read on a
+ * picture.  Returns the width in pixels. */
 int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
                          double x, double y, Align align, const char *markup);
 

@@ -23,48 +23,48 @@ typedef struct CardTableRow {
 /* A box of the column with numbers or a graph about the active pane. */
 typedef struct Card {
     const char *name;  /* name in tables and scripts: "listing" */
-    const char *title; /* text of live_values.h; its first known line counts */
+    const char *title; /* text; the first line with known values is drawn */
     double min_height; /* ems */
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */
     double (*needed_height)(const FrameContent *content, double wide,
                             double em);
-    double weight;           /* share of the column's height left over */
-    bool half_width;         /* fits into half of a wide column */
-    bool half_width_on_page; /* fits into half of a column with a page's text */
+    double weight;           /* weight with which the card shares free height */
+    bool half_width;         /* may stand in one half of a wide column */
+    bool half_width_on_page; /* may stand in one half on a page */
     bool starts_closed;
-    bool needs_line_energy; /* draws E along p, which play then computes */
-    bool below_picture;     /* stands below the picture if a page enlarges it */
-    bool beside_picture; /* stands beside the picture if a page enlarges it */
+    bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
+    bool below_picture;     /* as main card, stands below the picture */
+    bool beside_picture;    /* as main card, stands beside the picture */
     bool only_in_lecture;   /* is hidden outside of the lecture */
-    const char *words;      /* text; lines with unknown numbers are left out */
-    const struct ListingRow *rows; /* algorithm line by line (cards.h) */
+    const char *words;      /* text; lines with unknown values are left out */
+    const struct ListingRow *rows; /* lines of an algorithm (cards.h) */
     /* Fills row 0, 1, ... of the card's table; row 0 has the heads.  Returns
      * false after the last row.  NULL: the card has no table. */
     bool (*table)(const FrameContent *content, int row, CardTableRow *cells);
-    /* Draws the content: curves, words and table; in a document only curves.
-     * NULL: words or rows are drawn. */
+    /* Draws the content: curves, words and table; on the web page only curves.
+     * NULL: `words` or `rows` are written. */
     void (*draw)(const Plot *card);
-    bool has_no_curves; /* a document has all of the content as text */
+    bool has_no_curves; /* the web page has all of the content as text */
 } Card;
 
 typedef struct Picture {
     int count; /* number of cards */
     const Card *const *cards;
-    bool stretched;    /* x and y have different scales */
+    bool stretched;    /* scales x and y differently, to fill the stage */
     bool own_handles;  /* draws and picks the scene's handles itself */
-    bool takes_clicks; /* a click on the picture sets a start or a guess */
-    /* Finds the part of the world that fits the stage: left, bottom, right,
-     * top, m.  The stage has no camera yet.  NULL: default_bounds. */
+    bool takes_clicks; /* a click sets a start point or the guess */
+    /* Finds the part of the world to show: left, bottom, right, top, m.  The
+     * stage has no camera yet.  NULL: default_bounds. */
     void (*bounds)(const Plot *stage, double bounds[4]);
     double default_bounds[4];
     void (*draw)(Plot *stage);
     /* Adds the live values that the picture's texts use; may be NULL. */
     void (*add_values)(const Simulation *simulation, LiveValues *values);
     const char *legend; /* text in the upper left corner, or NULL */
-    bool shows_scale;   /* has a scale of metres in the lower left corner */
-    /* Finds the part of the picture at pixel (x, y), in the world at
-     * pick->point.  NULL: the picture has only handles and places. */
+    bool shows_scale;   /* draws a scale of metres in the lower left corner */
+    /* Finds the part of the picture at pixel (x, y), which is pick->point in
+     * the world.  NULL: only handles and places are found. */
     void (*pick)(const Plot *stage, double x, double y, Pick *pick);
     /* Draws the note about the part under the mouse; may be NULL. */
     void (*hover)(Plot *stage);
@@ -72,7 +72,7 @@ typedef struct Picture {
     int (*sample)(const Simulation *simulation, Energy *row);
 } Picture;
 
-/* Return the picture of a scene, or of the active pane's scene. */
+/* Returns the picture of a scene. */
 const Picture *picture_of_scene(const struct Scene *scene);
 
 static inline const Picture *active_picture(const FrameContent *content)

@@ -20,15 +20,15 @@
 
 typedef enum Face { FACE_REGULAR, FACE_BOLD, FACE_MONO, FACE_COUNT } Face;
 
-/* The point of a line of text that stands at the given x. */
+/* The point of a line of text that is at the x of text_draw. */
 typedef enum Align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } Align;
 
 typedef struct TextStyle {
     Face face;
     double size; /* pixels an em, 5 ... 400; other sizes draw nothing */
     Colour colour;
-    bool plain;      /* has no markup: braces are ordinary characters */
-    double min_size; /* pixels; scripts and fractions are not smaller */
+    bool plain;      /* has no markup; braces are ordinary characters */
+    double min_size; /* pixels, least size of scripts and fractions */
 } TextStyle;
 
 typedef struct Text Text;
@@ -44,15 +44,15 @@ void text_free(Text *text);
 /* Returns the distance between two lines of words, pixels. */
 double text_line_height(double size);
 
-/* Extent of a line in pixels, above and below the baseline at least that of a
+/* Extent of a line in pixels, above and below the baseline, at least that of a
  * line of words.  The width is a whole number. */
 typedef struct TextExtent {
     double width, above, below;
 } TextExtent;
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 
-/* Draws one line.  y is the upper edge of its words; fractions and matrices
- * reach beyond it.  Returns the width. */
+/* Draws one line.  The words' upper edge is at y; fractions and matrices reach
+ * higher.  Returns the width. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
 

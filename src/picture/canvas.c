@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_WIDTH = 4096 };  /* pixels, the widest line */
-enum { FARTHEST = 1 << 29 }; /* pixels, coordinates are clamped to this */
+enum { MAX_LINE_WIDTH = 4096 };    /* pixels, largest width of a line */
+enum { MAX_COORDINATE = 1 << 29 }; /* pixels, limit of clamped coordinates */
 
 /* Fixed point numbers have 16 bits before and 16 bits after the binary point.
  */
@@ -27,7 +27,7 @@ static inline uint32_t blend(uint32_t below, uint32_t above, uint32_t amount)
 }
 
 /* Converts the colour's alpha 0 ... 255 to 0 ... 256. */
-static inline uint32_t opacity_of(Colour colour)
+static inline uint32_t find_opacity(Colour colour)
 {
     uint32_t alpha = colour >> 24;
     return alpha + (alpha >> 7);
@@ -93,8 +93,8 @@ static inline double max_double(double a, double b)
 
 /* Returns the pixels that a rectangle touches inside of `clip`, whose corner
  * must be >= 0. */
-static Box touched_pixels(Box clip, double left, double top, double right,
-                          double bottom)
+static Box find_touched_pixels(Box clip, double left, double top, double right,
+                               double bottom)
 {
     double x0 = max_double(left, clip.x),
            x1 = min_double(right, clip.x + clip.width);
@@ -109,7 +109,8 @@ static Box touched_pixels(Box clip, double left, double top, double right,
 
 int pixel_from_coordinate(double place)
 {
-    return place >= -FARTHEST ? (int)fmin(place, FARTHEST) : -FARTHEST;
+    return place >= -MAX_COORDINATE ? (int)fmin(place, MAX_COORDINATE)
+                                    : -MAX_COORDINATE;
 }
 
 Box box_inset(Box box, int margin)
@@ -140,8 +141,8 @@ bool box_contains(Box box, double x, double y)
 
 Box box_intersection(Box a, Box b)
 {
-    return touched_pixels(a, b.x, b.y, (double)b.x + b.width,
-                          (double)b.y + b.height);
+    return find_touched_pixels(a, b.x, b.y, (double)b.x + b.width,
+                               (double)b.y + b.height);
 }
 
 Box canvas_set_clip(Canvas *canvas, Box box)
@@ -151,7 +152,7 @@ Box canvas_set_clip(Canvas *canvas, Box box)
     return before;
 }
 
-static uint32_t *canvas_row(const Canvas *canvas, int y)
+static uint32_t *get_row(const Canvas *canvas, int y)
 {
     return canvas->pixels + (size_t)y * (size_t)canvas->width;
 }
@@ -173,8 +174,8 @@ void canvas_fill(Canvas *canvas, Box box, Colour colour)
 {
     Box seen = box_intersection(canvas->clip, box);
     for (int j = seen.y; j < seen.y + seen.height; j++)
-        blend_span(canvas_row(canvas, j), seen.x, seen.x + seen.width, colour,
-                   opacity_of(colour));
+        blend_span(get_row(canvas, j), seen.x, seen.x + seen.width, colour,
+                   find_opacity(colour));
 }
 
 void canvas_framed_box(Canvas *canvas, Box box, Colour fill, Colour border)
@@ -192,9 +193,9 @@ bool box_clip_line(const Box *box, double margin, double line[4])
     if (line[0] >= left && line[2] >= left && line[0] <= right &&
         line[2] <= right && line[1] >= top && line[3] >= top &&
         line[1] <= bottom && line[3] <= bottom)
-        return true; /* the usual case, and much faster */
+        return true; /* most lines lie inside: no division is needed */
     double dx = line[2] - line[0], dy = line[3] - line[1], t0 = 0, t1 = 1;
-    /* A point of the line is inside if p t <= q. */
+    /* The point at t = 0 ... 1 of the line is inside if p t <= q. */
     const double p[4] = {-dx, dx, -dy, dy};
     const double q[4] = {line[0] - left, right - line[0], line[1] - top,
                          bottom - line[1]};
@@ -214,8 +215,8 @@ bool box_clip_line(const Box *box, double margin, double line[4])
 }
 
 /* Blends the colour into the pixels between low and high > low.
- *   column     first pixel
- *   across     distance of neighbours in pixels[]
+ *   column     first pixel of the column
+ *   across     distance of neighbouring pixels in memory
  *   low, high  fixed point */
 static inline void blend_column(uint32_t *column, ptrdiff_t across, int low,
                                 int high, Colour colour, uint32_t amount)
@@ -244,20 +245,20 @@ static inline int max_int(int a, int b)
     return a > b ? a : b;
 }
 
-/* Loops over the columns or rows of pixels, of which the line crosses more.
- * Axis k is along the line, axis j across. */
+/* Loops over columns of pixels; over rows if the line is steep.  Axis k is
+ * along the loop, axis j across. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
 {
     double line[4] = {x0, y0, x1, y1};
     const Box *clip = &canvas->clip;
-    if (!(width > 0) || width > MOST_WIDTH ||
+    if (!(width > 0) || width > MAX_LINE_WIDTH ||
         !box_clip_line(clip, width + 1, line))
         return;
     const double d[2] = {line[2] - line[0], line[3] - line[1]};
     const int first[2] = {clip->x, clip->y};
     const int behind[2] = {clip->x + clip->width, clip->y + clip->height};
-    /* Distance of neighbours in pixels[]. */
+    /* Distance of neighbouring pixels in memory. */
     const ptrdiff_t next[2] = {1, canvas->width};
     int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1, j = 1 - k,
         back = d[k] > 0 ? 0 : 2;
@@ -272,13 +273,14 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     int middle =
         (int)((line[back + j] + (begin + 0.5 - from) * slope) * FIXED_ONE);
     int step = (int)(slope * FIXED_ONE);
-    uint32_t full = opacity_of(colour),
+    uint32_t full = find_opacity(colour),
              *column = canvas->pixels + begin * next[k];
     for (int i = begin; i < end; i++, middle += step, column += next[k]) {
         int low = max_int(middle - reach, first[j] * FIXED_ONE);
         int high = min_int(middle + reach, behind[j] * FIXED_ONE);
         uint32_t amount = full;
-        if (i == begin || i + 1 == end) { /* the ends cover parts of pixels */
+        /* The first and the last pixel of the line are covered in part. */
+        if (i == begin || i + 1 == end) {
             int left = max_int(i * FIXED_ONE, start);
             int right = min_int((i + 1) * FIXED_ONE, stop);
             amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
@@ -335,7 +337,7 @@ void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
 static inline void clip_to_half_plane(double a, double per_a, double b,
                                       int *left, int *right)
 {
-    double i = -b * per_a; /* infinite or NaN if a is 0 */
+    double i = -b * per_a; /* not finite if a is 0 */
     if (a == 0 ? b < 0 : a > 0 ? i > *right : i < *left)
         *left = *right;
     else if (a > 0 && i > *left)
@@ -352,14 +354,14 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     double edge[3][4]; /* a, b, c, 1/a; a x + b y + c is the distance inside */
     double turn = (c[2] - c[0]) * (c[5] - c[1]) - (c[3] - c[1]) * (c[4] - c[0]);
     double reach = smooth ? 1 : 0;
-    uint32_t full = opacity_of(colour);
+    uint32_t full = find_opacity(colour);
     if (!(fabs(turn) > 1e-12) || !(fabs(turn) < 1e15))
         return;
-    Box box = touched_pixels(canvas->clip,
-                             min_double(c[0], min_double(c[2], c[4])) - reach,
-                             min_double(c[1], min_double(c[3], c[5])) - reach,
-                             max_double(c[0], max_double(c[2], c[4])) + reach,
-                             max_double(c[1], max_double(c[3], c[5])) + reach);
+    Box box = find_touched_pixels(
+        canvas->clip, min_double(c[0], min_double(c[2], c[4])) - reach,
+        min_double(c[1], min_double(c[3], c[5])) - reach,
+        max_double(c[0], max_double(c[2], c[4])) + reach,
+        max_double(c[1], max_double(c[3], c[5])) + reach);
     for (int k = 0; k < 3; k++) {
         const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
         double dx = q[0] - p[0], dy = q[1] - p[1];
@@ -372,9 +374,9 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         edge[k][3] = 1 / edge[k][0];
     }
     for (int j = box.y; j < box.y + box.height; j++) {
-        uint32_t *row = canvas_row(canvas, j);
+        uint32_t *row = get_row(canvas, j);
         int left = box.x, right = box.x + box.width;
-        double first[3]; /* value at the middle of pixel 0 */
+        double first[3]; /* a x + b y + c at the middle of pixel 0 */
         for (int k = 0; k < 3; k++) {
             first[k] = edge[k][0] * 0.5 + edge[k][1] * (j + 0.5) + edge[k][2];
             clip_to_half_plane(edge[k][0], edge[k][3],
@@ -383,7 +385,7 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         if (!smooth)
             blend_span(row, left, right, colour, full);
         for (int i = left; smooth && i < right; i++) {
-            double inside = 0.5; /* pixels; 1/2: all of the pixel is covered */
+            double inside = 0.5; /* distance inside; 1/2: full coverage */
             for (int k = 0; k < 3; k++)
                 inside = min_double(inside, edge[k][0] * i + first[k]);
             row[i] =
@@ -393,8 +395,8 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     }
 }
 
-/* The coverage follows from the distances to the two edges of the ring; a disc
- * has only the outer one. */
+/* The coverage of a pixel follows from its distances to the outer and the inner
+ * circle; a disc has no inner circle. */
 void canvas_ring(Canvas *canvas, double x, double y, double radius,
                  double width, Colour colour)
 {
@@ -404,10 +406,11 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
     if (!(radius > 0) || !(fabs(x) < 1e6) || !(fabs(y) < 1e6) ||
         !(radius < 1e6))
         return;
-    Box box = touched_pixels(canvas->clip, x - far, y - far, x + far, y + far);
-    uint32_t full = opacity_of(colour);
+    Box box =
+        find_touched_pixels(canvas->clip, x - far, y - far, x + far, y + far);
+    uint32_t full = find_opacity(colour);
     for (int j = box.y; j < box.y + box.height; j++) {
-        uint32_t *row = canvas_row(canvas, j);
+        uint32_t *row = get_row(canvas, j);
         double dy = j + 0.5 - y;
         for (int i = box.x; i < box.x + box.width; i++) {
             double dx = i + 0.5 - x, d2 = dx * dx + dy * dy;
@@ -429,10 +432,10 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
 void canvas_fill_mask(Canvas *canvas, int x, int y, int width, int height,
                       const uint8_t *mask, Colour colour)
 {
-    uint32_t full = opacity_of(colour);
-    Box box = touched_pixels(canvas->clip, x, y, x + width, y + height);
+    uint32_t full = find_opacity(colour);
+    Box box = find_touched_pixels(canvas->clip, x, y, x + width, y + height);
     for (int j = box.y; j < box.y + box.height; j++) {
-        uint32_t *row = canvas_row(canvas, j);
+        uint32_t *row = get_row(canvas, j);
         const uint8_t *part = mask + (size_t)(j - y) * (size_t)width;
         for (int i = box.x; i < box.x + box.width; i++) {
             uint32_t amount = part[i - x];

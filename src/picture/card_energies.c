@@ -7,19 +7,22 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* The axis covers the whole run if the whole is less than this many times the
- * part shown so far. */
+/* The axis covers the whole run, unless its largest energy is this many times
+ * the largest one until now. */
 static const double MAX_AXIS_RATIO = 1000;
-/* The axis becomes logarithmic when the energy has grown by LOG_GROWTH; then
- * the ends of the axis are at most these times the energy at the start. */
+/* The axis becomes logarithmic when the energy has grown by LOG_GROWTH. The
+ * ends of the axis then lie within LOG_LOW and LOG_HIGH times the energy at the
+ * start. */
 static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
-static const double MIN_VISIBLE = 2e-3; /* times the largest energy: is drawn */
-static const double ROUNDING = 1e-20;   /* times k side^2: is rounding */
-static const double LEGEND_SIZE = 0.85; /* ems, letters of the legend */
-static const double CROWDED_SIZE = 0.75; /* ems, with more than four curves */
-static const double MIN_HEIGHT = 8;      /* ems, height of the card */
-static const double PAGE_HEIGHT = 11;    /* ems, height beside a page's text */
-static const double ROW_HEIGHT = 2.4;    /* ems more for two rows of legend */
+/* Energies that never reach this part of the largest one have no curve. */
+static const double MIN_VISIBLE = 2e-3;
+/* Energies below this part of k side^2 are rounding errors. */
+static const double ROUNDING = 1e-20;
+static const double LEGEND_SIZE = 0.85;  /* ems, size of the legend's letters */
+static const double CROWDED_SIZE = 0.75; /* ems, if more than four curves */
+static const double MIN_HEIGHT = 8;      /* ems, least height of the card */
+static const double PAGE_HEIGHT = 11;    /* ems, least height on a page */
+static const double ROW_HEIGHT = 2.4;    /* ems, for a second row of legend */
 
 /* A quantity of a history over time. */
 typedef struct Curve {
@@ -34,23 +37,23 @@ typedef struct Curve {
 typedef struct Curves {
     int count;
     Curve curve[HISTORY_SERIES];
-    double now; /* s, latest time of all panes; some may have ended before */
+    double latest; /* s, time of the pane that has come farthest */
 } Curves;
 
-/* Whether the history has the total of each run, and then positions, instead of
- * the energies of one run. */
+/* Whether the history has one energy for each run, followed by the runs'
+ * positions, and not all energies of one run. */
 static bool series_are_runs(const Simulation *simulation)
 {
     PictureKind kind = simulation->scene->picture;
     return kind == PICTURE_CIRCLE || kind == PICTURE_MASS;
 }
 
-/* Finds the curves of the card: with several panes their totals, else the runs
- * of the active pane, or its first three energies and those that were ever
- * visible beside the largest one. */
+/* Finds the curves of the card.  With several panes or single masses, each pane
+ * or run has one curve.  Otherwise the curves are the first three energies, and
+ * all that were ever visible beside the largest one. */
 static Curves find_curves(const FrameContent *content)
 {
-    Curves all = {.now = simulation_time(active_pane(content)->simulation)};
+    Curves all = {.latest = simulation_time(active_pane(content)->simulation)};
     Curve *curve = all.curve;
     const Pane *active = active_pane(content);
     const History *history = active->history;
@@ -85,13 +88,13 @@ static Curves find_curves(const FrameContent *content)
                      : colour_of_name(s == 0 ? "total" : history->name[s]),
                 history->name[s]};
     for (int c = 0; c < all.count; c++)
-        all.now = fmax(all.now, simulation_time(curve[c].simulation));
+        all.latest = fmax(all.latest, simulation_time(curve[c].simulation));
     return all;
 }
 
-/* Returns the index of the last point of the history up to this time; -1: none.
- */
-static int find_point(const History *history, double time)
+/* Returns the index of the last point of the history that is not after this
+ * time, or -1. */
+static int find_history_point(const History *history, double time)
 {
     int at = -1;
     while (at + 1 < history->count &&
@@ -100,20 +103,20 @@ static int find_point(const History *history, double time)
     return at;
 }
 
-/* Returns an energy at the last point of the history up to this time, J; 0 if
- * the value is rounding beside the other energies; infinity if the present
- * energies are not finite; NaN without a point. */
-static double energies_value_at(const Simulation *simulation,
-                                const History *history, int series, double time)
+/* Returns the energy at the last point of the history that is not after this
+ * time, J: 0 if below rounding, NaN without a point, infinity if the present
+ * energies are not finite. */
+static double find_energy_at(const Simulation *simulation,
+                             const History *history, int series, double time)
 {
-    int point = find_point(history, time), last = history->count - 1;
+    int point = find_history_point(history, time), last = history->count - 1;
     bool runs = series_are_runs(simulation);
     double now = simulation_time(simulation), size = 0, first = 0;
     if (point < 0)
         return NAN;
     if (!runs && time >= now && now > history->time[last] * (1 + 1e-12) &&
         !isfinite(simulation_energies(simulation, 0).total))
-        return INFINITY; /* the history has no point of such energies */
+        return INFINITY; /* the history leaves out infinite energies */
     double value = history->value[series][point];
     for (int s = 0; s < history->series && !runs; s++) {
         size = fmax(size, fabs(history->value[s][point]));
@@ -134,7 +137,7 @@ double energies_needed_height(const FrameContent *content, double wide,
                                          : ROW_HEIGHT);
 }
 
-/* Returns the energy below which all is rounding, J. */
+/* Returns the largest rounding error of an energy, J. */
 static double find_energy_rounding(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
@@ -146,16 +149,16 @@ static double find_energy_rounding(const Simulation *simulation)
  * energies so far would then be too small to see, and is logarithmic if the
  * energy has grown a millionfold.
  *   last  out, s, upper limit of the times of the curves */
-static Axis energies_axis(const Simulation *simulation, const Curves *all,
-                          double *last)
+static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
+                               double *last)
 {
     double first = 0, least = INFINITY, low = 0, high = 0;
-    double lowest = 0, highest = 0; /* like low, high, in the whole run */
+    double lowest = 0, highest = 0; /* ends of the energies in the whole run */
     *last = 100 * simulation->options.timestep;
     for (const Curve *curve = all->curve; curve < all->curve + all->count;
          curve++) {
         const History *history = curve->history;
-        int point = find_point(history, all->now);
+        int point = find_history_point(history, all->latest);
         for (int i = 0; i < history->count; i++) {
             double value = history->value[curve->series][i];
             lowest = fmin(lowest, value);
@@ -175,15 +178,15 @@ static Axis energies_axis(const Simulation *simulation, const Curves *all,
     double rounding = find_energy_rounding(simulation);
     high = high > rounding ? fmin(high, 1e300) : 1;
     low = fmax(low, -1e300);
-    if (!(first > rounding)) /* the body is at rest under gravity */
+    if (!(first > rounding)) /* a start with E = 0, such as a fall from rest */
         first = -low;
     bool modes = simulation->options.layers & LAYER_MODES;
     if (first > 0 && (modes || high > LOG_GROWTH * first))
         return (Axis){pow(10, floor(log10(fmax(least, LOG_LOW * first))) - 1),
                       pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))), true,
                       false, "J"};
-    return (Axis){low < -0.01 * high ? -plot_round_axis(-low) : 0,
-                  plot_round_axis(high), false, false, "J"};
+    return (Axis){low < -0.01 * high ? -plot_round_axis_end(-low) : 0,
+                  plot_round_axis_end(high), false, false, "J"};
 }
 
 static void draw_curves(const Plot *plot, const Curves *all)
@@ -208,8 +211,8 @@ void energies_draw(const Plot *card)
     for (const Curve *one = all.curve; one < all.curve + all.count; one++) {
         TextLine line = {.colour = one->colour};
         double value =
-            energies_value_at(one->simulation, one->history, one->series,
-                              simulation_time(one->simulation));
+            find_energy_at(one->simulation, one->history, one->series,
+                           simulation_time(one->simulation));
         char name[SENTENCE_SIZE], sum[60];
         if (fabs(value) < find_energy_rounding(one->simulation))
             value = 0;
@@ -220,23 +223,23 @@ void energies_draw(const Plot *card)
                           paper_width(card->paper, FACE_REGULAR, size, sum),
                       name, sizeof name);
         snprintf(line.words, sizeof line.words, "%.150s%s", name, sum);
-        used = card_flow_words(card, at, size, 1.05 * size, &line);
+        used = card_write_flow(card, at, size, 1.05 * size, &line);
     }
     box_cut_off(&rest.box, EDGE_TOP, used);
-    Axis energy = energies_axis(card->simulation, &all, &last);
+    Axis energy = make_energies_axis(card->simulation, &all, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
-    if (all.now < plot.x.high)
-        plot_line(&plot, (double[2]){all.now, plot.y.low},
-                  (double[2]){all.now, plot.y.high}, 1, COLOUR_BORDER);
+    if (all.latest < plot.x.high)
+        plot_line(&plot, (double[2]){all.latest, plot.y.low},
+                  (double[2]){all.latest, plot.y.high}, 1, COLOUR_BORDER);
     draw_curves(&plot, &all);
 }
 
-/* Draws a bar of the energy at the start with the work since then, and bars of
- * its parts, each of which begins at the end of the last one. */
+/* Draws a bar for the energy at the start plus the work since then, and a bar
+ * for each of its parts.  Each part's bar begins where the part before ends. */
 void energy_budget_draw(const Plot *card)
 {
-    static const double NAME = 7, VALUE = 5.2; /* ems, widths of the words */
+    static const double NAME = 7, VALUE = 5.2; /* ems, widths of columns */
     Paper *paper = card->paper;
     const Box *box = &card->box;
     Energies energies = simulation_energies(card->simulation, 0);
@@ -281,7 +284,7 @@ void radius_draw(const Plot *card)
     const Curves all = find_curves(content);
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
-    double most = 0.4; /* powers of ten */
+    double most = 0.4; /* powers of ten, half of the axis around 1 m */
     for (int r = 0; r < simulation->runs; r++)
         most =
             fmax(most, 1.1 * fabs(log10(vector_length(simulation->run[r].x))));

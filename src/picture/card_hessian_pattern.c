@@ -5,23 +5,24 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* A block is zero, becomes non-zero in the factor, or is non-zero. */
+/* Kinds of blocks: zero in the factor, non-zero in the factor alone, non-zero
+ * in the matrix, too. */
 enum { NOTHING, FILL, ENTRY };
 
-/* Returns the row of a node: its number, or its place in the elimination order.
- */
+/* Returns the row of a node: the node's number in natural order, else the
+ * node's place in the elimination order. */
 static int row_of_node(const System *system, int node, bool natural)
 {
     return natural ? node : system->order[node];
 }
 
-/* Computes the pattern of the factor (George and Liu 1981), or in natural order
- * the pattern of the matrix, from the first springs.  Block [j n + i] is row i
- * of column j < i.  In the factor column j adds its pattern to that of its
- * parent, the first row below the diagonal with an entry.  Returns NULL if
- * memory runs out. */
-static unsigned char *make_pattern(const System *system, bool natural,
-                                   int springs)
+/* Computes the pattern of the first springs' matrix in natural order, else of
+ * its factor (George and Liu 1981). Block [j n + i] is row i > j of column j.
+ * Each column of the factor adds its pattern to its parent's column; the parent
+ * is the first non-zero row below the diagonal.  Returns NULL if memory runs
+ * out. */
+static unsigned char *compute_pattern(const System *system, bool natural,
+                                      int springs)
 {
     size_t n = (size_t)system->nodes;
     unsigned char *block = calloc(n, n);
@@ -43,7 +44,7 @@ static unsigned char *make_pattern(const System *system, bool natural,
 
 /* Returns the box of the block in row i, column j of n, at least `least` pixels
  * large.  Large blocks have gaps between them. */
-static Box block_box(Box square, int n, int i, int j, int least)
+static Box find_block_box(Box square, int n, int i, int j, int least)
 {
     int side = square.width, gap = n * 5 < side;
     int x = j * side / n, y = i * side / n;
@@ -53,15 +54,16 @@ static Box block_box(Box square, int n, int i, int j, int least)
                  high > least ? high : least};
 }
 
-/* Draws the matrix above the diagonal and the factor with its fill below, and
- * marks the four blocks of the spring under the mouse, or on a page of the
- * newest spring. */
-static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
+/* Draws the matrix above the diagonal, and the factor with its fill below.
+ * Marks the four blocks of one spring: the spring under the mouse, or on a page
+ * the newest spring. */
+static void draw_pattern(const Plot *card, Box square, bool natural,
+                         int springs)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
     const Pick *hover = &card->content->view->hover;
-    unsigned char *block = make_pattern(system, natural, springs);
+    unsigned char *block = compute_pattern(system, natural, springs);
     Canvas *canvas = &paper->canvas;
     int n = system->nodes;
     int lit = hover->kind == PICK_SPRING    ? hover->index
@@ -71,17 +73,18 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
         for (int i = j; i < n; i++) {
             int what = i == j ? ENTRY : block[(size_t)j * (size_t)n + i];
             if (what == ENTRY)
-                canvas_fill(canvas, block_box(square, n, j, i, 1), COLOUR_X);
+                canvas_fill(canvas, find_block_box(square, n, j, i, 1),
+                            COLOUR_X);
             if (what != NOTHING)
-                canvas_fill(canvas, block_box(square, n, i, j, 1),
+                canvas_fill(canvas, find_block_box(square, n, i, j, 1),
                             what == ENTRY ? COLOUR_X : 0xffe0a060u);
         }
     free(block);
     for (int k = 0; k < 4 && lit >= 0 && lit < system->springs; k++) {
         const int *e = system->e + 2 * lit;
-        Box box = block_box(square, n, row_of_node(system, e[k / 2], natural),
-                            row_of_node(system, e[k % 2], natural),
-                            paper_pixels(paper, 0.35));
+        Box box = find_block_box(
+            square, n, row_of_node(system, e[k / 2], natural),
+            row_of_node(system, e[k % 2], natural), paper_pixels(paper, 0.35));
         canvas_framed_box(canvas, box_inset(box, -1), COLOUR_PROJECT,
                           COLOUR_WHITE);
     }
@@ -114,9 +117,9 @@ void hessian_pattern_draw(const Plot *card)
         paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
                     ALIGN_LEFT,
                     k ? "order of elimination" : "node i: rows 2i, 2i + 1");
-        draw_matrix(card, (Box){x, inside.y + line, side, side}, !k, springs);
+        draw_pattern(card, (Box){x, inside.y + line, side, side}, !k, springs);
     }
-    Plot rest = *card; /* room below, for the newest spring's block of H */
+    Plot rest = *card; /* room for the newest spring's block */
     box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
     if (rest.box.height > 7 * paper->em && !card->content->in_document)
         card_write_text(&rest, &card->pane->values, card_hessian_pattern.words);

@@ -18,34 +18,35 @@
 
 /* An element, and its place on the curve of the law. */
 typedef struct LawPoint {
-    EvalPoint at;
-    Element element; /* contact or triangle */
-    FlowLaw spring;  /* law of a spring */
-    double reach;    /* unit of the axis */
-    double d_hat;    /* m, distance at which contact forces begin */
-    double x;        /* position on the axis; NaN: there is no element */
-    double load;     /* the element with the largest load is shown */
-    double pressed;  /* N, sum of the normal forces of the contacts so far */
+    EvalPoint eval;
+    Element element;   /* contact or triangle */
+    FlowLaw spring;    /* law of the spring */
+    double axis_unit;  /* unit of axis_low and axis_high */
+    double d_hat;      /* m, gap at which contact forces begin */
+    double x;          /* value on the axis; NaN: there is no element */
+    double load;       /* measure of the force; the largest one is shown */
+    double normal_sum; /* N, sum of the normal forces added so far */
 } LawPoint;
 
 typedef struct Law {
-    const char *name, *across, *upwards; /* labels of the axes */
-    const TermKind *kind;                /* term of the law */
-    const TermKind *source; /* term of the elements; NULL: springs */
-    double (*value)(const void *now, double x);
-    double axis_low, axis_high; /* ends of the axis, in units of `reach` */
+    const char *name; /* value of Options.law */
+    const char *x_label, *y_label;
+    const TermKind *law_term;     /* term with the law */
+    const TermKind *element_term; /* term of the elements; NULL: springs */
+    double (*evaluate)(const void *now, double x);
+    double axis_low, axis_high; /* ends of the axis, times axis_unit */
 } Law;
 
-static double gap_energy(const void *data, double d)
+static double element_energy_at(const void *data, double d)
 {
     LawPoint there = *(const LawPoint *)data;
     there.element.s = d;
-    return there.at.term->kind->element->value(&there.at, &there.element);
+    return there.eval.term->kind->element->value(&there.eval, &there.element);
 }
 
 /* Returns the energy per area of the triangle, after it is stretched along its
  * shortest direction to the area ratio J. */
-static double triangle_energy(const void *data, double J)
+static double triangle_energy_density(const void *data, double J)
 {
     LawPoint there = *(const LawPoint *)data;
     double *f = there.element.v, factor = J / there.element.s - 1;
@@ -58,23 +59,24 @@ static double triangle_energy(const void *data, double J)
         f[i] += part * n[0];
         f[i + 1] += part * n[1];
     }
-    return gap_energy(&there, J) / neo_hookean_of(there.at.system)->area;
+    return element_energy_at(&there, J) /
+           neo_hookean_of(there.eval.system)->area;
 }
 
-static double friction_force_at(const void *now, double v)
+static double friction_force_ratio(const void *now, double v)
 {
-    return friction_slope(v, ((const LawPoint *)now)->reach);
+    return friction_slope(v, ((const LawPoint *)now)->axis_unit);
 }
 
-static double spring_force(const void *data, double s)
+static double flow_force_at(const void *data, double s)
 {
     const LawPoint *now = data;
     return flow_law_slope(now->spring, s - now->spring.ep);
 }
 
-/* Returns force over strain, both relative to the spring's strength; the force
- * of a broken spring is 0. */
-static double break_force(const void *now, double part)
+/* Returns force over strain as a multiple of both at the spring's strength; a
+ * broken spring has no force. */
+static double breaking_force_ratio(const void *now, double part)
 {
     (void)now;
     return part > 1 ? 0 : part;
@@ -82,39 +84,41 @@ static double break_force(const void *now, double part)
 
 static const Law laws[] = {
     {"barrier", "gap \u03b4 in m", "W in J", &contact_energy, &contact_energy,
-     gap_energy, 0, 1.2},
+     element_energy_at, 0, 1.2},
     {"rub", "slip in m/s", "f/(\u03bc f_{N})", &self_friction_energy,
-     &self_contact_energy, friction_force_at, 0, 2},
+     &self_contact_energy, friction_force_ratio, 0, 2},
     {"triangle", "det F", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
-     &neo_hookean_energy, triangle_energy, 0, 1.5},
-    {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, spring_force, -1,
+     &neo_hookean_energy, triangle_energy_density, 0, 1.5},
+    {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, flow_force_at, -1,
      1},
-    {"break", "s/s_{c}", "f/(2k|d| s_{c})", &fracture, NULL, break_force, 0,
-     1.3},
+    {"break", "s/s_{c}", "f/(2k|d| s_{c})", &fracture, NULL,
+     breaking_force_ratio, 0, 1.3},
 };
 
 static void fill_spring_point(LawPoint *now, int s)
 {
-    const System *system = now->at.system;
+    const System *system = now->eval.system;
     const Plasticity *flow = system_term_data(system, &plastic_energy);
     const Fracture *tear = system_term_data(system, &fracture);
     double d[2];
     now->spring = plasticity_get_law(system, s);
-    double d2 = spring_vector(system->e + 2 * s, now->at.x, d);
+    double d2 = spring_vector(system->e + 2 * s, now->eval.x, d);
     now->x = spring_strain(d2, system->l2[s]);
     now->x /= tear ? fracture_strength(tear, s) : 1;
     now->load = spring_is_broken(system, s) ? -INFINITY
                 : tear                      ? now->x
                        : fabs(now->spring.ep) + 1e-3 * fabs(now->x);
     if (flow)
-        now->reach = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
+        now->axis_unit = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
 }
 
-/* Returns the value at the dot.  A spring beyond its strength is still whole if
- * a spring at one of its nodes broke before. */
+/* Returns the law's value at the dot.  A spring beyond its strength keeps its
+ * force until it breaks: in a step a spring at one of its nodes may break
+ * first. */
 static double law_value_at(const Law *law, const LawPoint *now)
 {
-    return law->value == break_force ? now->x : law->value(now, now->x);
+    return law->evaluate == breaking_force_ratio ? now->x
+                                                 : law->evaluate(now, now->x);
 }
 
 /* Finds the law that the scene draws, and the point of the run's most loaded
@@ -129,45 +133,46 @@ static const Law *find_law(const Simulation *simulation, int run,
     const Law *law = name ? laws : NULL;
     while (law && strcmp(law->name, name) != 0)
         law++;
-    const Term *term = law ? system_find_term(system, law->kind) : NULL;
+    const Term *term = law ? system_find_term(system, law->law_term) : NULL;
     if (!term)
         return NULL;
-    *most = (LawPoint){.at = eval_point_at(system, x, NULL, x),
-                       .reach = 1,
+    *most = (LawPoint){.eval = eval_point_at(system, x, NULL, x),
+                       .axis_unit = 1,
                        .x = NAN,
                        .load = -INFINITY};
-    if (law->source == &contact_energy)
-        most->reach = most->d_hat = contact_of(system)->barrier.d_hat;
-    if (law->source == &self_contact_energy)
-        most->reach = most->d_hat = self_contact_of(system)->d_hat;
-    if (law->value == friction_force_at)
-        most->reach = ((const Friction *)term->data)->slip_speed;
+    if (law->element_term == &contact_energy)
+        most->axis_unit = most->d_hat = contact_of(system)->barrier.d_hat;
+    if (law->element_term == &self_contact_energy)
+        most->axis_unit = most->d_hat = self_contact_of(system)->d_hat;
+    if (law->evaluate == friction_force_ratio)
+        most->axis_unit = ((const Friction *)term->data)->slip_speed;
     LawPoint now = *most;
-    for (int s = 0; s < system->springs && !law->source; s++) {
+    for (int s = 0; s < system->springs && !law->element_term; s++) {
         fill_spring_point(&now, s);
         *most = now.load > most->load ? now : *most;
     }
-    if (!law->source)
+    if (!law->element_term)
         return law;
-    most->at.term = now.at.term = system_find_term(system, law->source);
-    for (ElementIterator walk = elements_begin(&now.at, NULL, 0);
+    most->eval.term = now.eval.term =
+        system_find_term(system, law->element_term);
+    for (ElementIterator walk = elements_begin(&now.eval, NULL, 0);
          elements_next(&walk);) {
         const Element *element = &walk.element;
-        double t[4], w[4], slip, mean = now.pressed > 0 ? now.x : 0;
+        double t[4], w[4], slip, mean = now.normal_sum > 0 ? now.x : 0;
         now.element = *element;
         now.load = -element->s;
         now.x = element->s;
-        if (law->value == friction_force_at) {
-            now.load = walk.kind->friction_limit(&now.at, element, t, &slip);
+        if (law->evaluate == friction_force_ratio) {
+            now.load = walk.kind->friction_limit(&now.eval, element, t, &slip);
             element_vectors(element, v, w);
             for (int i = 0; i < 2 * element->vectors; i++)
                 slip -= t[i] * w[i];
-            now.pressed += now.load;
-            now.x = mean + (fabs(slip) - mean) * now.load / now.pressed;
+            now.normal_sum += now.load;
+            now.x = mean + (fabs(slip) - mean) * now.load / now.normal_sum;
         }
         *most = now.load > most->load ? now : *most;
     }
-    most->x = law->value == friction_force_at ? now.x : most->x;
+    most->x = law->evaluate == friction_force_ratio ? now.x : most->x;
     return law;
 }
 
@@ -176,32 +181,33 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap)
     LawPoint now;
     const Law *law = find_law(simulation, 0, &now);
     if (!law || simulation->runs > 1 || isnan(now.x) ||
-        law->value != gap_energy)
+        law->evaluate != element_energy_at)
         return false;
-    bool self = law->source == &self_contact_energy;
+    bool self = law->element_term == &self_contact_energy;
     gap->d_hat = now.d_hat;
     gap->d = self ? sqrt(now.element.s) * gap->d_hat : now.element.s;
     for (int c = 0; c < 2; c++) {
-        gap->node[c] = now.at.x[2 * now.element.node[0] + c];
+        gap->node[c] = now.eval.x[2 * now.element.node[0] + c];
         gap->foot[c] = gap->node[c] - gap->d * now.element.n[c];
     }
     return true;
 }
 
 /* Returns the contact force -dW/dd, N. */
-static double gap_force(const LawPoint *now)
+static double contact_force_at(const LawPoint *now)
 {
     const Element *element = &now->element;
     double g[4];
-    now->at.term->kind->element->gradient(&now->at, element, g);
+    now->eval.term->kind->element->gradient(&now->eval, element, g);
     return -(g[0] * element->n[0] + g[1] * element->n[1]);
 }
 
 /* Finds the ends of a spring's plastic flow on the curve.  Returns false if the
  * spring has not flowed, or has flowed in both directions. */
-static bool flowed_one_way(const LawPoint *now, double from[2], double to[2])
+static bool find_flow_path(const LawPoint *now, double from[2], double to[2])
 {
-    const Plasticity *flow = system_term_data(now->at.system, &plastic_energy);
+    const Plasticity *flow =
+        system_term_data(now->eval.system, &plastic_energy);
     double ep = now->spring.ep, most = flow ? now->spring.yield : 0;
     double away = flow ? most - flow->yield - flow->hardening * fabs(ep) : 0;
     from[0] = from[1] = flow ? copysign(flow->yield, ep) : 0;
@@ -232,8 +238,9 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     const Law *law = find_law(simulation, 0, &now);
     if (!law || simulation->runs > 1)
         return;
-    bool is_there = !isnan(now.x), self = law->source == &self_contact_energy;
-    bool still = law->value == spring_force && now.spring.ep == 0;
+    bool is_there = !isnan(now.x),
+         self = law->element_term == &self_contact_energy;
+    bool still = law->evaluate == flow_force_at && now.spring.ep == 0;
     values_add_flag(values, "law", true);
     values_add_flag(values, "unflowed", still);
     values_add_flag(values, "bodies apart", self);
@@ -241,19 +248,20 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, law->name, is_there && !still);
     values_add_words(
         values, "its way",
-        flowed_one_way(&now, ends[0], ends[1]) ? "; its path is violet" : "");
-    if (law->value == gap_energy) {
-        const System *system = now.at.system;
+        find_flow_path(&now, ends[0], ends[1]) ? "; its path is violet" : "");
+    if (law->evaluate == element_energy_at) {
+        const System *system = now.eval.system;
         values_add(values, "c",
                    self ? self_contact_of(system)->c
                         : contact_of(system)->barrier.c);
-        values_add(values, "d hat", 1e3 * now.reach);
+        values_add(values, "d hat", 1e3 * now.axis_unit);
         values_add(values, "law mm", 1e3 * now.x);
-        values_add(values, "law force", gap_force(&now));
+        values_add(values, "law force", contact_force_at(&now));
     }
     values_add(values, "law x", now.x);
     values_add(values, "law y", is_there ? law_value_at(law, &now) : NAN);
-    values_add(values, "s_p", law->value == spring_force ? now.spring.ep : NAN);
+    values_add(values, "s_p",
+               law->evaluate == flow_force_at ? now.spring.ep : NAN);
     Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
         values_add(values, energies.row[i].name, energies.row[i].value);
@@ -263,13 +271,13 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "rigid", slides ? way[1] : NAN);
 }
 
-/* Draws the dots of all runs, dots beyond the axis at its end.  With several
- * runs dots close together share one label. */
-static void draw_dots(const Plot *plot, const Law *law, int runs,
-                      const LawPoint *now)
+/* Draws a dot for each run, at the end of the axis if the value lies beyond.
+ * With several runs, dots close together share one label. */
+static void draw_law_points(const Plot *plot, const Law *law, int runs,
+                            const LawPoint *now)
 {
     static const char *const names[] = {"upper", "middle", "lower"};
-    static const double dot = 6; /* units of the paper */
+    static const double dot = 6; /* units of the paper, radius of a dot */
     double at[SIMULATION_MAX_RUNS][2];
     for (int i = 0; i < runs; i++) {
         at[i][0] = fmin(fmax(now[i].x, plot->x.low), plot->x.high);
@@ -296,8 +304,8 @@ static void draw_dots(const Plot *plot, const Law *law, int runs,
         plot_label(plot, 1, at[0], COLOUR_P, "\u2192");
 }
 
-/* Draws the curve of the first run's element; for a contact the tangent, whose
- * slope is the force; for a spring its plastic flow and plastic strain. */
+/* Draws the law's curve for the first run's element.  A contact also has the
+ * tangent, whose slope is the force; a spring its plastic flow and strain. */
 void law_draw(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
@@ -308,31 +316,33 @@ void law_draw(const Plot *card)
     if (!law)
         return;
     bool both = law->axis_low < 0;
-    double low = law->axis_low * now->reach, high = law->axis_high * now->reach;
+    double low = law->axis_low * now->axis_unit,
+           high = law->axis_high * now->axis_unit;
     double most = both ? 1.4 * now->spring.yield
-                       : fmax(law->value(now, 0.9 * low + 0.1 * high),
-                              law->value(now, 0.25 * low + 0.75 * high));
+                       : fmax(law->evaluate(now, 0.9 * low + 0.1 * high),
+                              law->evaluate(now, 0.25 * low + 0.75 * high));
     double x = now->x, y = law_value_at(law, now);
-    most = plot_round_axis(1.1 * fmax(most, fabs(y)));
+    most = plot_round_axis_end(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
-        card, (Axis){low, high, false, false, law->across},
-        (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
+        card, (Axis){low, high, false, false, law->x_label},
+        (Axis){both ? -most : -0.02 * most, most, false, false, law->y_label});
     const double rest[2] = {now->spring.ep, 0};
-    plot_graph(&plot, law->value, now, 2.4, COLOUR_X);
-    LawPoint other = *now; /* a small dot for each spring, on its own law */
-    for (int s = 0; s < other.at.system->springs && !law->source; s++) {
+    plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
+    LawPoint other = *now; /* each spring has a small dot on its own law */
+    for (int s = 0; s < other.eval.system->springs && !law->element_term; s++) {
         fill_spring_point(&other, s);
         if (other.load > -INFINITY)
             plot_disc(&plot, (double[2]){other.x, law_value_at(law, &other)}, 2,
                       COLOUR_GHOST);
     }
-    if (law->value == gap_energy && !isnan(x))
-        plot_line(&plot, (double[2]){low, y + (x - low) * gap_force(now)},
-                  (double[2]){high, y + (x - high) * gap_force(now)}, 1.4,
-                  COLOUR_FORCE);
+    if (law->evaluate == element_energy_at && !isnan(x))
+        plot_line(&plot,
+                  (double[2]){low, y + (x - low) * contact_force_at(now)},
+                  (double[2]){high, y + (x - high) * contact_force_at(now)},
+                  1.4, COLOUR_FORCE);
     if (both && rest[0] != 0) {
         double from[2], to[2];
-        if (flowed_one_way(now, from, to)) {
+        if (find_flow_path(now, from, to)) {
             plot_line(&plot, (double[2]){0, 0}, from, 2.4, COLOUR_PLASTIC);
             plot_line(&plot, from, to, 2.4, COLOUR_PLASTIC);
             plot_line(&plot, to, (double[2]){x, y}, 2.4, COLOUR_PLASTIC);
@@ -340,5 +350,5 @@ void law_draw(const Plot *card)
         plot_ring(&plot, rest, 4, 2, COLOUR_PLASTIC);
         plot_label(&plot, 1, rest, COLOUR_PLASTIC, "s_{p}");
     }
-    draw_dots(&plot, law, simulation->runs, now);
+    draw_law_points(&plot, law, simulation->runs, now);
 }

@@ -7,18 +7,19 @@
 
 enum { LINE_POINTS = 161 };
 
-static const double AXIS_END = 1.42;   /* end of the axis, times first trial */
-static const double MAX_ABOVE = 2.2;   /* axis above 0, times that below 0 */
-static const double MAX_UPHILL = 10;   /* limit where p points uphill */
-static const double WORD_SIZE = 0.88;  /* ems, letters of the words */
+/* The axis of alpha ends at AXIS_END times the first trial.  The axis of E
+ * reaches above 0 at most MAX_ABOVE times as far as the curves below, or
+ * MAX_UPHILL times if p points uphill. */
+static const double AXIS_END = 1.42, MAX_ABOVE = 2.2, MAX_UPHILL = 10;
+static const double WORD_SIZE = 0.88;  /* ems, size of the words above */
 static const double ROW_HEIGHT = 1.25; /* ems, height of a row of words */
-static const double WORDS_WIDTH = 28;  /* ems, width of all words in one row */
+static const double WORDS_WIDTH = 28;  /* ems, room for all words in a row */
 
-/* Change of E along p, exact and by the quadratic model, over alpha. */
+/* The change of E along p as functions of alpha. */
 typedef struct LineCurves {
     double alpha[LINE_POINTS], exact[LINE_POINTS], model[LINE_POINTS];
-    double other[LINE_POINTS]; /* exact, along the projected p, or NaN */
-    double low, high;          /* ends of the axis */
+    double projected[LINE_POINTS]; /* exact, along the projected p, or NaN */
+    double low, high;              /* ends of the axis of E */
 } LineCurves;
 
 static double line_energy_at(const Trace *trace, double alpha)
@@ -27,10 +28,9 @@ static double line_energy_at(const Trace *trace, double alpha)
     return isfinite(value) ? value : NAN;
 }
 
-/* Fills the curves and the axis.  The model is the quadratic function with its
- * minimum at alpha = 1: since H^ p = -g, its curvature p H^ p is minus the
- * slope. The axis reaches from the minimum of the curves to slightly above 0.
- */
+/* Fills the curves and the ends of the axis, from the minimum of the curves to
+ * slightly above 0. The quadratic model has its minimum at alpha = 1: since H^
+ * p = -g, its curvature p H^ p is minus the slope. */
 static void fill_curves(const Trace *trace, const Trace *other,
                         LineCurves *curves)
 {
@@ -41,14 +41,14 @@ static void fill_curves(const Trace *trace, const Trace *other,
         curves->alpha[i] = alpha;
         curves->exact[i] = line_energy_at(trace, alpha);
         curves->model[i] = trace->slope * (alpha - 0.5 * alpha * alpha);
-        curves->other[i] = other ? line_energy_at(other, alpha) : NAN;
+        curves->projected[i] = other ? line_energy_at(other, alpha) : NAN;
         low = fmin(low, fmin(curves->exact[i], curves->model[i]));
-        low = fmin(low, curves->other[i]);
+        low = fmin(low, curves->projected[i]);
         if (!isnan(curves->exact[i]))
             high = fmax(high, curves->exact[i]);
     }
     double depth = fmax(-low, 1e-300);
-    if (!(low < 0)) /* no curve falls: the first tenth sets the scale */
+    if (!(low < 0)) /* no curve falls: E at 1/10 sets the scale */
         depth = fmax(fabs(curves->exact[LINE_POINTS / 10]), 1e-300);
     curves->low = -1.12 * depth;
     curves->high =
@@ -81,8 +81,9 @@ static void draw_trial(const Plot *plot, double alpha, double value,
                    format_number(value).text);
 }
 
-/* Writes the words above the plot, in a room of fixed height.  A page about
- * projection also shows E along the projected p until a step is made. */
+/* Draws the plot, and the words above in rows of fixed height.  A page about
+ * projection also shows E along the projected p until the first step is made.
+ */
 void line_energy_draw(const Plot *card)
 {
     const Pane *pane = card->pane;
@@ -113,19 +114,19 @@ void line_energy_draw(const Plot *card)
     words.height += air;
     Box before = canvas_set_clip(&paper->canvas, words);
     while (text_next_line(&line))
-        card_flow_words(card, at, WORD_SIZE, 1, &line);
+        card_write_flow(card, at, WORD_SIZE, 1, &line);
     canvas_set_clip(&paper->canvas, before);
     Plot plot = plot_create(&rest, x, y);
     const double origin[2] = {0, 0};
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
-    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.other, 2,
+    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.projected, 2,
                COLOUR_PROJECT);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
     plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
     double first = trace_step_length(trace, 1);
     double full = line_energy_at(trace, first);
-    bool star = card->simulation->options.main_card;
-    if (trace->trials == 0 && star && full > plot.y.high)
+    bool is_main = card->simulation->options.main_card;
+    if (trace->trials == 0 && is_main && full > plot.y.high)
         draw_trial(&plot, first, full, false);
     for (int t = 0; t < trace->trials; t++) {
         double at = trace_step_length(trace, t + 1);

@@ -7,8 +7,8 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double PAGE_PITCH = 2.1; /* ems, height of a line on a page */
-static const double PITCH = 1.75;     /* ems, height of a line elsewhere */
+/* Height of a row on a page of the lecture, and otherwise, ems. */
+static const double PAGE_PITCH = 2.1, PITCH = 1.75;
 static const double PRINT_WIDTH = 36; /* ems, width of a printed line */
 
 ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
@@ -26,8 +26,8 @@ ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
 }
 
 /* Draws a row of the listing: number, text, value. */
-static void draw_row(const Plot *card, Box box, const ListingRow *row,
-                     int number)
+static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
+                             int number)
 {
     Paper *paper = card->paper;
     const ShownRow now = listing_show_row(card->pane, row);
@@ -62,15 +62,16 @@ static void draw_row(const Plot *card, Box box, const ListingRow *row,
                            ALIGN_RIGHT, now.value.words);
 }
 
-/* Draws the known rows from this line on; draw NULL: only counts the rows. */
-static int put_rows(const FrameContent *content, const ListingRow *row,
-                    const Plot *draw, Box line)
+/* Draws the rows that are shown now, from the box `line` downwards, and counts
+ * them.  With draw NULL only counts. */
+static int lay_out_listing(const FrameContent *content, const ListingRow *row,
+                           const Plot *draw, Box line)
 {
     int count = 0;
     for (; row->shown_if; row++)
         if (text_has_line(&active_pane(content)->values, row->shown_if)) {
             if (draw)
-                draw_row(draw, line, row, count + 1);
+                draw_listing_row(draw, line, row, count + 1);
             line.y += line.height;
             count++;
         }
@@ -78,7 +79,7 @@ static int put_rows(const FrameContent *content, const ListingRow *row,
 }
 
 /* Returns the height of a row, ems; the rows of a page are read from afar. */
-static double row_pitch(const FrameContent *content)
+static double find_row_pitch(const FrameContent *content)
 {
     return content->lecture.page ? PAGE_PITCH : PITCH;
 }
@@ -88,22 +89,22 @@ double listing_needed_height(const FrameContent *content, double wide,
                              double em)
 {
     (void)wide, (void)em;
-    return row_pitch(content) *
-               put_rows(content, rows_listing, NULL, (Box){0}) +
+    return find_row_pitch(content) *
+               lay_out_listing(content, rows_listing, NULL, (Box){0}) +
            2.6;
 }
 
 void card_write_rows(const Plot *card, const ListingRow *row)
 {
-    double pitch = card->em * row_pitch(card->content);
-    int count = put_rows(card->content, row, NULL, (Box){0});
+    double pitch = card->em * find_row_pitch(card->content);
+    int count = lay_out_listing(card->content, row, NULL, (Box){0});
     Box line = card->box;
     line.height = (int)fmin(lround(pitch), line.height / (double)count);
-    put_rows(card->content, row, card, line);
+    lay_out_listing(card->content, row, card, line);
 }
 
-/* Fills a row for each update of the step, and a last row about the end of the
- * loop. */
+/* Fills a row for each update of the step, and a last row that tells why the
+ * loop ended. */
 bool residuals_fill_row(const FrameContent *content, int row,
                         CardTableRow *cells)
 {
@@ -135,31 +136,31 @@ bool residuals_fill_row(const FrameContent *content, int row,
     return true;
 }
 
-/* Prints residual and step size of the newest updates that fit.  A page's star
- * also plots the residuals, in its lower half. */
-void prints_draw(const Plot *card)
+/* Prints residual and step size of the newest updates that fit.  A page's main
+ * card also plots the residuals, in its lower half. */
+void residual_log_draw(const Plot *card)
 {
     Paper *paper = card->paper;
     Plot below = *card;
     Box inside = card->box;
     CardTableRow cells;
     const Trace *trace = card->pane->shown_trace;
-    bool star = inside.height > 14 * paper->em;
+    bool is_main = inside.height > 14 * paper->em;
     double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);
-    bool narrow = size < 1; /* has shorter words */
+    bool narrow = size < 1; /* leaves words out */
     size = narrow ? 0.95 : size;
     if (card->content->in_document) {
         residual_draw(card);
         return;
     }
-    if (star && trace) {
+    if (is_main && trace) {
         inside = box_cut_off(&below.box, EDGE_TOP, inside.height / 2);
         residual_draw(&below);
     }
     int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
-    if (count == 0 && !(star && trace))
+    if (count == 0 && !(is_main && trace))
         card_write_hint(card, text_undrawn);
     for (int i = 0; i < room; i++) {
         double y = inside.y + i * pitch;

@@ -1,32 +1,34 @@
-/* card_page.c - the card with the texts of a page, and the text of its test. */
+/* card_page.c - the card with the texts of a page, and the claim below a page's
+ * code. */
 #include <limits.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
 /* A text of the card, with a head on its left side. */
-typedef struct Words {
-    const char *head; /* in bold letters, or NULL */
+typedef struct PageText {
+    const char *head; /* word in bold letters at the left, or NULL */
     const char *text; /* a text of live_values.h, or NULL */
     Colour colour;    /* colour of the head */
-    double size;      /* size of the letters, times that of the page */
-} Words;
+    double size;      /* size of the letters, times LETTERS */
+} PageText;
 
-static const double LETTERS = 1.2;   /* ems, size of the letters of a page */
-static const double SMALLEST = 0.9;  /* ems, size in a window without room */
-static const double VERDICT = 1.5;   /* size of a verdict, times the page's */
-static const double FORMULA = 1.25;  /* size of a formula, times the page's */
-static const double HEAD_ROOM = 3.2; /* letters, width for the head of a text */
-static const double TEST_ROOM = 4.4; /* letters, width for the head "Tested" */
-static const double GAP = 0.35;      /* lines, space between two texts */
+static const double LETTERS = 1.2;  /* ems, usual size of a page's letters */
+static const double SMALLEST = 0.9; /* ems, least size of a page's letters */
+/* Sizes over that of the letters: letters of a verdict and of a formula, width
+ * of the head of a text and of the head "Tested". */
+static const double VERDICT_SIZE = 1.5, FORMULA_SIZE = 1.25, HEAD_WIDTH = 3.2,
+                    TESTED_WIDTH = 4.4;
+static const double GAP = 0.35; /* gap between two texts, in line heights */
 
-/* Draws a text with its head, or only measures it.
+/* Draws a text with its head, or only measures the text.
  *   y     pixels, top of the text
  *   size  ems, size of the page's letters
- *   room  letters, width for the head
+ *   room  width for the head, in sizes of a letter
  * Returns the top of the next text. */
-static int put_words(Paper *paper, Box inside, int y, double size, double room,
-                     const Words *words, const FrameContent *content, bool draw)
+static int lay_out_text(Paper *paper, Box inside, int y, double size,
+                        double room, const PageText *words,
+                        const FrameContent *content, bool draw)
 {
     double letters = size * words->size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
@@ -55,8 +57,8 @@ static int put_words(Paper *paper, Box inside, int y, double size, double room,
  *   size   ems, size of the letters
  *   brief  whether the first text is left out
  * Returns the height of all texts in pixels. */
-static int put_page(Paper *paper, Box inside, double size, bool brief,
-                    const FrameContent *content, bool draw)
+static int lay_out_page(Paper *paper, Box inside, double size, bool brief,
+                        const FrameContent *content, bool draw)
 {
     const LecturePage *page = content->lecture.page;
     const char *how = page_wants_click(page)
@@ -65,23 +67,24 @@ static int put_page(Paper *paper, Box inside, double size, bool brief,
                                      : "Say it, then press N or Space.";
     bool asks = content->lecture.hides_answer;
     bool judged = content->lecture.verdict && !asks;
-    const Words words[] = {
+    const PageText words[] = {
         {NULL, brief ? NULL : page->text, COLOUR_TEXT, 1},
-        {NULL, page->formula, COLOUR_TEXT, FORMULA},
+        {NULL, page->formula, COLOUR_TEXT, FORMULA_SIZE},
         {judged ? "Ask" : NULL, judged ? page->ask : NULL, COLOUR_X, 1},
         {judged ? "You" : NULL, judged ? content->lecture.verdict : NULL,
-         COLOUR_HAND, VERDICT},
+         COLOUR_HAND, VERDICT_SIZE},
         {asks ? "Ask" : "Look", asks ? page->ask : page->look, COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], content,
-                      draw);
+        y = lay_out_text(paper, inside, y, size, HEAD_WIDTH, &words[i], content,
+                         draw);
     return y - (int)(GAP * text_line_height(size * paper->em)) - inside.y;
 }
 
-/* All pages have letters of one size.  Where they do not fit, first the letters
- * get smaller; then an answer leaves out the text, which was read before it. */
+/* Texts that do not fit in the usual size are written smaller.  If the smallest
+ * letters are too large, too, and the answer is shown, the first text of the
+ * page is left out: the reader has seen the text with the question. */
 void page_draw(const Plot *card)
 {
     Paper *paper = card->paper;
@@ -89,24 +92,24 @@ void page_draw(const Plot *card)
     double size = LETTERS;
     bool brief = false, asks = content->lecture.hides_answer;
     while ((size > SMALLEST || !(brief || asks)) &&
-           put_page(paper, card->box, size, brief, content, false) >
+           lay_out_page(paper, card->box, size, brief, content, false) >
                card->box.height) {
         brief = brief || size <= SMALLEST;
         size = size > SMALLEST ? size - 0.05 : LETTERS;
     }
-    put_page(paper, card->box, size, brief, content, true);
+    lay_out_page(paper, card->box, size, brief, content, true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
 {
-    const Words words = {"Tested", content->lecture.page->claim, COLOUR_FAINT,
-                         1};
+    const PageText words = {"Tested", content->lecture.page->claim,
+                            COLOUR_FAINT, 1};
     int high =
-        put_words(paper, inside, 0, 1, TEST_ROOM, &words, content, false);
+        lay_out_text(paper, inside, 0, 1, TESTED_WIDTH, &words, content, false);
     inside.height -= high + paper_pixels(paper, 0.5);
-    put_words(paper, (Box){inside.x, 0, inside.width, INT_MAX / 2},
-              inside.y + inside.height + paper_pixels(paper, 0.5), 1, TEST_ROOM,
-              &words, content, true);
+    lay_out_text(paper, (Box){inside.x, 0, inside.width, INT_MAX / 2},
+                 inside.y + inside.height + paper_pixels(paper, 0.5), 1,
+                 TESTED_WIDTH, &words, content, true);
     return inside;
 }
 
@@ -116,6 +119,7 @@ double page_needed_height(const FrameContent *content, double wide, double em)
 {
     Paper paper = {.text = content->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
-    const double around = 2.6; /* title and margin */
-    return put_page(&paper, box, LETTERS, false, content, false) / em + around;
+    const double around = 2.6; /* ems, title and margin */
+    return lay_out_page(&paper, box, LETTERS, false, content, false) / em +
+           around;
 }

@@ -6,34 +6,35 @@
 #include "picture/colour_map.h"
 
 enum {
-    CELLS = 96,  /* cells of the ground along one side */
-    PIECES = 24, /* pieces of a straight line on the surface */
-    LEVELS = 15  /* the most contour lines up to the rim */
+    SURFACE_CELLS = 96, /* cells of the surface along one side */
+    LINE_PIECES = 24,   /* pieces of a line that follows the surface */
+    MAX_CONTOURS = 15   /* most contour lines below the rim */
 };
 
-static const double REACH = 1.87; /* m, half a side of the ground */
+static const double REACH = 1.87; /* m, half the width of the surface */
 static const double HEIGHT = 1.5; /* m, drawn height of the rim above E = 0 */
-/* The surface is cut off at the rim.  The height of the rim is the inertia at
- * RIM_INERTIA from x_tilde, m, and RIM_PASS times the elasticity at the pass
- * between the two valleys. */
+/* The surface is cut off at the rim.  The rim's height is the inertia
+ * RIM_INERTIA metres from x_tilde, plus RIM_PASS times the elasticity at the
+ * pass between the two valleys. */
 static const double RIM_INERTIA = 1.5, RIM_PASS = 1.7;
-/* Cosine and sine of the view's angles, around the axis of E and above the
- * ground.  x points to the viewer and the right, y away and to the right. */
+/* Cosine and sine of the angles of view, around the axis of E and above the
+ * ground.  The x axis points to the viewer and the right, the y axis away and
+ * to the right. */
 static const double TURN[2] = {0.85, 0.5268}, RISE[2] = {0.7, 0.7141};
 static const Colour LEVEL_COLOUR = 0x90606060u;
-static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* unit vector */
+static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* unit vector to light */
 
 /* The surface and its projection. */
 typedef struct Relief {
     const Simulation *simulation;
-    Plot plot;    /* plane of the projection, m */
-    double rim;   /* J s^2, height of the rim */
-    double level; /* J s^2, distance between two contour lines */
+    Plot plot;           /* plot of the projected surface, m */
+    double rim;          /* J s^2, height of the rim */
+    double contour_step; /* J s^2, distance between two contour lines */
 } Relief;
 
-/* Corner of a face of the surface. */
+/* A corner of the surface's triangles. */
 typedef struct Corner {
-    double x, y, E; /* m, m, J s^2 */
+    double x, y, E; /* position in m, energy in J s^2 */
     bool convex;
 } Corner;
 
@@ -57,7 +58,7 @@ static Corner corner_at(const Relief *relief, double x, double y)
     return (Corner){x, y, E.value, landscape_is_convex(&E)};
 }
 
-/* Orthographic projection: m to the right and upwards. */
+/* Returns the orthographic projection: m to the right and upwards. */
 static Point project_corner(const Relief *relief, const Corner *corner)
 {
     double near = TURN[0] * corner->x - TURN[1] * corner->y;
@@ -87,8 +88,8 @@ static bool find_contour(const Corner corner[3], double E, Corner end[2])
     return ends == 2;
 }
 
-/* Colour of a triangle: brightness by its slope to the light, yellow where E is
- * not convex. */
+/* Returns the colour of a triangle: brighter if turned to the light, yellow
+ * where E is not convex. */
 static Colour colour_of_face(const Relief *relief, const Corner corner[3])
 {
     const Corner *o = &corner[0], *a = &corner[1], *b = &corner[2];
@@ -131,8 +132,9 @@ static void draw_face(const Relief *relief, const Corner corner[3])
                                   at[count > 3 ? 3 : 2].at};
     if (above)
         plot_quad(plot, face, colour_of_face(relief, corner));
-    for (int k = 1; k < LEVELS && k * relief->level < relief->rim; k++)
-        if (above && find_contour(corner, k * relief->level, end))
+    for (int k = 1; k < MAX_CONTOURS && k * relief->contour_step < relief->rim;
+         k++)
+        if (above && find_contour(corner, k * relief->contour_step, end))
             plot_line(plot, project_corner(relief, &end[0]).at,
                       project_corner(relief, &end[1]).at, 0.8, LEVEL_COLOUR);
     if (find_contour(corner, relief->rim, end))
@@ -143,13 +145,13 @@ static void draw_face(const Relief *relief, const Corner corner[3])
 /* Draws cell by cell from the far end to the near end (painter's algorithm). */
 static void draw_surface(const Relief *relief)
 {
-    Corner column[2][CELLS + 1];
-    double side = 2 * REACH / CELLS;
-    for (int i = 0; i <= CELLS; i++) {
+    Corner column[2][SURFACE_CELLS + 1];
+    double side = 2 * REACH / SURFACE_CELLS;
+    for (int i = 0; i <= SURFACE_CELLS; i++) {
         Corner *left = column[(i + 1) % 2], *right = column[i % 2];
-        for (int j = 0; j <= CELLS; j++)
+        for (int j = 0; j <= SURFACE_CELLS; j++)
             right[j] = corner_at(relief, -REACH + i * side, -REACH + j * side);
-        for (int j = CELLS - 1; j >= 0 && i > 0; j--) {
+        for (int j = SURFACE_CELLS - 1; j >= 0 && i > 0; j--) {
             const Corner far[3] = {left[j], right[j + 1], left[j + 1]};
             const Corner near[3] = {left[j], right[j], right[j + 1]};
             draw_face(relief, far);
@@ -158,15 +160,15 @@ static void draw_surface(const Relief *relief)
     }
 }
 
-/* Draws a straight line of the ground on the surface, as far as below the rim.
- */
+/* Draws the curve of the surface above a straight line of the plane.  Points
+ * above the rim are left out. */
 static void draw_surface_line(const Relief *relief, const double *a,
                               const double *b, double width, Colour colour)
 {
     Corner before = {.E = NAN};
-    for (int i = 0; i <= PIECES; i++) {
+    for (int i = 0; i <= LINE_PIECES; i++) {
         const Point x =
-            point_along(a, (double)i / PIECES, vector_between(a, b).at);
+            point_along(a, (double)i / LINE_PIECES, vector_between(a, b).at);
         Corner now = corner_at(relief, x.at[0], x.at[1]);
         if (before.E <= relief->rim && now.E <= relief->rim)
             plot_line(&relief->plot, project_corner(relief, &before).at,
@@ -187,7 +189,8 @@ static void draw_surface_point(const Relief *relief, const double *x,
         plot_label(&relief->plot, 1, at.at, colour, "%s", word);
 }
 
-/* Draws the updates so far, and thinner the next direction; red if uphill. */
+/* Draws the updates so far, and the next direction as a thin line.  Directions
+ * that point uphill are red. */
 static void draw_newton_path(const Relief *relief)
 {
     const Descent *descent = &relief->simulation->descent;
@@ -239,14 +242,14 @@ static void draw_relief_axes(const Relief *relief)
     paper_write(plot->paper, FACE_REGULAR, 0.9, COLOUR_FAINT,
                 box->x + box->width, box->y + box->height - 1.4 * plot->em,
                 ALIGN_RIGHT, "lines every %s J s\u00b2",
-                format_number(relief->level).text);
+                format_number(relief->contour_step).text);
 }
 
 void relief_draw(const Plot *card)
 {
     static const double bounds[4] = {-1.62, -0.75, 1.88, 2.2}; /* m */
     Relief relief = {card->simulation, *card, find_rim(card->simulation), 0};
-    relief.level = plot_round_up(relief.rim / LEVELS);
+    relief.contour_step = plot_round_up(relief.rim / MAX_CONTOURS);
     relief.plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     draw_surface(&relief);
     draw_relief_axes(&relief);

@@ -27,12 +27,14 @@ void residual_draw(const Plot *card)
             high = fmax(high, residual);
         }
     }
-    bool star = card->simulation->options.main_card; /* counts from 0 */
+    /* A page's main card counts iterations from 0, other cards updates from 1.
+     */
+    bool is_main = card->simulation->options.main_card;
     double most = fmax(updates + pending, 4);
-    Axis x = {0.5 - star, most + 0.5 - 0.4 * star, false, true,
-              star ? "iteration" : "update"};
+    Axis x = {0.5 - is_main, most + 0.5 - 0.4 * is_main, false, true,
+              is_main ? "iteration" : "update"};
     Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
-              false, star ? "residual, m/s" : NULL};
+              false, is_main ? "residual, m/s" : NULL};
     Plot plot = plot_create(card, x, y);
     const double left[2] = {x.low, trace->tolerance};
     const double right[2] = {x.high, trace->tolerance};

@@ -21,12 +21,12 @@ static int count_added_updates(const Trace *trace)
 static void draw_energy_parts(const Plot *card, const System *system,
                               const Trace *trace, const double *x)
 {
-    enum { POINTS = 39, AIM = 6, NOW = 26 }; /* t is 0 at AIM, 1 at NOW */
+    enum { POINTS = 39, START = 6, END = 26 }; /* points with t = 0 and 1 */
     static const struct {
         const char *name;
         Colour colour;
-        int label_at;        /* index of the point with the label */
-        double label_height; /* height of the label, times the value */
+        int label_index;     /* index of the point with the label */
+        double label_factor; /* height of the label, times the curve's value */
     } parts[] = {{"inertia", COLOUR_X_TILDE, 18, 1},
                  {"h\u00b2 P", COLOUR_SHADED, 15, 0.72},
                  {"E", COLOUR_X, 34, 1}};
@@ -37,7 +37,7 @@ static void draw_energy_parts(const Plot *card, const System *system,
     if (!at)
         return;
     for (int i = 0; i < POINTS; i++) {
-        t[i] = 0.05 * (i - AIM);
+        t[i] = 0.05 * (i - START);
         for (size_t c = 0; c < count; c++)
             at[c] = aim[c] + t[i] * (x[c] - aim[c]);
         part[0][i] = inertia_energy_value(system->nodes, at, aim, system->m);
@@ -48,27 +48,27 @@ static void draw_energy_parts(const Plot *card, const System *system,
     const double *E = part[2];
     Plot plot = plot_create(
         card, (Axis){t[0], t[POINTS - 1], false, false, "t"},
-        (Axis){0, 1.4 * fmax(E[AIM], E[NOW]), false, false, "J s\u00b2"});
+        (Axis){0, 1.4 * fmax(E[START], E[END]), false, false, "J s\u00b2"});
     for (int k = 0; k < 3; k++)
         plot_curve(&plot, POINTS, t, part[k], k < 2 ? 1.6 : 2.4,
                    parts[k].colour);
-    for (int i = AIM; i <= NOW; i += NOW - AIM) {
-        Colour colour = i == AIM ? COLOUR_X_TILDE : COLOUR_X;
+    for (int i = START; i <= END; i += END - START) {
+        Colour colour = i == START ? COLOUR_X_TILDE : COLOUR_X;
         plot_disc(&plot, (double[2]){t[i], E[i]}, 5, colour);
         plot_label(&plot, 1, (double[2]){t[i], E[i]}, colour, "%s: %s",
-                   i == AIM ? "{xt}" : "{x}", format_digits(E[i], 4).text);
+                   i == START ? "{xt}" : "{x}", format_digits(E[i], 4).text);
     }
     for (int k = 0; k < 3; k++) {
-        int i = parts[k].label_at;
+        int i = parts[k].label_index;
         plot_label(&plot, 1,
-                   (double[2]){t[i], parts[k].label_height * part[k][i]},
+                   (double[2]){t[i], parts[k].label_factor * part[k][i]},
                    parts[k].colour, "%s", parts[k].name);
     }
 }
 
-/* Draws E before each update, less E at the end, on a logarithmic axis: the sum
- * of the decreases from this update on. */
-static void draw_excess(const Plot *card, const Trace *trace)
+/* Draws E before each update minus E at the end, on a logarithmic axis.  The
+ * difference is the sum of the decreases from this update on. */
+static void draw_remaining_decrease(const Plot *card, const Trace *trace)
 {
     int made = count_added_updates(trace);
     double excess = 0, low = INFINITY, high = 0;
@@ -85,7 +85,7 @@ static void draw_excess(const Plot *card, const Trace *trace)
         card, (Axis){0.5, fmax(made, 3) + 0.7, false, true, "update"},
         (Axis){pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
                false, "E({x}^{i}) \u2212 E({x}), J s\u00b2"});
-    for (int words = 0; words < 2; words++) { /* labels avoid all curves */
+    for (int words = 0; words < 2; words++) { /* curves, then words */
         double at[2] = {made + 1, 0}, after[2];
         for (int i = made; i > 0; i--) {
             memcpy(after, at, sizeof at);
@@ -102,7 +102,8 @@ static void draw_excess(const Plot *card, const Trace *trace)
     }
 }
 
-/* Draws E along the line and, in a wide card, E after each update. */
+/* Draws E along the line from x_tilde to x; in a wide card also E before each
+ * update. */
 void step_energy_draw(const Plot *card)
 {
     const Pane *pane = card->pane;
@@ -119,12 +120,12 @@ void step_energy_draw(const Plot *card)
     draw_energy_parts(&left, &card->simulation->system, trace,
                       pane_positions(pane));
     if (wide)
-        draw_excess(&right, trace);
+        draw_remaining_decrease(&right, trace);
 }
 
-/* Fills a row for each update so far; the row of the current update has the
- * cells that are known at this line.  Without projection the table has the
- * number of negative eigenvalues of the Hessian, and the slope along p. */
+/* Fills a row for each update so far.  The row of the current update has the
+ * cells that are known at the present line.  Without projection the table has
+ * the number of negative eigenvalues of the Hessian, and the slope along p. */
 bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     static const CardTableRow heads[] = {
@@ -181,8 +182,8 @@ double updates_needed_height(const FrameContent *content, double wide,
     return UPDATE_PITCH * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
 }
 
-/* Draws the heads of the table, and if not all updates fit, update 1 and the
- * newest updates. */
+/* Draws the table.  If not all updates fit, draws update 1 and the newest ones.
+ */
 void updates_draw(const Plot *card)
 {
     static const double ends[2][6] = {{0.05, 0.25, 0.52, 0.63, 1},

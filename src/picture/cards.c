@@ -1,4 +1,4 @@
-/* cards.c - the column: cards, or instead a list or a page's code. */
+/* cards.c - draws the column: the cards, or a list, or a page's code. */
 #include "picture/cards.h"
 
 #include <math.h>
@@ -28,7 +28,8 @@ void card_write_hint(const Plot *card, const char *text)
 }
 
 /* Draws frame, title and cross of a card.  Returns the box inside. */
-static Box draw_frame(Paper *paper, Box box, const char *words, bool closed)
+static Box draw_card_frame(Paper *paper, Box box, const char *words,
+                           bool closed)
 {
     int bar = paper_pixels(paper, TITLE_BAR);
     Box title = {box.x, box.y, box.width, bar};
@@ -45,10 +46,10 @@ static Box draw_frame(Paper *paper, Box box, const char *words, bool closed)
 
 /* ---- lists -------------------------------------------------------------- */
 
-/* Arrangement of a list in columns. */
+/* The columns of a list. */
 typedef struct ListGrid {
-    int rows, columns; /* rows in each column, number of columns */
-    double line;       /* pixels, height of a row */
+    int rows, columns; /* rows of each column, number of columns */
+    double row_height; /* pixels, height of a row */
 } ListGrid;
 
 static ListGrid arrange_list(const List *list, Box inside, double em)
@@ -60,7 +61,7 @@ static ListGrid arrange_list(const List *list, Box inside, double em)
         grid.columns++;
         grid.rows = (list->rows + grid.columns - 1) / grid.columns;
     }
-    grid.line = fmin(grid.line, inside.height / (double)grid.rows);
+    grid.row_height = fmin(grid.row_height, inside.height / (double)grid.rows);
     return grid;
 }
 
@@ -73,18 +74,18 @@ int frame_find_row(const FrameContent *content, const Layout *layout, double x,
     if (content->column < COLUMN_PAGES || !box_contains(inside, x, y))
         return -1;
     int column = (int)((x - inside.x) * grid.columns / inside.width);
-    int row = (int)((y - inside.y) / grid.line);
+    int row = (int)((y - inside.y) / grid.row_height);
     int at = column * grid.rows + row;
     return row < grid.rows && at < content->list.rows ? at : -1;
 }
 
-/* Draws a list, key and meaning in each row.  A text that is still too wide in
- * the smallest letters loses its last words. */
+/* Draws the key and the text of each row.  A text that is too wide even in the
+ * smallest letters loses its last words. */
 static void draw_list(Paper *paper, Box inside, const List *list)
 {
-    const double smallest = 0.85; /* smallest letters, times the usual ones */
+    const double smallest = 0.85; /* smallest size over the usual size */
     ListGrid grid = arrange_list(list, inside, paper->em);
-    double em = paper->em, size = fmin(0.95, grid.line / (1.3 * em));
+    double em = paper->em, size = fmin(0.95, grid.row_height / (1.3 * em));
     double key = 0, wide = inside.width / (double)grid.columns;
     const ListRow *end = list->row + list->rows;
     for (const ListRow *row = list->row; row < end; row++)
@@ -95,9 +96,9 @@ static void draw_list(Paper *paper, Box inside, const List *list)
         char text[SENTENCE_SIZE];
         int before = row->head ? 0 : (int)key;
         double x = inside.x + i / grid.rows * wide;
-        double y = inside.y + i % grid.rows * grid.line;
+        double y = inside.y + i % grid.rows * grid.row_height;
         Box room = {(int)x + before, (int)y, (int)(wide - before - 0.5 * em),
-                    (int)fmax(grid.line, 1.3 * size * em)};
+                    (int)fmax(grid.row_height, 1.3 * size * em)};
         snprintf(text, sizeof text, "%s", row->text);
         paper_shorten(paper, smallest * size, (int)(wide - key - 0.6 * em),
                       text, sizeof text);
@@ -136,8 +137,8 @@ double code_needed_width(const LecturePage *page)
 }
 
 /* Draws code in letters as large as fit, and lights the lines at work.  If not
- * all lines fit, lines between the first one and the last lit one are left out.
- */
+ * all lines fit, lines after the first one are left out, so that the last lit
+ * line is seen. */
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;
@@ -147,7 +148,7 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
     int lines;
     double letters = measure_code(content->lecture.page, &lines, &indent);
     double air = 0.3 * paper->em;
-    /* Letters have a width of whole pixels. */
+    /* The width of a letter is a whole number of pixels. */
     double cell = floor((inside.width - 2 * air) / letters);
     double wide = floor((cell + 0.49) / letter);
     double size = fmin(wide, inside.height / (low * lines)) / paper->em;
@@ -161,7 +162,8 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
         lit = strstr(code[i], mark) ? i : lit;
     int gone = fit >= lines ? 0 : (int)fmax(fmin(lit + 2, lines) - fit, 0);
     fit = fit < lines ? fit : lines;
-    for (int k = 0; k < 2 * fit; k++) { /* the grounds, then the letters */
+    /* The grounds of lit lines come first, then all letters. */
+    for (int k = 0; k < 2 * fit; k++) {
         int row = k % fit, y = inside.y + row * line;
         bool more = gone > 0 && row == 1;
         const char *words = more ? "..." : code[row + (row ? gone : 0)];
@@ -192,8 +194,8 @@ void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
 }
 
 /* Draws the code or list in the column. */
-static void draw_column(Paper *paper, const Layout *layout,
-                        const FrameContent *content)
+static void draw_code_or_list(Paper *paper, const Layout *layout,
+                              const FrameContent *content)
 {
     static const char *const titles[] = {
         [COLUMN_PAGES] = "The pages of the lecture",
@@ -202,7 +204,7 @@ static void draw_column(Paper *paper, const Layout *layout,
         [COLUMN_OPTIONS] = "Numbers of this scene"};
     bool code = content->column == COLUMN_CODE;
     Box box = box_inset(layout->column, paper_pixels(paper, 0.9));
-    Box inside = draw_frame(
+    Box inside = draw_card_frame(
         paper, box,
         code ? content->lecture.page->file : titles[content->column], false);
     Box before = canvas_set_clip(&paper->canvas, inside);
@@ -217,15 +219,15 @@ void cards_draw(Paper *paper, const Layout *layout, const FrameContent *content)
 {
     const Picture *picture = active_picture(content);
     if (layout->has_list)
-        draw_column(paper, layout, content);
+        draw_code_or_list(paper, layout, content);
     for (int i = 0; i < layout->cards; i++) {
         Box box = layout->card[i];
         if (box.width < 1)
-            continue; /* the card is hidden */
+            continue; /* hidden cards have no width */
         TextLine title = text_first_line(&active_pane(content)->values,
                                          picture->cards[i]->title);
         bool closed = box.height <= paper_pixels(paper, TITLE_BAR) + 1;
-        Box inside = draw_frame(paper, box, title.words, closed);
+        Box inside = draw_card_frame(paper, box, title.words, closed);
         if (closed || inside.width < 1 || inside.height < 1)
             continue;
         Box before = canvas_set_clip(&paper->canvas, box_inset(box, 1));

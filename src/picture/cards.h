@@ -5,28 +5,30 @@
 #include "picture/live_values.h"
 #include "picture/plot.h"
 
-static const double STAR_WIDE = 40;  /* ems, a wider card is a page's star */
-static const double TITLE_BAR = 2.0; /* ems, height of a card's title */
+static const double MAIN_CARD_WIDTH = 40; /* ems, least width of a main card */
+static const double TITLE_BAR = 2.0;      /* ems, height of a card's title */
 
 /* A line of an algorithm.  The strings are texts of live_values.h. */
 typedef struct ListingRow {
-    const char *shown_if; /* shows the row if a line is known; NULL: the end of
-                             the listing */
-    Line line;            /* place of the row in Algorithm 3 */
+    /* The row is shown if a line of this text has known values; NULL: end of
+     * the listing. */
+    const char *shown_if;
+    Line line; /* line of Algorithm 3 */
     bool indented;
-    const char *struck_if; /* strikes the row out if a line is known, or NULL */
+    /* The row is struck out if a line of this text has known values. */
+    const char *struck_if;
     const char *text;
-    const char *value; /* right of the text once the run has reached the row */
+    const char *value; /* text at the right once the run has reached the row */
 } ListingRow;
 
 /* A row of a listing as the present frame shows it. */
 typedef struct ShownRow {
     bool lit, struck;
     TextLine text;
-    TextLine value; /* empty before the run has reached the row */
+    TextLine value; /* empty until the run has reached the row */
 } ShownRow;
 
-/* Tables and texts generated from cards.txt, as far as sources use them. */
+/* Tables and texts that cards.awk generates from cards.txt. */
 extern const Picture pictures[PICTURE_COUNT];
 extern const Card card_law, card_matrix, card_tangent_numbers,
     card_hessian_pattern;
@@ -44,10 +46,10 @@ typedef int StageSample(const Simulation *simulation, Energy *row);
 typedef void CardDraw(const Plot *card);
 typedef bool CardTable(const FrameContent *content, int row,
                        CardTableRow *cells);
-typedef double CardNeeds(const FrameContent *content, double wide, double em);
+typedef double CardHeight(const FrameContent *content, double wide, double em);
 extern StageBounds square_bounds, circle_bounds, mass_bounds, tangent_bounds,
     spring_bounds, race_bounds;
-extern StageDraw square_draw, circle_draw, curve_draw, landscape_draw,
+extern StageDraw square_draw, circle_draw, scalar_draw, landscape_draw,
     mass_draw, tangent_draw, dial_draw, spring_draw, race_draw, envelope_draw,
     square_hover;
 extern StageAddValues square_add_values, circle_add_values, scalar_add_values,
@@ -55,23 +57,24 @@ extern StageAddValues square_add_values, circle_add_values, scalar_add_values,
     race_add_values, envelope_add_values;
 extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
 extern StageSample square_sample_energies, mass_sample_energies;
-extern CardDraw page_draw, prints_draw, line_energy_draw, residual_draw,
+extern CardDraw page_draw, residual_log_draw, line_energy_draw, residual_draw,
     step_energy_draw, updates_draw, energies_draw, energy_budget_draw,
     radius_draw, relief_draw, step_matrix_draw, tangent_numbers_draw, law_draw,
     hessian_pattern_draw, spring_profile_draw, race_table_draw;
 extern CardTable residuals_fill_row, updates_fill_row, iterates_fill_row,
     race_fill_row;
-extern CardNeeds page_needed_height, listing_needed_height,
+extern CardHeight page_needed_height, listing_needed_height,
     energies_needed_height, updates_needed_height;
 
-/* Writes the claim of a page that a test checks at the bottom of the box.
+/* Writes the page's claim, which a test checks, at the bottom of the box.
  * Returns the box above the claim. */
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content);
 
 /* Whether the Hessian before projection is positive definite. */
 bool landscape_is_convex(const LocalModel *E);
 
-/* Adds the values of the page's law at the most loaded element. */
+/* Adds the values of the law that the scene draws, for the element with the
+ * largest load. */
 void law_add_values(const Simulation *simulation, LiveValues *values);
 
 /* A contact between a node and a wall or an edge. */
@@ -83,36 +86,37 @@ typedef struct LawGap {
 } LawGap;
 
 /* Finds the contact with the largest force.  Returns false if no distance is
- * below d_hat. */
+ * below d_hat, or if the law is not about contact. */
 bool law_find_gap(const Simulation *simulation, LawGap *gap);
 
-/* Finds the distances that the last body has slid so far and that a rigid body
- * would slide.  Returns false if the page is not about sliding.
+/* Finds how far the last body has slid, and how far a rigid body would slide.
+ * Returns false if the scene does not draw the law of friction.
  *   distance  [2] m, out */
 bool law_find_slide(const Simulation *simulation, double distance[2]);
 
 /* Whether the picture has a card of this name that is not hidden. */
 bool frame_has_card(const FrameContent *content, const char *name);
 
-/* Returns the text that marks the lit lines of the page's code: in a walk
- * through Algorithm 3 that of the present line, else the page's own. */
+/* Returns the text that a line of the page's code contains if the line is lit.
+ * In a walk through Algorithm 3 the text depends on the present line. */
 const char *lecture_lit_code(const FrameContent *content);
 
-/* Returns the index of the spring that the present step adds to the Hessian, on
- * a page where each step adds one. */
+/* Returns the index of the spring of the present step, on pages where each step
+ * adds one spring to the Hessian. */
 int find_newest_spring(const Simulation *simulation);
 
 /* Returns the box inside a card, below the title; em in pixels. */
 Box card_inner_box(Box card, double em);
 
-/* Writes the first line of a text whose numbers are all known into the middle
- * of an empty card. */
+/* Writes the first line of a text that has known values, in the middle of an
+ * empty card. */
 void card_write_hint(const Plot *card, const char *text);
 
 /* Returns what a row of a listing shows. */
 ShownRow listing_show_row(const Pane *pane, const ListingRow *row);
 
-/* Writes the known rows of a listing; the row of the current line is lit. */
+/* Writes the rows of a listing that are shown now; the row of the present line
+ * is lit. */
 void card_write_rows(const Plot *card, const ListingRow *row);
 
 /* Returns the width that the code of a page needs, ems. */
@@ -126,7 +130,8 @@ void cards_draw(Paper *paper, const Layout *layout,
                 const FrameContent *content);
 
 /* On a page of the lecture, highlights all pixels in the colour of the term
- * under the mouse, or else of the line of Algorithm 3 that the run is at. */
+ * under the mouse.  Without such a term, highlights the term that the present
+ * line of Algorithm 3 computes. */
 void highlight_draw(Paper *paper, const FrameContent *content);
 
 /* Draws strip, settings, time line and chips. */

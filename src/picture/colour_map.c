@@ -13,15 +13,14 @@ Colour colour_of_strain(double strain, double range, Colour below, Colour above)
 
 Colour colour_of_run(int run)
 {
-    /* Vermilion, green, blue, purple, brown, sky blue. */
+    /* vermilion, green, blue, purple, brown, sky blue */
     static const Colour colours[] = {0xffd55e00u, 0xff009e73u, 0xff0072b2u,
                                      0xffb0559au, 0xff7a5c2eu, 0xff56b4e9u};
     return colours[run < 0 ? 0 : run % 6];
 }
 
-/* Colours by name: TERMS letters of formulas and energies, then words and
- * methods.
- */
+/* The first TERMS colours are those of letters and energies; then come words
+ * and methods. */
 enum { TERMS = 21 };
 static const struct {
     const char *name;
@@ -50,7 +49,7 @@ static const struct {
              {"faint", COLOUR_FAINT},
              {"grey", COLOUR_GREY},
              {"shaded", COLOUR_SHADED},
-             {"orange", 0xffd55e00u}, /* the colours of runs */
+             {"orange", 0xffd55e00u}, /* colour of run 0, 1, 2, 3 */
              {"green", 0xff009e73u},
              {"blue", 0xff0072b2u},
              {"purple", 0xffb0559au},

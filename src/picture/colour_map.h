@@ -8,31 +8,31 @@
 
 #include "picture/text.h"
 
-/* Paper and words. */
+/* Colours of the window and its words. */
 #define COLOUR_WHITE     0xffffffffu
 #define COLOUR_TEXT      0xff1c1c1cu
 #define COLOUR_FAINT     0xff6a6a6au
-#define COLOUR_GREY      0xff9c9c9cu /* previous step, contours, ticks */
+#define COLOUR_GREY      0xff9c9c9cu /* contours, ticks, inactive words */
 #define COLOUR_GRID      0xffe4e4e4u
 #define COLOUR_RULE      0xffdcdcdcu /* lines between zones */
 #define COLOUR_BORDER    0xffcfcfcfu /* borders of cards and chips */
 #define COLOUR_CHIP      0xfff6f6f6u
-#define COLOUR_LIT       0xfffff1cdu /* current line, chip or setting */
-#define COLOUR_HIGHLIGHT 0xffffe14du /* around the term under the mouse */
+#define COLOUR_LIT       0xfffff1cdu /* ground of the current row or chip */
+#define COLOUR_HIGHLIGHT 0xffffe14du /* ground of the term under the mouse */
 #define COLOUR_PANEL     0xd8ffffffu /* ground of words on a picture */
 #define COLOUR_NOTE      0xfffffff4u /* ground of the note at the mouse */
 #define COLOUR_WARNING   0xffd00000u
 #define COLOUR_VALUE     0xff0044b0u /* numbers that can be changed */
 #define COLOUR_BAR       0xffccd6eau /* a step in the time line */
 
-/* Letters of the slides, in formulas and pictures alike. */
+/* Colours of the slides' letters and of their pictures. */
 #define COLOUR_X        0xff0000ffu /* positions, springs; as on the slides */
 #define COLOUR_FOLDED   0xff0a0a3cu /* faces of cells that have turned over */
-#define COLOUR_X_TILDE  0xff8e3fb0u /* end of the step without forces */
-#define COLOUR_P        0xffc96a00u /* search direction, its quadratic model */
+#define COLOUR_X_TILDE  0xff8e3fb0u /* x_tilde: a step without forces */
+#define COLOUR_P        0xffc96a00u /* direction p, the quadratic model */
 #define COLOUR_ALPHA    0xff00796bu /* step lengths */
-#define COLOUR_PROJECT  0xffd3156bu /* springs whose block was changed */
-#define COLOUR_GHOST    0xffb08d57u /* the outcome with other settings */
+#define COLOUR_PROJECT  0xffd3156bu /* springs with a projected block */
+#define COLOUR_GHOST    0xffb08d57u /* ghost: the outcome with other settings */
 #define COLOUR_HAND     0xff2e7d32u /* the node or ball that the mouse holds */
 #define COLOUR_VELOCITY 0xff117733u /* velocity of one mass */
 #define COLOUR_FORCE    0xff9a5b00u /* contact forces */
@@ -45,25 +45,25 @@
 #define COLOUR_COMPRESS 0xff0072b2u
 #define COLOUR_PLASTIC  0xff7b1fa2u /* plastic strain */
 
-/* Region where E is not convex, and its words. */
+/* Region where E is not convex, and words about the region. */
 #define COLOUR_SHADE  0xfffdf0d5u
 #define COLOUR_SHADED 0xff8a6100u
 
 /* Half plane of the directions that point downhill. */
 #define COLOUR_DOWNHILL 0x2656b4e9u
 
-/* Returns the colour of pane or run 0, 1, ... of several. */
+/* Returns the colour of pane or run 0, 1, ... if there are several. */
 Colour colour_of_run(int run);
 
-/* Returns the colour of term 0, 1, ... of the formulas, a letter or an energy;
- * 0 after the last term. */
+/* Returns the colour of term 0, 1, ... of the formulas, 0 after the last term.
+ * A term is a letter or an energy. */
 Colour colour_of_term(int term);
 
 /* Returns the colour of an energy or an integrator by name. */
 Colour colour_of_name(const char *name);
 
 /* Interpolates from `below` at strain -range over COLOUR_REST at 0 to `above`
- * at strain range > 0.  Strains beyond the range get the colour of its end. */
+ * at strain range > 0. Larger strains have the colour of the nearer end. */
 Colour colour_of_strain(double strain, double range, Colour below,
                         Colour above);
 

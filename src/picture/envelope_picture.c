@@ -8,7 +8,7 @@
 /* Shades from few updates (light) to many (dark), by powers of two. */
 enum { ENVELOPE_SHADES = 6 };
 
-static Colour envelope_shade(int shade)
+static Colour colour_of_shade(int shade)
 {
     return colour_mix(0xffe3f2e8u, 0xff064a38u,
                       (double)shade / ENVELOPE_SHADES);
@@ -16,7 +16,7 @@ static Colour envelope_shade(int shade)
 
 #define COLOUR_REFUSED 0xffe08a1eu
 
-static Colour envelope_colour(const EnvelopeCell *cell)
+static Colour colour_of_cell(const EnvelopeCell *cell)
 {
     int shade = 0;
     if (!cell->known)
@@ -25,11 +25,11 @@ static Colour envelope_colour(const EnvelopeCell *cell)
         return COLOUR_REFUSED;
     while (shade < ENVELOPE_SHADES && cell->updates > 4 << shade)
         shade++;
-    return envelope_shade(shade);
+    return colour_of_shade(shade);
 }
 
 /* Returns the box of a cell, with a gap of a pixel to the next cells. */
-static Box envelope_box(const Plot *stage, int column, int row)
+static Box find_cell_box(const Plot *stage, int column, int row)
 {
     double x = log10(envelope_timestep(column));
     double y = log10(envelope_stiffness(row));
@@ -45,7 +45,7 @@ static Box envelope_box(const Plot *stage, int column, int row)
 
 /* Draws the line h^2 k = ratio m, where elasticity is `ratio` times as stiff as
  * inertia. */
-static void draw_ratio(const Plot *plot, double ratio)
+static void draw_ratio_line(const Plot *plot, double ratio)
 {
     double m = plot->simulation->system.m[0];
     const double k[2] = {1e-6, 1e15};
@@ -63,18 +63,20 @@ static void draw_ratio(const Plot *plot, double ratio)
 void envelope_draw(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.map;
-    Plot plot = plot_on_stage(stage, (Axis){.log = true, .label = "h in s"},
-                              (Axis){.log = true, .label = "k in J/m\u00b2"});
+    Plot plot =
+        plot_create_on_stage(stage, (Axis){.log = true, .label = "h in s"},
+                             (Axis){.log = true, .label = "k in J/m\u00b2"});
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++)
-            canvas_fill(&stage->paper->canvas, envelope_box(stage, column, row),
-                        envelope_colour(&map->cell[row][column]));
-    canvas_framed_box(&stage->paper->canvas,
-                      box_inset(envelope_box(stage, map->column, map->row), -1),
-                      envelope_colour(&map->cell[map->row][map->column]),
-                      COLOUR_TEXT);
+            canvas_fill(&stage->paper->canvas,
+                        find_cell_box(stage, column, row),
+                        colour_of_cell(&map->cell[row][column]));
+    canvas_framed_box(
+        &stage->paper->canvas,
+        box_inset(find_cell_box(stage, map->column, map->row), -1),
+        colour_of_cell(&map->cell[map->row][map->column]), COLOUR_TEXT);
     for (int power = -8; power <= 16; power += 8)
-        draw_ratio(&plot, pow(10, power));
+        draw_ratio_line(&plot, pow(10, power));
 }
 
 void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
@@ -97,7 +99,7 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
     double h = envelope_timestep(map->column), m = simulation->system.m[0];
     int known = 0, converged = 0;
-    bool only_rounding = true; /* only rounding stops runs from converging */
+    bool only_rounding = true; /* rounding is the only reason of failures */
     for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
         int row = i / ENVELOPE_COLUMNS, column = i % ENVELOPE_COLUMNS;
         const EnvelopeCell *one = &map->cell[row][column];
@@ -107,8 +109,8 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
         converged += one->known && !one->worst;
         only_rounding = only_rounding && (!one->worst || ratio > 1e16);
     }
-    values->colour[0] = envelope_shade(4);
-    values->colour[1] = envelope_shade(3);
+    values->colour[0] = colour_of_shade(4);
+    values->colour[1] = colour_of_shade(3);
     values->colour[2] = COLOUR_REFUSED;
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     values_add_flag(values, all ? "all runs" : "some runs", true);

@@ -8,8 +8,8 @@
 
 /* A letter in one face and size. */
 typedef struct Glyph {
-    uint64_t key;  /* face, size and letter; 0: the slot is free */
-    int left, top; /* pixels from pen and baseline to the mask */
+    uint64_t key;  /* face, size and letter as one number; 0: a free slot */
+    int left, top; /* pixels from the pen on the baseline to the mask */
     int advance;   /* pixels to the next letter */
     int width, height;
     uint8_t *mask; /* [height width] coverage; NULL: no pixel is covered */
@@ -17,6 +17,6 @@ typedef struct Glyph {
 
 /* Finds the letter in the cache, or draws it; size in pixels.  The pointer is
  * valid until the next call. */
-const Glyph *font_glyph(Text *text, Face face, int size, uint32_t letter);
+const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter);
 
 #endif

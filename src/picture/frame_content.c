@@ -7,10 +7,11 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double LEGEND_ROOM = 1.8; /* ems, height of a line of words */
-static const double LOW_PANE = 20; /* ems, lower panes have a place for words */
-static const double MIN_TEXT = 11; /* ems, height of a pane with words */
-static const double HANDLE_REACH = 14;   /* pixels, a handle is hit within */
+static const double LEGEND_ROOM = 1.8; /* ems, height of a line of the legend */
+/* On a page a pane lower than LOW_PANE keeps room for words above the picture;
+ * a pane lower than MIN_TEXT has no words.  Ems. */
+static const double LOW_PANE = 20, MIN_TEXT = 11;
+static const double HANDLE_REACH = 14;   /* pixels, reach of the mouse */
 static const double SWITCH_WIDTH = 13;   /* ems */
 static const double SWITCH_HEIGHT = 1.8; /* ems */
 
@@ -36,13 +37,13 @@ int picture_find_card(const Picture *picture, const char *name)
 
 /* Finds the cards that the page, or else the scene, hides or closes at first.
  *   hidden, closed  out, bit c: card c */
-static void find_cards(const Simulation *simulation, unsigned *hidden,
-                       unsigned *closed)
+static void find_hidden_cards(const Simulation *simulation, unsigned *hidden,
+                              unsigned *closed)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
     const LecturePage *page = simulation->options.page;
     for (int c = 0; c < picture->count; c++) {
-        /* strstr is safe: no card's name is part of another's. */
+        /* No card's name is part of another card's name. */
         const Card *card = picture->cards[c];
         bool has = page ? strstr(page->cards, card->name) != NULL
                         : !card->only_in_lecture;
@@ -57,7 +58,8 @@ void frame_create(const Simulation *simulation, FrameContent *content)
     *content = (FrameContent){
         .panes = 1, .view = &whole, .settings.selected = -1, .cards.large = -1};
     content->pane[0].simulation = simulation;
-    find_cards(simulation, &content->cards.hidden, &content->cards.closed);
+    find_hidden_cards(simulation, &content->cards.hidden,
+                      &content->cards.closed);
 }
 
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
@@ -65,7 +67,7 @@ bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
     const Picture *picture = picture_of_scene(simulation->scene);
     unsigned hidden = 0, closed = 0;
     bool needs = false;
-    find_cards(simulation, &hidden, &closed);
+    find_hidden_cards(simulation, &hidden, &closed);
     closed ^= toggled;
     for (int c = 0; c < picture->count; c++)
         needs = needs || (picture->cards[c]->needs_line_energy &&
@@ -73,9 +75,10 @@ bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
     return needs;
 }
 
-/* Returns the box of a pane without the room that words need on a page. */
-static Box pane_room(const FrameContent *content, const Layout *layout,
-                     int pane)
+/* Returns the box of a pane without the rows of words above and below, which
+ * several or low panes have on a page. */
+static Box find_picture_room(const FrameContent *content, const Layout *layout,
+                             int pane)
 {
     const Simulation *simulation = content->pane[pane].simulation;
     bool stretched = picture_of_scene(simulation->scene)->stretched;
@@ -96,7 +99,7 @@ static void find_own_bounds(const FrameContent *content, const Layout *layout,
 {
     const Plot stage =
         plot_of_box(NULL, content, &content->pane[pane],
-                    pane_room(content, layout, pane), layout->em);
+                    find_picture_room(content, layout, pane), layout->em);
     const Picture *picture = picture_of_scene(stage.simulation->scene);
     if (picture->bounds)
         picture->bounds(&stage, bounds);
@@ -104,10 +107,10 @@ static void find_own_bounds(const FrameContent *content, const Layout *layout,
         memcpy(bounds, picture->default_bounds, sizeof picture->default_bounds);
 }
 
-/* Finds the part of the world that a pane shows.  On a page all panes have the
- * bounds of the last one, unless their own bodies have left those. */
-static void find_bounds(const FrameContent *content, const Layout *layout,
-                        int pane, double bounds[4])
+/* Finds the part of the world that a pane shows.  On a page all panes share the
+ * bounds of the last pane, except a pane whose own bounds reach farther. */
+static void find_pane_bounds(const FrameContent *content, const Layout *layout,
+                             int pane, double bounds[4])
 {
     const HeldBounds *held = &content->view->held;
     int last = content->lecture.page ? content->panes - 1 : pane;
@@ -134,14 +137,14 @@ Plot stage_create(Paper *paper, const FrameContent *content,
     double bounds[4];
     stage.has_text = !content->bare;
     bool stretched = picture_of_scene(stage.simulation->scene)->stretched;
-    Box room = pane_room(content, layout, pane);
+    Box room = find_picture_room(content, layout, pane);
     Switch switches[SCENE_MAX_SWITCHES];
-    find_bounds(content, layout, pane, bounds);
+    find_pane_bounds(content, layout, pane, bounds);
     stage.camera = camera_create(room, bounds, stretched, lens);
     if (!stage.has_text ||
         exhibit_list_switches(stage.simulation, switches) == 0)
         return stage;
-    /* The view moves to the left of the switches unless that makes it smaller.
+    /* The picture moves left of the switches, unless it would become smaller.
      */
     box_cut_off(&room, EDGE_RIGHT, (int)(SWITCH_WIDTH * layout->em));
     const Camera left = camera_create(room, bounds, stretched, lens);
@@ -160,7 +163,7 @@ HeldBounds frame_hold_bounds(const FrameContent *content, const Layout *layout,
                              int pane)
 {
     HeldBounds held = {.on = true, .pane = pane};
-    find_bounds(content, layout, pane, held.bounds);
+    find_pane_bounds(content, layout, pane, held.bounds);
     return held;
 }
 
@@ -304,7 +307,7 @@ void history_add_point(History *history, double time, int rows,
 {
     double sum = time;
     for (int i = 0; i < rows; i++)
-        sum += 0 * row[i].value; /* NaN unless the value is finite */
+        sum += 0 * row[i].value; /* NaN if the value is not finite */
     if (!isfinite(sum) || history->count == HISTORY_POINTS)
         return;
     int last = history->count++;
@@ -312,12 +315,12 @@ void history_add_point(History *history, double time, int rows,
     for (int s = 0; s < history->series; s++)
         history->value[s][last] = 0;
     for (int i = 0; i < rows; i++) {
-        const char *name = row[i].name; /* usually the name of series i */
+        const char *name = row[i].name; /* mostly the name of series i */
         int s = i < history->series && history->name[i] == name ? i : 0;
         while (s < history->series && strcmp(history->name[s], name) != 0)
             s++;
         if (s == HISTORY_SERIES)
-            continue; /* too many quantities */
+            continue; /* the history has no room for more quantities */
         if (s == history->series) {
             history->name[history->series++] = name;
             memset(history->value[s], 0, sizeof history->value[s]);
@@ -329,16 +332,17 @@ void history_add_point(History *history, double time, int rows,
 /* ---- drawing --------------------------------------------------------------
  */
 
-enum { LABEL = 4 * VALUE_SIZE };
+enum { LABEL_SIZE = 4 * VALUE_SIZE };
 
 /* Copies the first parts of a label, separated by ", ", that fit into a line.
  * Returns the rest of the label.
- *   line  [LABEL] out */
-static const char *take_line(const Plot *stage, const char *label, char *line)
+ *   line  [LABEL_SIZE] out */
+static const char *take_label_line(const Plot *stage, const char *label,
+                                   char *line)
 {
     int room = (int)(stage->box.width - stage->em);
     char *comma;
-    snprintf(line, LABEL, "%s", label);
+    snprintf(line, LABEL_SIZE, "%s", label);
     while (paper_width(stage->paper, FACE_BOLD, 1, line) > room &&
            (comma = strrchr(line, ',')))
         *comma = '\0';
@@ -348,15 +352,15 @@ static const char *take_line(const Plot *stage, const char *label, char *line)
 
 /* Writes the label of a pane, which says how panes differ, in up to three lines
  * below the picture; a wide label stands above the scale. */
-static void draw_label(const Plot *stage, const char *label)
+static void draw_pane_label(const Plot *stage, const char *label)
 {
     enum { LINES = 3 };
     Paper *paper = stage->paper;
     const Box *box = &stage->box;
-    char line[LINES][LABEL];
+    char line[LINES][LABEL_SIZE];
     int lines = 0, wide = 0;
     while (*label && lines < LINES) {
-        label = take_line(stage, label, line[lines]);
+        label = take_label_line(stage, label, line[lines]);
         int own = paper_width(paper, FACE_BOLD, 1, line[lines++]);
         wide = own > wide ? own : wide;
     }
@@ -390,7 +394,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
     draw_switches(&stage);
     draw_guess(&stage);
     if (layout->panes > 1 && stage.pane->label)
-        draw_label(&stage, stage.pane->label);
+        draw_pane_label(&stage, stage.pane->label);
     if (picture->hover && stage.has_text && hover->pane == pane &&
         hover->kind != PICK_NONE && !content->hand)
         picture->hover(&stage);
@@ -426,8 +430,8 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
                        cell->name);
 }
 
-/* Clears the paper and sets the size of its letters, pixels. */
-static void begin_paper(Paper *paper, double em, const FrameContent *content)
+/* Makes the paper white, and sets the pixels of an em. */
+static void prepare_paper(Paper *paper, double em, const FrameContent *content)
 {
     paper->em = em;
     paper->unit = em / 14;
@@ -438,7 +442,7 @@ static void begin_paper(Paper *paper, double em, const FrameContent *content)
 void frame_draw_card(Paper *paper, const FrameContent *content, int card)
 {
     const Canvas *canvas = &paper->canvas;
-    begin_paper(paper, content->min_em, content);
+    prepare_paper(paper, content->min_em, content);
     card_draw(paper,
               box_inset((Box){0, 0, canvas->width, canvas->height},
                         paper_pixels(paper, 0.4)),
@@ -451,11 +455,11 @@ void frame_draw(Paper *paper, const FrameContent *content)
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
     bool sheet = layout.cells > 0, several = layout.panes > 1;
-    begin_paper(paper, layout.em, content);
+    prepare_paper(paper, layout.em, content);
     for (int i = 0; i < layout.cells; i++)
         draw_sheet_cell(paper, layout.cell[i], &content->sheet.cell[i],
                         i == content->view->chosen);
-    if (several) /* lines between the panes */
+    if (several) /* the colour of the lines between the panes */
         canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
     for (int pane = 0; pane < layout.panes; pane++) {
         if (several)

@@ -1,9 +1,7 @@
 /* highlight.c - highlights a term of the formulas in the whole frame.
  *
  * A term has the same colour everywhere: in letters, arrows, curves and
- * legends. So the term under the mouse, and all its places, are found by their
- * pixels.
- */
+ * legends.  Therefore pixels of this colour belong to the term. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,30 +9,30 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-static const double HIGHLIGHT_RADIUS = 4; /* units of the paper */
-static const double MOUSE_REACH = 0.5;    /* ems, reach of the mouse */
-static const double MIN_COVERAGE = 0.5;   /* least coverage of a pixel */
+static const double HIGHLIGHT_RADIUS = 4; /* units of paper around each pixel */
+static const double MOUSE_REACH = 0.5;    /* ems, from the mouse to a term */
+static const double MIN_COVERAGE = 0.5;   /* least part of the term's colour */
 
-static int colour_channel(Colour colour, int k)
+static int get_channel(Colour colour, int k)
 {
     return (int)(colour >> 8 * k & 255);
 }
 
-/* Whether the pixel is a mixture of this colour and some white. */
+/* Whether the pixel is a mixture of this colour with white. */
 static bool has_colour(Colour pixel, Colour colour)
 {
     double ink = 0, off = 0;
     for (int k = 0; k < 3; k++)
-        if (colour_channel(colour, k) < 128)
-            ink = fmax(ink, (255.0 - colour_channel(pixel, k)) /
-                                (255.0 - colour_channel(colour, k)));
+        if (get_channel(colour, k) < 128)
+            ink = fmax(ink, (255.0 - get_channel(pixel, k)) /
+                                (255.0 - get_channel(colour, k)));
     for (int k = 0; k < 3; k++)
-        off = fmax(off, fabs(255 - ink * (255 - colour_channel(colour, k)) -
-                             colour_channel(pixel, k)));
+        off = fmax(off, fabs(255 - ink * (255 - get_channel(colour, k)) -
+                             get_channel(pixel, k)));
     return ink > MIN_COVERAGE && off < 16;
 }
 
-/* Marks the pixels of a disc in the map. */
+/* Marks the pixels of a disc in the map of pixels to highlight. */
 static void mark_disc(unsigned char *map, const Canvas *canvas, int x, int y,
                       int radius)
 {
@@ -59,11 +57,11 @@ static void highlight_colour(Canvas *canvas, Colour colour, int radius)
                       (int)(i / canvas->width), radius);
     for (size_t i = 0; i < count && map; i++) {
         Colour pixel = canvas->pixels[i], lit = 0xff000000u;
-        if (!map[i] || colour_channel(pixel, 1) < 128)
-            continue; /* dark pixels stay */
+        if (!map[i] || get_channel(pixel, 1) < 128)
+            continue; /* dark pixels keep their colour */
         for (int k = 0; k < 3; k++)
-            lit |= (Colour)(colour_channel(pixel, k) *
-                            colour_channel(COLOUR_HIGHLIGHT, k) / 255)
+            lit |= (Colour)(get_channel(pixel, k) *
+                            get_channel(COLOUR_HIGHLIGHT, k) / 255)
                    << 8 * k;
         canvas->pixels[i] = lit;
     }
@@ -111,7 +109,7 @@ void highlight_draw(Paper *paper, const FrameContent *content)
     bool plain = content->view->hover.kind == PICK_SWITCH &&
                  !exhibit_has_kind_switches(active_pane(content)->simulation);
     if (plain || (colour == COLOUR_X && stage))
-        colour = 0; /* a switch without a term, or the whole square */
+        colour = 0; /* no term: a switch, or the springs of the square */
     if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->line];
     if (colour)

@@ -1,5 +1,6 @@
 /* landscape_picture.c - maps of E over the position of one free node: with
- * Newton's path (landscape), or with the minimiser for every h (dial). */
+ * Newton's path (scene landscape), or with the minimiser for every h (scene
+ * dial). */
 #include <math.h>
 #include <string.h>
 
@@ -11,12 +12,13 @@ static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-/* Colours of g1 = 0 and g2 = 0: green and purple, as cards.txt calls them. */
+/* Colours of the curves g1 = 0 and g2 = 0, where g = grad E: green and purple,
+ * as cards.txt says. */
 static const Colour curve_colour[2] = {0xff009e73u, 0xffb0559au};
 
 /* ---- the map ------------------------------------------------------------ */
 
-/* Returns the difference of a value to the level of the nearest contour. */
+/* Returns the difference between a value and the nearest contour's level. */
 static double distance_to_contour(double value)
 {
     double nearest = INFINITY;
@@ -25,17 +27,17 @@ static double distance_to_contour(double value)
     return nearest;
 }
 
-/* Returns the factor by which E is divided for the contours: elasticity grows
- * with h^2 in long steps. */
-static double level_factor(const Simulation *simulation)
+/* Returns the factor of the contours' levels.  With long steps the factor grows
+ * as elasticity does, with h^2. */
+static double find_contour_scale(const Simulation *simulation)
 {
     double h = simulation->run[0].h / 0.2;
     bool elastic = simulation->exhibit.switches & PART_ELASTICITY;
     return elastic && h > 1 ? h * h : 1;
 }
 
-/* Returns E before projection at x. */
-static LocalModel energy_at(const Simulation *simulation, const double *x)
+/* Returns E at x, with the Hessian before projection. */
+static LocalModel evaluate_energy(const Simulation *simulation, const double *x)
 {
     return descent_evaluate(simulation, PROJECTION_NONE, x[0], x[1]);
 }
@@ -45,9 +47,9 @@ bool landscape_is_convex(const LocalModel *E)
     return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
 
-/* Draws contours in two by two pixels (i, j), in which the function is nearly
- * linear.  The distance to a contour in pixels is the difference to the
- * contour's level over the slope.
+/* Draws contours in the two by two pixels at (i, j), where the function is
+ * nearly linear.  The distance to a contour in pixels is the difference from
+ * the contour's level over the slope.
  *   right, up  slopes per pixel
  *   zero       draws the contour of 0 instead of the map's levels */
 static void draw_contours(const Plot *plot, int i, int j, double value,
@@ -80,7 +82,8 @@ static void draw_contour_map(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     Canvas *canvas = &plot->paper->canvas;
-    double metre = 1 / plot->camera.scale[0], e = level_factor(simulation);
+    double metre = 1 / plot->camera.scale[0],
+           e = find_contour_scale(simulation);
     const Box *box = &plot->box;
     Box before = canvas_set_clip(canvas, *box);
     canvas_fill(canvas, *box, COLOUR_WHITE);
@@ -102,16 +105,16 @@ static void draw_contour_map(const Plot *plot)
 }
 
 /* Writes the contours' levels, J s^2, along a ray from x_tilde. */
-static void name_levels(const Plot *plot)
+static void write_levels(const Plot *plot)
 {
     static const double ray[2] = {0.62, -0.78}, pace = 0.005; /* m */
     const Simulation *simulation = plot->simulation;
-    double e = level_factor(simulation), before = NAN, last = 0, place[2];
+    double e = find_contour_scale(simulation), before = NAN, last = 0, place[2];
     double space = 1.3 * plot->em / plot->camera.scale[0];
     const Box inside = box_inset(plot->box, (int)plot->em);
     for (double gone = 0; gone < 3; gone += pace) {
         const Point x = point_along(simulation->exhibit.target, gone, ray);
-        double value = energy_at(simulation, x.at).value / e;
+        double value = evaluate_energy(simulation, x.at).value / e;
         plot_to_pixel(plot, x.at, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
@@ -134,11 +137,12 @@ static Plot draw_map(const Plot *stage)
     const System *system = &simulation->system;
     const Exhibit *exhibit = &simulation->exhibit;
     const double *x = simulation->run[0].x;
-    Plot plot = plot_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
+    Plot plot =
+        plot_create_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
     bool elastic = exhibit->switches != PART_INERTIA;
     draw_contour_map(&plot);
     if (plot.has_text && stage->content->lecture.page)
-        name_levels(&plot);
+        write_levels(&plot);
     if (elastic)
         plot_springs(&plot, system, x, 3.5, COLOUR_REST);
     for (int i = 1; i < system->nodes && elastic; i++)
@@ -171,9 +175,9 @@ static void mark_stationary_points(const Plot *plot)
     }
 }
 
-/* Draws the direction p of the run; red if uphill.
- *   both  if both parts of E are on, also draws the other variant (projected or
- *         not), with its slope */
+/* Draws the direction p of the run, red if uphill.  If `both`, and if inertia
+ * and elasticity are switched on, also draws p with the other choice of
+ * projection, with the slope. */
 static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
@@ -210,8 +214,8 @@ static double length_beyond_view(const Plot *plot)
     return 4 * (plot->box.width + plot->box.height) / plot->camera.scale[0];
 }
 
-/* Draws the direction of -grad E; E at the iterate. */
-static void draw_steepest(const Plot *plot, const LocalModel *E)
+/* Draws an arrow of fixed length in the direction -grad E at the iterate. */
+static void draw_negative_gradient(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.point;
     double far = 6 * plot->em / plot->camera.scale[0] / vector_length(E->g);
@@ -220,8 +224,8 @@ static void draw_steepest(const Plot *plot, const LocalModel *E)
                "\u2212\u2207E");
 }
 
-/* Draws the forces of the parts that are on, and their sum; 1 m of arrow is 1
- * kg m. */
+/* Draws the forces of inertia and elasticity, if switched on, and their sum; 1
+ * m of arrow is 1 kg m. */
 static void draw_forces(const Plot *plot, const LocalModel *E)
 {
     const Simulation *simulation = plot->simulation;
@@ -239,7 +243,7 @@ static void draw_forces(const Plot *plot, const LocalModel *E)
         plot_arrow(plot, x, E->g, -1, 2.2, COLOUR_TEXT);
 }
 
-/* Returns the value of parts of E at x; rounding becomes 0. */
+/* Returns the sum of these parts of E at x; values below rounding become 0. */
 static double energy_of_parts(const Simulation *simulation, unsigned parts,
                               const double *x)
 {
@@ -255,8 +259,9 @@ static void add_part_name(unsigned parts, LiveValues *values)
                                              : "elasticity");
 }
 
-/* Adds the number of updates that Algorithm 1 makes from its start, and at the
- * end the velocity that its last line computes. */
+/* Adds the number of updates that Algorithm 1 makes from the start of the
+ * descent.  At the end of the descent also adds the new velocity, the last line
+ * of Algorithm 1. */
 static void add_algorithm1(const Simulation *simulation, LiveValues *values)
 {
     const Descent *descent = &simulation->descent;
@@ -266,7 +271,7 @@ static void add_algorithm1(const Simulation *simulation, LiveValues *values)
     int updates = 0;
     memcpy(x, start, sizeof x);
     while (updates < DESCENT_MAX &&
-           vector_length(energy_at(simulation, x).g) >
+           vector_length(evaluate_energy(simulation, x).g) >
                simulation->options.tolerance &&
            descent_direction(simulation, PROJECTION_NONE, x, p) != 0) {
         for (int k = 0; k < 2; k++)
@@ -288,15 +293,15 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     unsigned parts = simulation->exhibit.switches;
     double h = simulation->run[0].h;
     const double *x = descent->point;
-    LocalModel E = energy_at(simulation, x);
+    LocalModel E = evaluate_energy(simulation, x);
     values_add_point(values, "place", x);
     values_add_point(values, "x tilde", simulation->exhibit.target);
-    for (int k = 0; k < 2; k++) /* rounding becomes 0 */
+    for (int k = 0; k < 2; k++) /* values below rounding become 0 */
         E.g[k] = fabs(E.g[k]) < 1e-15 ? 0 : E.g[k];
     values_add_point(values, "g", E.g);
     values_add_point(values, "solution", descent->direction);
     values_add(values, "slope", descent->slope != 0 ? descent->slope : NAN);
-    if (parts == PART_BOTH) { /* the projected Hessian and its direction */
+    if (parts == PART_BOTH) {
         LocalModel P =
             descent_evaluate(simulation, PROJECTION_CLAMP, x[0], x[1]);
         values_add_matrix(values, projected, P.H, 0);
@@ -333,8 +338,8 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "went uphill", up);
 }
 
-/* Draws three contours of the quadratic model around its minimum x + p, one
- * through the iterate, if H is positive definite. */
+/* If H is positive definite, draws three contours of the quadratic model around
+ * its minimum x + p.  The largest one passes through the iterate. */
 static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
 {
     static const double levels[] = {1, 0.6, 0.25};
@@ -353,8 +358,8 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
     }
 }
 
-/* Draws dashed lines where the linearised components of the gradient are 0;
- * both lines pass through x + p. */
+/* Draws dashed lines where the linearised components of the gradient are 0. The
+ * lines cross at x + p. */
 static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.point;
@@ -386,15 +391,15 @@ static void draw_downhill(const Plot *plot, const LocalModel *E)
     canvas_set_clip(&plot->paper->canvas, before);
 }
 
-/* Draws all layers.  Each update has a thin arrow for p and a thick line for
- * alpha p; red if uphill. */
+/* Draws the map, the path and the layers that are on.  Each update has a thin
+ * arrow for p and a thick line for alpha p, red if uphill. */
 void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const LectureContent *lecture = &stage->content->lecture;
     bool revealed = stage->revealed;
     const Descent *descent = &simulation->descent;
-    const LocalModel E = energy_at(simulation, descent->point);
+    const LocalModel E = evaluate_energy(simulation, descent->point);
     Plot plot = draw_map(stage);
     bool halves = simulation->options.layers & LAYER_DOWNHILL;
     if (halves)
@@ -420,7 +425,7 @@ void landscape_draw(Plot *stage)
     else if (!lecture->hides_answer)
         draw_directions(&plot, plot.has_text && both);
     if (halves)
-        draw_steepest(&plot, &E);
+        draw_negative_gradient(&plot, &E);
     if (revealed && plot.has_text &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
@@ -430,7 +435,8 @@ void landscape_draw(Plot *stage)
 
 /* ---- the dial ----------------------------------------------------------- */
 
-/* Draws the path of the minimiser, with a disc at every power of ten of h. */
+/* Draws the path of the minimiser over h, with a disc at every power of ten of
+ * h. */
 void dial_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;

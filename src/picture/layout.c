@@ -5,33 +5,41 @@
 
 #include "picture/cards.h"
 
-/* Sizes in ems, the size of the texts. */
-static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
-static const double GAP = 0.9;     /* margin of the zones, and between them */
+/* Heights of the zones, ems. */
+static const double STRIP = 3.1, SETTINGS = 2.6, TIME_LINE = 4.9, CHIPS = 3.0;
+/* Further sizes, ems. */
+static const double GAP = 0.9;     /* margins of the zones, gap between cards */
 static const double LETTER = 0.56; /* average width of a letter */
 static const double SETTING_GAP = 0.9;  /* gap between settings */
 static const double CHIP_PADDING = 1.2; /* width of a chip beyond its letters */
 static const double BARS = 2.4;         /* height of the time line's bars */
 static const double NAME = 1.8;         /* height of a cell's name */
 static const double HEADING = 2.2;      /* height of a group's heading */
-static const double MIN_COLUMN = 27;    /* width of the column */
-static const double MIN_PAIR = 28; /* width of a column for cards in pairs */
+static const double MIN_COLUMN = 27;    /* least width of the column */
+static const double MIN_PAIR = 28; /* least width of a column with card pairs */
 
-static const double BOLD = 1.12;        /* width of a bold letter, in letters */
-static const double STAR_REST = 0.4;    /* part of the stage beside a star */
-static const double BESIDE_WIDTH = 15; /* ems, least width of a picture there */
-static const double BELOW_BESIDE = 0.56; /* part of a stage too narrow for it */
-static const double BELOW_FACTOR = 1.3; /* height of a star, in card heights */
-static const double FOLDS = 1.15;       /* cards fold in less of their height */
-static const double LOW_ROW = 0.75;     /* settings: part of a low window */
+static const double BOLD = 1.12; /* width of bold over normal letters */
+/* If the main card is on the stage and the column has no room, the picture has
+ * this part of the stage: the width beside the card, the height below. */
+static const double PICTURE_PART = 0.4;
+/* A picture that would be narrower than this beside the main card, ems, stands
+ * below the card and has the part PICTURE_BELOW of the stage's height. */
+static const double MIN_BESIDE = 15, PICTURE_BELOW = 0.56;
+/* A main card below the picture is at least this many times as high as its
+ * min_height. */
+static const double MAIN_CARD_GROWTH = 1.3;
+/* Cards close if they need more than this many times the column's height. */
+static const double MAX_SQUEEZE = 1.15;
+/* In a low window the settings have this part of the width. */
+static const double SETTINGS_PART = 0.75;
 
-/* The column's part of the width; at most WIDE_PART for code, or for lists of
- * more than MOST_ROWS rows. */
+/* Width of the column over that of the window; at most WIDE_PART for code, and
+ * for lists of more than MOST_ROWS rows. */
 static const double COLUMN_PART = 0.38, WIDE_PART = 0.75;
 enum { MOST_ROWS = 30 };
 
-/* An em has 14 pixels in a window of 1000 x 800 and scales with the window,
- * but has at least 9. */
+/* An em has 14 pixels in a window of 1000 x 800, is proportional to the smaller
+ * one of width/1000 and height/800, and has at least 9 pixels. */
 static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
                     MIN_EM = 9;
 
@@ -41,7 +49,7 @@ static int layout_pixels(const Layout *layout, double ems)
 }
 
 /* Returns column `index` of `count` equal columns of the box, `gap` apart. */
-static Box box_column(Box box, int index, int count, int gap)
+static Box column_of_box(Box box, int index, int count, int gap)
 {
     int room = box.width - (count - 1) * gap;
     int left = (int)((long)room * index / count) + index * gap;
@@ -50,9 +58,9 @@ static Box box_column(Box box, int index, int count, int gap)
 }
 
 /* Places boxes of these widths from the left, `gap` apart, in at most `lines`
- * lines of the room's height.  Returns how many boxes fit. */
-static int place_row(Box room, int lines, int gap, int count, const int *width,
-                     Box *box)
+ * lines, each as high as the room.  Returns how many boxes fit. */
+static int place_boxes(Box room, int lines, int gap, int count,
+                       const int *width, Box *box)
 {
     int x = room.x, line = 0;
     for (int i = 0; i < count; i++) {
@@ -68,7 +76,7 @@ static int place_row(Box room, int lines, int gap, int count, const int *width,
     return count;
 }
 
-/* Counts the characters of UTF-8, with markup; NULL: none. */
+/* Counts the characters of UTF-8, with those of the markup; 0 for NULL. */
 static int count_letters(const char *text)
 {
     int letters = 0;
@@ -77,8 +85,9 @@ static int count_letters(const char *text)
     return letters;
 }
 
-/* Places the settings in one to three lines, which are cut off the rest; in a
- * low window as many as fit at the right of the time line. */
+/* Places the settings in one to three lines at the bottom of `rest`, which
+ * loses their height.  In a low window places them in one line at the right of
+ * the time line.  Settings without room are left out. */
 static void place_settings(const SettingsRow *row, Layout *layout, bool low,
                            Box *rest)
 {
@@ -92,23 +101,24 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
     }
     Box room = {left, layout_pixels(layout, 0.2),
                 layout->width - layout_pixels(layout, GAP) - left,
-                layout_pixels(layout, ROW - 0.4)};
+                layout_pixels(layout, SETTINGS - 0.4)};
     Box *box = layout->setting;
     if (low) {
         room = box_cut_off(&layout->time_line, EDGE_RIGHT,
-                           (int)(LOW_ROW * layout->width));
+                           (int)(SETTINGS_PART * layout->width));
         layout->settings_row = room;
         room.x += left;
         room.width -= 2 * left;
     }
     layout->settings =
-        place_row(room, low ? 1 : 3, layout_pixels(layout, SETTING_GAP),
-                  row->count, width, box);
+        place_boxes(room, low ? 1 : 3, layout_pixels(layout, SETTING_GAP),
+                    row->count, width, box);
     if (low)
         return;
     int more = (box[layout->settings - 1].y - room.y) / room.height;
-    layout->settings_row = box_cut_off(
-        rest, EDGE_BOTTOM, layout_pixels(layout, ROW + more * (ROW - 0.4)));
+    layout->settings_row =
+        box_cut_off(rest, EDGE_BOTTOM,
+                    layout_pixels(layout, SETTINGS + more * (SETTINGS - 0.4)));
     for (int i = 0; i < layout->settings; i++)
         box[i].y += layout->settings_row.y;
 }
@@ -129,7 +139,7 @@ static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
     }
     room.x = layout_pixels(layout, GAP);
     room.width = layout->width - 2 * room.x - width[last] - gap;
-    int fit = place_row(room, 1, gap, last, width, layout->chip);
+    int fit = place_boxes(room, 1, gap, last, width, layout->chip);
     box = &layout->chip[last];
     *box = (Box){room.x, room.y, width[last], room.height};
     if (fit > 0)
@@ -151,13 +161,13 @@ static Box place_zones(const FrameContent *content, Layout *layout)
                                 layout_pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
         layout->chip_row = box_cut_off(
-            &rest, EDGE_BOTTOM, layout_pixels(layout, roomy ? LAST : 2.5));
+            &rest, EDGE_BOTTOM, layout_pixels(layout, roomy ? CHIPS : 2.5));
     if (layout->chip_row.width > 0 && content->chips.count > 0)
         place_chips(&content->chips, lecture, layout);
     if (content->sheet.cells > 0)
         return rest;
-    layout->time_line = box_cut_off(&rest, EDGE_BOTTOM,
-                                    layout_pixels(layout, roomy ? TIME : 2));
+    layout->time_line = box_cut_off(
+        &rest, EDGE_BOTTOM, layout_pixels(layout, roomy ? TIME_LINE : 2));
     if (content->settings.count > 0 && (roomy || lecture))
         place_settings(&content->settings, layout, !roomy, &rest);
     *bars = layout->time_line;
@@ -173,7 +183,8 @@ static Box place_zones(const FrameContent *content, Layout *layout)
     return rest;
 }
 
-/* Minimum height of a card whose content has this width, ems. */
+/* Returns the minimum height of a card whose content is `wide` ems wide, ems.
+ */
 static double needed_height(const FrameContent *content, int card, double wide,
                             double em)
 {
@@ -184,40 +195,40 @@ static double needed_height(const FrameContent *content, int card, double wide,
 
 /* A row of the column, with one card or two. */
 typedef struct CardRow {
-    int card, cards; /* index of the first card, number of cards */
-    bool closed;     /* only the title is seen */
-    double least;    /* ems, minimum height */
-    double weight;   /* share of the height left over */
+    int first_card, card_count; /* index; number of cards, 1 or 2 */
+    bool closed;                /* only the title is seen */
+    double min_height;          /* ems */
+    double weight; /* weight with which the row shares free height */
 } CardRow;
 
-/* Whether the card is open and is the star of the page. */
-static bool card_is_star(const FrameContent *content, int card)
+/* Whether the card is open, and is the page's main card. */
+static bool card_is_main(const FrameContent *content, int card)
 {
-    const char *star = active_pane(content)->simulation->options.main_card;
-    return star &&
+    const char *name = active_pane(content)->simulation->options.main_card;
+    return name &&
            !((content->cards.hidden | content->cards.closed) >> card & 1) &&
-           card == picture_find_card(active_picture(content), star);
+           card == picture_find_card(active_picture(content), name);
 }
 
-/* Whether the card is the star of the page and stands below the picture. */
-static bool card_is_below(const FrameContent *content, int card)
+/* Whether the card is the page's main card, and stands below the picture. */
+static bool main_card_is_below(const FrameContent *content, int card)
 {
-    return card_is_star(content, card) &&
+    return card_is_main(content, card) &&
            active_picture(content)->cards[card]->below_picture;
 }
 
-/* Whether the card is the star of the page and stands beside the picture. */
-static bool card_is_beside(const FrameContent *content, int card)
+/* Whether the card is the page's main card, and stands beside the picture. */
+static bool main_card_is_beside(const FrameContent *content, int card)
 {
-    return card_is_star(content, card) &&
+    return card_is_main(content, card) &&
            active_picture(content)->cards[card]->beside_picture;
 }
 
 /* Finds the rows of all visible cards.  If `pairs`, two cards of half width
  * share a row.  Returns the number of rows.
  *   rows  [LAYOUT_CARDS] out */
-static int find_rows(const FrameContent *content, double wide, double em,
-                     bool pairs, CardRow *rows)
+static int find_card_rows(const FrameContent *content, double wide, double em,
+                          bool pairs, CardRow *rows)
 {
     const Picture *picture = active_picture(content);
     const CardSets *sets = &content->cards;
@@ -228,11 +239,11 @@ static int find_rows(const FrameContent *content, double wide, double em,
         bool bar = sets->closed >> i & 1 || (large && i != sets->large);
         bool half = card->half_width ||
                     (card->half_width_on_page && content->lecture.page);
-        if (sets->hidden >> i & 1 || card_is_below(content, i) ||
-            (card_is_beside(content, i) && !bar))
+        if (sets->hidden >> i & 1 || main_card_is_below(content, i) ||
+            (main_card_is_beside(content, i) && !bar))
             continue;
         if (pairs && half && !bar && before == i - 1) {
-            rows[count - 1].cards = 2;
+            rows[count - 1].card_count = 2;
             continue;
         }
         before = half && !bar ? i : -2;
@@ -243,8 +254,8 @@ static int find_rows(const FrameContent *content, double wide, double em,
     return count;
 }
 
-/* Gives each row its minimum height, and a share of the height left over by its
- * weight.  If the column is too low, closes the last rows but one, unless cards
+/* Gives each row its minimum height, and shares the free height by the weights.
+ * If the column is too low, closes rows from the last one on, unless cards
  * stand in pairs; then shrinks all heights alike. */
 static void place_cards(const FrameContent *content, Layout *layout)
 {
@@ -254,19 +265,20 @@ static void place_cards(const FrameContent *content, Layout *layout)
     Box rest = box_inset(layout->column, layout_pixels(layout, GAP));
     bool pairs = layout->column.width >= MIN_PAIR * layout->em;
     double wide = card_inner_box(rest, layout->em).width / layout->em;
-    int count = find_rows(content, wide, layout->em, pairs, rows), open = 0;
+    int count = find_card_rows(content, wide, layout->em, pairs, rows),
+        open = 0;
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
     double weights = 1e-9, ems = gap / layout->em;
     for (int i = 0; i < count; i++) {
         open += !rows[i].closed;
         bars += ems + (rows[i].closed ? TITLE_BAR : 0);
-        least += rows[i].closed ? 0 : rows[i].least;
+        least += rows[i].closed ? 0 : rows[i].min_height;
     }
     for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
-        if (!rows[i].closed && bars + least > FOLDS * room) {
-            least -= rows[i].least;
+        if (!rows[i].closed && bars + least > MAX_SQUEEZE * room) {
+            least -= rows[i].min_height;
             bars += TITLE_BAR;
-            rows[i] = (CardRow){rows[i].card, 1, true, TITLE_BAR, 0};
+            rows[i] = (CardRow){rows[i].first_card, 1, true, TITLE_BAR, 0};
             open--;
         }
     for (int i = 0; i < count; i++)
@@ -274,14 +286,15 @@ static void place_cards(const FrameContent *content, Layout *layout)
     room -= bars;
     for (int i = 0; i < count; i++) {
         const CardRow *row = &rows[i];
-        double high = row->least * (least > room ? room / least : 1) +
+        double high = row->min_height * (least > room ? room / least : 1) +
                       row->weight * fmax(room - least, 0) / weights;
         int height = layout_pixels(layout, high);
         Box box = box_cut_off(&rest, EDGE_TOP,
                               row->closed || height < bar ? bar : height);
         box_cut_off(&rest, EDGE_TOP, gap);
-        for (int k = 0; k < row->cards; k++)
-            layout->card[row->card + k] = box_column(box, k, row->cards, gap);
+        for (int k = 0; k < row->card_count; k++)
+            layout->card[row->first_card + k] =
+                column_of_box(box, k, row->card_count, gap);
     }
 }
 
@@ -290,7 +303,7 @@ static void place_panes(int count, Layout *layout)
 {
     int columns = 1, gap = layout_pixels(layout, 0.15);
     double best = 0;
-    for (int c = 1; c <= count; c++) { /* compares the squares in a pane */
+    for (int c = 1; c <= count; c++) { /* the larger square wins */
         int rows = (count + c - 1) / c;
         double side = fmin((double)layout->stage.width / c,
                            (double)layout->stage.height / rows);
@@ -301,7 +314,7 @@ static void place_panes(int count, Layout *layout)
     }
     int rows = (count + columns - 1) / columns;
     for (int i = 0; i < count; i++) {
-        Box column = box_column(layout->stage, i % columns, columns, gap);
+        Box column = column_of_box(layout->stage, i % columns, columns, gap);
         int top = layout->stage.height * (i / columns) / rows;
         int bottom = layout->stage.height * (i / columns + 1) / rows;
         column.y += top;
@@ -336,7 +349,7 @@ static int place_cells(const FrameContent *content, Layout *layout, int columns,
 /* Places the overview with the number of columns that gives the largest
  * squares.
  */
-static void place_sheet(const FrameContent *content, Layout *layout)
+static void place_overview(const FrameContent *content, Layout *layout)
 {
     int gap = layout_pixels(layout, GAP), best = 0, wide = 1;
     for (int columns = 1; columns <= content->sheet.cells; columns++) {
@@ -355,55 +368,59 @@ static void place_sheet(const FrameContent *content, Layout *layout)
 }
 
 /* Places a card below the panes, in `high` pixels of the stage. */
-static void place_below(Layout *layout, int card, double high)
+static void place_card_below(Layout *layout, int card, double high)
 {
     Box box = box_cut_off(&layout->stage, EDGE_BOTTOM, (int)high);
     layout->card[card] = box_inset(box, layout_pixels(layout, GAP));
     place_panes(layout->panes, layout);
 }
 
-/* Places the star of a page on the stage, and the picture in the star's place
- * in the column, or below the star if the column is too low or shows code. Some
- * stars are always below the picture. */
-static void place_star(const FrameContent *content, Layout *layout)
+/* Places the main card of a page on the stage, and the picture in the card's
+ * place in the column.  If the column is too low or shows code, the picture
+ * stands below the card.  Cards with below_picture or beside_picture share the
+ * stage with the picture. */
+static void place_main_card(const FrameContent *content, Layout *layout)
 {
     const Picture *picture = active_picture(content);
     const char *name = active_pane(content)->simulation->options.main_card;
-    int star = name ? picture_find_card(picture, name) : -1;
-    double bar = 3 * layout->em; /* more than a card that is closed has */
-    if (star < 0 || star >= layout->cards || layout->panes != 1 ||
-        layout->stage.height < 2 * bar || content->cards.closed >> star & 1 ||
-        (content->cards.large >= 0 && content->cards.large != star))
+    int main_card = name ? picture_find_card(picture, name) : -1;
+    double bar = 3 * layout->em; /* a closed card is lower */
+    if (main_card < 0 || main_card >= layout->cards || layout->panes != 1 ||
+        layout->stage.height < 2 * bar ||
+        content->cards.closed >> main_card & 1 ||
+        (content->cards.large >= 0 && content->cards.large != main_card))
         return;
-    Box *stage = &layout->pane[0], place = layout->card[star];
-    if (card_is_below(content, star)) {
+    Box *stage = &layout->pane[0], place = layout->card[main_card];
+    if (main_card_is_below(content, main_card)) {
         double wide = stage->width / layout->em;
-        double needs = fmax(needed_height(content, star, wide, layout->em),
-                            BELOW_FACTOR * picture->cards[star]->min_height);
-        place_below(layout, star,
-                    fmin((needs + 2 * GAP) * layout->em, 0.6 * stage->height));
+        double needs =
+            fmax(needed_height(content, main_card, wide, layout->em),
+                 MAIN_CARD_GROWTH * picture->cards[main_card]->min_height);
+        place_card_below(
+            layout, main_card,
+            fmin((needs + 2 * GAP) * layout->em, 0.6 * stage->height));
         return;
     }
-    if (place.width < 1 && !layout->has_list && !card_is_beside(content, star))
+    bool beside = main_card_is_beside(content, main_card);
+    if (place.width < 1 && !layout->has_list && !beside)
         return;
-    if (card_is_beside(content, star) &&
-        STAR_REST * stage->width > BESIDE_WIDTH * layout->em)
-        place = box_cut_off(stage, EDGE_RIGHT, (int)(STAR_REST * stage->width));
-    else if (card_is_beside(content, star))
-        place = box_cut_off(stage, EDGE_BOTTOM,
-                            (int)(BELOW_BESIDE * stage->height));
-    else if (place.height < bar)
+    if (beside && PICTURE_PART * stage->width > MIN_BESIDE * layout->em)
         place =
-            box_cut_off(stage, EDGE_BOTTOM, (int)(STAR_REST * stage->height));
-    layout->card[star] = box_inset(*stage, layout_pixels(layout, GAP));
+            box_cut_off(stage, EDGE_RIGHT, (int)(PICTURE_PART * stage->width));
+    else if (beside || place.height < bar)
+        place = box_cut_off(
+            stage, EDGE_BOTTOM,
+            (int)((beside ? PICTURE_BELOW : PICTURE_PART) * stage->height));
+    layout->card[main_card] = box_inset(*stage, layout_pixels(layout, GAP));
     *stage = place;
 }
 
-/* On a page, places the first card without room in the column below the
- * picture, in at most half of the stage.  Exceptions: pages with a star; in
- * normal letters also pages with switches or several panes, and scenes of a law
- * (without code), whose bodies need the whole stage. */
-static void place_folded(const FrameContent *content, Layout *layout)
+/* On a page, places below the picture, in at most half of the stage, the first
+ * card that has no room in the column.  Exceptions: pages with a main card or
+ * an enlarged card; in normal type also pages with switches, with several
+ * panes, or with a law's bodies (unless code is shown), which need the whole
+ * stage. */
+static void place_card_without_room(const FrameContent *content, Layout *layout)
 {
     const Simulation *simulation = active_pane(content)->simulation;
     const Options *options = &simulation->options;
@@ -423,12 +440,13 @@ static void place_folded(const FrameContent *content, Layout *layout)
     double em = layout->em;
     double needs = needed_height(content, folded, stage->width / em, em);
     double room = layout->has_list ? stage->height - 0.8 * stage->width : 0;
-    place_below(layout, folded,
-                fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height));
+    place_card_below(
+        layout, folded,
+        fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height));
 }
 
-/* On a page an em has at least a 55th of the height, in large type a 35th, as
- * long as words have room beside the stage. */
+/* On a page an em is at least the smaller one of height/55 and width/64; in
+ * large type of height/35 and width/54. */
 Layout layout_create(const FrameContent *content, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
@@ -444,7 +462,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
     layout.stage = content->in_document ? (Box){0, 0, width, height}
                                         : place_zones(content, &layout);
     if (content->sheet.cells > 0) {
-        place_sheet(content, &layout);
+        place_overview(content, &layout);
         return layout;
     }
     if (content->in_document) {
@@ -452,7 +470,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
         return layout;
     }
     double wide = width / layout.em, high = height / layout.em;
-    bool low = page && high < 50; /* a list or code needs the full width */
+    bool low = page && high < 50; /* a list or code then covers the stage */
     if (!content->bare && wide >= 53 && high >= 34 && !low &&
         (page || content->cards.hidden != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
@@ -471,13 +489,13 @@ Layout layout_create(const FrameContent *content, int width, int height)
             place_cards(content, &layout);
         if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
-    } else if (!content->bare && page) { /* code or list cover the stage */
+    } else if (!content->bare && page) { /* the column covers the stage */
         layout.column = layout.stage;
     }
     layout.has_list = page && layout.column.width > 0;
     place_panes(content->panes, &layout);
-    place_star(content, &layout);
-    place_folded(content, &layout);
+    place_main_card(content, &layout);
+    place_card_without_room(content, &layout);
     return layout;
 }
 
@@ -549,7 +567,6 @@ void camera_to_world(const Camera *camera, double x, double y, double world[2])
     world[1] = (camera->origin[1] - y) / camera->scale[1];
 }
 
-/* The pan is kept relative to zoom 1, so that the fitting view may change. */
 void lens_zoom(Lens *lens, Box box, double x, double y, double factor)
 {
     double zoom = lens->zoom > 0 ? lens->zoom : 1;

@@ -16,7 +16,7 @@ const char *lecture_lit_code(const FrameContent *content)
     return walks ? page->walk[trace->line] : page->lit;
 }
 
-/* Lists all pages of the lecture, and a heading before each section.
+/* Lists all pages of the lecture, with a heading before each section.
  *   marked  page with a mark: the open page, or the page that was open last */
 static void list_pages(const LecturePage *marked, FrameContent *content)
 {

@@ -43,7 +43,7 @@ void values_add_point(LiveValues *values, const char *name,
                       const double point[2])
 {
     LiveValue *new = add_value(values, name);
-    new->point = true;
+    new->is_point = true;
     memcpy(new->value, point, sizeof new->value);
 }
 
@@ -72,7 +72,7 @@ static void add_window_values(const FrameContent *content, LiveValues *values)
 }
 
 /* Adds scene, methods and settings. */
-static void add_settings(const Simulation *simulation, LiveValues *values)
+static void add_setting_values(const Simulation *simulation, LiveValues *values)
 {
     const Scene *scene = simulation->scene;
     const Options *options = &simulation->options;
@@ -113,7 +113,7 @@ static void add_settings(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "of a solid", neo_hookean_of(&simulation->system));
     values_add_flag(values, "done", simulation->done);
     if (simulation->done && scene->step == step_descent &&
-        descent->residual <= options->tolerance) { /* the gradient is 0 */
+        descent->residual <= options->tolerance) { /* a stationary point */
         const double *x = descent->point;
         int down = descent_hessian_index(simulation, x[0], x[1]);
         values_add_flag(values, "saddle", down == 1);
@@ -121,10 +121,10 @@ static void add_settings(const Simulation *simulation, LiveValues *values)
     }
 }
 
-/* Adds the reason why a step converged with a large residual: the next
- * direction is known to be negligible, or the last one gains less than
+/* Adds why a step has converged with a large residual: a bound shows that the
+ * next direction is small enough, or the last one changes E by less than
  * rounding. */
-static void add_step_end(const Trace *trace, LiveValues *values)
+static void add_step_end_values(const Trace *trace, LiveValues *values)
 {
     const NewtonRecord *last = trace->record + trace->updates - 1;
     if (trace->updates == 0 || last->status != STATUS_OK)
@@ -134,9 +134,10 @@ static void add_step_end(const Trace *trace, LiveValues *values)
                     last->alpha == 0 && trace->trials == last->trials);
 }
 
-/* Adds the values of the current step so far, or of a search's last update. */
-static void add_trace(const Simulation *simulation, const Trace *trace,
-                      LiveValues *values)
+/* Adds the values of the current step so far, or of the last update of a
+ * descent. */
+static void add_trace_values(const Simulation *simulation, const Trace *trace,
+                             LiveValues *values)
 {
     bool made = trace->line == LINE_NONE || trace->line >= LINE_SOLVE;
     bool known = made && isfinite(trace->residual);
@@ -161,7 +162,7 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     values_add_flag(values, "refused", trace->trials > 0 && !trace->accepted);
     values_add_flag(values, "given up", trace->given_up);
     if (simulation->scene->needs & NEEDS_TIME)
-        add_step_end(trace, values);
+        add_step_end_values(trace, values);
     if (trace->trials > 0 && trace->difference) {
         double alpha = trace_step_length(trace, trace->trials);
         double change = trace->difference(trace->difference_data, alpha);
@@ -181,9 +182,8 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     }
 }
 
-/* Returns f(x + alpha p) - f(x), or the same difference of E in the landscape.
- */
-static double energy_difference(const void *function, double alpha)
+/* Returns the change of the minimised function along a descent's p. */
+static double compute_energy_change(const void *function, double alpha)
 {
     const DescentTrace *space = function;
     LocalModel there = descent_evaluate(space->simulation, PROJECTION_NONE,
@@ -192,16 +192,17 @@ static double energy_difference(const void *function, double alpha)
     return there.value - space->value;
 }
 
-/* Makes the trace of a descent's last update, or before the first update of
- * that one.  The residual is that of the present iterate. */
-static const Trace *trace_descent(const Simulation *simulation,
-                                  DescentTrace *space)
+/* Makes the trace of a descent's last update.  If this update had no step, or
+ * if there is no update, makes the trace of the next one, from the present
+ * iterate. */
+static const Trace *make_descent_trace(const Simulation *simulation,
+                                       DescentTrace *space)
 {
     const Descent *descent = &simulation->descent;
     int last = descent->count - 1;
     const NewtonRecord *record = &descent->record[last < 0 ? 0 : last];
     bool made = last >= 0 && record->alpha > 0;
-    bool given_up = last >= 0 && !made; /* no step was taken along this p */
+    bool given_up = last >= 0 && !made; /* the line search refused all trials */
     *space = (DescentTrace){.simulation = simulation};
     for (int k = 0; k < (descent->scalar ? 1 : 2); k++) {
         space->from[k] = made ? record->from[k] : descent->point[k];
@@ -225,7 +226,7 @@ static const Trace *trace_descent(const Simulation *simulation,
                  : made ? record->slope
                         : descent->slope,
         .projected = taken ? record->projected : -1,
-        .difference = aims ? energy_difference : NULL,
+        .difference = aims ? compute_energy_change : NULL,
         .difference_data = space,
         .trials = taken ? record->trials : 0,
         .accepted = taken,
@@ -248,12 +249,12 @@ void frame_fill_values(FrameContent *content)
         Line line = now->trace ? now->trace->line : LINE_NONE;
         now->shown_trace = now->trace;
         if (!now->trace && simulation->scene->step == step_descent)
-            now->shown_trace = trace_descent(simulation, &now->descent);
+            now->shown_trace = make_descent_trace(simulation, &now->descent);
         values->count = values->run = 0;
         for (int run = 0; run <= VALUES_RUNS; run++)
             values->colour[run] = COLOUR_TEXT;
         add_window_values(content, values);
-        add_settings(simulation, values);
+        add_setting_values(simulation, values);
         if ((!line || now->trace->given_up) && now->failure &&
             now->failure != STATUS_INTERRUPTED) {
             values_add_words(values, status_name(now->failure), "");
@@ -262,7 +263,7 @@ void frame_fill_values(FrameContent *content)
         values_add_flag(values, lines[line], walks && line);
         values_add_flag(values, "no step", !now->shown_trace);
         if (now->shown_trace)
-            add_trace(simulation, now->shown_trace, values);
+            add_trace_values(simulation, now->shown_trace, values);
         if (picture->add_values && (i == content->active || picture->legend))
             picture->add_values(simulation, values);
     }
@@ -270,7 +271,7 @@ void frame_fill_values(FrameContent *content)
 
 /* ---- texts --------------------------------------------------------------- */
 
-/* Finds the value of a run by its name, which ends at a colon or brace. */
+/* Finds the value of a run by its name, which a colon or a brace ends. */
 static const LiveValue *find_value(const LiveValues *values, int run,
                                    const char *name)
 {
@@ -297,7 +298,7 @@ double frame_find_number(FrameContent *content, const char *name)
     return values_find_number(&active_pane(content)->values, name);
 }
 
-/* Writes a value in a format, the characters after the colon of a text. */
+/* Writes a value.  The format is the characters after the colon of a text. */
 static void format_value(const LiveValue *one, const char *format, char *out,
                          size_t size)
 {
@@ -314,7 +315,7 @@ static void format_value(const LiveValue *one, const char *format, char *out,
     bool apart = *rest == '\'' && (value < 0 || strchr(number[0].text, '^'));
     if (one->words)
         snprintf(out, size, "%s", one->words);
-    else if (one->point)
+    else if (one->is_point)
         snprintf(out, size, "(%s, %s)", number[0].text, number[1].text);
     else
         snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
@@ -329,7 +330,7 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
     size_t used = 0, name = strcspn(text, " *{");
     line->colour = COLOUR_TEXT;
     line->face = FACE_REGULAR;
-    if (*from == '#' && from[name] != '{') { /* "#warning", "#run", "#1" */
+    if (*from == '#' && from[name] != '{') { /* the line has a colour */
         int run = strncmp(from, "#run ", 5) == 0 ? line->run : from[1] - '0';
         line->colour = run >= 0 && run <= VALUES_RUNS
                            ? values->colour[run]
@@ -417,8 +418,8 @@ void card_write_text(const Plot *card, const LiveValues *values,
     Paper *paper = card->paper;
     Box box = card->box;
     double height = 0, size = 1;
-    if (card->content->lecture.page) /* pages are read from afar */
-        size = box.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
+    if (card->content->lecture.page) /* a page is read from a distance */
+        size = box.width > MAIN_CARD_WIDTH * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {
         int width = paper_width(paper, line.face, 1, line.words);
@@ -431,7 +432,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
         box.y += draw_text_line(paper, box, size, &line, true);
 }
 
-int card_flow_words(const Plot *card, int at[2], double size, double gap,
+int card_write_flow(const Plot *card, int at[2], double size, double gap,
                     const TextLine *line)
 {
     Paper *paper = card->paper;
@@ -450,7 +451,8 @@ int card_flow_words(const Plot *card, int at[2], double size, double gap,
 /* ---- the strip -------------------------------------------------------------
  */
 
-/* Fills a string that is still empty with the first known line of a text. */
+/* If the string is empty, fills it with the first line that has known values.
+ */
 static void fill_text(const LiveValues *values, const char *text, char *string,
                       size_t size)
 {

@@ -35,39 +35,41 @@ void values_add_matrix(LiveValues *values, const char *const names[3],
 /* Returns the number with this name; NaN: unknown. */
 double values_find_number(const LiveValues *values, const char *name);
 
-/* A line of a text with its values, and the position in the text. */
+/* A line of a text after its values are filled in, and the position in the
+ * text. */
 typedef struct TextLine {
     Colour colour;
     Face face;
     char words[VALUES_TEXT];
     const LiveValues *values;
-    const char *rest; /* lines of the text after this one */
-    const char *each; /* lines that are repeated for each run, or NULL */
-    int run;          /* run whose values fill these lines */
+    const char *rest; /* the text after this line */
+    const char *each; /* lines to repeat for each run, or NULL */
+    int run;          /* run whose values fill the line */
 } TextLine;
 
-/* Walks over the known lines of a text (NULL: no lines):
+/* Walks over the lines of a text that have known values (NULL: no lines):
  *     for (TextLine line = text_begin(values, text); text_next_line(&line);)
  * After the last line `words` is empty. */
 TextLine text_begin(const LiveValues *values, const char *text);
 bool text_next_line(TextLine *line);
 
-/* Returns the first known line of a text, empty if no line is known. */
+/* Returns the first line that has known values; empty if there is none. */
 TextLine text_first_line(const LiveValues *values, const char *text);
-/* Whether a text has a known line. */
+/* Whether a text has a line with known values. */
 bool text_has_line(const LiveValues *values, const char *text);
 
-/* Writes all known lines of a text into a card, as large as they fit: at most
- * as plain text, 1.2 times that on a page, 1.6 times in its enlarged card. */
+/* Writes all lines with known values into a card, as large as they fit.  The
+ * largest size is that of plain text, on a page 1.2 times, in its main card 1.6
+ * times that size. */
 void card_write_text(const Plot *card, const LiveValues *values,
                      const char *text);
 
-/* Writes a text behind the last one, from the left edge of a card, or on the
- * next line if the width is used up.  Returns the height used so far, pixels.
- *   gap  ems between two texts
- *   at   [2] in/out, pixels from the card's corner to the next text; at first
+/* Writes a line behind the one before, or in a new row if the card is too
+ * narrow.  Returns the height of all rows, pixels.
+ *   gap  ems between two lines
+ *   at   [2] in/out, pixels from the card's corner to the next line; at first
  *        0, 0 */
-int card_flow_words(const Plot *card, int at[2], double size, double gap,
+int card_write_flow(const Plot *card, int at[2], double size, double gap,
                     const TextLine *line);
 
 #endif

@@ -7,33 +7,33 @@
 #include "picture/colour_map.h"
 
 enum {
-    TRAIL = 256,       /* steps that are drawn of a path */
-    MASS_GUESSES = 6,  /* fixed-point iterates of a step */
-    MASS_AHEAD = 50,   /* next steps that are drawn where h is unstable */
-    EIGEN_PIECES = 200 /* pieces of the eigenvalues' path over h */
+    TRAIL = 256,              /* most steps of a drawn path */
+    FIXED_POINT_ITERATES = 6, /* number of fixed-point iterates drawn */
+    STEPS_AHEAD = 50,         /* symplectic steps drawn ahead if h >= 2 */
+    EIGEN_PIECES = 200        /* pieces of the eigenvalues' path over h */
 };
 
 static const double MASS_REACH = 1.9;    /* m, least half side of the view */
 static const double CIRCLE_REACH = 1.75; /* m, least half side of the view */
-static const double CIRCLE_MAX = 4; /* m, distance up to which the view grows */
+static const double CIRCLE_MAX = 4;      /* m, largest radius that is shown */
 static const double TWO_PI = 6.283185307179586;
 static const double EIGEN_REACH = 1.35; /* least half side of the plane */
-static const double EIGEN_MAX = 5;      /* size up to which the view grows */
-/* Room for the numbers, ems. */
+static const double EIGEN_MAX = 5;      /* largest eigenvalue that is shown */
+/* Room for the matrix and its eigenvalues, ems. */
 static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12;
 static const double origin[2] = {0, 0};
 
-/* Returns the colour of a run's method; a single mass with arrows has the
- * colour of x. */
-static Colour mass_colour(const Simulation *simulation, int run)
+/* Returns the colour of a run's method.  In the scene arrows a single mass has
+ * the colour of x. */
+static Colour colour_of_mass(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
                ? COLOUR_X
                : colour_of_name(simulation->run[run].method->name);
 }
 
-/* Draws the paths of the runs in the newest steps.
- *   steps  adds a disc for each step */
+/* Draws the paths of the runs over the newest steps.
+ *   steps  also draws a disc for each step */
 static void draw_trails(const Plot *stage, bool steps)
 {
     const History *history = stage->pane->history;
@@ -41,7 +41,7 @@ static void draw_trails(const Plot *stage, bool steps)
     for (int r = 0; history && history->series && r < runs; r++) {
         const double *x = history->value[runs + 2 * r];
         const double *y = history->value[runs + 2 * r + 1];
-        Colour colour = mass_colour(stage->simulation, r);
+        Colour colour = colour_of_mass(stage->simulation, r);
         int first = history->count > TRAIL ? history->count - TRAIL : 0;
         for (int i = first; i < history->count; i++) {
             const double at[2] = {x[i], y[i]};
@@ -54,13 +54,13 @@ static void draw_trails(const Plot *stage, bool steps)
     }
 }
 
-static double mass_energy(const double *x, const double *v)
+static double compute_energy(const double *x, const double *v)
 {
     return 0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
 }
 
-/* Samples for each run its radius (circle) or its energy, and then its
- * position. */
+/* Samples the radius (scene circle) or the energy of each run, followed by the
+ * positions of all runs. */
 int mass_sample_energies(const Simulation *simulation, Energy *row)
 {
     static const char *const places[] = {"x0", "y0", "x1", "y1", "x2", "y2"};
@@ -69,7 +69,7 @@ int mass_sample_energies(const Simulation *simulation, Energy *row)
     for (int r = 0; r < runs; r++) {
         const double *x = simulation->run[r].x, *v = simulation->run[r].v;
         row[r] = (Energy){simulation->run[r].method->label,
-                          circle ? vector_length(x) : mass_energy(x, v)};
+                          circle ? vector_length(x) : compute_energy(x, v)};
         for (int k = 0; k < 2; k++)
             row[runs + 2 * r + k] = (Energy){places[2 * r + k], x[k]};
     }
@@ -78,8 +78,8 @@ int mass_sample_energies(const Simulation *simulation, Energy *row)
 
 /* ---- the circle ---------------------------------------------------------- */
 
-/* Draws the exact path and its radius, dashed the doubled radius (on a page
- * after the answer), the trails, and a disc for each run. */
+/* Draws the exact path with its radius, the trails, and a disc for each run.
+ * On a page after the answer, a dashed circle has twice the radius. */
 void circle_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -93,10 +93,12 @@ void circle_draw(Plot *stage)
     plot_label(stage, 1, (double[2]){0.5, 0}, COLOUR_FAINT, "1 m");
     draw_trails(stage, false);
     for (int r = 0; r < simulation->runs; r++)
-        plot_disc(stage, simulation->run[r].x, 7, mass_colour(simulation, r));
+        plot_disc(stage, simulation->run[r].x, 7,
+                  colour_of_mass(simulation, r));
 }
 
-/* The view grows with the runs as long as the circle stays visible. */
+/* Finds a view of the runs.  Runs farther away than CIRCLE_MAX do not count, so
+ * that the exact circle stays visible. */
 void circle_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
@@ -104,10 +106,10 @@ void circle_bounds(const Plot *stage, double bounds[4])
     for (int r = 0; r < simulation->runs; r++)
         most =
             fmax(most, fmin(vector_length(simulation->run[r].x), CIRCLE_MAX));
-    bounds_grow(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
+    bounds_make_square(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
 }
 
-/* Picks the mass of a run. */
+/* Picks the mass of a run under the mouse. */
 void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     const Simulation *simulation = stage->simulation;
@@ -117,7 +119,7 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
             pick->index = r;
 }
 
-/* Matrix {xx, xv; -xv, vv} by which a step multiplies (x, v/omega). */
+/* The matrix {xx, xv; -xv, vv} by which a step multiplies (x, v/omega). */
 typedef struct StepMatrix {
     double xx, xv, vv;
     double lambda[2][2]; /* real and imaginary parts of both eigenvalues, real
@@ -144,8 +146,8 @@ static bool find_step_matrix(const IntegratorMethod *method, double t,
     return true;
 }
 
-static void add_matrix(const IntegratorMethod *method, double t,
-                       LiveValues *values)
+static void add_step_matrix(const IntegratorMethod *method, double t,
+                            LiveValues *values)
 {
     StepMatrix step;
     if (!find_step_matrix(method, t, &step))
@@ -180,8 +182,8 @@ static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
         plot_disc(plot, step.lambda[k], 5, colour);
 }
 
-/* Draws the complex plane with the unit circle, in a view that grows with the
- * eigenvalues as long as the circle stays visible. */
+/* Draws the complex plane with the unit circle and the eigenvalues of all runs.
+ */
 static void draw_complex_plane(const Plot *card)
 {
     static const double one[2] = {1, 0}, i[2] = {0, 1};
@@ -194,7 +196,7 @@ static void draw_complex_plane(const Plot *card)
             if (find_step_matrix(simulation->run[r].method, turn, &step))
                 most =
                     fmax(most, fmin(vector_length(step.lambda[k]), EIGEN_MAX));
-    bounds_grow(EIGEN_REACH, 1.1 * most, 1.2, bounds);
+    bounds_make_square(EIGEN_REACH, 1.1 * most, 1.2, bounds);
     Plot plot = *card;
     plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     for (int k = 0; k < 2; k++) {
@@ -209,8 +211,8 @@ static void draw_complex_plane(const Plot *card)
     plot_label(&plot, 1, i, COLOUR_FAINT, "i");
 }
 
-/* Draws the numbers, and the complex plane at their right, or below them in a
- * high card.  In a low card the matrices are left out. */
+/* Draws the matrix and its eigenvalues as numbers, and the complex plane at the
+ * right, in a high card below.  In a low card the matrix is left out. */
 void step_matrix_draw(const Plot *card)
 {
     Plot numbers = *card, plane = *card;
@@ -234,10 +236,10 @@ void step_matrix_draw(const Plot *card)
     canvas_set_clip(&card->paper->canvas, before);
 }
 
-/* Adds the values of each run. */
+/* Adds the values of each run, and of a step's matrix in the scene circle. */
 void circle_add_values(const Simulation *simulation, LiveValues *values)
 {
-    double turn = simulation->run[0].h * TWO_PI; /* angle of a step */
+    double turn = simulation->run[0].h * TWO_PI; /* h omega */
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
     const char *first = simulation->run[0].method->name;
     for (int r = 0; r < simulation->runs; r++) {
@@ -248,7 +250,7 @@ void circle_add_values(const Simulation *simulation, LiveValues *values)
         values_add_words(values, "name", run->method->label);
         values_add(values, "radius", vector_length(run->x));
         if (circle)
-            add_matrix(run->method, turn, values);
+            add_step_matrix(run->method, turn, values);
     }
     values->run = 0;
     if (circle && strcmp(first, "forward-euler") == 0) /* steps */
@@ -286,11 +288,11 @@ void mass_bounds(const Plot *stage, double bounds[4])
             most = fmax(most,
                         fmax(fabs(step.new_x[k]), fabs(step.x[k] + step.v[k])));
     }
-    bounds_grow(MASS_REACH, 1.1 * most, sqrt(2), bounds);
+    bounds_make_square(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
-/* Returns the position after time h of exact motion. */
-static Point exact_position(const MassStep *step, double h)
+/* Returns the exact position after time h. */
+static Point find_exact_position(const MassStep *step, double h)
 {
     const Point x = point_along(origin, cos(h), step->x);
     return point_along(x.at, sin(h), step->v);
@@ -303,15 +305,16 @@ static void draw_step_error(const Plot *stage, const MassStep *step, double h,
     const Point to = point_along(step->x, h, step->v);
     const Point at[2] = {point_along(to.at, 0.5 * h * h, step->a),
                          point_along(to.at, 0.25 * h * h, step->a)};
-    plot_hollow_disc(stage, exact_position(step, h).at, 6, 3.4, COLOUR_GREY);
+    plot_hollow_disc(stage, find_exact_position(step, h).at, 6, 3.4,
+                     COLOUR_GREY);
     plot_ring(stage, to.at, 6, 2, COLOUR_X);
     plot_arrow(stage, to.at, step->a, 0.5 * h * h, 2, COLOUR_WARNING);
     plot_label(stage, 2, at->at, COLOUR_WARNING, "%s", words);
 }
 
-/* On a page, draws the exact end of the step, and the errors of forward Euler,
- * the fixed-point iterates of backward Euler, or the next points of symplectic
- * Euler and the ellipse through them. */
+/* Draws what a page explains: the exact end of the step; for forward Euler its
+ * error; for backward Euler the fixed-point iterates; for symplectic Euler the
+ * ellipse through the steps, or the next steps if h >= 2. */
 static void draw_mass_lesson(Plot *stage)
 {
     MassStep step;
@@ -319,7 +322,7 @@ static void draw_mass_lesson(Plot *stage)
     bool implicit = stage->simulation->run[0].method->implicit;
     if (!mass_find_next_step(stage->simulation, 0, &step))
         return;
-    const Point end = exact_position(&step, h);
+    const Point end = find_exact_position(&step, h);
     plot_hollow_disc(stage, end.at, 6, 3.4, COLOUR_GREY);
     if (step.by_old_v) {
         draw_step_error(stage, &step, 0.5 * h, "with h/2: a quarter");
@@ -328,7 +331,7 @@ static void draw_mass_lesson(Plot *stage)
     plot_label(stage, 1, end.at, COLOUR_FAINT, "exact");
     Point x = point_along(step.x, 0, step.v),
           v = point_along(step.v, 0, step.x);
-    for (int k = 0; k < MASS_GUESSES && implicit; k++) {
+    for (int k = 0; k < FIXED_POINT_ITERATES && implicit; k++) {
         const Point from = x,
                     pulled = point_along(step.v, k > 0 ? -h : 0, from.at);
         x = point_along(step.x, h, pulled.at);
@@ -340,7 +343,7 @@ static void draw_mass_lesson(Plot *stage)
             plot_label(stage, 1, x.at, COLOUR_FAINT, "%d", k + 1);
     }
     bool symplectic = !step.by_old_v && !implicit;
-    for (int k = 0; k < MASS_AHEAD && symplectic && h >= 2; k++) {
+    for (int k = 0; k < STEPS_AHEAD && symplectic && h >= 2; k++) {
         const Point from = x;
         v = point_along(v.at, -h, x.at);
         x = point_along(x.at, h, v.at);
@@ -355,8 +358,8 @@ static void draw_mass_lesson(Plot *stage)
                      COLOUR_ALPHA);
 }
 
-/* Draws the arrows of one step in the order of the method, and the labels of
- * long arrows, the most important first. */
+/* Draws the arrows of one step in the order of the method.  Writes the labels
+ * of long arrows, the most important label first. */
 static void draw_mass_step(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -371,10 +374,10 @@ static void draw_mass_step(Plot *stage)
                 to = vector_between(step.x, step.new_x);
     const Point push = point_along(origin, simulation->run[0].h, a);
     const struct MassArrow {
-        const double *a, *d; /* m, start and vector */
+        const double *a, *d; /* m, start and vector of the arrow */
         double width;
         Colour colour;
-        const char *word;
+        const char *label;
     } arrow[] = {
         {step.x, step.v, 2.6, COLOUR_VELOCITY, "v^{n}"},
         {tip.at, push.at, 2.6, COLOUR_FORCE,
@@ -396,18 +399,18 @@ static void draw_mass_step(Plot *stage)
         for (int k = 0; k < 4; k++)
             at[k] = point_along(now->a, part[k], now->d);
         if (vector_length(now->d) * stage->camera.scale[0] > 2 * stage->em)
-            plot_label(stage, 4, at->at, now->colour, "%s", now->word);
+            plot_label(stage, 4, at->at, now->colour, "%s", now->label);
     }
 }
 
-/* Draws path, trails and the next step of each run.  The arrows of a step are
- * left out before a guess. */
+/* Draws the exact path, the trails and the next step of each run.  While the
+ * page waits for a guess, velocity is the only arrow. */
 void mass_draw(Plot *stage)
 {
     const FrameContent *content = stage->content;
     const Simulation *simulation = stage->simulation;
     const TimeIntegrator *run = simulation->run;
-    double start[2], across[2]; /* semi-axes of the exact path */
+    double start[2], across[2]; /* conjugate half axes of the exact path */
     mass_find_exact(simulation, 0, start);
     mass_find_exact(simulation, 0.25 * TWO_PI, across);
     plot_ellipse(stage, origin, start, across, 4, false, COLOUR_GRID);
@@ -419,15 +422,15 @@ void mass_draw(Plot *stage)
         MassStep step;
         mass_find_next_step(simulation, r, &step);
         plot_arrow(stage, step.x, vector_between(step.x, step.new_x).at, 1, 3,
-                   mass_colour(simulation, r));
-        plot_ring(stage, step.new_x, 8, 2.2, mass_colour(simulation, r));
+                   colour_of_mass(simulation, r));
+        plot_ring(stage, step.new_x, 8, 2.2, colour_of_mass(simulation, r));
     }
     if (simulation->runs == 1 && content->lecture.hides_answer)
         plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
     else if (simulation->runs == 1)
         draw_mass_step(stage);
     for (int r = 0; r < simulation->runs; r++)
-        plot_disc(stage, run[r].x, 8, mass_colour(simulation, r));
+        plot_disc(stage, run[r].x, 8, colour_of_mass(simulation, r));
 }
 
 /* ---- live values -------------------------------------------------------- */
@@ -435,7 +438,7 @@ void mass_draw(Plot *stage)
 /* Returns the invariant of symplectic Euler: |x|^2 + |v|^2 - h x.v. */
 static double symplectic_invariant(const double *x, const double *v, double h)
 {
-    return 2 * mass_energy(x, v) - h * (x[0] * v[0] + x[1] * v[1]);
+    return 2 * compute_energy(x, v) - h * (x[0] * v[0] + x[1] * v[1]);
 }
 
 void mass_add_values(const Simulation *simulation, LiveValues *values)
@@ -446,8 +449,8 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     for (int r = 0; r < simulation->runs; r++) {
         if (!mass_find_next_step(simulation, r, &step))
             continue;
-        double before = mass_energy(step.x, step.v);
-        double after = mass_energy(step.new_x, step.new_v);
+        double before = compute_energy(step.x, step.v);
+        double after = compute_energy(step.new_x, step.new_v);
         values->run = one ? 0 : r + 1;
         values_add(values, "energy", before);
         values_add(values, "later", after);
@@ -472,17 +475,18 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     if (!step.by_old_v && !backward) {
         values_add(values, "h limit", 2);
         values_add_flag(values, "ellipse", h < 2);
-        if (h < 2) { /* for larger h rounding hides the invariant */
+        if (h < 2) { /* if h >= 2, rounding hides the invariant */
             values_add(values, "kept", symplectic_invariant(step.x, step.v, h));
             values_add(values, "kept later",
                        symplectic_invariant(step.new_x, step.new_v, h));
         }
     }
     values_add(values, "miss",
-               point_distance(step.new_x, exact_position(&step, h).at));
+               point_distance(step.new_x, find_exact_position(&step, h).at));
     if (step.by_old_v) {
         const Point half = point_along(step.x, 0.5 * h, step.v);
-        values_add(values, "half miss",
-                   point_distance(half.at, exact_position(&step, 0.5 * h).at));
+        values_add(
+            values, "half miss",
+            point_distance(half.at, find_exact_position(&step, 0.5 * h).at));
     }
 }

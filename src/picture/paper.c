@@ -10,7 +10,8 @@
 
 enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 
-static const double MIN_FIT = 0.6; /* letters shrink at most to this part */
+/* A line that is too wide shrinks to at least this part of its size. */
+static const double MIN_FIT = 0.6;
 
 Status paper_create(int width, int height, Paper *paper)
 {
@@ -92,10 +93,10 @@ int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
     return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
 }
 
-/* Counts the bytes of a text that fit into this width, up to a blank outside of
- * braces or the text's end.  At least one word fits. */
-static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
-                            const char *markup)
+/* Counts the bytes of a text that fit into this width.  The text is cut at a
+ * blank outside of braces; at least one word fits. */
+static size_t count_fitting_bytes(Paper *paper, const TextStyle *style,
+                                  int width, const char *markup)
 {
     char part[PAPER_TEXT];
     size_t fits = 0, length = strlen(markup);
@@ -122,9 +123,9 @@ void paper_shorten(Paper *paper, double size, int width, char *words,
     static const char end[] = " \u2026";
     TextStyle style = paper_style(paper, FACE_REGULAR, size, 0);
     int rest = width - paper_width(paper, FACE_REGULAR, size, end);
-    size_t fits = fitting_bytes(paper, &style, width, words);
+    size_t fits = count_fitting_bytes(paper, &style, width, words);
     if (words[fits])
-        fits = fitting_bytes(paper, &style, rest, words);
+        fits = count_fitting_bytes(paper, &style, rest, words);
     if (words[fits])
         snprintf(words + fits, room - fits, "%s", end);
 }
@@ -136,7 +137,7 @@ int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
     TextStyle style = paper_style(paper, face, size, colour);
     double y = box.y, above = text_extent(paper->text, &style, "").above;
     for (int line = 1; *markup && (line <= lines || lines == 0); line++) {
-        size_t count = fitting_bytes(paper, &style, box.width, markup);
+        size_t count = count_fitting_bytes(paper, &style, box.width, markup);
         if (count == 0)
             break;
         memcpy(part, markup, count);

@@ -8,20 +8,20 @@
 #include "base/mathematics.h"
 
 enum {
-    PLOT_INTERVALS = 4,   /* most intervals between the numbers of y */
-    PLOT_MOST_LINES = 40, /* most ticks of an axis */
-    PLOT_POINTS = 400,    /* points of a graph */
-    PLOT_CORNERS = 120    /* corners of an ellipse */
+    PLOT_INTERVALS = 4,  /* most intervals between the numbers of y */
+    PLOT_MAX_TICKS = 40, /* most ticks of an axis */
+    PLOT_POINTS = 400,   /* points of a graph */
+    PLOT_CORNERS = 120   /* corners of an ellipse */
 };
 
 static const double TURN = 6.283185307179586; /* 2 pi */
 
-static const double TICK_SIZE = 0.82;  /* ems, letters of the axes */
-static const double TICK_ROOM = 5;     /* ems, width for a number of x */
-static const double LINE_ROOM = 1.6;   /* ems, height for a number of y */
-static const double NUMBER_ROOM = 3.1; /* ems, width left of the plot */
-static const double NUMBER_GAP = 0.25; /* ems, between plot and numbers of x */
-static const double HEAD = 0.62;       /* ems, length of arrow heads */
+static const double TICK_SIZE = 0.82;      /* ems, size of the axes' letters */
+static const double X_NUMBER_WIDTH = 5;    /* ems, width of a number of x */
+static const double Y_NUMBER_HEIGHT = 1.6; /* ems, height of a number of y */
+static const double Y_NUMBER_WIDTH = 3.1;  /* ems, width of the numbers of y */
+static const double X_NUMBER_GAP = 0.25;   /* ems, gap above the numbers of x */
+static const double ARROW_HEAD = 0.62;     /* ems, length of arrow heads */
 
 double plot_round_up(double value)
 {
@@ -30,13 +30,13 @@ double plot_round_up(double value)
     return power * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
 }
 
-double plot_round_axis(double value)
+double plot_round_axis_end(double value)
 {
     double step = plot_round_up(value / PLOT_INTERVALS);
     return step * ceil(value / step * (1 - 1e-12));
 }
 
-/* Returns the coordinate of a value on an axis, a logarithm if the axis is
+/* Returns the coordinate of a value on an axis: a logarithm if the axis is
  * logarithmic. */
 static double axis_coordinate(const Axis *axis, double value)
 {
@@ -62,7 +62,7 @@ static void set_camera(Plot *plot, int k, const Axis *axis)
         k ? box->y + box->height + scale * low : box->x - scale * low;
 }
 
-/* Returns the number of a tick; rounding becomes 0. */
+/* Returns the number at a tick; values below rounding become 0. */
 static Number format_tick(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
@@ -70,11 +70,12 @@ static Number format_tick(const Axis *axis, double value)
     return format_number(is_zero ? 0 : value);
 }
 
-/* Finds the ticks of an axis of this length.  Returns the number of ticks.
- *   upright  the axis is that of y */
+/* Finds the ticks of an axis that is `ems` long.  Returns the number of ticks.
+ *   upright  the axis is y */
 static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
 {
-    double room = upright ? fmax(ems / LINE_ROOM, 1) : fmax(ems / TICK_ROOM, 2);
+    double room = upright ? fmax(ems / Y_NUMBER_HEIGHT, 1)
+                          : fmax(ems / X_NUMBER_WIDTH, 2);
     double intervals = fmin(room, (upright ? 1 : 2) * PLOT_INTERVALS);
     double low = axis_coordinate(axis, axis->low),
            high = axis_coordinate(axis, axis->high);
@@ -82,14 +83,14 @@ static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
     int count = 0;
     if (!(high - low > 0) || !isfinite(high - low))
         return 0;
-    if (axis->log) /* powers of ten */
+    if (axis->log) /* whole powers of ten */
         step = ceil((floor(high + 1e-9) - ceil(low - 1e-9)) / intervals);
     if (axis->log || axis->whole)
         step = fmax(step, 1);
     double first =
         axis->log ? ceil(low - 1e-9) / step : ceil(low / step - 1e-9);
     for (double k = first;
-         k * step <= high + 1e-9 * step && count < PLOT_MOST_LINES; k++)
+         k * step <= high + 1e-9 * step && count < PLOT_MAX_TICKS; k++)
         ticks[count++] = axis->log ? pow(10, round(k * step)) : k * step;
     return count;
 }
@@ -106,16 +107,16 @@ static int measure_tick(Paper *paper, const char *words)
     return paper_width(paper, FACE_REGULAR, TICK_SIZE, words);
 }
 
-/* Draws light lines across, a darker one at 0, with the numbers of y, and the
- * numbers of x as far as the label leaves room. */
+/* Draws a light line and a number for each tick of y; the line at 0 is darker.
+ * Draws the numbers of x that the label of x leaves room for. */
 static void draw_axes(const Plot *plot)
 {
     Paper *paper = plot->paper;
     const Box *box = &plot->box;
     const char *x_label = plot->x.label, *y_label = plot->y.label;
-    double em = paper->em, ticks[PLOT_MOST_LINES], at[2];
+    double em = paper->em, ticks[PLOT_MAX_TICKS], at[2];
     double right = box->x + box->width, end = right;
-    double below = box->y + box->height + NUMBER_GAP * em;
+    double below = box->y + box->height + X_NUMBER_GAP * em;
     int count = find_ticks(&plot->y, true, box->height / em, ticks);
     int thin = (int)fmax(1, paper->unit);
     for (int i = 0; i < count; i++) {
@@ -145,14 +146,14 @@ static void draw_axes(const Plot *plot)
     }
 }
 
-/* Returns the box of a plot without the room above and below, ems, and without
- * that of the widest number. */
-static Box box_inside_axes(const Plot *outer, const Axis *y, double above,
-                           double below)
+/* Returns the box inside the axes: without `above` and `below` ems, and without
+ * the width of the numbers of y. */
+static Box find_box_inside_axes(const Plot *outer, const Axis *y, double above,
+                                double below)
 {
     Paper *paper = outer->paper;
     Box box = outer->box;
-    double ticks[PLOT_MOST_LINES], left = paper_pixels(paper, NUMBER_ROOM);
+    double ticks[PLOT_MAX_TICKS], left = paper_pixels(paper, Y_NUMBER_WIDTH);
     int count = find_ticks(y, true, box.height / paper->em, ticks);
     for (int i = 0; i < count; i++)
         left = fmax(left, measure_tick(paper, format_tick(y, ticks[i]).text) +
@@ -171,7 +172,7 @@ Plot plot_create(const Plot *card, Axis x, Axis y)
     Plot plot = *card;
     plot.x = x;
     plot.y = y;
-    plot.box = box_inside_axes(card, &y, 0.5, 1.5);
+    plot.box = find_box_inside_axes(card, &y, 0.5, 1.5);
     set_camera(&plot, 0, &x);
     set_camera(&plot, 1, &y);
     draw_axes(&plot);
@@ -185,17 +186,18 @@ static void axis_set_range(Axis *axis, double low, double high)
     axis->high = axis->log ? pow(10, high) : high;
 }
 
-Plot plot_on_stage(const Plot *stage, Axis x, Axis y)
+Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y)
 {
     Plot plot = *stage;
     double low[2], high[2];
     const Box *box = &plot.box;
     plot.x = x;
     plot.y = y;
-    /* The first pass finds the numbers, whose width the second one needs. */
+    /* The first pass finds the numbers of y, the second one makes room for
+     * them. */
     for (int pass = 0; pass < 2; pass++) {
         if (stage->has_text && pass > 0)
-            plot.box = box_inside_axes(stage, &plot.y, 2.2, 1.7);
+            plot.box = find_box_inside_axes(stage, &plot.y, 2.2, 1.7);
         camera_to_world(&stage->camera, box->x, box->y + box->height, low);
         camera_to_world(&stage->camera, box->x + box->width, box->y, high);
         if (y.high == 0)
@@ -217,20 +219,20 @@ static bool has_axes(const Plot *plot)
     return plot->x.high > plot->x.low;
 }
 
-/* Width of a line in pixels, at least 1. */
-static double line_pixels(const Plot *plot, double width)
+/* Returns the width of a line in pixels, at least 1. */
+static double line_width_pixels(const Plot *plot, double width)
 {
     return fmax(1, width * plot->paper->unit);
 }
 
 /* Draws the visible part of a line between two pixels; NaN draws nothing. */
-static void draw_line(const Plot *plot, const double *a, const double *b,
-                      double width, Colour colour)
+static void draw_clipped_line(const Plot *plot, const double *a,
+                              const double *b, double width, Colour colour)
 {
     double line[4] = {a[0], a[1], b[0], b[1]};
     if (!has_axes(plot) || box_clip_line(&plot->box, 0, line))
         canvas_line(&plot->paper->canvas, line[0], line[1], line[2], line[3],
-                    line_pixels(plot, width), colour);
+                    line_width_pixels(plot, width), colour);
 }
 
 void plot_line(const Plot *plot, const double *a, const double *b, double width,
@@ -239,7 +241,7 @@ void plot_line(const Plot *plot, const double *a, const double *b, double width,
     double p[2], q[2];
     plot_to_pixel(plot, a, p);
     plot_to_pixel(plot, b, q);
-    draw_line(plot, p, q, width, colour);
+    draw_clipped_line(plot, p, q, width, colour);
 }
 
 void plot_dashes(const Plot *plot, const double *a, const double *b,
@@ -250,8 +252,8 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
     Box before = canvas_set_clip(canvas, plot->box);
     plot_to_pixel(plot, a, p);
     plot_to_pixel(plot, b, q);
-    canvas_dashes(canvas, p, q, line_pixels(plot, width), plot->paper->unit,
-                  phase, colour);
+    canvas_dashes(canvas, p, q, line_width_pixels(plot, width),
+                  plot->paper->unit, phase, colour);
     canvas_set_clip(canvas, before);
 }
 
@@ -290,9 +292,9 @@ void plot_quad(const Plot *plot, const double *const corner[4], Colour colour)
     canvas_triangle(&plot->paper->canvas, half, false, colour);
 }
 
-/* Each joint is moved to the middle between two pixels in the longer direction
- * of the line.  Else both lines would cover parts of one pixel, which would
- * look paler. */
+/* Joints are moved to the border between two pixels, in the direction in which
+ * the line is longer.  Elsewhere two pieces would each cover a part of one
+ * pixel, which would look paler. */
 void plot_curve(const Plot *plot, int count, const double *x, const double *y,
                 double width, Colour colour)
 {
@@ -303,12 +305,12 @@ void plot_curve(const Plot *plot, int count, const double *x, const double *y,
         if (isfinite(p[0] + p[1]) && isfinite(q[0] + q[1])) {
             const double d[2] = {q[0] - p[0], q[1] - p[1]};
             if (fabs(d[0]) < 1 && fabs(d[1]) < 1 && i + 1 < count)
-                continue; /* the line waits for a point farther away */
+                continue; /* points nearer than a pixel are skipped */
             int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
             double end = floor(q[k] + 0.5);
             q[1 - k] += (end - q[k]) * d[1 - k] / d[k];
             q[k] = end;
-            draw_line(plot, p, q, width, colour);
+            draw_clipped_line(plot, p, q, width, colour);
         }
         memcpy(p, q, sizeof p);
     }
@@ -359,7 +361,7 @@ void plot_ring(const Plot *plot, const double *at, double radius, double width,
     double p[2], unit = plot->paper->unit;
     if (find_visible_pixel(plot, at, p))
         canvas_ring(&plot->paper->canvas, p[0], p[1], radius * unit,
-                    line_pixels(plot, width), colour);
+                    line_width_pixels(plot, width), colour);
 }
 
 /* Draws a dark square with a light middle. */
@@ -387,7 +389,8 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
     plot_to_pixel(plot, a, p);
     plot_to_pixel(plot, b, q);
     canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
-                 line_pixels(plot, width), HEAD * paper->em, colour);
+                 line_width_pixels(plot, width), ARROW_HEAD * paper->em,
+                 colour);
     canvas_set_clip(&paper->canvas, before);
 }
 
@@ -410,10 +413,11 @@ bool plot_pick_point(const Plot *plot, int count, const double *at,
     return found;
 }
 
-void bounds_grow(double reach, double most, double factor, double bounds[4])
+void bounds_make_square(double least, double needed, double factor,
+                        double bounds[4])
 {
-    while (reach < most && reach < 1e100)
-        reach *= factor;
-    bounds[2] = bounds[3] = reach;
-    bounds[0] = bounds[1] = -reach;
+    while (least < needed && least < 1e100)
+        least *= factor;
+    bounds[2] = bounds[3] = least;
+    bounds[0] = bounds[1] = -least;
 }

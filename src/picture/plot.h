@@ -19,22 +19,22 @@
 typedef struct Axis {
     double low, high;  /* high > low; both > 0 on a logarithmic axis */
     bool log;          /* is logarithmic, with numbers at powers of ten */
-    bool whole;        /* has whole numbers only */
-    const char *label; /* markup at the right end below or, of y, above */
+    bool whole;        /* ticks are at whole numbers only */
+    const char *label; /* markup: x right below the axis, y at the top right */
 } Axis;
 
 typedef struct Plot {
     Paper *paper; /* NULL: the plot only computes positions */
     const FrameContent *content;
-    const Pane *pane;             /* in a card, the active pane */
+    const Pane *pane; /* pane of the stage; in cards the active pane */
     const Simulation *simulation; /* simulation of the pane */
-    bool revealed;                /* is on a page whose answer is shown */
+    bool revealed;                /* a page shows its answer */
     Box box;                      /* pixels, without the numbers of the axes */
-    Camera camera;    /* maps the logarithm where an axis is logarithmic */
-    Axis x, y;        /* low = high = 0: metres without axes */
-    bool has_text;    /* has room for words */
+    Camera camera;                /* maps logarithms on a logarithmic axis */
+    Axis x, y;        /* low = high = 0: no axes, and the unit is metres */
+    bool has_text;    /* words are drawn */
     double em;        /* pixels */
-    int legend_at[2]; /* pixels, position of the legend's next words */
+    int legend_at[2]; /* pixels, place of the legend's next words */
 } Plot;
 
 /* Makes the plot of a box in metres.  paper NULL: the plot only computes
@@ -91,31 +91,34 @@ static inline double vector_length(const double *d)
 /* Rounds value > 0 up to 1, 2 or 5 times a power of ten. */
 double plot_round_up(double value);
 
-/* Rounds value > 0 up to a number that stands at the end of an axis from 0. */
-double plot_round_axis(double value);
+/* Rounds value > 0 up to a multiple of a tick, to end an axis that begins at 0.
+ */
+double plot_round_axis_end(double value);
 
-/* Draws axes in a card: numbers on the left and below, light lines across. */
+/* Makes the plot inside a card, and draws its axes with their numbers. */
 Plot plot_create(const Plot *card, Axis x, Axis y);
 
-/* Adds axes to a stage, drawn if the stage has room for words.  Each axis
- * covers the range that the camera sees; y keeps its own range if y.high is not
- * 0. */
-Plot plot_on_stage(const Plot *stage, Axis x, Axis y);
+/* Makes the plot inside a stage.  Draws its axes if the stage has text.  Each
+ * axis covers the range that the camera sees; y keeps its own range if y.high
+ * is not 0. */
+Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y);
 
-/* Maps a point to pixels, not finite ones if the point has no logarithm. */
+/* Maps a point to pixels; the pixels are not finite if the point has no
+ * logarithm. */
 void plot_to_pixel(const Plot *plot, const double *at, double pixel[2]);
 
-/* Picks the point nearest to pixel (x, y), the last one of equal distances.
- * Returns false if no point lies within `reach` pixels.
+/* Picks the point nearest to pixel (x, y), the last one if several are equally
+ * near.  Returns false if no point lies within `reach` pixels.
  *   at  [count][2] in, points */
 bool plot_pick_point(const Plot *plot, int count, const double *at,
                      double reach, double x, double y, PickKind kind,
                      Pick *pick);
 
-/* Finds bounds of a square view around the origin.  Half a side is `reach`
- * metres times the smallest power of `factor` that makes it at least `most`: a
- * view that grows by steps seldom moves. */
-void bounds_grow(double reach, double most, double factor, double bounds[4]);
+/* Finds bounds of a square view around the origin: half a side is `least`
+ * metres times the smallest power of `factor` that reaches `needed`. A view
+ * that grows by steps seldom moves. */
+void bounds_make_square(double least, double needed, double factor,
+                        double bounds[4]);
 
 /* ---- shapes; the phase of dashes is that of canvas_dashes -----------------
  */
@@ -139,7 +142,7 @@ void plot_quad(const Plot *plot, const double *const corner[4], Colour colour);
 /* Draws a polyline through points x, y [count]. */
 void plot_curve(const Plot *plot, int count, const double *x, const double *y,
                 double width, Colour colour);
-/* Draws the function y over the whole axis of x. */
+/* Draws the graph of the function y over the whole axis of x. */
 void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
                 const void *data, double width, Colour colour);
 
@@ -165,7 +168,8 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
  * upper left corner to the right and goes on in a second line. */
 void plot_legend(Plot *plot, Colour colour, const char *format, ...);
 
-/* Draws a scale of 1, 2 or 5 times a power of ten metres, lower left. */
+/* Draws a scale bar in the lower left corner: 1, 2 or 5 times a power of ten
+ * metres. */
 void plot_scale(const Plot *plot);
 
 /* Returns the cost of a place for a label, which is high if the box covers

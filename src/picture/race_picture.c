@@ -7,33 +7,34 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-enum { HALVED = 4 }; /* columns of the table for halved time steps */
-static const double NAMES_WIDTH = 45;    /* ems, width of a plot with names */
-static const double TARGET_ERROR = 0.01; /* m, error of the runs compared */
+enum { HALVED = 4 }; /* number of the table's columns for halved time steps */
+static const double NAMES_WIDTH = 45;    /* ems; a narrower plot has no names */
+static const double TARGET_ERROR = 0.01; /* m, limit for the fastest runs */
 static const double REFERENCE_ERROR = 1e-8; /* m, error of the reference */
 
-/* Returns bounds in powers of ten. */
+/* Returns bounds in powers of ten: h or run time, and error. */
 void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.switches;
     bounds[0] = over_h ? -4.8 : -7.6;
     bounds[1] = over_h ? -9 : -10;
     bounds[2] = over_h ? -1.9 : 0.3;
-    bounds[3] = over_h ? 2.5 : 3; /* leaves room for the switch */
+    bounds[3] = over_h ? 2.5 : 3; /* room for the switch above */
 }
 
 /* Writes the names of methods into a column beside their points, with a line to
  * each point.
- *   over_h   the plot is over h, with all names in the left column
- *   on_left  the left column, of explicit methods; else the right column, of
- *            implicit methods */
-static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
-                        bool over_h, bool on_left)
+ *   over_h   the plot is over h, and the left column has all names
+ *   on_left  writes the left column, of explicit methods; else the right
+ *            column, of implicit methods */
+static void write_method_names(const Plot *plot,
+                               const double point[RACE_METHODS][2], bool over_h,
+                               bool on_left)
 {
     Paper *paper = plot->paper;
     double at[RACE_METHODS][2], column = NAN, way = on_left ? -1 : 1;
     double line = 1.25 * paper->em, end = plot->box.x + plot->box.width;
-    double row = plot->box.y + line; /* below the legend */
+    double row = plot->box.y + line; /* the first row is below the legend */
     double last = plot->box.y + plot->box.height - line;
     for (int i = 0; i < RACE_METHODS; i++) {
         plot_to_pixel(plot, point[i], at[i]);
@@ -65,16 +66,16 @@ static void name_points(const Plot *plot, const double point[RACE_METHODS][2],
     }
 }
 
-/* Draws the joined points of each method, hollow if the method explodes later;
- * over h also the slopes of order 1 and 2. */
+/* Draws a curve through the points of each method; points of runs that explode
+ * later are hollow.  Over h also draws the slopes of order 1 and 2. */
 void race_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Race *race = &simulation->exhibit.race;
-    double named[RACE_METHODS][2]; /* point with the name; NaN: none */
+    double named[RACE_METHODS][2]; /* point beside the name; NaN: none */
     bool over_h = simulation->exhibit.switches;
     bool wide = stage->has_text && stage->box.width > NAMES_WIDTH * stage->em;
-    Plot plot = plot_on_stage(
+    Plot plot = plot_create_on_stage(
         stage,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true});
@@ -107,10 +108,10 @@ void race_draw(Plot *stage)
         plot_label(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
     for (int on_left = 0; on_left < 2 && wide; on_left++)
-        name_points(&plot, named, over_h, on_left);
+        write_method_names(&plot, named, over_h, on_left);
 }
 
-/* Adds the fastest stable runs with the target error: an explicit one and an
+/* Adds the fastest stable runs within the target error: an explicit one and an
  * implicit one. */
 void race_add_values(const Simulation *simulation, LiveValues *values)
 {
@@ -146,8 +147,8 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
 }
 
 /* Writes a finite number into a cell of the table. */
-static void put_cell(char cell[CARD_CELL], const char *sign, double value,
-                     int digits, const char *unit)
+static void format_cell(char cell[CARD_CELL], const char *sign, double value,
+                        int digits, const char *unit)
 {
     if (isfinite(value))
         snprintf(cell, CARD_CELL, "%s%.40s%s", sign,
@@ -177,10 +178,10 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     cells->colour = colour_of_name(shown->name);
     snprintf(cell[0], CARD_CELL, "%s", shown->label);
     if (race->count > point - race->point) {
-        put_cell(cell[1], "", point->error, 2, "");
+        format_cell(cell[1], "", point->error, 2, "");
         snprintf(cell[6], CARD_CELL, "explodes");
-        put_cell(cell[6], "\u00d7 ", point->energy_after_second, 2, "");
-        put_cell(cell[8], "", 1e3 * point->seconds, 2, " ms");
+        format_cell(cell[6], "\u00d7 ", point->energy_after_second, 2, "");
+        format_cell(cell[8], "", 1e3 * point->seconds, 2, " ms");
     }
     for (int k = 1; k <= HALVED; k++) {
         const RacePoint *half = point + RACE_METHODS;
@@ -188,23 +189,23 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
             break;
         snprintf(cell[1 + k], CARD_CELL,
                  half->error < REFERENCE_ERROR ? "\u03b5" : "\u2013");
-        put_cell(cell[1 + k], "\u00f7 ",
-                 half->error < REFERENCE_ERROR ? NAN
-                                               : point->error / half->error,
-                 2, "");
+        format_cell(cell[1 + k], "\u00f7 ",
+                    half->error < REFERENCE_ERROR ? NAN
+                                                  : point->error / half->error,
+                    2, "");
         point = half;
     }
-    if (shown->implicit) /* not tried by the race */
+    if (shown->implicit) /* the race finds no limits of implicit methods */
         snprintf(cell[7], CARD_CELL, shown->damps ? "(any h)" : "(if linear)");
     else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
         snprintf(cell[7], CARD_CELL, "none");
-    put_cell(cell[7], "",
-             shown->implicit ? NAN : 1e3 * race_find_stable_h(race, method), 3,
-             " ms");
+    format_cell(cell[7], "",
+                shown->implicit ? NAN : 1e3 * race_find_stable_h(race, method),
+                3, " ms");
     return true;
 }
 
-/* Draws the most important columns that have room. */
+/* Draws the columns that have room, chosen by importance. */
 void race_table_draw(const Plot *card)
 {
     static const char *const widest[CARD_COLUMNS] = {

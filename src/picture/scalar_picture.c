@@ -10,7 +10,7 @@
 
 enum { ROOT_UPDATES = 60, ITERATE_TEXT = 48 };
 
-static const double TANGENT_REACH = 3;    /* m, least half range of x */
+static const double TANGENT_REACH = 3;    /* m, least half width of the view */
 static const double ITERATES_WIDE = 11.5; /* ems */
 
 /* An update with its model q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2, whose
@@ -19,18 +19,20 @@ typedef struct ScalarUpdate {
     const Simulation *simulation;
     double x0, x1, f, slope, curvature;
     double alpha; /* step length; 0: unknown, or all lengths were refused */
-    int refused_lengths; /* number of lengths 1, 1/2, ... that were refused */
-    int number;   /* number of the iterate x0 */
+    int refused_lengths; /* number of refused trials alpha = 1, 1/2, ... */
+    int iterate;         /* index of the iterate x0 */
     bool is_made;
-    bool slopes; /* curve_at and model_at return f' and its tangent */
+    bool shows_derivative; /* draws f' with its tangent instead of f with the
+                              model */
 } ScalarUpdate;
 
-static LocalModel scalar_at(const Simulation *simulation, double x)
+static LocalModel evaluate_scalar(const Simulation *simulation, double x)
 {
     return descent_evaluate(simulation, PROJECTION_NONE, x, 0);
 }
 
-/* Returns update 0, 1, ...; -1: the next update of the present iterate. */
+/* Returns update i = 0, 1, ...; -1: the next update, which starts from the
+ * present iterate. */
 static ScalarUpdate find_update(const Simulation *simulation, int i)
 {
     const Descent *descent = &simulation->descent;
@@ -42,10 +44,10 @@ static ScalarUpdate find_update(const Simulation *simulation, int i)
         update.x0 = record->from[0];
         update.alpha = record->alpha;
         update.refused_lengths = record->trials - (record->alpha > 0);
-        update.number = i;
+        update.iterate = i;
         update.is_made = true;
     }
-    LocalModel at = scalar_at(simulation, update.x0);
+    LocalModel at = evaluate_scalar(simulation, update.x0);
     update.f = at.value;
     update.slope = at.g[0];
     update.curvature = at.H[0];
@@ -53,21 +55,22 @@ static ScalarUpdate find_update(const Simulation *simulation, int i)
     return update;
 }
 
-/* Returns the function at x, for plot_graph. */
-static double curve_at(const void *data, double x)
+/* Returns f (or f') at x, for plot_graph. */
+static double function_at(const void *data, double x)
 {
     const ScalarUpdate *update = data;
-    LocalModel at = scalar_at(update->simulation, x);
-    return update->slopes ? at.g[0] : at.value;
+    LocalModel at = evaluate_scalar(update->simulation, x);
+    return update->shows_derivative ? at.g[0] : at.value;
 }
 
-/* Returns the model at x, for plot_graph. */
+/* Returns the model (or the tangent) at x, for plot_graph. */
 static double model_at(const void *data, double x)
 {
     const ScalarUpdate *update = data;
     double d = x - update->x0, bend = d * update->curvature;
-    return update->slopes ? update->slope + bend
-                          : update->f + d * (update->slope + 0.5 * bend);
+    return update->shows_derivative
+               ? update->slope + bend
+               : update->f + d * (update->slope + 0.5 * bend);
 }
 
 /* Returns iterate i of 0 ... count; the last one is the present point. */
@@ -85,39 +88,39 @@ static void draw_scalar_model(const Plot *plot, const ScalarUpdate *update,
                               double width, double radius, Colour colour)
 {
     const double low[2] = {update->x1, model_at(update, update->x1)};
-    const double high[2] = {update->x1, curve_at(update, update->x1)};
+    const double high[2] = {update->x1, function_at(update, update->x1)};
     plot_graph(plot, model_at, update, width, colour);
     plot_line(plot, low, high, 1.2, colour);
     plot_hollow_disc(plot, low, radius, 0.6 * radius, COLOUR_P);
 }
 
 /* Draws the function (or its derivative), the model, a ring for each refused
- * length, and a disc for each iterate, the last one black, with its number if
- * there is room. */
-static void draw_search(const Plot *plot, const ScalarUpdate *update,
-                        bool model)
+ * trial, and a disc for each iterate, with its number if there is room.  The
+ * disc of the last iterate is black. */
+static void draw_iteration(const Plot *plot, const ScalarUpdate *update,
+                           bool model)
 {
     const Descent *descent = &update->simulation->descent;
     double x1 = update->x1, used[2] = {-1e9, -1e9}, alpha = 1, p[2];
     bool right = x1 > plot->x.high, left = x1 < plot->x.low;
-    plot_graph(plot, curve_at, update, 2.4, COLOUR_X);
+    plot_graph(plot, function_at, update, 2.4, COLOUR_X);
     if (model)
         draw_scalar_model(plot, update, 1.6, 6, COLOUR_P);
     const double edge[2] = {right ? plot->x.high : plot->x.low,
                             0.2 * plot->y.low};
-    if (model && !update->slopes && isfinite(x1) && (left || right))
+    if (model && !update->shows_derivative && isfinite(x1) && (left || right))
         plot_label(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
                    right ? "" : "\u2190 ", format_number(x1).text,
                    right ? " \u2192" : "");
     for (int i = 0; i < update->refused_lengths; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (x1 - update->x0);
-        plot_hollow_disc(plot, (double[2]){x, curve_at(update, x)}, 5, 3.2,
+        plot_hollow_disc(plot, (double[2]){x, function_at(update, x)}, 5, 3.2,
                          COLOUR_WARNING);
     }
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
         double x = iterate_at(descent, i);
-        const double at[2] = {x, curve_at(update, x)};
+        const double at[2] = {x, function_at(update, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         bool seen = plot_disc(plot, at, last ? 7 : 5.5, colour);
         plot_to_pixel(plot, at, p);
@@ -129,20 +132,20 @@ static void draw_search(const Plot *plot, const ScalarUpdate *update,
     }
 }
 
-/* Draws f with the iterates over the pale models of earlier full updates. */
-void curve_draw(Plot *stage)
+/* Draws f with the iterates.  The models of earlier full updates are pale. */
+void scalar_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
     ScalarUpdate update =
         find_update(simulation, simulation->descent.count - 1);
-    Plot plot = plot_on_stage(stage, (Axis){.label = "x"}, (Axis){0});
+    Plot plot = plot_create_on_stage(stage, (Axis){.label = "x"}, (Axis){0});
     for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
         ScalarUpdate earlier = find_update(simulation, i);
         draw_scalar_model(&plot, &earlier, 1.4, 4, pale);
     }
-    draw_search(&plot, &update, !stage->content->lecture.hides_answer);
+    draw_iteration(&plot, &update, !stage->content->lecture.hides_answer);
 }
 
 /* Returns the step length that backtracking finds from the present iterate. */
@@ -151,7 +154,7 @@ static double find_first_length(const Simulation *simulation)
     ScalarUpdate from = find_update(simulation, -1);
     double alpha = 1, p = from.x1 - from.x0;
     while (alpha > DBL_EPSILON &&
-           scalar_at(simulation, from.x0 + alpha * p).value > from.f)
+           evaluate_scalar(simulation, from.x0 + alpha * p).value > from.f)
         alpha /= 2;
     return alpha;
 }
@@ -165,8 +168,8 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
     bool tangent = simulation->scene->picture == PICTURE_TANGENT;
     values_add_flag(values, "tangent", tangent);
-    values_add(values, "number", update.number);
-    values_add(values, "next number", update.number + 1);
+    values_add(values, "number", update.iterate);
+    values_add(values, "next number", update.iterate + 1);
     values_add_flag(values, "refused lengths", update.refused_lengths > 0);
     values_add(values, "iterate", x);
     values_add(values, "next", next);
@@ -188,27 +191,29 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
 void tangent_bounds(const Plot *stage, double bounds[4])
 {
     double x = stage->simulation->descent.point[0];
-    bounds_grow(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
+    bounds_make_square(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
 }
 
-/* Makes the plot of g in the upper half (0) or of E in the lower half (1), high
- * enough for all iterates, with a line at 0. */
+/* Makes the plot of g in the upper half (0) or of E in the lower half (1), with
+ * a line at 0. All iterates are inside the plot. */
 static Plot create_tangent_plot(const Plot *stage, int half)
 {
     const Descent *descent = &stage->simulation->descent;
     double high = half ? 2 : 4;
     for (int i = 0; i <= descent->count; i++) {
-        LocalModel at = scalar_at(stage->simulation, iterate_at(descent, i));
+        LocalModel at =
+            evaluate_scalar(stage->simulation, iterate_at(descent, i));
         high = fmax(high, half ? at.value : fabs(at.g[0]));
     }
-    high = plot_round_axis(fmin(high, 1e12));
+    high = plot_round_axis_end(fmin(high, 1e12));
     Plot part = *stage;
     part.box.height /= 2;
     part.box.y += half * part.box.height;
-    Plot plot = plot_on_stage(&part, (Axis){.label = half ? "x in m" : NULL},
-                              (Axis){.low = half ? -0.25 * high : -high,
-                                     .high = high,
-                                     .label = half ? "J s\u00b2" : "kg m"});
+    Plot plot =
+        plot_create_on_stage(&part, (Axis){.label = half ? "x in m" : NULL},
+                             (Axis){.low = half ? -0.25 * high : -high,
+                                    .high = high,
+                                    .label = half ? "J s\u00b2" : "kg m"});
     plot_line(&plot, (double[2]){plot.x.low, 0}, (double[2]){plot.x.high, 0}, 1,
               COLOUR_GREY);
     return plot;
@@ -224,8 +229,8 @@ void tangent_draw(Plot *stage)
                           create_tangent_plot(stage, 1)};
     bool asked = stage->content->lecture.hides_answer;
     for (int half = 0; half < 2; half++) {
-        update.slopes = half == 0;
-        draw_search(&plot[half], &update, update.is_made || !asked);
+        update.shows_derivative = half == 0;
+        draw_iteration(&plot[half], &update, update.is_made || !asked);
     }
     if (!stage->has_text)
         return;
@@ -248,14 +253,14 @@ static double find_root(const Simulation *simulation)
     double x = simulation->descent.point[0], p = INFINITY;
     for (int i = 0; i < ROOT_UPDATES && fabs(p) > 1e-14 * fmax(1, fabs(x));
          i++) {
-        LocalModel at = scalar_at(simulation, x);
+        LocalModel at = evaluate_scalar(simulation, x);
         p = -at.g[0] / at.H[0];
         x += p;
     }
     return fabs(p) <= 1e-14 * fmax(1, fabs(x)) ? x : NAN;
 }
 
-/* Writes all digits of a double. */
+/* Writes a double with 12 decimals, or 10 digits if large. */
 static void write_digits(double x, char text[ITERATE_TEXT])
 {
     bool plain = fabs(x) < 1e4;
@@ -263,8 +268,8 @@ static void write_digits(double x, char text[ITERATE_TEXT])
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
-/* Fills a row for each iterate; the digits that differ from those of the zero
- * of g are grey. */
+/* Fills a row for each iterate.  Digits that differ from those of the zero of g
+ * are grey. */
 bool iterates_fill_row(const FrameContent *content, int row,
                        CardTableRow *cells)
 {
@@ -285,7 +290,7 @@ bool iterates_fill_row(const FrameContent *content, int row,
     return true;
 }
 
-/* Writes the newest iterates that fit, the correct digits on a light ground. */
+/* Writes the newest iterates that fit.  Correct digits have a light ground. */
 static void draw_iterates(const Plot *card)
 {
     const double size = 0.95, pitch = 1.38; /* ems */
@@ -312,7 +317,7 @@ static void draw_iterates(const Plot *card)
     }
 }
 
-/* Writes the numbers of the update, and at the right all iterates. */
+/* Writes the numbers of the shown update, and all iterates at the right. */
 void tangent_numbers_draw(const Plot *card)
 {
     Plot left = *card, right = *card;

@@ -10,31 +10,31 @@
 enum { SPRING_COILS = 12 };
 
 static const double SPRING_REACH = 1.7;   /* m, least half side of the view */
-static const double SPRING_ARROW = 0.005; /* m/N, scale of the force */
-static const double SPRING_GAP = 0.13;    /* m, gap between spring and force */
+static const double SPRING_ARROW = 0.005; /* m/N, scale of the force's arrow */
+static const double SPRING_GAP = 0.13;    /* m, gap from spring to arrow */
 static const double origin[2] = {0, 0};
 
 void spring_bounds(const Plot *stage, double bounds[4])
 {
     const double *x = stage->simulation->run[0].x;
-    bounds_grow(SPRING_REACH, 1.1 * vector_length(x), sqrt(2), bounds);
+    bounds_make_square(SPRING_REACH, 1.1 * vector_length(x), sqrt(2), bounds);
 }
 
-static SpringValues spring_at(const double d[2], const System *system)
+static SpringValues evaluate_spring(const double d[2], const System *system)
 {
     return spring_evaluate(d, system->l2[0], system->k[0]);
 }
 
-/* Returns the energy at a signed length d, for plot_graph. */
+/* Returns the spring's energy at a signed length d, for plot_graph. */
 static double energy_at_length(const void *system, double d)
 {
-    return spring_at((double[2]){d, 0}, system).energy;
+    return evaluate_spring((double[2]){d, 0}, system).energy;
 }
 
-/* Returns the energy with the root at a signed length d, for plot_graph. */
+/* Returns the energy with a root at a signed length d, for plot_graph. */
 static double root_energy_at_length(const void *system, double d)
 {
-    return spring_at((double[2]){d, 0}, system).root_energy;
+    return evaluate_spring((double[2]){d, 0}, system).root_energy;
 }
 
 /* Draws a dashed circle of this radius around the held end. */
@@ -63,16 +63,16 @@ static void draw_coil(Plot *stage, const double *x, Colour colour)
     }
 }
 
-/* Draws the spring (in another colour if projection changes its block) and its
- * force; on a page about modes instead the eigenvectors (q, -q) of the block,
- * longer for larger eigenvalues, red for negative ones. */
+/* Draws the spring and its force.  The spring has another colour if projection
+ * changes its block.  A page about modes has no force, but the eigenvectors (q,
+ * -q) of the block: longer for larger eigenvalues, red for negative ones. */
 void spring_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const FrameContent *content = stage->content;
     const double *x = simulation->run[0].x;
     double l = sqrt(simulation->system.l2[0]);
-    SpringValues spring = spring_at(x, &simulation->system);
+    SpringValues spring = evaluate_spring(x, &simulation->system);
     bool shows_answer = !content->lecture.hides_answer;
     bool projects = spring.across < 0 && shows_answer;
     bool modes = simulation->options.layers & LAYER_MODES;
@@ -101,8 +101,10 @@ void spring_draw(Plot *stage)
 
 /* ---- cards -------------------------------------------------------------- */
 
-/* Adds force and Hessian by central differences of energy and force. */
-static void add_differences(const Simulation *simulation, LiveValues *values)
+/* Adds the force by central differences of the energy, and the Hessian by
+ * central differences of the force. */
+static void add_central_differences(const Simulation *simulation,
+                                    LiveValues *values)
 {
     static const double step = 1e-4; /* m */
     static const char *const names[] = {"Dxx", "Dxy", "Dyy"};
@@ -112,8 +114,8 @@ static void add_differences(const Simulation *simulation, LiveValues *values)
     double force[2];
     for (int i = 0; i < 2; i++) {
         const SpringValues at[2] = {
-            spring_at(point_along(d, -step, unit[i]).at, system),
-            spring_at(point_along(d, step, unit[i]).at, system)};
+            evaluate_spring(point_along(d, -step, unit[i]).at, system),
+            evaluate_spring(point_along(d, step, unit[i]).at, system)};
         force[i] = (at[0].energy - at[1].energy) / (2 * step);
         for (int k = 0; k <= i; k++)
             values_add(values, names[i + k],
@@ -129,7 +131,7 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     const System *system = &simulation->system;
     const double *d = simulation->run[0].x, k = system->k[0];
     double l2 = system->l2[0], H[3];
-    SpringValues now = spring_at(d, system);
+    SpringValues now = evaluate_spring(d, system);
     /* Eigenvalues of the block. */
     double along = 2 * now.along, across = 2 * now.across;
     bool page = simulation->options.page;
@@ -155,12 +157,12 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "negative", fmin(fmin(along, across), 0));
     values_add(values, "qx", d[0] / (sqrt(2) * now.length));
     values_add(values, "qy", d[1] / (sqrt(2) * now.length));
-    for (int i = 0; i < 2; i++) { /* before and after projection */
+    for (int i = 0; i < 2; i++) { /* the Hessian before and after projection */
         spring_hessian(d, l2, k, i == 0 ? PROJECTION_NONE : projection, H);
         values_add_matrix(values, names[i], H, 1e-12 * k);
     }
     if (page)
-        add_differences(simulation, values);
+        add_central_differences(simulation, values);
     values_add_flag(values, "root", both);
     values_add_flag(values, page ? "lecture" : "alone", true);
     values_add_flag(values, "pulled",
@@ -175,7 +177,7 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
 void spring_profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
-    SpringValues now = spring_at(card->simulation->run[0].x, system);
+    SpringValues now = evaluate_spring(card->simulation->run[0].x, system);
     bool both = card->simulation->exhibit.switches;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_energy_at_length : energy_at_length)(system, 0);

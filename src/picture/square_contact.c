@@ -7,9 +7,9 @@
 #include "picture/colour_map.h"
 #include "picture/square_pen.h"
 
-static const double SLAB = 1;        /* ems, depth of a slab */
-static const double FORCE_ARROW = 4; /* ems, arrow of the force in the legend */
-static const double MIN_FORCE = 0.02; /* drawn part of the largest force */
+static const double SLAB = 1;         /* ems, thickness of a thin wall */
+static const double FORCE_ARROW = 4;  /* ems, arrow of the legend's force */
+static const double MIN_FORCE = 0.02; /* smallest drawn over largest force */
 
 typedef struct ContactForce {
     int node;
@@ -18,17 +18,17 @@ typedef struct ContactForce {
     bool slides; /* slips faster than eps_v */
 } ContactForce;
 
-/* Iterates over the contacts of a run. */
-static ElementIterator square_contacts(const SquarePen *pen)
+/* Begins a loop over the contacts of a run. */
+static ElementIterator begin_contacts(const SquarePen *pen)
 {
     return pen->contact ? elements_begin(&pen->contact_at, NULL, 0)
                         : (ElementIterator){0};
 }
 
-/* Computes the force of a contact from positions and velocities alone, so that
- * a step of the past is drawn as when it was new. */
-static ContactForce square_contact_force(const SquarePen *pen,
-                                         const Element *element)
+/* Computes the force of a contact from positions and velocities alone, which
+ * the past keeps of each step. */
+static ContactForce compute_contact_force(const SquarePen *pen,
+                                          const Element *element)
 {
     const Term *term = system_find_term(pen->system, &friction_energy);
     const double *n = element->n, h = pen->simulation->options.timestep;
@@ -50,14 +50,14 @@ static ContactForce square_contact_force(const SquarePen *pen,
     return contact;
 }
 
-void square_contact_forces(const SquarePen *pen, int runs)
+void square_draw_forces(const SquarePen *pen, int runs)
 {
     Plot *stage = pen->stage;
     double most = 0; /* N, the largest force */
     for (int r = 0; r < runs; r++)
-        for (ElementIterator at = square_contacts(&pen[r]);
+        for (ElementIterator at = begin_contacts(&pen[r]);
              elements_next(&at);) {
-            ContactForce contact = square_contact_force(&pen[r], &at.element);
+            ContactForce contact = compute_contact_force(&pen[r], &at.element);
             most = fmax(most, vector_length(contact.force));
         }
     if (most == 0 || !isfinite(most))
@@ -65,9 +65,9 @@ void square_contact_forces(const SquarePen *pen, int runs)
     double round = plot_round_up(most);
     double factor = FORCE_ARROW * stage->em / stage->camera.scale[0] / round;
     for (int r = runs - 1; r >= 0; r--)
-        for (ElementIterator at = square_contacts(&pen[r]);
+        for (ElementIterator at = begin_contacts(&pen[r]);
              elements_next(&at);) {
-            ContactForce contact = square_contact_force(&pen[r], &at.element);
+            ContactForce contact = compute_contact_force(&pen[r], &at.element);
             const double *x = pen[r].x + 2 * contact.node, *f = contact.force;
             double radius = fmax(pen[r].radius, 2);
             if (vector_length(f) > MIN_FORCE * most)
@@ -84,7 +84,7 @@ void square_contact_forces(const SquarePen *pen, int runs)
         plot_legend(stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 
-void square_contact_slope(const SquarePen *pen)
+void square_write_friction(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
@@ -97,13 +97,13 @@ void square_contact_slope(const SquarePen *pen)
     double left = from[0];
     for (int i = 0; i < pen->system->nodes; i++)
         from[0] = fmax(from[0], pen->x[2 * (size_t)i]);
-    if (!(from[0] > left)) /* the body has left the picture */
+    if (!(from[0] > left)) /* the body is beyond the left edge */
         return;
     from[0] += 2 * em / stage->camera.scale[0];
     from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
     plot_to_pixel(stage, from, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
-    low = fmax(low, 0); /* pixels below the stage: words move up the wall */
+    low = fmax(low, 0); /* pixels to move up along the wall into the stage */
     snprintf(words, sizeof words, "\u03bc = %s tan %s\u00b0",
              format_number(wall->friction / fabs(slope)).text,
              format_number(fabs(atan(slope)) / DEGREE).text);
@@ -114,8 +114,8 @@ void square_contact_slope(const SquarePen *pen)
                 ALIGN_LEFT, "%s", words);
 }
 
-/* Draws a wall as a half plane or a slab, and a dashed line at the distance
- * `reach` at which its force begins. */
+/* Draws a wall as a half plane or as a thin slab, and a dashed line at the
+ * distance `reach` where its force begins. */
 static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool as_slab)
 {
@@ -140,7 +140,7 @@ static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                     point_along(right.at, reach, n).at, 1, NULL, COLOUR_GREY);
 }
 
-void square_contact_obstacles(const SquarePen *pen)
+void square_draw_obstacles(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Contact *contact = pen->contact;

@@ -10,12 +10,12 @@
 #include "picture/colour_map.h"
 #include "picture/cards.h"
 
-static const double NOTE_SIZE = 0.9; /* ems, letters of the note */
+static const double NOTE_SIZE = 0.9; /* ems, size of the note's letters */
 static const double NOTE_WIDTH = 17; /* ems, least width of the note */
 
 /* Picks the nearest node within reach of the mouse, else the nearest spring,
- * else an obstacle of the options.  Before the first step a spring of the left
- * or right edge stands for this edge.  Also sets pick->nearest_node. */
+ * else an obstacle that the options have added.  Before the first step a spring
+ * of the left or right edge picks this edge.  Also sets pick->nearest_node. */
 void square_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     const Simulation *simulation = stage->simulation;
@@ -71,7 +71,8 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
 
 /* ---- the note ----------------------------------------------------------- */
 
-/* Writes a text into the lower corner of the stage away from the mouse. */
+/* Writes a text into the lower corner of the stage that is away from the mouse.
+ */
 static void draw_note(const Plot *stage, const LiveValues *values,
                       const char *text)
 {

@@ -11,18 +11,18 @@
 #include "model/spring_law.h"
 #include "picture/colour_map.h"
 
-enum { GHOST_SPRINGS = 700 }; /* the most springs of a ghost with springs */
+enum { MAX_GHOST_SPRINGS = 700 }; /* most springs that a ghost shows */
 
-static const double FLOWN = 30; /* larger views, in sides: flown apart */
-static const double NODE = 0.1; /* radius of a node, times the spacing */
-static const double FACE = 4;   /* pixels, smallest side of a face */
+static const double FLOWN_VIEW = 30;   /* sides seen if nodes flew apart */
+static const double NODE_RADIUS = 0.1; /* radius of a node over the spacing */
+static const double MIN_FACE = 4;      /* pixels, least side of a face */
 
 /* ---- sizes and colours -------------------------------------------------- */
 
-/* Returns the strain of the end colours: half of the strain at the start or of
- * the largest plastic strain, at least 5 %.
- *   ep  [springs] in, plastic strain; NULL: strain is shown */
-static double strain_range(const Simulation *simulation, const double *ep)
+/* Returns the strain at the ends of the colour scale: half of the strain at the
+ * start or of the largest plastic strain, at least 5 %.
+ *   ep  [springs] in, plastic strain; NULL: the scale is for strain */
+static double find_strain_range(const Simulation *simulation, const double *ep)
 {
     double most = ep ? 0 : fabs(fabs(simulation->options.stretch) - 1);
     for (int s = 0; ep && s < simulation->system.springs; s++)
@@ -54,14 +54,14 @@ SquarePen square_pen_create(Plot *stage, int run)
         .x = run ? simulation->run[run].x : pane_positions(stage->pane),
         .v = simulation->run[run].v,
         .spacing = stage->camera.scale[0] * mesh->spacing,
-        .shade_strain = strain_range(simulation, NULL),
+        .shade_strain = find_strain_range(simulation, NULL),
         .ep = plasticity ? plasticity->ep : NULL,
         .contact = contact_of(system),
         .fixed_bodies = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
     double unit = stage->paper->unit;
     double seen =
         content->view->lens.zoom * stage->box.width / stage->camera.scale[0];
-    if (seen > FLOWN * mesh->side) /* the rest shape would be a dot */
+    if (seen > FLOWN_VIEW * mesh->side) /* the nodes have flown apart */
         pen.spacing *= seen / mesh->side;
     for (int i = 0; pen.fixed_bodies && i < mesh->nodes; i++) {
         int node = i;
@@ -72,15 +72,16 @@ SquarePen square_pen_create(Plot *stage, int run)
     pen.contact_at.term = system_find_term(system, &contact_energy);
     pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
     pen.width = fmax(1 / unit, pen.width);
-    pen.radius = NODE * pen.spacing / unit;
+    pen.radius = NODE_RADIUS * pen.spacing / unit;
     if (!content->bare)
         pen.radius = fmin(pen.radius, 6.5);
     pen.shows_plastic = !content->shows_strain && !content->bare && pen.ep;
     pen.below = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_COMPRESS;
     pen.above = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_STRETCH;
     if (pen.shows_plastic || content->shows_strain)
-        pen.colour_range = pen.shows_plastic ? strain_range(simulation, pen.ep)
-                                             : pen.shade_strain;
+        pen.colour_range = pen.shows_plastic
+                               ? find_strain_range(simulation, pen.ep)
+                               : pen.shade_strain;
     if (pen.colour_range > 0)
         pen.width *= 1.4;
     pen.shows_projected = trace && trace->line >= LINE_PROJECT &&
@@ -91,8 +92,9 @@ SquarePen square_pen_create(Plot *stage, int run)
     return pen;
 }
 
-/* Returns the colour of a spring or face by plastic strain, strain, or
- * projection (of springs shorter than at rest); 0: by none. */
+/* Returns the colour of a spring or face by plastic strain or by strain.  While
+ * projection is shown, springs shorter than at rest have COLOUR_PROJECT. 0: the
+ * state has no colour. */
 static Colour colour_of_state(const SquarePen *pen, double plastic,
                               double strain, bool shorter)
 {
@@ -102,24 +104,25 @@ static Colour colour_of_state(const SquarePen *pen, double plastic,
     return pen->shows_projected && shorter ? COLOUR_PROJECT : 0;
 }
 
-static const double *position_of_node(const SquarePen *pen, int node)
+static const double *node_position(const SquarePen *pen, int node)
 {
     return pen->x + 2 * (size_t)node;
 }
 
-void square_spring(const SquarePen *pen, int s, double width, Colour colour)
+void square_draw_spring(const SquarePen *pen, int s, double width,
+                        Colour colour)
 {
     const int *e = pen->system->e + 2 * (size_t)s;
     double p[2], q[2], unit = pen->stage->paper->unit;
     if (spring_is_broken(pen->system, s) || node_is_fixed(pen, e[0]))
         return;
-    camera_to_pixel(&pen->stage->camera, position_of_node(pen, e[0]), p);
-    camera_to_pixel(&pen->stage->camera, position_of_node(pen, e[1]), q);
+    camera_to_pixel(&pen->stage->camera, node_position(pen, e[0]), p);
+    camera_to_pixel(&pen->stage->camera, node_position(pen, e[1]), q);
     canvas_line(&pen->stage->paper->canvas, p[0], p[1], q[0], q[1],
                 width * unit, colour);
 }
 
-void square_springs(const SquarePen *pen)
+void square_draw_springs(const SquarePen *pen)
 {
     const System *system = pen->system;
     for (int s = 0; s < system->springs; s++) {
@@ -128,9 +131,9 @@ void square_springs(const SquarePen *pen)
         double strain = pen->colour_range > 0 ? sqrt(d2 / l2) - 1 : 0;
         Colour colour =
             colour_of_state(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
-        square_spring(pen, s,
-                      (colour == COLOUR_PROJECT ? 1.15 : 1) * pen->width,
-                      colour ? colour : COLOUR_X);
+        square_draw_spring(pen, s,
+                           (colour == COLOUR_PROJECT ? 1.15 : 1) * pen->width,
+                           colour ? colour : COLOUR_X);
     }
 }
 
@@ -138,21 +141,22 @@ void square_springs(const SquarePen *pen)
 
 /* Returns twice the signed area of the triangle a b c, m^2, which is negative
  * if the triangle has turned over. */
-static double signed_area(const double *x, int a, int b, int c)
+static double twice_signed_area(const double *x, int a, int b, int c)
 {
     const double *p = x + 2 * a, *q = x + 2 * b, *r = x + 2 * c;
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-/* Whether one of the two triangles of a face has turned over; nodes are
+/* Whether one of the two triangles of a face has turned over.  The nodes are
  * anticlockwise at rest. */
 static bool face_is_folded(const double *x, const int node[4])
 {
-    return signed_area(x, node[0], node[1], node[2]) < 0 ||
-           signed_area(x, node[0], node[2], node[3]) < 0;
+    return twice_signed_area(x, node[0], node[1], node[2]) < 0 ||
+           twice_signed_area(x, node[0], node[2], node[3]) < 0;
 }
 
-/* Whether all springs of a cell are unbroken; node [4] out. */
+/* Whether all springs of a cell are unbroken.
+ *   node  [4] out, nodes of the cell */
 static bool cell_is_whole(const Simulation *simulation, int cell, int node[4])
 {
     int spring[6], broken = 0;
@@ -175,12 +179,11 @@ static void fill_face(const SquarePen *pen, const int node[4], Colour colour)
 {
     const double *corner[4];
     for (int k = 0; k < 4; k++)
-        corner[k] = position_of_node(pen, node[k]);
+        corner[k] = node_position(pen, node[k]);
     plot_quad(pen->stage, corner, colour);
 }
 
-/* Returns a shade from dark at 0 over the blue of springs at 1/2 to light at 1.
- */
+/* Returns a shade: dark at 0, the blue of springs at 1/2, light at 1. */
 static Colour shade_of_blue(double part)
 {
     double dark = fmin(fmax(1 - 2 * part, 0), 1);
@@ -189,15 +192,14 @@ static Colour shade_of_blue(double part)
                       COLOUR_WHITE, 0.7 * light);
 }
 
-/* Triangles of a solid are darker if their area is smaller than at rest. */
-int square_cells(const SquarePen *pen, bool all)
+int square_fill_cells(const SquarePen *pen, bool all)
 {
     const NeoHookean *solid = neo_hookean_of(pen->system);
     int folded = 0, node[4];
     for (int t = 0; solid && t < solid->triangles; t++) {
         const int *n = solid->node[t], face[4] = {n[0], n[1], n[2], n[2]};
-        double J =
-            fabs(signed_area(pen->x, n[0], n[1], n[2])) / (2 * solid->area);
+        double J = fabs(twice_signed_area(pen->x, n[0], n[1], n[2])) /
+                   (2 * solid->area);
         Colour colour = shade_of_blue(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
         fill_face(pen, face,
                   node_is_fixed(pen, n[0])
@@ -215,15 +217,15 @@ int square_cells(const SquarePen *pen, bool all)
     return folded;
 }
 
-/* Returns the colour of a face: that of its springs, or else a shade by stretch
- * and rotation.
+/* Returns the colour of a face by its state, else a shade by stretch and
+ * rotation.
  *   side  m, side of the face at rest
  *   cell  number of the lower left cell, which has the face's plastic strain */
-static Colour colour_of_face_state(const SquarePen *pen, const int node[4],
-                                   double side, int cell)
+static Colour choose_face_colour(const SquarePen *pen, const int node[4],
+                                 double side, int cell)
 {
     int corner[4], spring[6];
-    double l2 = 2 * side * side, plastic = 0, d[2]; /* d is a diagonal */
+    double l2 = 2 * side * side, plastic = 0, d[2]; /* l2, d: of a diagonal */
     double other2 = spring_vector((int[2]){node[3], node[1]}, pen->x, d);
     double d2 = spring_vector((int[2]){node[2], node[0]}, pen->x, d);
     double strain = (sqrt(d2) + sqrt(other2)) / (2 * sqrt(l2)) - 1;
@@ -235,54 +237,54 @@ static Colour colour_of_face_state(const SquarePen *pen, const int node[4],
     Colour colour =
         colour_of_state(pen, plastic, strain, d2 < l2 || other2 < l2);
     double seen = copysign(sqrt(fabs(strain) / pen->shade_strain), strain);
-    double turned = (d[1] - d[0]) / sqrt(d2); /* 0 at rest */
+    double turned = (d[1] - d[0]) / sqrt(d2); /* rotation of the face */
     return colour ? colour : shade_of_blue(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
-void square_faces(const SquarePen *pen)
+void square_draw_faces(const SquarePen *pen)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    int wide = (int)fmin(fmax(FACE / pen->spacing, 1), mesh->cells), node[4];
+    int wide = (int)fmin(fmax(MIN_FACE / pen->spacing, 1), mesh->cells),
+        node[4];
     for (int cell = 0; cell < mesh->cells; cell++)
         if (square_mesh_get_patch(mesh, cell, wide, node))
             fill_face(
                 pen, node,
-                colour_of_face_state(pen, node, wide * mesh->spacing, cell));
+                choose_face_colour(pen, node, wide * mesh->spacing, cell));
     for (int cell = 0; cell < mesh->cells; cell++)
         if (square_mesh_get_patch(mesh, cell, 1, node) &&
             face_is_folded(pen->x, node))
             fill_face(pen, node, COLOUR_FOLDED);
-    square_outline(pen, pen->x, false, COLOUR_X);
+    square_draw_outline(pen, pen->x, false, COLOUR_X);
 }
 
 /* ---- nodes, outlines, ghosts -------------------------------------------- */
 
-void square_nodes(const SquarePen *pen)
+void square_draw_nodes(const SquarePen *pen)
 {
     const System *system = pen->system;
     double radius = pen->radius;
     Colour colour = pen->colour_range > 0 ? COLOUR_FAINT : COLOUR_X;
-    if (pen->colour_range >
-        0) /* larger nodes would hide the colours of a fine mesh */
+    if (pen->colour_range > 0) /* larger nodes would hide the colours */
         radius *= 0.75;
     for (int i = 0; i < system->nodes; i++) {
         if (radius >= 0.5 * pen->width && !node_is_fixed(pen, i))
-            plot_disc(pen->stage, position_of_node(pen, i), radius, colour);
+            plot_disc(pen->stage, node_position(pen, i), radius, colour);
         if (system->pinned[i] && !node_is_fixed(pen, i))
-            plot_pin(pen->stage, position_of_node(pen, i), radius);
+            plot_pin(pen->stage, node_position(pen, i), radius);
     }
     for (int k = 0; pen->fixed_bodies && k < pen->simulation->mesh.outline;
          k++) {
         int node[2];
         square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);
         if (node_is_fixed(pen, node[0]))
-            plot_line(pen->stage, position_of_node(pen, node[0]),
-                      position_of_node(pen, node[1]), 1.5, COLOUR_EDGE);
+            plot_line(pen->stage, node_position(pen, node[0]),
+                      node_position(pen, node[1]), 1.5, COLOUR_EDGE);
     }
 }
 
-void square_outline(const SquarePen *pen, const double *x, bool dashed,
-                    Colour colour)
+void square_draw_outline(const SquarePen *pen, const double *x, bool dashed,
+                         Colour colour)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     double phase = 0, end[2][2];
@@ -301,12 +303,12 @@ void square_outline(const SquarePen *pen, const double *x, bool dashed,
     }
 }
 
-void square_ghost(const SquarePen *pen, const double *x, Colour colour)
+void square_draw_ghost(const SquarePen *pen, const double *x, Colour colour)
 {
     bool torn = system_term_data(pen->system, &fracture);
-    if (torn || pen->system->springs <= GHOST_SPRINGS)
+    if (torn || pen->system->springs <= MAX_GHOST_SPRINGS)
         plot_springs(pen->stage, pen->system, x, 1,
                      (colour & 0xffffff) | 0x50000000u);
     if (!torn)
-        square_outline(pen, x, true, colour);
+        square_draw_outline(pen, x, true, colour);
 }

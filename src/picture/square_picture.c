@@ -11,20 +11,20 @@
 #include "run/control.h"
 
 enum {
-    ARROW_SPACING = 16, /* pixels, least distance of nodes with arrows */
-    MIN_CELL = 5,       /* pixels; smaller cells are drawn as faces */
-    NUMBERED = 121,     /* the most nodes whose numbers are shown */
+    ARROW_SPACING = 16, /* pixels, least distance between two arrows */
+    MIN_CELL = 5,       /* pixels, least size of cells with drawn springs */
+    MAX_NUMBERED = 121, /* most nodes of a mesh with node numbers or forces */
     MAGNIFIER_SIZES = 3
 };
 
-static const double MIN_ARROW = 1.5; /* ems, the longest arrow of p, at least */
-static const double MAX_VIEW = 1e303; /* largest view, times the first view */
-static const double ROOM = 1.14; /* size of the stage, in sides of the square */
-static const double BARE_ROOM = 1.75; /* size of a bare stage, in sides */
-static const double VELOCITY_TIME = 0.1; /* s, way of the velocity arrow */
-static const double MAGNIFIER = 12;   /* ems, side of the magnifier, at most */
-static const double BALL_REACH = 4;   /* reach for balls, times the view */
-static const double GROUND_REACH = 2; /* reach for grounds, times the view */
+static const double MIN_ARROW = 1.5; /* ems; shorter arrows of p are scaled */
+static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
+/* Sizes of the first view over that of the square: with words, and bare. */
+static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
+static const double MAGNIFIER_SIDE = 12; /* ems, largest side */
+static const double VELOCITY_TIME = 0.1; /* s, drawn way of a velocity */
+/* widen_to_circle's `reach` for balls and for grounds. */
+static const double BALL_REACH = 4, GROUND_REACH = 2;
 
 /* ---- how much of the world is seen -------------------------------------- */
 
@@ -36,11 +36,12 @@ static bool scene_sets_view(const Simulation *simulation)
 
 /* A part of the world, m: middle, and half of width and height. */
 typedef struct Extent {
-    double middle[2], size[2];
+    double middle[2], half_size[2];
 } Extent;
 
-/* Whether nothing holds the body or is in its way. */
-static bool moves_freely(const Simulation *simulation)
+/* Whether the body is alone and free: without walls, balls, ceiling and other
+ * runs. */
+static bool body_is_free(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     return options->grounds + options->balls == 0 &&
@@ -48,8 +49,8 @@ static bool moves_freely(const Simulation *simulation)
            simulation->runs == 1;
 }
 
-/* Returns the view that the scene sets, or else the square at the start with
- * room in which a compressed square can spring out and bulge. */
+/* Returns the view that the scene sets, or else the square at the start.  A
+ * compressed square has room to spring out and bulge. */
 static Extent find_first_view(const FrameContent *content,
                               const Simulation *simulation)
 {
@@ -57,78 +58,79 @@ static Extent find_first_view(const FrameContent *content,
     const double *frame = simulation->scene->frame;
     double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
-    double half =
-        0.5 * simulation->mesh.side * (content->bare ? BARE_ROOM : ROOM);
+    double half = 0.5 * simulation->mesh.side *
+                  (content->bare ? BARE_VIEW_SIZE : VIEW_SIZE);
     Extent view = {
         {0, 0},
         {half * extent, half * (content->bare ? extent : fmin(extent, 1.25))}};
     for (int k = 0; k < 2 && scene_sets_view(simulation); k++) {
         view.middle[k] = 0.5 * (frame[2 + k] + frame[k]);
-        view.size[k] = 0.5 * (frame[2 + k] - frame[k]);
+        view.half_size[k] = 0.5 * (frame[2 + k] - frame[k]);
     }
     return view;
 }
 
-/* Returns the part of the world that fills the stage if the view fits: more at
- * two sides. */
+/* Returns the part of the world that is seen if the view fits the stage, which
+ * is higher or wider than the view. */
 static Extent find_seen_extent(const Plot *stage, const Extent *view)
 {
     Extent seen = *view;
     const double box[2] = {stage->box.width, stage->box.height};
-    double scale = fmin(box[0] / view->size[0], box[1] / view->size[1]);
+    double scale =
+        fmin(box[0] / view->half_size[0], box[1] / view->half_size[1]);
     for (int k = 0; k < 2 && scale > 0; k++)
-        seen.size[k] = box[k] / scale;
+        seen.half_size[k] = box[k] / scale;
     return seen;
 }
 
-/* Widens the view by a circle that is partly outside of the seen part.  Between
- * `reach` and 1.5 times `reach` the view shrinks to the seen part again, so
+/* Widens the view to show a circle that is partly outside of the seen part.  If
+ * the circle is between `reach` and 1.5 `reach` away, widens the view less, so
  * that the camera never jumps.
  *   at, radius  m, circle
- *   reach       distance from the middle, times the seen part, up to which the
- *               whole circle is shown */
-static void widen_view(const Extent *seen, const double at[2], double radius,
-                       double reach, Extent *view)
+ *   reach       distance from the middle up to which the whole circle is shown,
+ *               in half widths or heights of the seen part */
+static void widen_to_circle(const Extent *seen, const double at[2],
+                            double radius, double reach, Extent *view)
 {
     double far = 0;
     for (int k = 0; k < 2; k++)
-        far = fmax(far, fabs(at[k] - seen->middle[k]) / seen->size[k]);
+        far = fmax(far, fabs(at[k] - seen->middle[k]) / seen->half_size[k]);
     double part = fmin(3 - 2 * far / reach, 1);
     for (int k = 0; k < 2 && part > 0; k++) {
-        double low = seen->middle[k] - seen->size[k];
-        double high = seen->middle[k] + seen->size[k];
+        double low = seen->middle[k] - seen->half_size[k];
+        double high = seen->middle[k] + seen->half_size[k];
         double beyond = at[k] - radius < low    ? at[k] - radius - low
                         : at[k] + radius > high ? at[k] + radius - high
                                                 : 0;
         if (beyond == 0)
             continue;
-        low =
-            fmin(low + part * fmin(beyond, 0), view->middle[k] - view->size[k]);
+        low = fmin(low + part * fmin(beyond, 0),
+                   view->middle[k] - view->half_size[k]);
         high = fmax(high + part * fmax(beyond, 0),
-                    view->middle[k] + view->size[k]);
+                    view->middle[k] + view->half_size[k]);
         view->middle[k] = 0.5 * (low + high);
-        view->size[k] = 0.5 * (high - low);
+        view->half_size[k] = 0.5 * (high - low);
     }
 }
 
-/* Widens the view by the balls in reach, and by a strip of each ground in reach
- * that is wide enough for the mouse. */
-static void add_obstacles(const Plot *stage, Extent *view)
+/* Widens the view to show the balls in reach, and of each ground in reach a
+ * strip that is wide enough for the mouse. */
+static void widen_to_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
     const Extent seen = find_seen_extent(stage, view);
-    double air = 0.04 * fmin(view->size[0], view->size[1]);
+    double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
         Gap gap = contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = point_along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
-            widen_view(&seen, obstacle->o, obstacle->radius + air, BALL_REACH,
-                       view);
+            widen_to_circle(&seen, obstacle->o, obstacle->radius + air,
+                            BALL_REACH, view);
         else
-            widen_view(&seen, foot.at, 3 * air, GROUND_REACH, view);
+            widen_to_circle(&seen, foot.at, 3 * air, GROUND_REACH, view);
     }
 }
 
@@ -153,7 +155,7 @@ static void follow_body(const Simulation *simulation, const double *x,
 {
     int nodes = simulation->system.nodes;
     for (int k = 0; k < 2; k++) {
-        double centre = 0, room = 0.5 * view->size[k];
+        double centre = 0, room = 0.5 * view->half_size[k];
         for (int i = 0; i < nodes; i++)
             centre += x[2 * i + k];
         centre = centre / nodes - view->middle[k];
@@ -166,7 +168,8 @@ static void follow_body(const Simulation *simulation, const double *x,
 static void pan_view(const double box[4], Extent *view)
 {
     for (int k = 0; k < 2; k++) {
-        double low = box[2 + k] - view->size[k], high = box[k] + view->size[k];
+        double low = box[2 + k] - view->half_size[k],
+               high = box[k] + view->half_size[k];
         if (low > high)
             low = high = 0.5 * (box[k] + box[2 + k]);
         view->middle[k] = fmin(fmax(view->middle[k], low), high);
@@ -174,21 +177,21 @@ static void pan_view(const double box[4], Extent *view)
 }
 
 /* Returns the factor by which the view must grow to show the box.
- *   tall  out, the factor for the height alone */
+ *   tall  out, the same factor for the height alone */
 static double find_needed_growth(const double box[4], const Extent *view,
                                  double *tall)
 {
     double need[2];
     for (int k = 0; k < 2; k++)
         need[k] = fmax(box[2 + k] - view->middle[k], view->middle[k] - box[k]) /
-                  view->size[k];
+                  view->half_size[k];
     *tall = fmax(need[1], 0);
     return fmax(need[0], need[1]);
 }
 
-/* Starts from the first view, which follows a body that nothing holds.  While
- * nodes are outside, the view grows by factors of 1.5 and moves with the nodes.
- * Then the view widens to balls and grounds in reach. */
+/* Starts from the first view, which follows a free body.  While nodes are
+ * outside, the view grows by factors of 1.5 and moves with the nodes.  At last
+ * the view widens to show balls and grounds in reach. */
 void square_bounds(const Plot *stage, double bounds[4])
 {
     static const double GROWTH = 1.5;
@@ -197,35 +200,36 @@ void square_bounds(const Plot *stage, double bounds[4])
     Extent view = find_first_view(stage->content, simulation);
     double box[4], tall, grown = 1;
     pane_node_bounds(stage->pane, simulation->runs, box);
-    if (moves_freely(simulation))
+    if (body_is_free(simulation))
         follow_body(simulation, pane_positions(stage->pane), &view);
     while (grown < find_needed_growth(box, &view, &tall) * (1 - 1e-12) &&
-           grown < MAX_VIEW) {
+           grown < MAX_GROWTH) {
         Extent larger = view;
         grown *= GROWTH;
-        larger.size[0] *= grown;
-        larger.size[1] *= grown;
+        larger.half_size[0] *= grown;
+        larger.half_size[1] *= grown;
         pan_view(box, &larger);
         memcpy(view.middle, larger.middle, sizeof view.middle);
     }
-    /* A wide bare window has less room above the square. */
-    double low = bare && !scene_sets_view(simulation)
-                     ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown)
-                     : 1;
-    view.size[0] *= grown;
-    view.size[1] *= grown * fmin(low, 1);
-    add_obstacles(stage, &view);
+    /* In a bare window the view is wide, and as low as the body allows. */
+    double low =
+        bare && !scene_sets_view(simulation)
+            ? fmax(VIEW_SIZE / BARE_VIEW_SIZE, VIEW_SIZE * tall / grown)
+            : 1;
+    view.half_size[0] *= grown;
+    view.half_size[1] *= grown * fmin(low, 1);
+    widen_to_obstacles(stage, &view);
     for (int k = 0; k < 2; k++) {
-        bounds[k] = view.middle[k] - view.size[k];
-        bounds[2 + k] = view.middle[k] + view.size[k];
+        bounds[k] = view.middle[k] - view.half_size[k];
+        bounds[2 + k] = view.middle[k] + view.half_size[k];
     }
 }
 
 /* ---- what Newton does --------------------------------------------------- */
 
-/* Draws p as arrows at every node, or at every few nodes of a fine mesh.  If
- * the longest arrow is too short or too long, all are scaled by a power of ten,
- * which the legend names. */
+/* Draws p as arrows at all nodes, in a fine mesh at every few nodes.  If the
+ * longest arrow is too short or too long, all arrows are scaled by a power of
+ * ten, which the legend names. */
 static void draw_direction(const SquarePen *pen)
 {
     Plot *stage = pen->stage;
@@ -256,9 +260,9 @@ static void draw_direction(const SquarePen *pen)
                 factor == 1 ? "" : format_number(factor).text);
 }
 
-/* Marks the node or spring under the mouse, and draws a line from the node or
- * ball in the hand to the mouse. */
-static void draw_mouse(const SquarePen *pen)
+/* Marks the node or spring under the mouse.  Draws a line to the mouse from the
+ * node or ball that the mouse drags. */
+static void mark_under_mouse(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const FrameContent *content = stage->content;
@@ -275,7 +279,8 @@ static void draw_mouse(const SquarePen *pen)
         plot_ring(stage, pen->x + 2 * (size_t)hover->index, pen->radius + 4, 2,
                   COLOUR_TEXT);
     if (over && lit >= 0 && lit < system->springs)
-        square_spring(pen, lit, 4.5, writes ? COLOUR_PROJECT : COLOUR_TEXT);
+        square_draw_spring(pen, lit, 4.5,
+                           writes ? COLOUR_PROJECT : COLOUR_TEXT);
     for (int k = 0; k < 2 && writes; k++) {
         int node = system->e[2 * lit + k];
         plot_label(stage, 1, pen->x + 2 * (size_t)node, COLOUR_PROJECT, "%d",
@@ -305,28 +310,28 @@ static int draw_below_springs(const SquarePen *pen)
     const Trace *trace = pane->trace;
     if (!scene_sets_view(pen->simulation) && !pen->contact &&
         pen->simulation->options.bodies == 0) {
-        square_outline(pen, NULL, false, COLOUR_RULE);
+        square_draw_outline(pen, NULL, false, COLOUR_RULE);
         if (plot_pane_index(pen->stage) == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
-    int folded = square_cells(
+    int folded = square_fill_cells(
         pen, pen->contact || system_term_data(pen->system, &fracture));
     if (pane->ghost) {
-        square_ghost(pen, pane->ghost, COLOUR_GHOST);
+        square_draw_ghost(pen, pane->ghost, COLOUR_GHOST);
         plot_legend(pen->stage, COLOUR_GHOST, "ghost: %.*s",
                     (int)strcspn(pane->ghost_label, ":"), pane->ghost_label);
     }
     size_t bytes = 2 * (size_t)pen->system->nodes * sizeof *pen->x;
     if (trace && trace->x_tilde && trace->line &&
         memcmp(trace->x_tilde, pen->x, bytes) != 0) {
-        square_ghost(pen, trace->x_tilde, COLOUR_X_TILDE);
+        square_draw_ghost(pen, trace->x_tilde, COLOUR_X_TILDE);
         plot_legend(pen->stage, COLOUR_X_TILDE, "{xt}, inertia alone");
     }
     return folded;
 }
 
 /* Adds warnings to the legend: nodes that cannot be drawn, folded cells. */
-static void draw_warnings(const SquarePen *pen, int folded)
+static void add_warnings(const SquarePen *pen, int folded)
 {
     Plot *stage = pen->stage;
     int nodes = pen->system->nodes, lost = 0;
@@ -353,7 +358,7 @@ static void draw_warnings(const SquarePen *pen, int folded)
 }
 
 /* Marks the place of a square that is too small to be seen. */
-static void draw_origin(const SquarePen *pen)
+static void mark_tiny_square(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Box *box = &stage->box;
@@ -387,8 +392,8 @@ static void add_colour_legend(const SquarePen *pen)
                 format_number(percent).text);
 }
 
-/* Writes the number of each node beside it. */
-static void draw_numbers(const SquarePen *pen)
+/* Writes the number of each node beside the node. */
+static void draw_node_numbers(const SquarePen *pen)
 {
     double at[2], em = pen->stage->em;
     char number[16];
@@ -406,10 +411,10 @@ static void draw_numbers(const SquarePen *pen)
     }
 }
 
-/* Draws an arrow factor * d at each node, cut at nine tenths of a spring; with
- * factor 0 the longest arrow has that length. */
-static void draw_arrows(const SquarePen *pen, const double *d, double factor,
-                        Colour colour, const char *word)
+/* Draws an arrow factor * d at each node; arrows longer than 0.9 spacings of
+ * the mesh are cut.  With factor 0 the longest arrow is 0.9 spacings long. */
+static void draw_node_arrows(const SquarePen *pen, const double *d,
+                             double factor, Colour colour, const char *word)
 {
     int nodes = pen->system->nodes;
     double longest = 1e-300, most = 0.9 * pen->simulation->mesh.spacing;
@@ -432,31 +437,35 @@ static void compute_rest_positions(const Simulation *simulation, double *x)
         square_mesh_rest_position(&simulation->mesh, i, x + 2 * i);
 }
 
-/* Draws the arrows that a page wants: forces, or displacements from rest. */
+/* Draws the arrows of a page: forces on the nodes, or displacements from rest.
+ */
 static void draw_page_arrows(const SquarePen *pen)
 {
     unsigned layers = pen->simulation->options.layers;
     const System *system = pen->system;
-    double arrow[2 * NUMBERED] = {0};
-    if (system->nodes > NUMBERED)
+    double arrow[2 * MAX_NUMBERED] = {0};
+    if (system->nodes > MAX_NUMBERED)
         return;
     if (layers & LAYER_MODES) {
         compute_rest_positions(pen->simulation, arrow);
         for (int k = 0; k < 2 * system->nodes; k++)
             arrow[k] = pen->x[k] - arrow[k];
-        draw_arrows(pen, arrow, 30, COLOUR_VELOCITY, "displacement \u00d7 30");
+        draw_node_arrows(pen, arrow, 30, COLOUR_VELOCITY,
+                         "displacement \u00d7 30");
     }
     if (!(layers & LAYER_FORCES) || !pen->stage->revealed)
         return;
     system_acceleration(system, pen->x, arrow);
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
-    draw_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
+    draw_node_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
     plot_label(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
                "node %d", system->nodes - 1);
 }
 
-/* Draws the velocity of the centre of mass, as the way of VELOCITY_TIME. */
+/* Draws the velocity of the centre of mass as the centre's way in
+ * VELOCITY_TIME.
+ */
 static void draw_mean_velocity(const SquarePen *pen)
 {
     const System *system = pen->system;
@@ -479,11 +488,11 @@ static void draw_mean_velocity(const SquarePen *pen)
     plot_legend(pen->stage, COLOUR_VELOCITY, "velocity of the centre of mass");
 }
 
-/* Draws springs in the colours of their kinds.  On a page with switches for the
- * kinds, springs of the kind of the newest spring are wider. */
-static void draw_kinds(const SquarePen *pen)
+/* Draws springs in the colours of their kinds.  A page with switches for the
+ * kinds has wider springs of the newest spring's kind. */
+static void draw_springs_by_kind(const SquarePen *pen)
 {
-    static const int colours[] = {0, 1, 3, 3}; /* colours of these runs */
+    static const int colours[] = {0, 1, 3, 3}; /* colour_of_run's argument */
     const System *system = pen->system;
     int newest = exhibit_spring_kind(pen->simulation,
                                      find_newest_spring(pen->simulation));
@@ -491,14 +500,14 @@ static void draw_kinds(const SquarePen *pen)
     for (int s = 0; s < system->springs; s++) {
         int kind = exhibit_spring_kind(pen->simulation, s);
         if (system->k[s] > 0)
-            square_spring(pen, s, wide && kind == newest ? 3.5 : 2,
-                          colour_of_run(colours[kind]));
+            square_draw_spring(pen, s, wide && kind == newest ? 3.5 : 2,
+                               colour_of_run(colours[kind]));
     }
 }
 
-/* Draws a magnifier on the contact of the page's law, in the corner of the
- * stage where the magnifier hides least, and smaller if it hides something in
- * each. */
+/* Draws a magnifier on the contact whose law the page draws, in the corner of
+ * the stage where the magnifier hides least.  If all corners hide something,
+ * the magnifier is smaller. */
 static void draw_magnifier(const SquarePen *pen)
 {
     Plot lens = *pen->stage;
@@ -508,11 +517,11 @@ static void draw_magnifier(const SquarePen *pen)
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
     int air = (int)lens.em;
-    if (!lens.revealed || lens.box.width < 2 * MAGNIFIER * lens.em ||
+    if (!lens.revealed || lens.box.width < 2 * MAGNIFIER_SIDE * lens.em ||
         !law_find_gap(pen->simulation, &gap))
         return;
     for (int i = 0; i < 4 * MAGNIFIER_SIZES; i++) {
-        int side = (int)((MAGNIFIER - 2 * (i / 4)) * lens.em);
+        int side = (int)((MAGNIFIER_SIDE - 2 * (i / 4)) * lens.em);
         int left = i & 2 ? air : stage.width - side - air;
         int top = i & 1 ? stage.height - side - 2 * air : 2 * air;
         Box box = {stage.x + left, stage.y + top, side, side};
@@ -531,11 +540,11 @@ static void draw_magnifier(const SquarePen *pen)
     Box before = canvas_set_clip(canvas, box_inset(lens.box, 1));
     lens.camera = camera_create(lens.box, bounds, false, &LENS_FITS);
     SquarePen near = square_pen_create(&lens, 0);
-    square_cells(&near, true);
-    square_contact_obstacles(&near);
+    square_fill_cells(&near, true);
+    square_draw_obstacles(&near);
     near.radius = 4;
-    square_springs(&near);
-    square_nodes(&near);
+    square_draw_springs(&near);
+    square_draw_nodes(&near);
     plot_line(&lens, gap.foot, gap.node, 3, COLOUR_P);
     snprintf(words, sizeof words, "\u03b4 = %s mm",
              format_number(1e3 * gap.d).text);
@@ -545,11 +554,10 @@ static void draw_magnifier(const SquarePen *pen)
     canvas_set_clip(canvas, before);
 }
 
-/* Draws the distances that a body has slid and that a rigid body would slide.
- */
-static void draw_slide(const Plot *stage)
+/* Draws how far a body has slid, and how far a rigid body would slide. */
+static void draw_slide_distances(const Plot *stage)
 {
-    static const double ABOVE = 0.04; /* m, height above the body */
+    static const double ABOVE = 0.04; /* m, arrow above the body */
     const SquareMesh *mesh = &stage->simulation->mesh;
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};
@@ -570,8 +578,8 @@ static void draw_slide(const Plot *stage)
                format_number(gone[0]).text);
 }
 
-/* Draws the walls, then the bodies of all runs, the first one last, and then
- * the layers above them. */
+/* Draws the obstacles, then the bodies of all runs, the first run last, and
+ * then the marks and arrows of the first run. */
 void square_draw(Plot *stage)
 {
     SquarePen pen[SIMULATION_MAX_RUNS];
@@ -582,52 +590,53 @@ void square_draw(Plot *stage)
     unsigned layers = simulation->options.layers;
     for (int r = 0; r < runs; r++) {
         pen[r] = square_pen_create(stage, r);
-        square_contact_obstacles(&pen[r]);
+        square_draw_obstacles(&pen[r]);
     }
     for (int r = 0; r < runs && runs > 1 && stage->has_text; r++)
         if (pen[r].contact)
-            square_contact_slope(&pen[r]);
+            square_write_friction(&pen[r]);
     for (int r = 1; r < runs; r++) {
         if (!content->bare)
-            square_cells(&pen[r], true);
-        square_springs(&pen[r]);
-        square_nodes(&pen[r]);
+            square_fill_cells(&pen[r], true);
+        square_draw_springs(&pen[r]);
+        square_draw_nodes(&pen[r]);
     }
     if (!content->bare)
         folded = draw_below_springs(pen);
     bool cuts = layers & LAYER_CUTS,
          solid = cuts && content->lecture.hides_answer;
     if (cuts)
-        square_cells(pen, true);
+        square_fill_cells(pen, true);
     if (solid)
-        square_outline(pen, pen->x, false, COLOUR_X);
+        square_draw_outline(pen, pen->x, false, COLOUR_X);
     else if (stage->revealed && layers & (LAYER_CUTS | LAYER_KINDS))
-        draw_kinds(pen);
+        draw_springs_by_kind(pen);
     else if (pen->spacing >= MIN_CELL || system_term_data(system, &fracture))
-        square_springs(pen);
+        square_draw_springs(pen);
     else
-        square_faces(pen);
+        square_draw_faces(pen);
     if (!solid)
-        square_nodes(pen);
+        square_draw_nodes(pen);
     if (content->bare)
         return;
-    square_contact_forces(pen, runs);
+    square_draw_forces(pen, runs);
     if (simulation->mesh.side * stage->camera.scale[0] < 4 &&
         !scene_sets_view(simulation))
-        draw_origin(pen);
+        mark_tiny_square(pen);
     if (pen->shows_projected)
         plot_legend(stage, COLOUR_PROJECT, "projected spring");
     draw_direction(pen);
-    draw_mouse(pen);
+    mark_under_mouse(pen);
     draw_page_arrows(pen);
-    draw_warnings(pen, folded);
-    if (stage->revealed && layers & LAYER_NUMBERS && system->nodes <= NUMBERED)
-        draw_numbers(pen);
+    add_warnings(pen, folded);
+    if (stage->revealed && layers & LAYER_NUMBERS &&
+        system->nodes <= MAX_NUMBERED)
+        draw_node_numbers(pen);
     if (pen->colour_range > 0)
         add_colour_legend(pen);
     if (layers & LAYER_VELOCITY)
         draw_mean_velocity(pen);
-    draw_slide(stage);
+    draw_slide_distances(stage);
     draw_magnifier(pen);
 }
 
@@ -641,7 +650,7 @@ int find_newest_spring(const Simulation *simulation)
 
 /* Adds h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and the
  * rows of this block in the whole matrix. */
-static void add_block(const Simulation *simulation, LiveValues *values)
+static void add_block_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};
     static const char *const rows[] = {"row 1", "row 2", "row 3", "row 4"};
@@ -653,7 +662,8 @@ static void add_block(const Simulation *simulation, LiveValues *values)
     for (int i = 0; i < 4; i++)
         values_add(values, rows[i], 2 * e[i / 2] + i % 2);
     spring_vector(e, simulation->run[0].x, d);
-    spring_hessian(d, l2, k, PROJECTION_CLAMP, H); /* the page projects */
+    /* The page shows the projected block. */
+    spring_hessian(d, l2, k, PROJECTION_CLAMP, H);
     values_add_matrix(values, names, H, 1e-7 * k);
 }
 
@@ -663,7 +673,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
                              LiveValues *values)
 {
     int last = simulation->system.nodes - 1, balanced = 0;
-    double a[2 * NUMBERED] = {0}, m = simulation->system.m[last];
+    double a[2 * MAX_NUMBERED] = {0}, m = simulation->system.m[last];
     double *at = a + 2 * last;
     system_acceleration(&simulation->system, x, a);
     for (int i = 0; i <= last; i++)
@@ -674,13 +684,13 @@ static void add_force_values(const Simulation *simulation, const double *x,
     values_add(values, "balanced", balanced);
 }
 
-/* Adds the values that pages use about mesh, law, mode and forces. */
+/* Adds the values of mesh, law, fastest mode and forces, which pages use. */
 void square_add_values(const Simulation *simulation, LiveValues *values)
 {
     const System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
-    double start[2 * NUMBERED], mode[2 * SIMULATION_MODE_NODES];
+    double start[2 * MAX_NUMBERED], mode[2 * SIMULATION_MODE_NODES];
     int n = (int)options->segments, nodes = system->nodes, shorter = 0;
     const double *x = simulation->run[0].x;
     if (!options->page)
@@ -706,7 +716,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "from", e[0]);
     values_add(values, "to", e[1]);
     if (options->next == NEXT_SPRING)
-        add_block(simulation, values);
+        add_block_values(simulation, values);
     law_add_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
         compute_rest_positions(simulation, start);
@@ -717,7 +727,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
         values_add(values, t > 1 ? "h omega" : "short h omega", turn);
         values_add(values, "growth", t > 1 ? t + sqrt(t * t - 1) : NAN);
     }
-    if (options->layers & LAYER_FORCES && nodes <= NUMBERED)
+    if (options->layers & LAYER_FORCES && nodes <= MAX_NUMBERED)
         add_force_values(simulation, x, values);
 }
 

@@ -16,8 +16,8 @@ enum {
 struct Text {
     FT_Library library;
     FT_Face font[FACE_COUNT];
-    int glyphs;
-    Glyph glyph[TEXT_GLYPHS]; /* hashed by key */
+    int glyph_count;
+    Glyph glyph[TEXT_GLYPHS]; /* hash table of the letters in the cache */
 };
 
 /* ---- fonts -------------------------------------------------------------- */
@@ -96,7 +96,7 @@ static void forget_glyphs(Text *text)
     for (int i = 0; i < TEXT_GLYPHS; i++)
         free(text->glyph[i].mask);
     memset(text->glyph, 0, sizeof text->glyph);
-    text->glyphs = 0;
+    text->glyph_count = 0;
 }
 
 void text_free(Text *text)
@@ -110,8 +110,8 @@ void text_free(Text *text)
 
 /* ---- letters ------------------------------------------------------------ */
 
-/* Draws a letter; a letter that cannot be drawn is blank. */
-static Glyph make_glyph(Text *text, Face face, int size, uint32_t letter)
+/* Renders a letter; a letter that FreeType cannot render is blank. */
+static Glyph render_glyph(Text *text, Face face, int size, uint32_t letter)
 {
     Glyph glyph = {.advance = (int)(FONT_GUESSED * size)};
     FT_Face font = text->font[face];
@@ -137,20 +137,20 @@ static Glyph make_glyph(Text *text, Face face, int size, uint32_t letter)
     return glyph;
 }
 
-const Glyph *font_glyph(Text *text, Face face, int size, uint32_t letter)
+const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter)
 {
     uint64_t key =
         (uint64_t)letter << 16 | (uint64_t)size << 4 | ((uint64_t)face + 1);
-    if (text->glyphs > TEXT_GLYPHS / 2)
+    if (text->glyph_count > TEXT_GLYPHS / 2)
         forget_glyphs(text);
     size_t place = (size_t)(key * 0x9e3779b97f4a7c15u >> 40) % TEXT_GLYPHS;
     while (text->glyph[place].key && text->glyph[place].key != key)
         place = (place + 1) % TEXT_GLYPHS;
     Glyph *glyph = &text->glyph[place];
     if (!glyph->key) {
-        *glyph = make_glyph(text, face, size, letter);
+        *glyph = render_glyph(text, face, size, letter);
         glyph->key = key;
-        text->glyphs++;
+        text->glyph_count++;
     }
     return glyph;
 }

@@ -10,50 +10,52 @@
 #include "picture/font.h"
 
 enum {
-    DEPTH = 6, /* the deepest nesting of formulas */
-    ROWS = 8,  /* the most rows of a matrix */
-    COLUMNS = 8,
+    MAX_DEPTH = 6, /* most formulas inside each other */
+    MAX_ROWS = 8,  /* the most rows of a matrix */
+    MAX_COLUMNS = 8,
     MIN_SIZE = 5,
     MAX_SIZE = 400
 };
 
 /* Lengths in ems of the letters. */
-static const double ASCENT = 0.93, DESCENT = 0.37; /* line, from the baseline */
-static const double HIGH = 0.76, LOW = 0.24; /* letters, from the baseline */
+/* Extent of a line and of its letters, from the baseline. */
+static const double LINE_ASCENT = 0.93, LINE_DESCENT = 0.37;
+static const double LETTER_ASCENT = 0.76, LETTER_DESCENT = 0.24;
 static const double SCRIPT_SIZE = 0.8;
 static const double RAISE = 0.36, LOWER = 0.18; /* offsets of scripts */
-static const double PART_SIZE = 0.9; /* size of numerator and denominator */
-static const double AXIS = 0.28;     /* fraction lines above the baseline */
-static const double THIN = 0.12; /* space around rules and inside brackets */
-static const double CELL = 0.9;  /* space between columns of a matrix */
-static const double ROW = 0.22;  /* space between rows of a matrix */
-static const double RULE = 0.07; /* width of a rule */
+static const double FRACTION_SIZE = 0.9; /* size of a fraction's letters */
+static const double AXIS_HEIGHT = 0.28;  /* fraction's line above baseline */
+static const double SPACE = 0.12;        /* around fractions and in brackets */
+static const double COLUMN_GAP = 0.9;    /* space between columns of a matrix */
+static const double ROW_GAP = 0.22;      /* space between rows of a matrix */
+static const double RULE_WIDTH = 0.07;   /* width of a fraction's line */
 
 typedef struct Pen {
     Text *text;
     Canvas *canvas; /* NULL: the pen only measures */
     TextStyle style;
     double x, y;        /* pixels, position on the baseline */
-    double top, bottom; /* pixels, extent of all letters so far */
-    int mark_left, mark_width, mark_top; /* box of the last letter */
+    double top, bottom; /* pixels, extent of all letters set so far */
+    /* Box of the last letter, pixels; a combining mark stands above. */
+    int letter_left, letter_width, letter_top;
 } Pen;
 
-/* A part of the markup. */
+/* A part of a text, such as the inside of braces. */
 typedef struct MarkupPart {
     const char *from, *end; /* first byte, byte after the last one */
 } MarkupPart;
 
-static MarkupPart part_of_string(const char *string)
+static MarkupPart whole_text(const char *string)
 {
     return (MarkupPart){string, string + strlen(string)};
 }
 
-static void set_part(Pen *pen, MarkupPart part, int depth);
+static void set_markup(Pen *pen, MarkupPart part, int depth);
 
 /* ---- letters ------------------------------------------------------------ */
 
 /* Reads the next character of UTF-8; an invalid byte gives U+FFFD. */
-static uint32_t next_letter(const char **string)
+static uint32_t read_letter(const char **string)
 {
     const unsigned char *s = (const unsigned char *)*string;
     int more = s[0] < 0x80 ? 0 : s[0] < 0xe0 ? 1 : s[0] < 0xf0 ? 2 : 3;
@@ -79,16 +81,17 @@ static void set_letter(Pen *pen, uint32_t letter)
     double em = pen->style.size;
     int size = (int)(em + 0.5), base = (int)floor(pen->y + 0.5);
     bool mark = letter >= 0x300 && letter < 0x370;
-    pen_extend(pen, pen->y - HIGH * em, pen->y + LOW * em);
+    pen_extend(pen, pen->y - LETTER_ASCENT * em, pen->y + LETTER_DESCENT * em);
     if (!pen->text) {
         pen->x += mark ? 0 : FONT_GUESSED * em;
         return;
     }
-    const Glyph *glyph = font_glyph(pen->text, pen->style.face, size, letter);
+    const Glyph *glyph =
+        font_get_glyph(pen->text, pen->style.face, size, letter);
     int x = (int)floor(pen->x + 0.5) + glyph->left, y = base + glyph->top;
     if (mark) {
-        int low = base + pen->mark_top - (size + 8) / 16;
-        x = pen->mark_left + (pen->mark_width - glyph->width) / 2;
+        int low = base + pen->letter_top - (size + 8) / 16;
+        x = pen->letter_left + (pen->letter_width - glyph->width) / 2;
         y = y + glyph->height > low ? low - glyph->height : y;
     }
     if (pen->canvas && glyph->mask)
@@ -96,45 +99,45 @@ static void set_letter(Pen *pen, uint32_t letter)
                          glyph->mask, pen->style.colour);
     if (mark)
         return;
-    pen->mark_left = x;
-    pen->mark_width = glyph->width;
-    pen->mark_top = glyph->top;
+    pen->letter_left = x;
+    pen->letter_width = glyph->width;
+    pen->letter_top = glyph->top;
     pen->x += glyph->advance;
 }
 
 /* ---- parts of formulas -------------------------------------------------- */
 
-static TextExtent measure_part(const Pen *like, MarkupPart part, int depth)
+static TextExtent measure_markup(const Pen *like, MarkupPart part, int depth)
 {
     Pen pen = {.text = like->text, .style = like->style};
-    set_part(&pen, part, depth);
+    set_markup(&pen, part, depth);
     return (TextExtent){pen.x, -pen.top, pen.bottom};
 }
 
 /* Sets a part at (x, y) without moving the pen. */
-static void set_part_at(Pen *pen, double x, double y, MarkupPart part,
-                        int depth)
+static void set_markup_at(Pen *pen, double x, double y, MarkupPart part,
+                          int depth)
 {
     Pen inner = *pen;
     inner.x = x;
     inner.y = y;
-    set_part(&inner, part, depth);
+    set_markup(&inner, part, depth);
     pen_extend(pen, inner.top, inner.bottom);
 }
 
-static void draw_rule_line(const Pen *pen, double x0, double y0, double x1,
-                           double y1)
+static void draw_rule(const Pen *pen, double x0, double y0, double x1,
+                      double y1)
 {
     if (pen->canvas)
         canvas_line(pen->canvas, x0, y0, x1, y1,
-                    fmax(1, floor(RULE * pen->style.size + 0.5)),
+                    fmax(1, floor(RULE_WIDTH * pen->style.size + 0.5)),
                     pen->style.colour);
 }
 
-/* Finds a word outside of all inner braces, or the brace that closes the part.
- * Returns the part's end if neither exists.
+/* Finds a word that is not inside of further braces, or the brace that closes
+ * the part.  Returns the part's end if there is neither.
  *   word  NULL: only finds the closing brace */
-static const char *find_outside(MarkupPart part, const char *word)
+static const char *find_outside_braces(MarkupPart part, const char *word)
 {
     size_t length = word ? strlen(word) : 0;
     int depth = 0;
@@ -154,13 +157,13 @@ static void shrink_letters(TextStyle *style, double factor)
         fmin(style->size, fmax(factor * style->size, style->min_size));
 }
 
-/* Sets ^{...} or _{...}. */
-static void set_raised(Pen *pen, MarkupPart part, int depth)
+/* Sets ^{...} or _{...}, a script. */
+static void set_script(Pen *pen, MarkupPart part, int depth)
 {
     Pen inner = *pen;
     inner.y += (part.from[-2] == '^' ? -RAISE : LOWER) * pen->style.size;
     shrink_letters(&inner.style, SCRIPT_SIZE);
-    set_part(&inner, part, depth);
+    set_markup(&inner, part, depth);
     pen_extend(pen, inner.top, inner.bottom);
     pen->x = inner.x;
 }
@@ -169,32 +172,32 @@ static void set_raised(Pen *pen, MarkupPart part, int depth)
 static void set_fraction(Pen *pen, MarkupPart part, int depth)
 {
     static const char over[] = " over ";
-    const char *middle = find_outside(part, over);
+    const char *middle = find_outside_braces(part, over);
     MarkupPart above = {part.from, middle}, below = {middle, part.end};
     below.from += middle < part.end ? strlen(over) : 0;
     Pen small = *pen;
-    shrink_letters(&small.style, PART_SIZE);
-    TextExtent a = measure_part(&small, above, depth);
-    TextExtent b = measure_part(&small, below, depth);
-    double thin = THIN * pen->style.size;
+    shrink_letters(&small.style, FRACTION_SIZE);
+    TextExtent a = measure_markup(&small, above, depth);
+    TextExtent b = measure_markup(&small, below, depth);
+    double thin = SPACE * pen->style.size;
     double wide = fmax(a.width, b.width) + 2 * thin, left = pen->x + thin;
-    double y = floor(pen->y - AXIS * pen->style.size) + 0.5;
-    set_part_at(&small, left + 0.5 * (wide - a.width), y - thin - a.below,
-                above, depth);
-    set_part_at(&small, left + 0.5 * (wide - b.width), y + thin + b.above,
-                below, depth);
-    draw_rule_line(pen, left, y, left + wide, y);
+    double y = floor(pen->y - AXIS_HEIGHT * pen->style.size) + 0.5;
+    set_markup_at(&small, left + 0.5 * (wide - a.width), y - thin - a.below,
+                  above, depth);
+    set_markup_at(&small, left + 0.5 * (wide - b.width), y + thin + b.above,
+                  below, depth);
+    draw_rule(pen, left, y, left + wide, y);
     pen_extend(pen, small.top, small.bottom);
     pen->x = left + wide + thin;
 }
 
 /* Reads the next cell of a matrix, without blanks around it, and moves `at`
  * behind the cell.  Returns whether the cell is the last one of its row. */
-static bool next_cell(const char **at, const char *end, MarkupPart *cell)
+static bool read_cell(const char **at, const char *end, MarkupPart *cell)
 {
     MarkupPart rest = {*at, end};
-    const char *row = find_outside(rest, ";");
-    const char *column = find_outside((MarkupPart){*at, row}, "&");
+    const char *row = find_outside_braces(rest, ";");
+    const char *column = find_outside_braces((MarkupPart){*at, row}, "&");
     *cell = (MarkupPart){*at + strspn(*at, " "), column};
     while (cell->end > cell->from && cell->end[-1] == ' ')
         cell->end--;
@@ -205,45 +208,47 @@ static bool next_cell(const char **at, const char *end, MarkupPart *cell)
 /* Sets matrix{a & b; c & d}; columns are aligned at their right edge. */
 static void set_matrix(Pen *pen, MarkupPart part, int depth)
 {
-    MarkupPart cell[ROWS][COLUMNS] = {{{0}}};
-    double em = pen->style.size, above[ROWS], below[ROWS], wide[COLUMNS] = {0};
-    double high = -ROW * em, right = pen->x + (3.5 * THIN - CELL) * em;
+    MarkupPart cell[MAX_ROWS][MAX_COLUMNS] = {{{0}}};
+    double em = pen->style.size, above[MAX_ROWS], below[MAX_ROWS],
+           wide[MAX_COLUMNS] = {0};
+    double high = -ROW_GAP * em,
+           right = pen->x + (3.5 * SPACE - COLUMN_GAP) * em;
     const char *at = part.from;
     int rows = 0;
-    for (; at < part.end && rows < ROWS; rows++) {
+    for (; at < part.end && rows < MAX_ROWS; rows++) {
         bool last = false;
-        above[rows] = HIGH * em;
-        below[rows] = LOW * em;
-        for (int c = 0; c < COLUMNS && at < part.end && !last; c++) {
-            last = next_cell(&at, part.end, &cell[rows][c]);
-            TextExtent in = measure_part(pen, cell[rows][c], depth);
+        above[rows] = LETTER_ASCENT * em;
+        below[rows] = LETTER_DESCENT * em;
+        for (int c = 0; c < MAX_COLUMNS && at < part.end && !last; c++) {
+            last = read_cell(&at, part.end, &cell[rows][c]);
+            TextExtent in = measure_markup(pen, cell[rows][c], depth);
             above[rows] = fmax(above[rows], in.above);
             below[rows] = fmax(below[rows], in.below);
             wide[c] = fmax(wide[c], in.width);
         }
-        high += above[rows] + below[rows] + ROW * em;
+        high += above[rows] + below[rows] + ROW_GAP * em;
     }
-    double top = floor(pen->y - AXIS * em - 0.5 * high) + 0.5;
+    double top = floor(pen->y - AXIS_HEIGHT * em - 0.5 * high) + 0.5;
     double bottom = top + high;
-    for (int c = 0; c < COLUMNS && wide[c] > 0; c++) {
+    for (int c = 0; c < MAX_COLUMNS && wide[c] > 0; c++) {
         double y = top;
-        right += wide[c] + CELL * em;
+        right += wide[c] + COLUMN_GAP * em;
         for (int r = 0; r < rows; r++) {
-            double width = measure_part(pen, cell[r][c], depth).width;
-            set_part_at(pen, right - width, y + above[r], cell[r][c], depth);
-            y += above[r] + below[r] + ROW * em;
+            double width = measure_markup(pen, cell[r][c], depth).width;
+            set_markup_at(pen, right - width, y + above[r], cell[r][c], depth);
+            y += above[r] + below[r] + ROW_GAP * em;
         }
     }
-    right += 2.5 * THIN * em;
+    right += 2.5 * SPACE * em;
     for (int side = 0; side < 2; side++) { /* the brackets */
-        double x = floor(side ? right : pen->x + THIN * em) + 0.5;
+        double x = floor(side ? right : pen->x + SPACE * em) + 0.5;
         double in = x + (side ? -0.2 : 0.2) * em;
-        draw_rule_line(pen, x, top - 0.5, x, bottom + 0.5);
-        draw_rule_line(pen, x, top, in, top);
-        draw_rule_line(pen, x, bottom, in, bottom);
+        draw_rule(pen, x, top - 0.5, x, bottom + 0.5);
+        draw_rule(pen, x, top, in, top);
+        draw_rule(pen, x, bottom, in, bottom);
     }
     pen_extend(pen, top, bottom);
-    pen->x = right + 1.5 * THIN * em;
+    pen->x = right + 1.5 * SPACE * em;
 }
 
 /* Sets #name{...} in the colour of this name, unless the whole text is grey. */
@@ -255,19 +260,20 @@ static void set_coloured(Pen *pen, MarkupPart part, int depth)
         length++;
     if (before != COLOUR_GREY)
         pen->style.colour = colour_find_name(part.from - 1 - length, length);
-    set_part(pen, part, depth);
+    set_markup(pen, part, depth);
     pen->style.colour = before;
 }
 
 /* ---- markup ------------------------------------------------------------- */
 
-/* Words that start markup.  A letter of the slides means other markup. */
+/* Words that start markup.  Either `set_in_braces` sets the part in braces that
+ * follows, or the word is an abbreviation of the markup `expansion`. */
 static const struct {
     const char *name;
-    void (*set)(Pen *pen, MarkupPart part, int depth);
-    const char *means;
-} commands[] = {{"^", set_raised, NULL},
-                {"_", set_raised, NULL},
+    void (*set_in_braces)(Pen *pen, MarkupPart part, int depth);
+    const char *expansion;
+} commands[] = {{"^", set_script, NULL},
+                {"_", set_script, NULL},
                 {"frac", set_fraction, NULL},
                 {"matrix", set_matrix, NULL},
                 {"#", set_coloured, NULL},
@@ -285,8 +291,8 @@ static int find_command(const char *string, const char **brace)
         size_t length = strlen(commands[i].name);
         if (strncmp(string, commands[i].name, length) != 0)
             continue;
-        *brace = string + (commands[i].means ? 0 : length);
-        if (commands[i].set == set_coloured)
+        *brace = string + (commands[i].expansion ? 0 : length);
+        if (commands[i].set_in_braces == set_coloured)
             *brace += strspn(*brace, "abcdefghijklmnopqrstuvwxyz0123456789");
         if (**brace == '{')
             return i;
@@ -303,22 +309,22 @@ bool text_is_markup_brace(const char *text, const char *brace)
     return false;
 }
 
-static void set_part(Pen *pen, MarkupPart part, int depth)
+static void set_markup(Pen *pen, MarkupPart part, int depth)
 {
     const char *at = part.from, *brace = at;
     while (at < part.end) {
-        bool plain = pen->style.plain || depth >= DEPTH;
+        bool plain = pen->style.plain || depth >= MAX_DEPTH;
         int command = plain ? COMMANDS : find_command(at, &brace);
-        if (command < COMMANDS && commands[command].means) {
-            set_part(pen, part_of_string(commands[command].means), depth);
+        if (command < COMMANDS && commands[command].expansion) {
+            set_markup(pen, whole_text(commands[command].expansion), depth);
             at += strlen(commands[command].name);
         } else if (command < COMMANDS && brace < part.end) {
             MarkupPart inside = {brace + 1, part.end};
-            inside.end = find_outside(inside, NULL);
-            commands[command].set(pen, inside, depth + 1);
+            inside.end = find_outside_braces(inside, NULL);
+            commands[command].set_in_braces(pen, inside, depth + 1);
             at = inside.end + (inside.end < part.end);
         } else {
-            set_letter(pen, next_letter(&at));
+            set_letter(pen, read_letter(&at));
         }
     }
 }
@@ -327,7 +333,7 @@ static void set_part(Pen *pen, MarkupPart part, int depth)
 
 double text_line_height(double size)
 {
-    return (ASCENT + DESCENT) * size;
+    return (LINE_ASCENT + LINE_DESCENT) * size;
 }
 
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
@@ -335,16 +341,17 @@ TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
     Pen pen = {.text = text, .style = *style};
     TextExtent ink = {0, 0, 0};
     if (style->size >= MIN_SIZE && style->size <= MAX_SIZE)
-        ink = measure_part(&pen, part_of_string(markup), 0);
-    double above = ASCENT * style->size, below = DESCENT * style->size;
-    double air = THIN * style->size; /* space around fractions and matrices */
+        ink = measure_markup(&pen, whole_text(markup), 0);
+    double above = LINE_ASCENT * style->size,
+           below = LINE_DESCENT * style->size;
+    double air = SPACE * style->size; /* space above and below fractions */
     return (TextExtent){ceil(ink.width),
                         ink.above > above ? ink.above + air : above,
                         ink.below > below ? ink.below + air : below};
 }
 
-/* Letters start at whole pixels.  Text far outside of the canvas is not drawn.
- */
+/* Letters start at whole pixels.  A text far outside of the canvas is not
+ * drawn. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {
@@ -356,7 +363,7 @@ int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
                .canvas = canvas,
                .style = *style,
                .x = floor(start + 0.5),
-               .y = y + ASCENT * style->size};
-    set_part(&pen, part_of_string(markup), 0);
+               .y = y + LINE_ASCENT * style->size};
+    set_markup(&pen, whole_text(markup), 0);
     return (int)ceil(pen.x - start);
 }

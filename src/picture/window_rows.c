@@ -10,16 +10,16 @@
 #include "picture/colour_map.h"
 
 enum {
-    MIN_STEPS = 60, /* the time line has room for at least these steps */
-    MIN_BAR = 3,    /* pixels, width of a bar; narrower steps are grouped */
-    FULL_BAR_UPDATES = 12 /* a step with fewer updates has no full bar */
+    MIN_STEPS = 60, /* least number of steps that the time line has room for */
+    MIN_BAR = 3,    /* pixels, least width of a bar; narrower bars are merged */
+    FULL_BAR_UPDATES = 12 /* updates of a full bar, unless a step has more */
 };
 
-static const double TOPIC = 1.3;  /* ems, letters of the topic */
-static const double VALUE = 0.95; /* ems, letters of settings and time */
+static const double TOPIC_SIZE = 1.3; /* ems, letters of the topic */
+static const double TEXT_SIZE = 0.95; /* ems, settings and time line */
 
 /* Draws the white ground of a zone, with a thin line along one edge. */
-static void draw_zone(Paper *paper, Box zone, bool rule_below)
+static void draw_zone_ground(Paper *paper, Box zone, bool rule_below)
 {
     Box rule = {zone.x, zone.y, zone.width, (int)fmax(1, paper->unit)};
     rule.y += rule_below ? zone.height - rule.height : 0;
@@ -28,8 +28,8 @@ static void draw_zone(Paper *paper, Box zone, bool rule_below)
 }
 
 /* Draws topic and sentence from the left, method and state from the right.  A
- * message takes the place of the sentence, in a low strip also that of the
- * topic unless both fit. */
+ * message stands in the place of the sentence.  If the strip is low and both do
+ * not fit, the message also takes the place of the topic. */
 static void draw_strip(Paper *paper, Box room, const Strip *strip)
 {
     double em = paper->em;
@@ -40,7 +40,7 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
                     : strip->is_warning ? COLOUR_WARNING
                                         : COLOUR_VALUE;
     char words[2 * SENTENCE_SIZE];
-    draw_zone(paper, room, true);
+    draw_zone_ground(paper, room, true);
     box_cut_off(&room, EDGE_LEFT, (int)(0.9 * em));
     room.width -= (int)(0.9 * em);
     snprintf(words, sizeof words, "%s%s%s", strip->method,
@@ -54,13 +54,14 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
     double wide = paper_width(paper, FACE_REGULAR, 1, said);
     bool beside =
         !low || !message ||
-        paper_width(paper, FACE_BOLD, TOPIC, topic) + wide + 1.1 * em <
+        paper_width(paper, FACE_BOLD, TOPIC_SIZE, topic) + wide + 1.1 * em <
             room.width;
     if (strip->topic && beside)
         box_cut_off(&room, EDGE_LEFT,
-                    (int)(1.1 * em) +
-                        paper_write_in_box(paper, FACE_BOLD, TOPIC, COLOUR_TEXT,
-                                           room, ALIGN_LEFT, topic));
+                    (int)(1.1 * em) + paper_write_in_box(paper, FACE_BOLD,
+                                                         TOPIC_SIZE,
+                                                         COLOUR_TEXT, room,
+                                                         ALIGN_LEFT, topic));
     bool two = !low && wide > room.width;
     room.y += (int)(0.5 * room.height - (two ? 1.27 : 0.65) * em);
     if (room.width > 6 * em)
@@ -70,8 +71,8 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
 
 /* ---- settings ------------------------------------------------------------ */
 
-/* Draws name and value of a setting.  Dots below the value are the sign of a
- * value that can be changed. */
+/* Draws name and value of a setting.  A value that can be changed is underlined
+ * by dots. */
 static void draw_setting(Paper *paper, Box box, const Setting *setting,
                          bool selected, bool over)
 {
@@ -86,17 +87,17 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
                           selected ? COLOUR_LIT : COLOUR_CHIP,
                           selected ? COLOUR_BORDER : COLOUR_CHIP);
     snprintf(value, sizeof value, "%s", setting->value);
-    if (power && power < rest && *rest != '_') /* 1e-06 becomes 10^-6 */
+    if (power && power < rest && *rest != '_') /* writes 1e-06 as 10^-6 */
         snprintf(value, sizeof value, "%s%s", format_digits(number, 6).text,
                  rest);
     box_cut_off(&box, EDGE_LEFT, (int)(0.4 * em));
-    int width = paper_write_in_box(paper, FACE_REGULAR, VALUE, COLOUR_FAINT,
+    int width = paper_write_in_box(paper, FACE_REGULAR, TEXT_SIZE, COLOUR_FAINT,
                                    box, ALIGN_LEFT, setting->name);
     box_cut_off(&box, EDGE_LEFT, (int)(0.5 * em + width));
     box.width += (int)(0.8 * em); /* the value may reach into the gap */
     width =
         paper_write_in_box(paper, setting->changed ? FACE_BOLD : FACE_REGULAR,
-                           VALUE, colour, box, ALIGN_LEFT, value);
+                           TEXT_SIZE, colour, box, ALIGN_LEFT, value);
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
                   (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
                   paper->unit, NULL, colour);
@@ -110,7 +111,8 @@ long time_line_steps(const FrameContent *content)
     return steps > MIN_STEPS ? steps : MIN_STEPS;
 }
 
-/* Draws a bar for each step, or for the largest step of each group of steps. */
+/* Draws a bar for each step.  If steps are too narrow, a bar shows the largest
+ * step of a group. */
 static void draw_bars(Paper *paper, Box bars, double pitch,
                       const TimeLine *line)
 {
@@ -138,10 +140,9 @@ static void draw_bars(Paper *paper, Box bars, double pitch,
     }
 }
 
-/* Draws the bars of the steps, and the handle at the shown step with its words.
- */
-static void draw_time(Paper *paper, const Layout *layout,
-                      const FrameContent *content)
+/* Draws the bars of the steps, and the handle at the shown step with a text. */
+static void draw_time_line(Paper *paper, const Layout *layout,
+                           const FrameContent *content)
 {
     Box zone = layout->time_line, bars = layout->bars;
     const TimeLine *line = &content->time_line;
@@ -152,18 +153,18 @@ static void draw_time(Paper *paper, const Layout *layout,
     double top = zone.y + (words ? 1.1 : 0.5) * em, at = x + 1.1 * em;
     if (zone.width <= 0)
         return;
-    draw_zone(paper, zone, false);
+    draw_zone_ground(paper, zone, false);
     if (line->bar)
         draw_bars(paper, bars, bars.width / room, line);
     canvas_line(&paper->canvas, x, top, x, bars.y + bars.height + 0.2 * em,
                 2 * paper->unit, COLOUR_TEXT);
     canvas_disc(&paper->canvas, x, top, (words ? 7 : 5) * paper->unit,
                 COLOUR_TEXT);
-    int width = paper_width(paper, FACE_REGULAR, VALUE, line->text);
+    int width = paper_width(paper, FACE_REGULAR, TEXT_SIZE, line->text);
     if (at + width > zone.x + zone.width - 0.9 * em)
         at = fmax(x - 1.1 * em - width, zone.x + 0.4 * em);
     if (words)
-        paper_write(paper, FACE_REGULAR, VALUE, COLOUR_TEXT, at,
+        paper_write(paper, FACE_REGULAR, TEXT_SIZE, COLOUR_TEXT, at,
                     top - 0.62 * em, ALIGN_LEFT, "%s", line->text);
 }
 
@@ -174,7 +175,7 @@ static void draw_chips(Paper *paper, const Layout *layout,
 {
     const double gap = 0.5 * paper->em, size = 0.92;
     const Hit *mouse = &content->view->mouse;
-    draw_zone(paper, layout->chip_row, false);
+    draw_zone_ground(paper, layout->chip_row, false);
     for (int i = 0; i < layout->chips; i++) {
         const Chip *chip = &content->chips.item[i];
         Box box = layout->chip[i];
@@ -203,11 +204,11 @@ void window_rows_draw(Paper *paper, const Layout *layout,
 {
     const Hit *mouse = &content->view->mouse;
     draw_strip(paper, layout->strip, &content->strip);
-    draw_zone(paper, layout->settings_row, false);
+    draw_zone_ground(paper, layout->settings_row, false);
     for (int i = 0; i < layout->settings; i++)
         draw_setting(paper, layout->setting[i], &content->settings.item[i],
                      content->settings.selected == i,
                      mouse->zone == ZONE_SETTING && mouse->index == i);
-    draw_time(paper, layout, content);
+    draw_time_line(paper, layout, content);
     draw_chips(paper, layout, content);
 }

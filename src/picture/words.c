@@ -13,15 +13,16 @@
 enum { WORDS_TEXT = 512 }; /* bytes of a label */
 
 static const double LEGEND_SIZE = 0.92; /* ems */
-static const double SCALE_PART = 0.08;  /* least part of the stage's width */
-static const double FARTHEST = 1e6;     /* pixels, labels beyond are left out */
-static const double LINE_HEIGHT = 1.3;  /* ems, height of a label */
-/* Costs of a label's place: fully covered by ink, fully outside of the plot,
- * and for each better place in the list. */
+/* The scale bar is at least this part of the stage's width long. */
+static const double SCALE_PART = 0.08;
+static const double MAX_PIXEL = 1e6;   /* pixels, farthest labelled point */
+static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
+/* Costs of a label's place: if the label is all on ink, if it is all outside of
+ * the plot, and for each place before in the list. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_LATER = 0.08;
-static const double AIR = 0.2;   /* ems, between label and ink */
-static const double APART = 0.8; /* ems, between point and label */
-static const Colour INK = 190;   /* a pixel with a channel below this is ink */
+static const double LABEL_MARGIN = 0.2; /* ems, margin of a label without ink */
+static const double LABEL_DISTANCE = 0.8; /* ems, from point to label */
+static const Colour INK = 190; /* a pixel with a channel below this is ink */
 
 /* ---- numbers ------------------------------------------------------------ */
 
@@ -88,7 +89,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     room.box.x += (int)(0.9 * em);
     room.box.y += (int)(0.6 * em);
     room.box.width -= (int)(1.8 * em);
-    card_flow_words(&room, plot->legend_at, LEGEND_SIZE, 1.6, &line);
+    card_write_flow(&room, plot->legend_at, LEGEND_SIZE, 1.6, &line);
 }
 
 /* ---- labels -------------------------------------------------------------- */
@@ -120,7 +121,7 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
     va_start(arguments, format);
     vsnprintf(words, sizeof words, format, arguments);
     va_end(arguments);
-    /* right, left, below, above, then the corners */
+    /* directions: right, left, below, above, then the corners */
     static const int side[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                    {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
     int wide = paper_width(paper, FACE_BOLD, 1, words);
@@ -131,13 +132,14 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
         const int *to = side[i % 8];
         double p[2];
         plot_to_pixel(plot, at + i / 8 * 2, p);
-        if (!(fabs(p[0]) < FARTHEST && fabs(p[1]) < FARTHEST))
+        if (!(fabs(p[0]) < MAX_PIXEL && fabs(p[1]) < MAX_PIXEL))
             continue;
-        double apart = (i % 8 < 4 ? APART : 0.7 * APART) * paper->em;
+        double apart =
+            (i % 8 < 4 ? LABEL_DISTANCE : 0.7 * LABEL_DISTANCE) * paper->em;
         Box place = {(int)(p[0] + to[0] * (apart + 0.5 * wide) - 0.5 * wide),
                      (int)(p[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
                      wide, high};
-        Box wider = box_inset(place, -paper_pixels(paper, AIR));
+        Box wider = box_inset(place, -paper_pixels(paper, LABEL_MARGIN));
         double cost = plot_label_cost(plot, wider) + COST_LATER * i;
         if (cost < least) {
             least = cost;

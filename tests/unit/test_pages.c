@@ -246,10 +246,10 @@ static struct {
     char texts[1 << 15];
 } seen;
 
-const Glyph *__real_font_glyph(Text *text, Face face, int size,
-                               uint32_t letter);
-const Glyph *__wrap_font_glyph(Text *text, Face face, int size,
-                               uint32_t letter);
+const Glyph *__real_font_get_glyph(Text *text, Face face, int size,
+                                   uint32_t letter);
+const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
+                                   uint32_t letter);
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
@@ -259,14 +259,15 @@ void __real_plot_curve(const Plot *plot, int count, const double *x,
 void __wrap_plot_curve(const Plot *plot, int count, const double *x,
                        const double *y, double width, Colour colour);
 
-const Glyph *__wrap_font_glyph(Text *text, Face face, int size, uint32_t letter)
+const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
+                                   uint32_t letter)
 {
     if (letter != ' ' && size < seen.smallest)
         seen.smallest = size;
     if (face == FACE_MONO && size < seen.smallest_code)
         seen.smallest_code = size;
     seen.ellipses += letter == 0x2026;
-    return __real_font_glyph(text, face, size, letter);
+    return __real_font_get_glyph(text, face, size, letter);
 }
 
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
