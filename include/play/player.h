@@ -116,7 +116,7 @@ typedef struct Frame {
     FrameContent content;
     History history[LAYOUT_PANES];
     Trace trace[LAYOUT_PANES];
-    char label[LAYOUT_PANES][LABEL_SIZE]; /* options that differ by pane */
+    char label[LAYOUT_PANES][LABEL_SIZE]; /* values that differ by pane */
     char chip_key[LAYOUT_CHIPS][VALUE_SIZE];
     char chip_label[LAYOUT_CHIPS][VALUE_SIZE];
     CommandKind chip[LAYOUT_CHIPS]; /* command that a click on the chip gives */

@@ -25,7 +25,7 @@ typedef struct Prediction {
  * m.  A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
 typedef struct LocalModel {
     double value, g[2], H[3];
-    int projected; /* number of springs whose Hessian was changed */
+    int projected; /* number of springs whose Hessian was projected */
 } LocalModel;
 
 /* Evaluates a function of one unknown at x. */

@@ -103,7 +103,7 @@ static bool is_pull_due(const Player *player)
             player->past.step <= player->hands.pulled);
 }
 
-/* Obeys the queue like player_obey_queue, but returns a refusal. */
+/* Obeys the queue like player_obey_queue, without showing INVALID_INPUT. */
 static Status obey_queue(Player *player, bool now)
 {
     Queue queue = player->commands.queue;

@@ -21,7 +21,7 @@ typedef struct RunAtStep {
     double step, time;
     int run_index;            /* index of the run in its simulation */
     int pane;                 /* number of the pane, from 1 */
-    int runs, nodes, springs; /* number of earlier runs, their nodes, springs */
+    int runs, nodes, springs; /* counts in all runs before this run */
 } RunAtStep;
 
 static void add_states(Table *table, const RunAtStep *at)

@@ -512,7 +512,7 @@ double simulation_find_free_way(const Simulation *simulation,
                                 const double to[2])
 {
     enum { HALVINGS = 20 };
-    static const double MIN_GAP = 0.999; /* gap over d_hat */
+    static const double MIN_GAP = 0.999; /* gap to a body over d_hat */
     Options moved = *options;
     double *at = options_obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);

@@ -112,7 +112,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
 
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
-    if (row && row->kind == OPTION_NAME) { /* index -1: the first name */
+    if (row && row->kind == OPTION_NAME) { /* -1 stands for name 0 */
         snprintf(text, size, "%s", names_get(row->names, (int)fmax(value, 0)));
         return;
     }

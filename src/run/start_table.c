@@ -73,7 +73,7 @@ static char *take_field(char **rest)
     return field;
 }
 
-/* Finds the columns in the first line. */
+/* Finds the wanted columns by the names in the first line. */
 static void read_names(TableReader *reader)
 {
     char shown[40];
