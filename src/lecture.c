@@ -534,7 +534,7 @@ static void read_argument(const char *text, Parameter *const *p)
         p++;
     if (!*p)
         FAIL(2, "'%s' is none of " DEFAULTS "\n", text);
-    bool whole = (*p)->most < 1e30; /* no other limit is below 1e30 */
+    bool whole = (*p)->most < 1e30; /* other limits are 1e30 */
     if (!(value >= (*p)->least && value <= (*p)->most) || text[end] ||
         (whole && value != floor(value)))
         FAIL(2, "'%s': %s is a %snumber from %g to %g\n", text, name,

@@ -27,9 +27,9 @@ enum { MOTION_MAX_PHASES = 4 };
 
 typedef struct Motion {
     int phases;
-    double until[MOTION_MAX_PHASES]; /* s, end of the phase */
-    double v[MOTION_MAX_PHASES][2];  /* m/s, velocity in the phase */
-    bool stops;                      /* whether the obstacle stops at `stop` */
+    double phase_end[MOTION_MAX_PHASES]; /* s, end of the phase */
+    double v[MOTION_MAX_PHASES][2];      /* m/s, velocity in the phase */
+    bool stops;     /* whether the obstacle stops at `stop` */
     double stop[2]; /* m, last position of the obstacle's point o */
 } Motion;
 
@@ -40,11 +40,11 @@ typedef struct Obstacle {
     double n[2];   /* outward unit normal of a wall; not used for balls */
     double radius; /* m, R > 0; not used for walls */
     Motion motion;
-    double v[2];     /* m/s, velocity in the present step */
-    double friction; /* coefficient of friction mu >= 0 */
-    int node;        /* node at the centre of the free ball; -1: fixed */
-    double given[2]; /* m, o as the options last set it; a hand may have moved
-                        the obstacle since */
+    double v[2];         /* m/s, velocity in the present step */
+    double friction;     /* coefficient of friction mu >= 0 */
+    int node;            /* node at the centre of the free ball; -1: fixed */
+    double options_o[2]; /* m, o as the options last set it; a hand may have
+                            moved the obstacle since */
 } Obstacle;
 
 /* Width and strength of the barrier. */
@@ -61,7 +61,7 @@ typedef struct Gap {
 } Gap;
 
 /* Returns the point o of an obstacle, or the node at the centre of the free
- * ball. x [2n] m, in. */
+ * ball.  x [2n] m, in. */
 const double *obstacle_origin(const Obstacle *obstacle, const double *x);
 
 /* Measures the gap between a node and an obstacle.
@@ -83,10 +83,10 @@ enum { CONTACT_MAX_OBSTACLES = 20 };
 typedef struct Push {
     bool on;          /* whether a hand holds an obstacle */
     int obstacle;     /* number of the obstacle */
-    double to[2];     /* m, target of the obstacle's point o */
+    double target[2]; /* m, target of the obstacle's point o */
     SquareMesh shape; /* mesh of the bodies, whose cells no ball may enter */
     bool stopped;     /* whether the obstacle was stopped in this step */
-    double moved;     /* part of the step after which it was stopped */
+    double moved;     /* part of the step before the obstacle stopped */
 } Push;
 
 /* The data of the term is a struct of this type. */

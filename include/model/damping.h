@@ -27,10 +27,10 @@ typedef struct Damping {
     double *l2;   /* [springs] m^2, squared rest length l2' in this step */
 } Damping;
 
-/* Damping as a term; data: Damping; number of its option: eta.  The term has no
- * value, since the springs' term evaluates their energy with k' and l2'. After
- * a step it books the dissipated energy k l2 theta (E - E_n)^2, which is the
- * power k l2 eta (dE/dt)^2 times h. */
+/* Damping as a term; data: Damping.  The option's number is eta.  The term has
+ * no value, since the springs' term evaluates their energy with k' and l2'.
+ * After a step it books the dissipated energy k l2 theta (E - E_n)^2, which is
+ * the power k l2 eta (dE/dt)^2 times h. */
 extern const TermKind damping;
 
 #endif

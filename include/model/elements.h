@@ -26,16 +26,16 @@ typedef struct Element {
     int nodes;                 /* 1 ... 3 */
     int vectors;               /* 1: a alone, 2: a and b */
     int node[3];               /* [nodes] */
-    const double (*weight)[3]; /* [vectors] of each node, in a and in b */
+    const double (*weight)[3]; /* [vectors] weights of nodes in a and b */
     int block;      /* block of the matrix with its entries; -1: none yet */
-    int source;     /* contact: its obstacle; self-contact: its edge */
-    int next_place; /* > 0: the next call of get has the same i and continues
-                       here */
+    int partner;    /* contact: its obstacle; self-contact: its edge */
+    int next_place; /* > 0: the next call of get_element has the same i and
+                       continues here */
     double factor;  /* factor on gradient and Hessian: 1, or EvalPoint.weight
                        if the kind's functions do not multiply by it */
     double v[4];    /* m, a and b, for kinds whose functions use them */
     double s;       /* argument of W: a gap, a ratio of areas or a slip */
-    double n[2], r; /* further numbers, told at the TermKind */
+    double n[2], r; /* further numbers, explained at each TermKind */
 } Element;
 
 /* Computes a and b, or their change along a direction.

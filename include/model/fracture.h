@@ -24,14 +24,13 @@ typedef struct Candidate {
 typedef struct Fracture {
     double strength;      /* s_c > 0, mean strain at which springs break */
     Candidate *candidate; /* [springs] workspace */
-    unsigned char
-        *taken; /* [nodes] 1: a spring of the node broke in this step */
+    unsigned char *taken; /* [nodes] 1: a spring of the node broke now */
 } Fracture;
 
-/* Fracture as a term; data: Fracture; the option's number is s_c.  The term has
- * no value.  After a step it breaks springs and books the energy that they and
- * their cells had.  Fracture is last in the list, after all other terms have
- * ended the step. */
+/* Fracture as a term; data: Fracture.  The option's number is s_c.  The term
+ * has no value.  After a step it breaks springs and books the energy that they
+ * and their cells had.  Fracture is last in the list, after all other terms
+ * have ended the step. */
 extern const TermKind fracture;
 
 /* Returns the strain at which spring s breaks. */

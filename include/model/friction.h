@@ -48,8 +48,8 @@ typedef struct Friction {
  * Friction. The system must have the term of these contacts. */
 extern const TermKind friction_energy, self_friction_energy;
 
-/* Work that moving obstacles did by friction in this step, J.
- * u [2n] m, in, displacement of the step. */
+/* Returns the work that moving obstacles did by friction in this step, J.
+ *   u  [2n] m, in, displacement of the step */
 double friction_work_of_obstacles(const System *system, const double *u);
 
 /* Adds one of the two terms, changes its eps_v, or removes it.

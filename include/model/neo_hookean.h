@@ -34,10 +34,10 @@ typedef struct NeoHookean {
     int (*node)[3]; /* [triangles] nodes, anticlockwise from the right angle */
 } NeoHookean;
 
-/* The sum of W over the triangles; data: NeoHookean.  Numbers of its option: 1
- * for triangles, Young's modulus E in Pa, Poisson's ratio nu.  `set` removes
- * the springs' term; the sides of the triangles stay in the system as springs,
- * which are drawn. */
+/* The sum of W over the triangles; data: NeoHookean.  The option's numbers are
+ * 1 for triangles, Young's modulus E in Pa, and Poisson's ratio nu.
+ * `configure` removes the springs' term; the sides of the triangles stay in the
+ * system as springs, which are drawn. */
 extern const TermKind neo_hookean_energy;
 
 /* Returns the data of the term; NULL: the system consists of springs. */

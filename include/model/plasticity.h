@@ -24,10 +24,10 @@
 typedef struct FlowLaw {
     double ep;    /* plastic strain at the step's start */
     double yield; /* yield strain Y_n > 0 */
-    double flow;  /* 1/(1 + H), in (0, 1] */
-    double hard;  /* 1 - flow, the slope of V' beyond the yield strain */
-    double theta; /* damping eta/h; 0: none */
-    double e_n;   /* elastic strain e = E - ep at the step's start */
+    double flow;  /* 1/(1 + H), part of the strain beyond Y_n that flows */
+    double plastic_slope; /* 1 - flow, slope of V' beyond Y_n */
+    double theta;         /* damping eta/h; 0: none */
+    double e_n;           /* elastic strain e = E - ep at the step's start */
 } FlowLaw;
 
 /* Returns tau = V'(e). */
@@ -50,13 +50,14 @@ typedef struct Plasticity {
     double *kappa;    /* [springs] accumulated |change of ep| */
 } Plasticity;
 
-/* The sum of W over the springs; data: Plasticity; numbers of its option: Y and
- * H.  The term replaces mass_spring_energy.  The value includes the energy of
- * hardening, k l2 H kappa^2/2.  After a step in which ep changes by gamma it
+/* The sum of W over the springs; data: Plasticity.  The option's numbers are Y
+ * and H.  The term replaces mass_spring_energy.  The value includes the energy
+ * of hardening, k l2 H kappa^2/2.  After a step in which ep changes by gamma it
  * books the dissipated energy k l2 Y gamma. */
 extern const TermKind plastic_energy;
 
-/* Returns V of spring s without damping; elastic without this term. */
+/* Returns the law V of spring s, without damping; an elastic law if the system
+ * has no plastic term. */
 FlowLaw plasticity_get_law(const System *system, int s);
 
 #endif

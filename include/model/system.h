@@ -39,11 +39,10 @@ struct System {
     double *pin_v;         /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
     int segments; /* segments a side if the system is the mesh of square_mesh.h;
                      else 0 */
-    unsigned version; /* goes up with every change of numbers or terms */
-    unsigned pattern; /* goes up where the entries of the Hessian change too */
+    unsigned version; /* rises with every change of numbers or terms */
+    unsigned pattern; /* rises when the Hessian gets other entries, too */
     int terms;
-    Term term[SYSTEM_MAX_TERMS]; /* terms by place; the springs' term is the
-                                    first */
+    Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.place */
     Loss lost[SYSTEM_MAX_TERMS]; /* energy lost by column, up to a NULL name; a
                                     loss stays when its term is removed */
 };

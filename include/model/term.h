@@ -75,8 +75,7 @@ struct TermKind {
         PLACE_CONTACT,
         PLACE_FRICTION,
         PLACE_CELLS,
-        PLACE_FRACTURE, /* after the terms above, whose loss of energy it books
-                         */
+        PLACE_FRACTURE, /* after all terms whose energy breaks with springs */
         PLACE_HAND,
     } place;
 

@@ -33,12 +33,12 @@ void scene_predict(Simulation *simulation, double x, double y);
 Status create_small_system(System *system, int pins, double mass, double length,
                            double stiffness);
 
-/* Runs 0, 1, 2 by forward, symplectic and backward Euler; a single run if an
- * integrator is chosen. */
+/* Create `circle` and `arrows`, with runs 0, 1, 2 by forward, symplectic and
+ * backward Euler, or a single run if an integrator is chosen. */
 Status create_circle(Simulation *simulation);
 Status create_arrows(Simulation *simulation);
 
-/* Node 0 is free, node 1 is pinned at the origin. */
+/* Creates `spring`: node 0 is free, node 1 is pinned at the origin. */
 Status create_spring(Simulation *simulation);
 
 /* A step of the scene arrows, with omega2 = 1/s^2.
@@ -78,8 +78,8 @@ SpringValues spring_evaluate(const double d[2], double l2, double k);
 
 /* ---- descents: a minimisation by Newton's method, update by update ------- */
 
-/* In overshoot and tangent the unknown is x of node 0.  In landscape node 0 is
- * free, and nodes 1 and 2 are pinned. */
+/* Create the scenes of a descent.  In overshoot and tangent the unknown is x of
+ * node 0.  In landscape node 0 is free, and nodes 1 and 2 are pinned. */
 Status create_overshoot(Simulation *simulation);
 Status create_tangent(Simulation *simulation);
 Status create_landscape(Simulation *simulation);
@@ -116,8 +116,8 @@ int descent_hessian_index(const Simulation *simulation, double x, double y);
 double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
                                 double x, double y);
 
-/* The dial: a step makes h 10^(1/10) times longer, up to 10 s; node 0 is at the
- * minimiser. */
+/* Creates `dial`: a step makes h 10^(1/10) times longer, up to 10 s; node 0 is
+ * at the minimiser. */
 Status create_dial(Simulation *simulation);
 Status step_dial(Simulation *simulation);
 void dial_restart(Simulation *simulation);
@@ -161,8 +161,8 @@ double envelope_timestep(int column);
 /* Returns the stiffness of a row, J/m^2. */
 double envelope_stiffness(int row);
 
-/* Run 0 is the run of the shown cell; at the start the cell with the numbers of
- * the options is shown. */
+/* Creates `envelope`: run 0 is the run of the shown cell, at the start that
+ * with the numbers of the options. */
 Status create_envelope(Simulation *simulation);
 
 /* Runs the cells of the next row, from the softest springs to the stiffest. */

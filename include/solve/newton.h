@@ -36,17 +36,17 @@ typedef struct NewtonRecord {
     long step;       /* number of the time step, from 1 */
     int iteration;   /* number of the iteration in this minimisation, from 0 */
     double residual; /* m/s, max over nodes of |p_x| + |p_y|, over h */
-    ResidualKind kind; /* how well the residual is known */
-    double alpha;      /* step length along p; 0: x has not moved */
-    int trials;        /* energies that the line search looked at */
-    double slope;      /* J s^2, grad E . p; below 0: p leads downhill */
-    double change;     /* J s^2, change of E by the update */
-    int projected;     /* blocks of the Hessian that were projected */
-    int negative;      /* negative pivots of the Hessian from which p came,
-                          without projection */
-    bool factorised;   /* has a new factor of the Hessian */
-    double shift;      /* kg, added to the diagonal of the Hessian */
-    double seconds;    /* computing time of the iteration */
+    ResidualKind residual_kind; /* how well the residual is known */
+    double alpha;               /* step length along p; 0: x has not moved */
+    int trials;                 /* energies that the line search looked at */
+    double slope;        /* J s^2, grad E . p; below 0: p leads downhill */
+    double change;       /* J s^2, change of E by the update */
+    int projected;       /* blocks of the Hessian that were projected */
+    int negative_pivots; /* negative pivots of the Hessian from which p came,
+                            without projection */
+    bool factorised;     /* has a new factor of the Hessian */
+    double shift;        /* kg, added to the diagonal of the Hessian */
+    double seconds;      /* computing time of the iteration */
     Status status;  /* RUNNING, or how the iteration ended the minimisation */
     Solver solver;  /* NEWTON or MULTIGRID */
     double from[2]; /* m, point before the update, in scenes with one moving
@@ -71,16 +71,15 @@ typedef struct NewtonSettings {
 
 /* Counts of the work since the object was made.  No decision reads them. */
 typedef struct NewtonCounters {
-    long iterations;     /* number of updates of x */
-    long factorisations; /* number of factorisations of the Hessian */
-    long solves;         /* number of solves with a factor */
-    long projected;      /* blocks projected, summed over factorisations */
-    long cycles;         /* V-cycles of multigrid */
-    long tile_sweeps;    /* sweeps of multigrid's tiles (tiles.h) */
-    long negative;       /* minimisations that converged with a last p from a
-                            Hessian with negative pivots: perhaps a maximum */
-    long handed_over;    /* minimisations that multigrid began and Newton
-                           ended */
+    long iterations;      /* number of updates of x */
+    long factorisations;  /* number of factorisations of the Hessian */
+    long solves;          /* number of solves with a factor */
+    long projected;       /* blocks projected, summed over factorisations */
+    long cycles;          /* V-cycles of multigrid */
+    long tile_sweeps;     /* sweeps of multigrid's tiles (tiles.h) */
+    long indefinite_ends; /* minimisations that converged with a last p from a
+                             Hessian with negative pivots: perhaps a maximum */
+    long handed_over; /* minimisations that multigrid began and Newton ended */
 } NewtonCounters;
 
 /* Adds each member of counters to sum. */
@@ -115,10 +114,10 @@ typedef struct Rounding {
     double shortest; /* m, the shortest spring at rest; 1 without springs */
     bool stiff;      /* w stiffest > 1e5 lightest, with w the weight of P in E:
                         a decrease of E is checked by a second computation */
-    bool blurred;    /* w stiffest > 1e10 lightest: H's factor is inexact */
-    double start_energy; /* J s^2, E at the start; NAN: not needed */
+    bool factor_is_inexact; /* w stiffest > 1e10 lightest */
+    double start_energy;    /* J s^2, E at the start; NAN: not needed */
     double energy_limit; /* J s^2, upper limit of E: its value at the start plus
-                      rounding; INFINITY: no limit */
+                            rounding; INFINITY: no limit */
     double E;            /* J s^2, E at the iterate; NAN: not evaluated yet */
     double E_trial;      /* J s^2, E at the end of the trial step */
     double best_residual;    /* m/s, smallest residual of this minimisation */
@@ -143,7 +142,7 @@ typedef struct Newton {
     SearchDirection search;    /* the Hessian and its factor */
     bool has_gradient;         /* has the gradient at x in at.g */
     bool passes;               /* p of the last iteration passes the test */
-    int clamps; /* iterations for which on-demand projection still clamps */
+    int clamps_left;           /* iterations for which on-demand clamps */
     Rounding rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of this minimisation: NEWTON or MULTIGRID */
@@ -154,8 +153,8 @@ typedef struct Newton {
                               minimisations; the caller resets it to 0 */
 } Newton;
 
-/* Allocates for this system, which must outlive the object.
- * Returns OK, OUT_OF_MEMORY; free with newton_free in any case. */
+/* Allocates the minimiser of a system, which must outlive the object.  Returns
+ * OK, OUT_OF_MEMORY; free with newton_free in any case. */
 Status newton_create(const System *system, const NewtonSettings *settings,
                      Newton *newton);
 void newton_free(Newton *newton);

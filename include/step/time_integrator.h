@@ -15,14 +15,14 @@
 typedef struct TimeIntegrator TimeIntegrator;
 
 typedef struct IntegratorMethod {
-    const char *name;  /* as on the command line */
-    const char *label; /* as in the window */
-    int order;         /* order of accuracy */
-    bool implicit;     /* needs Newton */
-    bool at_end;       /* has the minimiser as x_(n+1), which contact, friction
-                          and flow need */
+    const char *name;       /* name on the command line */
+    const char *label;      /* name in the window */
+    int order;              /* order of accuracy */
+    bool implicit;          /* needs Newton */
+    bool ends_at_minimiser; /* has the minimiser as x_(n+1), which contact,
+                               friction and flow need */
     bool damps;        /* takes energy out of motion, which comes to rest */
-    bool by_name;      /* is chosen by name only, and skipped by key M */
+    bool only_by_name; /* is chosen by name only, and skipped by key M */
     int memory;        /* arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; explicit: 0 */
     /* Fills newton->u_tilde and weight for the present stage.  Gravity is added
@@ -39,26 +39,25 @@ typedef struct IntegratorMethod {
  * steps would have wrong last digits: 60 steps of 0.002 s would not be 0.12 s.
  */
 typedef struct StepClock {
-    double now;   /* s, `since` + steps h */
-    double since; /* s, time of the last change of h */
-    double h;     /* s, time step of the steps that are counted */
-    long steps;   /* number of steps since the last change of h */
+    double now;         /* s, last_change + steps h */
+    double last_change; /* s, time of the last change of h */
+    double h;           /* s, time step of the steps that are counted */
+    long steps;         /* number of steps since the last change of h */
 } StepClock;
 
 struct TimeIntegrator {
     const IntegratorMethod *method;
-    System *system;  /* not owned; its terms may change it */
-    size_t size;     /* 2n, length of x, v, new_x, new_v */
-    double h;        /* s, time step */
-    long steps;      /* steps so far */
-    Status status;   /* status of the last step */
-    StepClock clock; /* time of x and v */
-    bool moves;      /* has prescribed motion of walls or pins in this step */
-    double
-        moved_part;  /* part of the prescribed way that is done in this step */
-    double work;     /* J, work of the prescribed motion so far */
-    double *x;       /* [2n] m, positions; start of the block of all arrays */
-    double *v;       /* [2n] m/s, velocities */
+    System *system;    /* not owned; its terms may change it */
+    size_t size;       /* 2n, length of x, v, new_x, new_v */
+    double h;          /* s, time step */
+    long steps;        /* steps so far */
+    Status status;     /* status of the last step */
+    StepClock clock;   /* time of x and v */
+    bool moves;        /* has prescribed motion of walls or pins in this step */
+    double moved_part; /* part of the way that is done in this step */
+    double work;       /* J, work of the prescribed motion so far */
+    double *x;         /* [2n] m, positions; start of the block of all arrays */
+    double *v;         /* [2n] m/s, velocities */
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
     double *new_v;   /* [2n] m/s, v at the end of a step; before that
                         workspace */
@@ -86,7 +85,7 @@ const IntegratorMethod *integrator_find_method(const char *name);
 bool integrator_method_refuses(const IntegratorMethod *method,
                                const System *system);
 
-/* Allocates for the system and copies the start.
+/* Allocates the run of a method on a system, and copies the start.
  *   settings  of Newton, with h; explicit methods use only h
  *   x, v      [2n] in, positions and velocities at time 0
  * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (system_check, or the method has a

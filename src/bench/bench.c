@@ -209,7 +209,7 @@ static const double time_limit = 60;
 /* Results of one program on one square, for each start. */
 typedef struct ProgramResults {
     double ms[STARTS];             /* processor time a step */
-    double newton_updates[STARTS]; /* updates a step */
+    double newton_updates[STARTS]; /* number of updates of x a step */
     double energy[STARTS]; /* energy at the end, % of the energy at the start */
     long unconverged;      /* steps of all starts that did not converge */
 } ProgramResults;

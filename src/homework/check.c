@@ -109,8 +109,8 @@ typedef struct Task {
     Function *truth;
     ResultKind kind;
     const char *case_names[5]; /* name of each case for messages, then NULL */
-    int steps;             /* calls of step_forward, the first with a table */
-    unsigned needed_tasks; /* bits of the tasks whose functions are called */
+    int steps; /* number of calls of step_forward; only the first has a table */
+    unsigned needed_tasks; /* bits of the tasks that this task calls */
 } Task;
 
 /* The arguments of the functions in a case. */
@@ -192,7 +192,7 @@ static void make_arguments(const Task *task, int case_number, Case *c)
         make_random_solid(searches ? 0 : case_number, &c->solid);
     c->x_tilde = make_random_points(MAX_NODES, 0.7);
     c->p = make_random_points(MAX_NODES, 1);
-    c->p[1] = (Vec2){-1.5, -1.2}; /* negative, with the largest sum */
+    c->p[1] = (Vec2){-1.5, -1.2}; /* has the largest absolute values */
     c->g = make_random_points(MAX_NODES, 900);
     memcpy(c->g_before, c->g, sizeof c->g_before);
     if (searches)

@@ -297,8 +297,7 @@ static Status refuse_scene(const Line *line, const Word *word)
     snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
     if (option_find(name))
         snprintf(hint.text, sizeof hint.text, "; did you mean --%s?", text);
-    else if (strncmp(text, "\u2013", 2) ==
-             0) /* dashes of an editor, U+2000 to U+203F */
+    else if (strncmp(text, "\u2013", 2) == 0) /* an editor's dash */
         hint = (Phrase){"; an option begins with two signs '-'"};
     else if (!hint.text[0])
         hint = hint_at_split_value(word > line->word ? word - 1 : NULL, text);

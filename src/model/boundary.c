@@ -155,7 +155,8 @@ static int find_first_edge(const Boundary *boundary, double left)
     return low;
 }
 
-/* Does as boundary_next_edge, by a search through the boxes. */
+/* Finds the next edge as boundary_next_edge does, by a search through the
+ * boxes. */
 static int search_next_edge(const Boundary *boundary, const System *system,
                             int i, int *place)
 {

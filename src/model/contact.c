@@ -61,7 +61,7 @@ static const Barrier *contact_barrier(const EvalPoint *at)
     return &((const Contact *)at->term->data)->barrier;
 }
 
-/* Pairs are numbered obstacle by obstacle, in each by node. */
+/* Pairs are numbered by obstacle, and for each obstacle by node. */
 static int contact_count(const EvalPoint *at)
 {
     const Contact *contact = at->term->data;
@@ -87,7 +87,7 @@ static bool contact_get_element(const EvalPoint *at, int i, double way,
     element->nodes = other->node < 0 ? 1 : 2;
     element->node[0] = element->block = node;
     element->node[1] = other->node;
-    element->source = obstacle;
+    element->partner = obstacle;
     element->weight = difference;
     element->factor = 1;
     element->s = gap.d;
@@ -194,7 +194,7 @@ static double contact_line_remainder(const EvalPoint *at,
             barrier_taylor_remainder(s, (pn + k) / barrier->d_hat));
 }
 
-/* The curvature at the start of the barrier, 2 c/d_hat^2. */
+/* Returns the curvature at the start of the barrier, 2 c/d_hat^2. */
 static double contact_curvature_bound(const EvalPoint *at)
 {
     const Barrier *barrier = contact_barrier(at);
@@ -206,7 +206,7 @@ static double contact_friction_limit(const EvalPoint *at,
                                      double *speed)
 {
     const Contact *contact = at->term->data;
-    const Obstacle *obstacle = &contact->obstacle[element->source];
+    const Obstacle *obstacle = &contact->obstacle[element->partner];
     t[0] = -element->n[1];
     t[1] = element->n[0];
     *speed = t[0] * obstacle->v[0] + t[1] * obstacle->v[1];

@@ -36,7 +36,7 @@ static void damping_end_step(const TermStep *step)
     system_book_loss(system, &damping, sum);
 }
 
-/* The bound of the springs with k' and l2' of the last step. */
+/* Returns the bound of the springs with k' and l2' of the last step. */
 static double damping_curvature_bound(const EvalPoint *at)
 {
     const Damping *data = at->term->data;

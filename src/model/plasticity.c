@@ -25,22 +25,23 @@ static double flow_law_value(FlowLaw law, double e)
 {
     double over = strain_beyond_yield(law, e), change = e - law.e_n;
     double within = strain_within_yield(law, e);
-    double sum =
-        within * (fabs(e) - 0.5 * within) + 0.5 * law.hard * over * over;
+    double sum = within * (fabs(e) - 0.5 * within) +
+                 0.5 * law.plastic_slope * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
 }
 
 double flow_law_slope(FlowLaw law, double e)
 {
     double tau = copysign(strain_within_yield(law, e) +
-                              law.hard * strain_beyond_yield(law, e),
+                              law.plastic_slope * strain_beyond_yield(law, e),
                           e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
 static double flow_law_curvature(FlowLaw law, double e)
 {
-    return law.theta + (strain_beyond_yield(law, e) > 0 ? law.hard : 1);
+    return law.theta +
+           (strain_beyond_yield(law, e) > 0 ? law.plastic_slope : 1);
 }
 
 double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
@@ -58,21 +59,21 @@ static inline FlowLaw make_flow_law(const Plasticity *data, int s)
     return (FlowLaw){.ep = data->ep[s],
                      .yield = data->yield + H * data->kappa[s],
                      .flow = flow,
-                     .hard = 1 - flow};
+                     .plastic_slope = 1 - flow};
 }
 
 FlowLaw plasticity_get_law(const System *system, int s)
 {
     const Plasticity *data = system_term_data(system, &plastic_energy);
     return data ? make_flow_law(data, s)
-                : (FlowLaw){.yield = INFINITY, .hard = 1};
+                : (FlowLaw){.yield = INFINITY, .plastic_slope = 1};
 }
 
 /* A spring at the point of evaluation. */
 typedef struct FlowSpring {
     const int *e;
     double k, l2;
-    double d[2], d2; /* m, x_i - x_j, and m^2, its square */
+    double d[2], d2; /* m, x_i - x_j, and m^2, |d|^2 */
     double strain;   /* elastic strain, E - ep */
     FlowLaw law;
 } FlowSpring;
@@ -184,7 +185,8 @@ static double plastic_line_remainder(const EvalPoint *at, const double *p,
         double within = from > 0 && to < way ? 2 * law.yield : to - from;
         double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
         sum += spring.k * spring.l2 *
-               (0.5 * (law.hard + law.theta) * t * t + law.flow * elastic);
+               (0.5 * (law.plastic_slope + law.theta) * t * t +
+                law.flow * elastic);
     }
     return at->weight * sum;
 }

@@ -29,7 +29,7 @@ static void plan_obstacle_way(const Push *push, const double *o, double h,
                               double way[2])
 {
     double side = push->shape.side;
-    double d[2] = {push->to[0] - o[0], push->to[1] - o[1]};
+    double d[2] = {push->target[0] - o[0], push->target[1] - o[1]};
     double away = math_hypot(d[0], d[1]);
     double most = side * fmin(fmax(FAST * h, SHORTEST), LONGEST);
     double go = fmax(fmin(h / TIME, MOST) * away, SLOW * side * h);

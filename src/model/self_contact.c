@@ -95,7 +95,7 @@ static Status self_contact_grow(const EvalPoint *at, bool *grown)
         if (walk.element.block < 0) {
             *grown = true;
             status = add_pair(
-                self, (SelfPair){walk.element.node[0], walk.element.source});
+                self, (SelfPair){walk.element.node[0], walk.element.partner});
         }
     return status;
 }
@@ -188,7 +188,7 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
         element->nodes = get_pair_nodes(at->system, pair, element->node);
         element->weight = differences;
         element->factor = at->weight;
-        element->source = edge;
+        element->partner = edge;
         element_vectors(element, at->x, element->v);
         point_edge_distance(self, element);
         if (!boundary->has_motion && element->s >= 1)
@@ -331,7 +331,7 @@ static double pair_max_step(const EvalPoint *at, const Element *element,
     return ELEMENT_LIMIT * first;
 }
 
-/* The contact slides by w_t; t contains its weights. */
+/* The tangent t is such that t.(dq, de) is w_t of pair_hessian. */
 static double pair_friction_limit(const EvalPoint *at, const Element *element,
                                   double t[4], double *speed)
 {
@@ -361,7 +361,7 @@ static const ElementKind near_pairs = {
 
 /* ---- the term ----------------------------------------------------------- */
 
-/* The curvature at the start of the barrier, 16 c/d_hat^2. */
+/* Returns the curvature at the start of the barrier, 16 c/d_hat^2. */
 static double pair_curvature_bound(const EvalPoint *at)
 {
     const SelfContact *self = self_contact_data(at);

@@ -19,9 +19,8 @@ SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
                         .outline = bodies * 2 * (columns + rows)};
 }
 
-/* Returns the body of node, cell or edge i of `all`; i becomes its number
- * there.
- */
+/* Returns the body of node, cell or edge i of `all`; i becomes its number in
+ * that body. */
 static int locate_in_body(const SquareMesh *shape, int all, int *i)
 {
     int each = all / shape->bodies, body = *i / each;

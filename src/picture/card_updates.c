@@ -153,7 +153,7 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     memset(cells->cell, 0, sizeof cells->cell);
     snprintf(cells->cell[0], CARD_CELL, "%d", row);
     snprintf(cells->cell[1], CARD_CELL, "%d",
-             raw ? update->negative : update->projected);
+             raw ? update->negative_pivots : update->projected);
     if (line >= LINE_SOLVE)
         snprintf(cells->cell[2], CARD_CELL, "%s %s \u03b5",
                  format_number(update->residual).text,

@@ -11,7 +11,7 @@ static const IntegratorMethod *find_next_method(Player *player, int pane)
     bool time = simulation->scene->needs & NEEDS_TIME, taken;
     do {
         next = next[1].name ? next + 1 : &integrator_methods[0];
-        taken = next->by_name ||
+        taken = next->only_by_name ||
                 integrator_method_refuses(next, &simulation->system);
         for (int p = 0; p < past_panes(&player->past); p++)
             taken =

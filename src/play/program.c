@@ -146,7 +146,7 @@ static void print_newton(FILE *file, const Simulation *simulation)
         {"solves", sum.solves},
         {"blocks projected", sum.projected},
         {"V-cycles", sum.cycles},
-        {"not at a minimum", sum.negative},
+        {"not at a minimum", sum.indefinite_ends},
     };
     if (newton && needs & NEEDS_SPRINGS)
         print_quantity(file, "solver", "%s%s%s",

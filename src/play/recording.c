@@ -249,11 +249,21 @@ Status recording_write_iteration(Recording *recording,
     Table *log = &recording->table[RECORDING_LOG];
     /* An iteration below 0 is the end of a step by a prescribed motion. */
     double iteration = record->iteration < 0 ? NAN : record->iteration;
-    double row[] = {(double)record->step, iteration,         record->residual,
-                    record->alpha,        record->trials,    record->slope,
-                    record->change,       record->projected, record->factorised,
-                    record->shift,        record->status,    record->seconds,
-                    record->solver,       record->kind,      pane};
+    double row[] = {(double)record->step,
+                    iteration,
+                    record->residual,
+                    record->alpha,
+                    record->trials,
+                    record->slope,
+                    record->change,
+                    record->projected,
+                    record->factorised,
+                    record->shift,
+                    record->status,
+                    record->seconds,
+                    record->solver,
+                    record->residual_kind,
+                    pane};
     if (log->output.file)
         table_add_row(log, row);
     return table_check(log);

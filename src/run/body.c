@@ -169,7 +169,7 @@ static int list_obstacles(const Options *options,
     if (options->scene->body.obstacle)
         list[count++] = options->scene->body.obstacle(options);
     for (int k = 0; k < count; k++)
-        memcpy(list[k].given, list[k].o, sizeof list->o);
+        memcpy(list[k].options_o, list[k].o, sizeof list->o);
     return count;
 }
 
@@ -197,7 +197,8 @@ static Status set_obstacles(const Options *options, System *system)
     for (int i = 0; contact && i < contact->obstacles; i++) {
         const Obstacle *old = &contact->obstacle[i];
         for (int k = 0; k < count; k++)
-            if (memcmp(old->given, list[k].given, sizeof old->given) == 0 &&
+            if (memcmp(old->options_o, list[k].options_o,
+                       sizeof old->options_o) == 0 &&
                 memcmp(old->n, list[k].n, sizeof old->n) == 0)
                 memcpy(list[k].o, old->o, sizeof old->o);
     }
@@ -365,7 +366,7 @@ Status body_check_method(const Options *options, Message message)
         if (!term && row->term && row->term->backward_euler_only &&
             option_is_on(row, options))
             term = row->term->name;
-    return !term || method->at_end
+    return !term || method->ends_at_minimiser
                ? STATUS_OK
                : refuse(message,
                         "--integrator: '%s' has no %s; only backward-euler has",
@@ -428,11 +429,11 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
         ElementIterator walk = elements_begin(&at, NULL, 0);
         const Element *element = &walk.element;
         while (elements_next(&walk)) {
-            bool own = kind == &contact_energy && element->source == number;
+            bool own = kind == &contact_energy && element->partner == number;
             if (element->s > (own ? min_gap : 0))
                 continue;
             return kind == &contact_energy
-                       ? refuse_place(options, element->source, element->s,
+                       ? refuse_place(options, element->partner, element->s,
                                       message)
                        : refuse(message,
                                 "the cell at node %d would be turned over at "

@@ -40,7 +40,7 @@ Control *control_from_simulation(const Simulation *simulation)
     const Contact *contact = contact_of(system);
     if (contact && contact->push.on) {
         control->push = contact->push.obstacle;
-        memcpy(control->at, contact->push.to, sizeof control->at);
+        memcpy(control->at, contact->push.target, sizeof control->at);
     }
     memcpy(control->pinned, system->pinned, (size_t)system->nodes);
     return control;
@@ -222,10 +222,10 @@ static void apply_push(Simulation *simulation, const Control *control)
         contact->push = (Push){.on = 0 <= control->push &&
                                      control->push < contact->obstacles,
                                .obstacle = control->push,
-                               .to = {control->at[0], control->at[1]},
+                               .target = {control->at[0], control->at[1]},
                                .shape = simulation->mesh};
         if (contact->push.on)
-            contact->push.to[1] +=
+            contact->push.target[1] +=
                 get_lift(simulation, r, &contact->obstacle[control->push]);
     }
 }

@@ -100,7 +100,7 @@ static void book_gain(Simulation *simulation)
     const Energies now = simulation_energies(simulation, run);
     double gained = now.total - now.work - simulation->energy_before;
     double abs_sum = fabs(now.work);
-    bool backward_euler = simulation->run[run].method->at_end;
+    bool backward_euler = simulation->run[run].method->ends_at_minimiser;
     for (int i = 1; i < now.rows; i++)
         abs_sum += fabs(now.row[i].value);
     if (!backward_euler || !(gained > 1e-9 * abs_sum))

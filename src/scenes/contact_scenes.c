@@ -111,7 +111,7 @@ Status create_bend(Simulation *simulation)
         return status;
     double a = mesh->spacing, half = 0.5 * mesh->rows * a;
     simulation->system.m[mesh->nodes] = 60;
-    if (!simulation->options.state) /* --state would give the velocity */
+    if (!simulation->options.state) /* --state has velocities */
         simulation->run[0].v[2 * mesh->nodes + 1] = -3;
     cut_springs(simulation, 0.5 * a, -2 * half, -half + 0.6 * a);
     return STATUS_OK;

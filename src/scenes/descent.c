@@ -13,10 +13,10 @@ enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
 
 static const double POINT_MASS = 1;            /* kg */
 static const double LINE_STIFFNESS = 10;       /* J/m^2 */
-static const double LINE_LENGTH = 1;           /* m, at rest */
+static const double LINE_LENGTH = 1;           /* m, rest length */
 static const double LINE_TARGET = 2;           /* m, x_tilde of node 0 */
 static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
-static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
+static const double LANDSCAPE_LENGTH = 1.5;    /* m, rest length */
 
 /* m, x_tilde of the free node, the minimiser of the inertia energy. */
 static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};

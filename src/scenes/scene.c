@@ -116,7 +116,7 @@ const Scene scenes[] = {
      .body.obstacle = make_bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
      PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
-     /* no chaos; the tolerance is below the error of every time step */
+     /* motion without chaos; a tolerance below the error of every time step */
      "--stretch 1.1 --tolerance 1e-8", create_race, .step_name = "run",
      .step = step_race, .switch_labels = {"error over h"},
      .group = "Measured now"},

@@ -69,7 +69,7 @@ static Status advance_exactly(TimeIntegrator *run, double H, double *from,
     enum { COLUMNS = 6 };
     size_t both = 2 * run->size, bytes = both * sizeof *to;
     Status status = STATUS_OK;
-    memcpy(from, run->x, bytes); /* x and v, one array */
+    memcpy(from, run->x, bytes); /* x and v are one array */
     memcpy(to, run->x, bytes);
     for (int j = 1; j <= COLUMNS && !status; j++) {
         double weight = 1;
@@ -89,7 +89,7 @@ static Status advance_exactly(TimeIntegrator *run, double H, double *from,
 
 Status race_make_reference(Simulation *simulation, double time)
 {
-    const double max_intervals = 1 << 14; /* limit of the run time: seconds */
+    const double max_intervals = 1 << 14; /* bounds the run time */
     const TimeIntegrator *start = &simulation->run[0];
     TimeIntegrator *run = &simulation->run[1];
     NewtonSettings settings = {0};
@@ -116,7 +116,7 @@ Status create_race(Simulation *simulation)
     Status status = create_square(simulation);
     if (!status)
         status = race_make_reference(simulation, RACE_TIME);
-    if (status == STATUS_NOT_FINITE) { /* no reference, no race */
+    if (status == STATUS_NOT_FINITE) { /* without a reference the race ends */
         simulation->done = true;
         simulation->status = status;
         return STATUS_OK;
@@ -164,7 +164,7 @@ static Status measure_run_time(Simulation *simulation,
                                long steps, TimeIntegrator *run, double *seconds)
 {
     const double shortest = 1e-3;          /* s, shortest measurement */
-    double end = clock_processor() + 0.01; /* s, last time to begin one */
+    double end = clock_processor() + 0.01; /* s, no measurement begins later */
     Options options = simulation->options;
     Status status = STATUS_OK;
     options.timestep = h;
@@ -225,7 +225,7 @@ Status step_race(Simulation *simulation)
     TimeIntegrator run = {0};
     double seconds;
     RacePoint *point = &race->point[race->count];
-    if (race->count >= RACE_METHODS) { /* measure the run before again */
+    if (race->count >= RACE_METHODS) { /* measure the method's last run again */
         RacePoint *before = point - RACE_METHODS;
         measure_run_time(simulation, method, before->h, steps / 2, &run,
                          &seconds);

@@ -101,8 +101,8 @@ static Status assemble_and_factor(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     Projection projection = newton->settings.projection;
-    if (projection == PROJECTION_ON_DEMAND && newton->clamps > 0) {
-        newton->clamps--;
+    if (projection == PROJECTION_ON_DEMAND && newton->clamps_left > 0) {
+        newton->clamps_left--;
         projection = PROJECTION_CLAMP;
     }
     Status status = assemble_hessian(newton, projection, &record->projected);
@@ -112,12 +112,13 @@ static Status assemble_and_factor(Newton *newton)
     record->shift = newton->search.shift;
     newton->search.way_since_factor = 0;
     if (!status && newton->search.kind == CHOLESKY_INDEFINITE)
-        record->negative = cholesky_negative_pivots(newton->search.cholesky);
+        record->negative_pivots =
+            cholesky_negative_pivots(newton->search.cholesky);
     newton->counters.projected += record->projected;
     if (projection != PROJECTION_ON_DEMAND ||
         status != STATUS_NOT_POSITIVE_DEFINITE)
         return status;
-    newton->clamps = CLAMPS_AFTER_FAILURE;
+    newton->clamps_left = CLAMPS_AFTER_FAILURE;
     return assemble_and_factor(newton);
 }
 
@@ -182,8 +183,9 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
     incremental_potential_product(&newton->at, state->projection, d, q);
     double curvature = dot(n, d, q);
     double alpha = state->rz / curvature;
+    /* E is not convex along d, or rounding hides its curvature. */
     if (!(curvature > 0) || !(alpha > 0) || !isfinite(alpha))
-        return false; /* E is not convex along d, or rounded */
+        return false;
     for (int i = 0; i < n; i++) {
         p[i] += alpha * d[i];
         r[i] -= alpha * q[i];
@@ -357,7 +359,7 @@ static Status find_residual(Newton *newton, bool exact)
     double error = 0;
     int pivot;
     record->residual = largest_row_sum(newton->system->nodes, newton->at.p) / h;
-    record->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
+    record->residual_kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
     if (!isfinite(record->residual))
         return STATUS_NOT_FINITE;
     newton->passes = record->residual <= newton->tolerance;
@@ -418,7 +420,7 @@ static Status solve_with_new_factor(Newton *newton)
         return status;
     correct_momentum(newton);
     /* Where springs outweigh the masses too much, a factor is not exact. */
-    return find_residual(newton, !newton->rounding.blurred &&
+    return find_residual(newton, !newton->rounding.factor_is_inexact &&
                                      newton->search.shift == 0);
 }
 

@@ -43,7 +43,8 @@ Status memory_create(Memory *memory)
         return STATUS_OUT_OF_MEMORY;
 #ifdef MADV_HUGEPAGE
     if (page == LARGE_PAGE)
-        madvise(memory->base, bytes, MADV_HUGEPAGE); /* may fail */
+        madvise(memory->base, bytes,
+                MADV_HUGEPAGE); /* a failure costs only time */
 #endif
     memset(memory->base, 0, bytes);
     return STATUS_OK;
@@ -57,7 +58,7 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
     size_t plane = (size_t)grid->rows.plane * sizeof(double);
     size_t shifts = ((size_t)segments + 2) * sizeof(int);
     double **vectors[] = {&grid->x, &grid->x_tilde, &grid->u_tilde,
-                          &grid->away};
+                          &grid->from_target};
     for (int i = 0; i < 4; i++)
         *vectors[i] = memory_take_piece(memory, 2 * plane);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -65,7 +66,7 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
         grid->l2[kind] = memory_take_piece(memory, plane);
     }
     grid->m = memory_take_piece(memory, plane);
-    grid->per_m = memory_take_piece(memory, plane);
+    grid->inverse_m = memory_take_piece(memory, plane);
     grid->node_shift = memory_take_piece(memory, shifts);
     grid->spring_shift = memory_take_piece(memory, shifts);
 }
@@ -98,7 +99,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
     const System *system = at->E.system;
     const EvalPoint point = eval_point_at(system, at->E.x_n, at->u, at->x);
     const Rows *rows = &grid->rows;
-    double *const masses[] = {grid->m, grid->per_m};
+    double *const masses[] = {grid->m, grid->inverse_m};
     double unit, *springs[2 * KINDS];
     grid->lightest = INFINITY;
     for (int k = 0; k < rows->nodes * rows->nodes; k++)
@@ -110,7 +111,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         for (int j = 0; j < rows->nodes; j++, node++) {
             int q = node_place(rows, i, j);
             grid->m[q] = grid->mass * m[2 * node];
-            grid->per_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
+            grid->inverse_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
         }
     share_rows(rows, masses, 2, grid->node_shift);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -150,7 +151,7 @@ void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
                 grid->x[q] = unit * at->x[k];
                 grid->u_tilde[q] = unit * to;
                 grid->x_tilde[q] = unit * (at->E.x_n[k] + to);
-                grid->away[q] = unit * (at->u[k] - to);
+                grid->from_target[q] = unit * (at->u[k] - to);
             }
         }
 }
@@ -163,7 +164,7 @@ void grid_write_state(const Grid *grid, Iterate *at)
         for (int j = 0; j < rows->nodes; j++, node++) {
             int q = node_place(rows, i, j);
             for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
-                at->u[k] = metre * (grid->u_tilde[q] + grid->away[q]);
+                at->u[k] = metre * (grid->u_tilde[q] + grid->from_target[q]);
                 at->x[k] = at->E.x_n[k] + at->u[k];
             }
         }

@@ -72,10 +72,10 @@ typedef struct Grid {
     int *node_shift, *spring_shift; /* [nodes + 1] shifts by row */
     double *c[KINDS];  /* [plane] 2 w k/l2 by kind of spring; 0: no spring */
     double *l2[KINDS]; /* [plane] squared rest length */
-    double *m, *per_m; /* [plane] mass and 1/mass; per_m is 0 at pins */
-    double lightest;   /* smallest mass of a node that moves */
+    double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
+    double lightest;       /* smallest mass of a node that moves */
     double *x, *x_tilde, *u_tilde; /* [2 planes] u_tilde is x_tilde - x_n */
-    double *away; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
+    double *from_target; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
 } Grid;
 
 /* A block of memory for several arrays.  The layout is made twice: first with

@@ -14,7 +14,7 @@ FAST double grid_gradient(const Grid *of, double *g)
     double total = 0;
     BANDS
     {
-        const double *const ax = grid.away, *const ay = ax + plane;
+        const double *const ax = grid.from_target, *const ay = ax + plane;
         double *const gx = g, *const gy = gx + plane;
         double sum[LANES] = {0};
         EACH_NODE_OF (grid, band) {
@@ -32,7 +32,8 @@ FAST double grid_gradient(const Grid *of, double *g)
 #undef ADD
             PAIR(gx, q) = fx;
             PAIR(gy, q) = fy;
-            PAIR(sum, e) += PAIR(grid.per_m, q + at.node) * (fx * fx + fy * fy);
+            PAIR(sum, e) +=
+                PAIR(grid.inverse_m, q + at.node) * (fx * fx + fy * fy);
         }
         total += sum_lanes(sum);
     }
@@ -72,7 +73,8 @@ FAST double grid_linear_residual(const Grid *of, const double *g,
 #undef ADD
             fx = -PAIR(gx, q) - fx;
             fy = -PAIR(gy, q) - fy;
-            PAIR(sum, e) += PAIR(grid.per_m, q + at.node) * (fx * fx + fy * fy);
+            PAIR(sum, e) +=
+                PAIR(grid.inverse_m, q + at.node) * (fx * fx + fy * fy);
         }
         EACH_RUN_OF (grid, band)
             EACH_OF (NEXT(at, LANES)) {
@@ -134,8 +136,8 @@ FAST double grid_correct_momentum(const Grid *of)
                 const int q = at.first + e;
                 double m = grid.m[q + at.node];
                 sum[0][e] += m;
-                sum[1][e] += m * grid.away[q];
-                sum[2][e] += m * grid.away[q + plane];
+                sum[1][e] += m * grid.from_target[q];
+                sum[2][e] += m * grid.from_target[q + plane];
             }
         mass += sum_lanes(sum[0]);
         moment[0] += sum_lanes(sum[1]);
@@ -145,7 +147,7 @@ FAST double grid_correct_momentum(const Grid *of)
         const double mean = moment[c] / mass;
         BANDS
         {
-            double *const away = grid.away + c * plane;
+            double *const away = grid.from_target + c * plane;
             double *const x = grid.x + c * plane;
             const double *const x_tilde = grid.x_tilde + c * plane;
             EACH_RUN_OF (grid, band)
@@ -161,7 +163,7 @@ FAST double grid_correct_momentum(const Grid *of)
 
 FAST void grid_add_step(const Grid *grid, double a, const double *p)
 {
-    double *const away = grid->away, *const x = grid->x;
+    double *const away = grid->from_target, *const x = grid->x;
     const double *const x_tilde = grid->x_tilde;
     EACH_OF (2 * grid->rows.plane) {
         away[e] += a * p[e];

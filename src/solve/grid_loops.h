@@ -44,8 +44,8 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 }
 
 /* EACH_OF loops over nodes, counted by e, none of which changes what another
- * one reads.  The compiler vectorises the loop, unless it unrolls the loop
- * first. */
+ * one reads.  The compiler vectorises the loop; AT_ONCE keeps the compiler from
+ * unrolling the loop before. */
 #ifdef __clang__
 #define AT_ONCE _Pragma("clang loop vectorize(assume_safety) unroll(disable)")
 #else

@@ -50,8 +50,8 @@ INLINE void spring_line_polynomial(Spring s, Pair ux, Pair uy, Pair *f1,
 
 /* ---- a node that moves while the others stay ---- */
 
-/* Sums over a node's springs: the gradient of E, its Hessian block, not
- * clamped, c d, c, and the negative values of f. */
+/* Sums over a node's springs: gradient of E (GX, GY), Hessian block, not
+ * clamped (XX, XY, YY), c d (CX, CY), c (CC), and the negative f (NEGATIVE). */
 enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, SUMS };
 
 typedef double NodeSums[SUMS][LANES];
@@ -60,7 +60,8 @@ typedef double NodeSums[SUMS][LANES];
  * that do not wait for each other are faster. */
 INLINE void gather_springs(const Grid *grid, NodeRun at, NodeSums of)
 {
-    const double *const ax = grid->away, *const ay = ax + grid->rows.plane;
+    const double *const ax = grid->from_target, *const ay =
+                                                    ax + grid->rows.plane;
     EACH_PAIR (NEXT(at, LANES)) {
         const int q = at.first + e;
         Pair mass = PAIR(grid->m, q + at.node), iso = mass;

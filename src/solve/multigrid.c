@@ -41,7 +41,7 @@ struct Multigrid {
     Quartic line;           /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;       /* System.version for which the grid was filled */
     double weight;          /* s^2, weight of P for which the grid was filled */
-    bool stalls;            /* has tiles relax in each iteration */
+    bool stalls;            /* whether tiles relax in each iteration */
     bool was_hidden;        /* rounding hid the last iteration's change of E */
 };
 
@@ -98,7 +98,8 @@ static const char *find_refusal_reason(const Newton *newton)
         return "the projection is not clamp";
     if (settings->search != LINE_SEARCH_BACKTRACK)
         return "there is no line search";
-    if (newton->rounding.blurred) /* a double has too few digits */
+    /* The test would need more digits than a double has. */
+    if (newton->rounding.factor_is_inexact)
         return "springs outweigh the masses too far";
     return NULL;
 }
@@ -176,7 +177,7 @@ static Status multigrid_find_direction(Newton *newton)
         newton->passes = v_cycle_passes(&mg->grid, largest, square, longest);
     }
     record->residual = largest / h;
-    record->kind = RESIDUAL_ESTIMATE;
+    record->residual_kind = RESIDUAL_ESTIMATE;
     newton->counters.cycles = mg->cycle.cycles;
     return STATUS_OK;
 }
@@ -231,7 +232,7 @@ static Status multigrid_update_iterate(Newton *newton)
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     const double unit = mg->grid.energy;
-    const int tiles = mg->tiles.high * mg->tiles.wide;
+    const int tiles = mg->tiles.rows * mg->tiles.columns;
     grid_add_step(&mg->grid, record->alpha, mg->p);
     mg->way_since_setup +=
         record->alpha * record->residual * newton->settings.h;
@@ -262,8 +263,8 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
                 (!stuck && mg->p_bound <= negligible_direction_size(newton));
     if (ends && system_falls_freely(newton->system))
         record->change += grid_correct_momentum(&mg->grid) / mg->grid.energy;
-    if (ends || stuck || small || last ||
-        newton->settings.observer) { /* newton->at is read now */
+    /* In no other case is newton->at read. */
+    if (ends || stuck || small || last || newton->settings.observer) {
         swap_iterates(newton);
         grid_write_state(&mg->grid, &newton->at);
     }

@@ -21,8 +21,8 @@
 
 #include "solve/newton.h"
 
-/* Allocates for segments x segments cells.
- * Returns OK, OUT_OF_MEMORY (then *multigrid is NULL). */
+/* Allocates multigrid for a square of segments x segments cells.  Returns OK,
+ * OUT_OF_MEMORY (then *multigrid is NULL). */
 Status multigrid_create(int segments, Multigrid **multigrid);
 void multigrid_free(Multigrid *multigrid);
 

@@ -22,9 +22,8 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     newton->status = STATUS_RUNNING;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->has_gradient = false;
-    newton->search.way_since_factor =
-        INFINITY; /* no factor of this minimisation yet */
-    newton->clamps = 0;
+    newton->search.way_since_factor = INFINITY; /* no factor yet */
+    newton->clamps_left = 0;
     newton->change_sum = newton->change_abs_sum = 0;
     rounding_start(newton);
     newton->active_solver =
@@ -117,8 +116,8 @@ static void book_change(Newton *newton)
             change = last - first;
     }
     newton->change += change;
-    newton->counters.negative +=
-        newton->status == STATUS_OK && newton->record.negative > 0;
+    newton->counters.indefinite_ends +=
+        newton->status == STATUS_OK && newton->record.negative_pivots > 0;
 }
 
 /* The four phases of an iteration are functions of direction.c, line_search.c

@@ -30,7 +30,7 @@ typedef struct NewtonPhases {
 
 /* ---- direction.c: gradient, Hessian, search direction (slide: search_dir) */
 
-/* Frees the matrix and its factor, which are made where they are needed. */
+/* Frees the matrix and its factor, which are made when they are needed. */
 void direction_free_matrix(SearchDirection *search);
 
 Status find_direction(Newton *newton);

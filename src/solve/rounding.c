@@ -14,10 +14,10 @@ enum { STAGNANT_ITERATIONS = 20 };
 enum { CIRCLING_ITERATIONS = 500 };
 
 /* Limits of the ratio of w k to m.  Above STIFF_MASSES, rounding of the
- * gradient may hide that E rises along p.  Above BLURRED_MASSES, a direction
+ * gradient may hide that E rises along p.  Above INEXACT_MASSES, a direction
  * from a factor may be wrong by more than 1e-5 of itself.  Above HIDDEN_MASSES,
  * m + w k rounds to w k. */
-static const double STIFF_MASSES = 1e5, BLURRED_MASSES = 1e10,
+static const double STIFF_MASSES = 1e5, INEXACT_MASSES = 1e10,
                     HIDDEN_MASSES = 1e16;
 
 /* E may exceed its start by this part of its size, since E is rounded. */
@@ -49,7 +49,8 @@ void rounding_start(Newton *newton)
     rounding->E = NAN;
     double stiffness = at->E.weight * rounding->stiffest;
     rounding->stiff = stiffness > STIFF_MASSES * rounding->lightest;
-    rounding->blurred = stiffness > BLURRED_MASSES * rounding->lightest;
+    rounding->factor_is_inexact =
+        stiffness > INEXACT_MASSES * rounding->lightest;
     rounding->energy_limit = INFINITY;
     rounding->start_energy = NAN;
     if (newton->settings.search != LINE_SEARCH_NONE &&

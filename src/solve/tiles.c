@@ -21,8 +21,8 @@ static const double DEFINITE = 0.0025;
  */
 static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
 
-/* Limit of the rounds of a relaxation, for a decrease of E below its rounding.
- */
+/* Limit of the rounds of a relaxation, which rounding of E could keep from
+ * ending. */
 enum { MAX_ROUNDS = 10000 };
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
@@ -30,7 +30,7 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
     int high = grid->segments / TILE_ROWS + 1;
     int wide = (grid->rows.count[0] + LANES - 1) / LANES;
     size_t count = (size_t)high * (size_t)wide;
-    *tiles = (Tiles){.grid = grid, .high = high, .wide = wide};
+    *tiles = (Tiles){.grid = grid, .rows = high, .columns = wide};
     tiles->activity =
         memory_take_piece(memory, count * sizeof *tiles->activity);
     tiles->change = memory_take_piece(memory, count * sizeof *tiles->change);
@@ -60,7 +60,7 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
     const int plane = grid->rows.plane;
     const double *const tx = grid->x_tilde, *const ty = tx + plane;
     double *const x = grid->x, *const y = x + plane;
-    double *const ax = grid->away, *const ay = ax + plane;
+    double *const ax = grid->from_target, *const ay = ax + plane;
     NodeSums of;
     gather_springs(grid, at, of);
     EACH_OF (NEXT(at, LANES)) {
@@ -70,7 +70,7 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
         double a = good ? A : A - negative, d = good ? C : C - negative;
         double det = a * d - B * B;
-        bool moves = (det > 0) & (grid->per_m[q + at.node] > 0);
+        bool moves = (det > 0) & (grid->inverse_m[q + at.node] > 0);
         double over = moves ? -1 / (det > 0 ? det : 1) : 0;
         double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
         double along[4], lower;
@@ -90,7 +90,7 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
 INLINE double relax_tile(const Tiles *tiles, int tile)
 {
     const Grid grid = *tiles->grid;
-    int top = tile / tiles->wide * TILE_ROWS, column = tile % tiles->wide;
+    int top = tile / tiles->columns * TILE_ROWS, column = tile % tiles->columns;
     double sum[LANES] = {0};
     for (int colour = 0; colour < 4; colour++)
         for (int i = top + colour / 2; i < top + TILE_ROWS; i += 2) {
@@ -110,7 +110,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
  * Returns the change of E. */
 FAST static double relax_active(Tiles *tiles, double activity, int *visits)
 {
-    const int high = tiles->high, wide = tiles->wide;
+    const int high = tiles->rows, wide = tiles->columns;
     double change = 0;
     *visits = 0;
     for (int colour = 0; colour < 4; colour++) {
@@ -139,7 +139,7 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
 
 double tiles_relax(Tiles *tiles, double pace)
 {
-    int count = tiles->high * tiles->wide, visits;
+    int count = tiles->rows * tiles->columns, visits;
     for (int t = 0; t < count; t++)
         tiles->activity[t] = 0;
     double lowered = relax_active(tiles, 0, &visits), change = lowered;

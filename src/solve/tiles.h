@@ -5,10 +5,11 @@
  * less than a cell for each Newton direction of the whole square.  Tiles of
  * 4 x 16 nodes relax by vertex block descent (Chen, Liu, Yang, Yuksel 2024):
  * each node in turn makes Newton's step for itself alone, with its 2x2 block of
- * the Hessian, unclamped if the block is positive definite.  A node then follows
- * a fold in directions in which the clamped Hessian is flat.  Along such a step
- * E is a quartic with known coefficients.  The step may therefore be longer by
- * a factor without a rise of E, and the decrease of E in each tile is known. */
+ * the Hessian, unclamped if the block is positive definite.  A node then
+ * follows a fold in directions in which the clamped Hessian is flat.  Along
+ * such a step E is a quartic with known coefficients.  The step may therefore
+ * be longer by a factor without a rise of E, and the decrease of E in each tile
+ * is known. */
 #ifndef ELASTO_TILES_H
 #define ELASTO_TILES_H
 
@@ -16,11 +17,11 @@
 
 typedef struct Tiles {
     const Grid *grid;
-    int high, wide;   /* number of tiles in a column and in a row */
-    double *activity; /* [tiles] change of E that a sweep may bring, < 0 */
-    double *change;   /* [tiles] change of E by the tile's last sweep */
-    int *chosen;      /* [tiles] numbers of the tiles that are swept next */
-    long sweeps;      /* sweeps of tiles since the object was made */
+    int rows, columns; /* number of tiles in a column and in a row */
+    double *activity;  /* [tiles] change of E that a sweep may bring, < 0 */
+    double *change;    /* [tiles] change of E by the tile's last sweep */
+    int *chosen;       /* [tiles] numbers of the tiles that are swept next */
+    long sweeps;       /* sweeps of tiles since the object was made */
 } Tiles;
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);

@@ -217,7 +217,8 @@ void v_cycle_read_system(VCycle *cycle)
     for (int i = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++) {
             int q = node_place(rows, i, j), at = q + grid->node_shift[i];
-            cycle->level->m[q] = grid->per_m[at] > 0 ? (float)grid->m[at] : 0;
+            cycle->level->m[q] =
+                grid->inverse_m[at] > 0 ? (float)grid->m[at] : 0;
         }
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < rows->plane; k++)
@@ -267,7 +268,7 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
         EACH_FEW (NEXT(at, WIDE_LANES)) {
             const int q = at.first + e;
             Few hx = {0}, hy = {0}, ax = {0}, ay = {0};
-            if (visit == FIRST) { /* a is b - A x here, else A x */
+            if (visit == FIRST) { /* ax and ay are b - A x here, else A x */
                 ax = FEW(bx, q);
                 ay = FEW(by, q);
             } else if (!from_0) {
@@ -333,8 +334,8 @@ INLINE void multiply_row(const Level *level, int i, double *sums)
     sums[1] += row[1];
 }
 
-/* Adds P from, P the interpolation, to one plane of row i; held nodes stay 0.
- */
+/* Interpolates the coarse plane `from` to row i and adds the result to the
+ * plane `to`; held nodes stay 0. */
 INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
                         const float *from, float *to)
 {
@@ -470,7 +471,7 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
             }
             EACH_OF (NEXT(at, LANES))
                 sum[e] +=
-                    grid.per_m[at.first + at.node + e] * (double)square[e];
+                    grid.inverse_m[at.first + at.node + e] * (double)square[e];
         }
         total += sum_lanes(sum);
     }

@@ -175,19 +175,20 @@ static void midpoint_finish(TimeIntegrator *run)
 }
 
 const IntegratorMethod integrator_methods[] = {
-    {"backward-euler", "backward Euler", 1, .implicit = true, .at_end = true,
-     .damps = true, .stages = 1, .set_target = backward_euler_set_target,
-     .finish = backward_euler_finish},
+    {"backward-euler", "backward Euler", 1, .implicit = true,
+     .ends_at_minimiser = true, .damps = true, .stages = 1,
+     .set_target = backward_euler_set_target, .finish = backward_euler_finish},
     {"symplectic-euler", "symplectic Euler", 1,
      .finish = symplectic_euler_finish},
     {"forward-euler", "forward Euler", 1, .finish = forward_euler_finish},
     {"verlet", "velocity Verlet", 2, .memory = 1, .finish = verlet_finish},
     {"midpoint", "implicit midpoint", 2, .implicit = true, .stages = 1,
      .set_target = midpoint_set_target, .finish = midpoint_finish},
-    {"bdf2", "BDF2", 2, .implicit = true, .damps = true, .by_name = true,
+    {"bdf2", "BDF2", 2, .implicit = true, .damps = true, .only_by_name = true,
      .memory = 2, .stages = 1, .set_target = bdf2_set_target,
      .finish = bdf2_finish},
-    {"sdirk2", "SDIRK2", 2, .implicit = true, .damps = true, .by_name = true,
-     .stages = 2, .set_target = sdirk2_set_target, .finish = sdirk2_finish},
+    {"sdirk2", "SDIRK2", 2, .implicit = true, .damps = true,
+     .only_by_name = true, .stages = 2, .set_target = sdirk2_set_target,
+     .finish = sdirk2_finish},
     {.name = NULL},
 };

@@ -74,7 +74,7 @@ bool prescribed_begin(TimeIntegrator *run)
         const Motion *motion = &obstacle->motion;
         obstacle->v[0] = obstacle->v[1] = 0;
         for (int i = motion->phases - 1; i >= 0; i--)
-            if (half_way < motion->until[i])
+            if (half_way < motion->phase_end[i])
                 memcpy(obstacle->v, motion->v[i], sizeof obstacle->v);
         if (motion->stops)
             stop_obstacle(obstacle, run->h);
@@ -208,7 +208,7 @@ static void report_end(const Newton *newton, Status status)
     const NewtonRecord end = {.step = newton->step,
                               .iteration = -1,
                               .residual = newton->record.residual,
-                              .kind = newton->record.kind,
+                              .residual_kind = newton->record.residual_kind,
                               .status = status,
                               .solver = newton->record.solver};
     if (settings->observer)
@@ -225,8 +225,8 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status)
         *status = STATUS_BLOCKED;
     if (run->remaining_part > 0 && updates < newton_most_iterations(newton))
         return true;
-    if (run->remaining_part >
-        0) /* the parts of a step share one limit of iterations */
+    /* The parts of a step share one limit of iterations. */
+    if (run->remaining_part > 0)
         *status = STATUS_ITERATION_LIMIT;
     if (*status != newton->status)
         report_end(newton, *status);
@@ -259,7 +259,7 @@ double prescribed_work(const TimeIntegrator *run, double weight)
     if (at.term)
         for (ElementIterator walk = elements_begin(&at, NULL, 0);
              elements_next(&walk);) {
-            int k = walk.element.source;
+            int k = walk.element.partner;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped = contact->push.stopped && k == contact->push.obstacle;
             sum += (stopped ? contact->push.moved : run->moved_part) *

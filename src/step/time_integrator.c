@@ -23,7 +23,7 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if (kind->backward_euler_only && !method->at_end)
+        if (kind->backward_euler_only && !method->ends_at_minimiser)
             return true;
     }
     return false;
@@ -40,7 +40,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
         !isfinite(settings->h) || !(settings->h > 0) ||
         !(settings->tolerance > 0) ||
         integrator_method_refuses(method, system) ||
-        (system->pin_v && !method->at_end))
+        (system->pin_v && !method->ends_at_minimiser))
         return STATUS_INVALID_INPUT;
     run->x = calloc((4 + (size_t)method->memory) * size, sizeof *x);
     if (!run->x)
@@ -79,9 +79,9 @@ void time_integrator_free(TimeIntegrator *run)
 static void count_step(StepClock *clock, double h)
 {
     if (h != clock->h)
-        *clock = (StepClock){.since = clock->now, .h = h};
+        *clock = (StepClock){.last_change = clock->now, .h = h};
     clock->steps++;
-    clock->now = clock->since + (double)clock->steps * h;
+    clock->now = clock->last_change + (double)clock->steps * h;
 }
 
 /* Lets the terms begin a step; friction, for example, reads the contacts at

@@ -92,7 +92,7 @@ TEST(a_belt_takes_its_load_along)
     int slips = 0;
     point_on_wall(n, mu, 1e-4, G);
     contact_of(&few)->obstacle[0].motion =
-        (Motion){.phases = 1, .until = {1e9}, .v = {{W * t[0], W * t[1]}}};
+        (Motion){.phases = 1, .phase_end = {1e9}, .v = {{W * t[0], W * t[1]}}};
     let_go(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
     for (int i = 0; i < 200; i++) {
         double before = speed, done = run.work;
@@ -116,7 +116,7 @@ static Obstacle *push_wall(void)
 {
     Contact *contact = contact_of(&few);
     contact->obstacle[0].o[0] = -0.1;
-    contact->push = (Push){.on = true, .to = {1, 0}, .shape = {.side = 1}};
+    contact->push = (Push){.on = true, .target = {1, 0}, .shape = {.side = 1}};
     return &contact->obstacle[0];
 }
 
@@ -161,7 +161,7 @@ TEST(a_fixed_body_stops_the_hand)
                          {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
     CHECK_OK(contact_configure(&few, &(Barrier){0.01, 1}, 2, walls));
     wall = push_wall();
-    contact_of(&few)->push.to[0] = 0.05; /* short ways in the end */
+    contact_of(&few)->push.target[0] = 0.05; /* short ways in the end */
     let_go(0.01, still, still);
     for (int i = 0; i < 300; i++)
         step();
@@ -179,7 +179,7 @@ TEST(a_ball_that_is_pushed_jumps_over_nothing)
     few_masses(1, 0);
     CHECK_OK(contact_configure(&few, &(Barrier){0.002, 1}, 1, &ball));
     Contact *contact = contact_of(&few);
-    contact->push = (Push){.on = true, .to = {9, 0}, .shape = {.side = 1}};
+    contact->push = (Push){.on = true, .target = {9, 0}, .shape = {.side = 1}};
     let_go(0.01, still, still);
     for (int i = 0; i < 50; i++) {
         step();
@@ -389,8 +389,8 @@ TEST(a_fast_ceiling_comes_in_parts)
     Simulation *scene = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *it = &scene->run[0];
     Obstacle *ceiling = &contact_of(it->system)->obstacle[1];
-    ceiling->motion =
-        (Motion){.phases = 2, .until = {0.01, 10}, .v = {{0, -50}, {0, -60}}};
+    ceiling->motion = (Motion){
+        .phases = 2, .phase_end = {0.01, 10}, .v = {{0, -50}, {0, -60}}};
     make_steps(scene, 1);
     CHECK_NEAR(ceiling->o[1], 0.51 - 0.5, 1e-12);
     CHECK(it->parts_made > 1);
@@ -486,7 +486,7 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
         point_on_wall(up, 0, 0, G);
         contact_of(&few)->obstacle[0].motion =
             (Motion){.phases = 3,
-                     .until = {0.2, 0.3, 0.8},
+                     .phase_end = {0.2, 0.3, 0.8},
                      .v = {{0, 0.5}, {0, -3}, {0, 1}}};
         let_go(h[k], x, v);
         double before = 0, start = 0, most = 0;

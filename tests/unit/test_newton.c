@@ -61,8 +61,8 @@ TEST(residuals_are_what_they_are_called)
             double residual = last.record.residual;
             double exact = exact_residual(&E, last.u, NULL, run->h, 0, 1, NULL);
             bool multigrid = newton->active_solver == SOLVER_MULTIGRID;
-            seen[multigrid][last.record.kind]++;
-            if (last.record.kind == RESIDUAL_VALUE)
+            seen[multigrid][last.record.residual_kind]++;
+            if (last.record.residual_kind == RESIDUAL_VALUE)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
             else if (multigrid && newton->passes)
                 CHECK_NEAR(residual, exact, tolerance - residual);
@@ -128,7 +128,7 @@ TEST(a_maximum_is_counted_without_projection)
         make_pair(rows[i].m0, rows[i].m1, 1);
         watch_pair(1, 1e-3, PROJECTION_NONE);
         CHECK_OK(minimise_pair(x, 1));
-        CHECK(newton.counters.negative == rows[i].maximum);
+        CHECK(newton.counters.indefinite_ends == rows[i].maximum);
     }
 }
 
@@ -333,7 +333,7 @@ TEST(work_is_limited_by_the_size)
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *run = &simulation->run[0];
     contact_of(run->system)->obstacle[1].motion =
-        (Motion){.phases = 1, .until = {0.01}, .v = {{0, -50}}};
+        (Motion){.phases = 1, .phase_end = {0.01}, .v = {{0, -50}}};
     run->newton->settings.max_iterations = 10;
     CHECK_STATUS(simulation_step(simulation), STATUS_ITERATION_LIMIT);
     CHECK_AT_MOST(run->newton->counters.iterations, 19);
