@@ -682,6 +682,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
     values_add_point(values, "f", (double[2]){m * at[0], m * at[1]});
     values_add(values, "last", last);
     values_add(values, "balanced", balanced);
+    values_add(values, "elastic", system_potential(&simulation->system, x));
 }
 
 /* Adds the values of mesh, law, fastest mode and forces, which pages use. */
