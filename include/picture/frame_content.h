@@ -273,7 +273,7 @@ typedef struct FrameContent {
     bool shows_strain;          /* springs are coloured by strain */
     bool bare;                  /* shows pictures without words */
     bool in_document;           /* shows the stage alone, as on the web page */
-    struct Text *text;          /* measures the page's texts; NULL: estimates */
+    struct Text *text;          /* fonts; NULL: widths of texts are estimated */
     double min_em; /* pixels, least size of an em; 0: the usual minimum */
     Strip strip;
     SettingsRow settings;

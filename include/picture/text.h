@@ -20,7 +20,7 @@
 
 typedef enum Face { FACE_REGULAR, FACE_BOLD, FACE_MONO, FACE_COUNT } Face;
 
-/* The point of a line of text that is at the x of text_draw. */
+/* A line of text begins at x, is centred at x, or ends at x. */
 typedef enum Align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } Align;
 
 typedef struct TextStyle {

@@ -48,7 +48,7 @@ static void fill_curves(const Trace *trace, const Trace *other,
             high = fmax(high, curves->exact[i]);
     }
     double depth = fmax(-low, 1e-300);
-    if (!(low < 0)) /* no curve falls: E at 1/10 sets the scale */
+    if (!(low < 0)) /* no curve falls: E at a tenth of the axis counts */
         depth = fmax(fabs(curves->exact[LINE_POINTS / 10]), 1e-300);
     curves->low = -1.12 * depth;
     curves->high =

@@ -195,8 +195,8 @@ static Box box_of_switch(const Plot *stage, int i)
                  box->y + top + i * (high + gap), wide, high};
 }
 
-/* Draws the scene's switches as chips in the upper right corner, or in the
- * lower one of a narrow stage. */
+/* Draws the scene's switches as chips in the upper right corner; in a narrow
+ * stage in the lower right corner. */
 static void draw_switches(const Plot *stage)
 {
     Paper *paper = stage->paper;

@@ -195,10 +195,10 @@ static double needed_height(const FrameContent *content, int card, double wide,
 
 /* A row of the column, with one card or two. */
 typedef struct CardRow {
-    int first_card, card_count; /* index; number of cards, 1 or 2 */
-    bool closed;                /* only the title is seen */
-    double min_height;          /* ems */
-    double weight; /* weight with which the row shares free height */
+    int first_card, card_count;
+    bool closed;       /* only the title is seen */
+    double min_height; /* ems */
+    double weight;     /* weight with which the row shares free height */
 } CardRow;
 
 /* Whether the card is open, and is the page's main card. */

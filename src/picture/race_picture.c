@@ -9,7 +9,7 @@
 
 enum { HALVED = 4 }; /* number of the table's columns for halved time steps */
 static const double NAMES_WIDTH = 45;    /* ems; a narrower plot has no names */
-static const double TARGET_ERROR = 0.01; /* m, limit for the fastest runs */
+static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 static const double REFERENCE_ERROR = 1e-8; /* m, error of the reference */
 
 /* Returns bounds in powers of ten: h or run time, and error. */

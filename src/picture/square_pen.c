@@ -225,7 +225,7 @@ static Colour choose_face_colour(const SquarePen *pen, const int node[4],
                                  double side, int cell)
 {
     int corner[4], spring[6];
-    double l2 = 2 * side * side, plastic = 0, d[2]; /* l2, d: of a diagonal */
+    double l2 = 2 * side * side, plastic = 0, d[2]; /* l2, d of a diagonal */
     double other2 = spring_vector((int[2]){node[3], node[1]}, pen->x, d);
     double d2 = spring_vector((int[2]){node[2], node[0]}, pen->x, d);
     double strain = (sqrt(d2) + sqrt(other2)) / (2 * sqrt(l2)) - 1;

@@ -22,7 +22,7 @@ static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
 /* Sizes of the first view over that of the square: with words, and bare. */
 static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
 static const double MAGNIFIER_SIDE = 12; /* ems, largest side */
-static const double VELOCITY_TIME = 0.1; /* s, drawn way of a velocity */
+static const double VELOCITY_TIME = 0.1; /* s, duration of the arrow's way */
 /* widen_to_circle's `reach` for balls and for grounds. */
 static const double BALL_REACH = 4, GROUND_REACH = 2;
 
@@ -463,9 +463,8 @@ static void draw_page_arrows(const SquarePen *pen)
                "node %d", system->nodes - 1);
 }
 
-/* Draws the velocity of the centre of mass as the centre's way in
- * VELOCITY_TIME.
- */
+/* Draws the velocity of the centre of mass as the way of the centre in
+ * VELOCITY_TIME. */
 static void draw_mean_velocity(const SquarePen *pen)
 {
     const System *system = pen->system;
@@ -557,7 +556,7 @@ static void draw_magnifier(const SquarePen *pen)
 /* Draws how far a body has slid, and how far a rigid body would slide. */
 static void draw_slide_distances(const Plot *stage)
 {
-    static const double ABOVE = 0.04; /* m, arrow above the body */
+    static const double ABOVE = 0.04; /* m, from the body up to the arrow */
     const SquareMesh *mesh = &stage->simulation->mesh;
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};

@@ -24,7 +24,7 @@ static const double LETTER_ASCENT = 0.76, LETTER_DESCENT = 0.24;
 static const double SCRIPT_SIZE = 0.8;
 static const double RAISE = 0.36, LOWER = 0.18; /* offsets of scripts */
 static const double FRACTION_SIZE = 0.9; /* size of a fraction's letters */
-static const double AXIS_HEIGHT = 0.28;  /* fraction's line above baseline */
+static const double AXIS_HEIGHT = 0.28;  /* height of a fraction's line */
 static const double SPACE = 0.12;        /* around fractions and in brackets */
 static const double COLUMN_GAP = 0.9;    /* space between columns of a matrix */
 static const double ROW_GAP = 0.22;      /* space between rows of a matrix */

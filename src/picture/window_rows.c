@@ -16,7 +16,7 @@ enum {
 };
 
 static const double TOPIC_SIZE = 1.3; /* ems, letters of the topic */
-static const double TEXT_SIZE = 0.95; /* ems, settings and time line */
+static const double TEXT_SIZE = 0.95; /* ems, letters of settings and time */
 
 /* Draws the white ground of a zone, with a thin line along one edge. */
 static void draw_zone_ground(Paper *paper, Box zone, bool rule_below)

@@ -20,7 +20,7 @@ static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
 /* Costs of a label's place: if the label is all on ink, if it is all outside of
  * the plot, and for each place before in the list. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_LATER = 0.08;
-static const double LABEL_MARGIN = 0.2; /* ems, margin of a label without ink */
+static const double LABEL_MARGIN = 0.2;   /* ems, free margin of a label */
 static const double LABEL_DISTANCE = 0.8; /* ems, from point to label */
 static const Colour INK = 190; /* a pixel with a channel below this is ink */
 
