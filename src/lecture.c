@@ -507,7 +507,7 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
         }
         SDL_Delay(5); /* SDL_WaitEvent may fail on X as the window closes */
     } while (screen->paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end));
-    if (screen->held >= 0) { /* a third of its way to the mouse */
+    if (screen->held >= 0) { /* a third of the way to the mouse */
         Vec2 way = sub(screen->mouse, solid->x[screen->held]);
         solid->v[screen->held] = mul(1 / (3 * h), way);
     }

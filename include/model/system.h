@@ -125,7 +125,7 @@ bool system_falls_freely(const System *system);
 bool system_turns_freely(const System *system, int *pivot);
 
 /* Returns the kinetic energy sum m |v|^2/2, J.  v [2n] m/s, in. */
-double system_kinetic(const System *system, const double *v);
+double system_kinetic_energy(const System *system, const double *v);
 
 /* Returns the larger of two numbers; NaN if one of them is NaN. */
 static inline double max_or_nan(double a, double b)

@@ -161,8 +161,8 @@ static Status check_scene(const Options *options, const OptionRow *row,
 
 /* Checks a changed option together with the others: the integrator, and the
  * start of the body if the option changes the start. */
-static Status check_change(const Options *options, const OptionRow *row,
-                           Message message)
+static Status check_changed_option(const Options *options, const OptionRow *row,
+                                   Message message)
 {
     bool is_start = row->effect == EFFECT_START &&
                     (row->needs & NEEDS_SQUARE) &&
@@ -180,13 +180,14 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
         return STATUS_INVALID_INPUT;
     if (!text[0] && row->count <= 1 && option_allows(row, value)) {
         options->number[row->slot] = value;
-        return check_change(options, row, message);
+        return check_changed_option(options, row, message);
     }
     if (!text[0] && !isnan(value))
         option_write(row, value, number, sizeof number);
     const Word word = {row, text[0] ? text : number, NULL, ""};
-    return apply_word(&line, &word) ? STATUS_INVALID_INPUT
-                                    : check_change(options, row, message);
+    return apply_word(&line, &word)
+               ? STATUS_INVALID_INPUT
+               : check_changed_option(options, row, message);
 }
 
 /* ---- words -------------------------------------------------------------- */
@@ -455,7 +456,7 @@ static Status check_body(Line *line)
 }
 
 /* Stores the words of a line in the options of a pane. */
-static Status apply_words(Line *line, int pane)
+static Status apply_line(Line *line, int pane)
 {
     *line->options = (Options){.panes = 1};
     if (check_words(line) || fill_defaults(line) || pick_values(line, pane))
@@ -481,7 +482,7 @@ Status options_parse(int argc, char **argv, int pane, Options *options,
 {
     Line line = {options, message, 0, {{0}}};
     Status status = read_words(argc, argv, &line);
-    return status ? status : apply_words(&line, pane);
+    return status ? status : apply_line(&line, pane);
 }
 
 Status options_parse_line(const char *line, Options *options, Message message)
@@ -489,5 +490,5 @@ Status options_parse_line(const char *line, Options *options, Message message)
     char copy[512];
     Line words = {options, message, 0, {{0}}};
     Status status = split_words(line, copy, sizeof copy, &words);
-    return status ? status : apply_words(&words, 0);
+    return status ? status : apply_line(&words, 0);
 }

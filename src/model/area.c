@@ -26,7 +26,7 @@ double area_max_step(const double f[4], double unit, double most,
 }
 
 /* Divides v [4] by its length, which is returned; v = 0 becomes `instead`. */
-static double make_unit(double v[4], const double instead[4])
+static double normalise(double v[4], const double instead[4])
 {
     double length = math_hypot(math_hypot(v[0], v[1]), math_hypot(v[2], v[3]));
     for (int i = 0; i < 4; i++)
@@ -51,8 +51,8 @@ bool area_project_hessian(const double f[4], double unit, double on_plus,
         a[i] = (i == 2 ? -1 : 1) * p[i == 1 || i == 2];
         b[i] = (i == 3 ? -1 : 1) * m[i == 1 || i == 2];
     }
-    double plus = unit * make_unit(a, any_plus);
-    double minus = unit * make_unit(b, any_minus);
+    double plus = unit * normalise(a, any_plus);
+    double minus = unit * normalise(b, any_minus);
     Q[0] = second * plus * plus + on_plus;
     Q[1] = -second * plus * minus;
     Q[2] = second * minus * minus + on_minus;

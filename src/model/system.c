@@ -288,7 +288,7 @@ void term_add_diagonal(const System *system, int i, Triplets *triplets)
     triplets_add(triplets, 2 * place + 1, 2 * place + 1);
 }
 
-double system_kinetic(const System *system, const double *v)
+double system_kinetic_energy(const System *system, const double *v)
 {
     double sum = 0;
     for (int i = 0; i < system->nodes; i++)

@@ -19,10 +19,10 @@ Energies simulation_energies(const Simulation *simulation, int run)
     const TimeIntegrator *integrator = &simulation->run[run];
     const System *system = integrator->system;
     const double *x = integrator->x;
-    Energies energies = {.kinetic = system_kinetic(system, integrator->v),
-                         .gravity = system_gravity_potential(system, x),
-                         .work =
-                             simulation->ledger[run].work + integrator->work};
+    Energies energies = {
+        .kinetic = system_kinetic_energy(system, integrator->v),
+        .gravity = system_gravity_potential(system, x),
+        .work = simulation->ledger[run].work + integrator->work};
     double lost = 0;
     energies.total = energies.kinetic + energies.gravity;
     add_energy(&energies, "total", 0);

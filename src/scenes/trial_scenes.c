@@ -128,7 +128,7 @@ Status create_race(Simulation *simulation)
 static double find_energy(const TimeIntegrator *run)
 {
     return system_potential(run->system, run->x) +
-           system_kinetic(run->system, run->v);
+           system_kinetic_energy(run->system, run->v);
 }
 
 /* Whether the energy of a run stays bounded.  Implicit methods count as stable,

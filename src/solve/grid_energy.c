@@ -5,25 +5,25 @@
 
 /* Begins a loop over bands, with a copy of the grid that stays in registers. */
 #define BANDS                                                                  \
-    const Grid grid = *of;                                                     \
-    const int plane = grid.rows.plane;                                         \
-    for (int band = 0; band < grid.bands; band++)
+    const Grid local = *grid;                                                  \
+    const int plane = local.rows.plane;                                        \
+    for (int band = 0; band < local.bands; band++)
 
-FAST double grid_gradient(const Grid *of, double *g)
+FAST double grid_gradient(const Grid *grid, double *g)
 {
     double total = 0;
     BANDS
     {
-        const double *const ax = grid.from_target, *const ay = ax + plane;
+        const double *const ax = local.from_target, *const ay = ax + plane;
         double *const gx = g, *const gy = gx + plane;
         double sum[LANES] = {0};
-        EACH_NODE_OF (grid, band) {
+        EACH_NODE_OF (local, band) {
             const int q = at.first + e;
-            Pair mass = PAIR(grid.m, q + at.node);
+            Pair mass = PAIR(local.m, q + at.node);
             Pair fx = mass * PAIR(ax, q), fy = mass * PAIR(ay, q);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);          \
+        Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
         fx += s.f * s.dx;                                                      \
         fy += s.f * s.dy;                                                      \
         IN_ORDER(fx, fy);                                                      \
@@ -33,7 +33,7 @@ FAST double grid_gradient(const Grid *of, double *g)
             PAIR(gx, q) = fx;
             PAIR(gy, q) = fy;
             PAIR(sum, e) +=
-                PAIR(grid.inverse_m, q + at.node) * (fx * fx + fy * fy);
+                PAIR(local.inverse_m, q + at.node) * (fx * fx + fy * fy);
         }
         total += sum_lanes(sum);
     }
@@ -45,7 +45,7 @@ FAST double grid_gradient(const Grid *of, double *g)
     Pair ux = PAIR(px, q) - PAIR(px, q + (to));                                \
     Pair uy = PAIR(py, q) - PAIR(py, q + (to))
 
-FAST double grid_linear_residual(const Grid *of, const double *g,
+FAST double grid_linear_residual(const Grid *grid, const double *g,
                                  const double *p, double *largest)
 {
     double total = 0, most[LANES] = {0};
@@ -54,14 +54,14 @@ FAST double grid_linear_residual(const Grid *of, const double *g,
         const double *const px = p, *const py = px + plane;
         const double *const gx = g, *const gy = gx + plane;
         double sum[LANES] = {0};
-        EACH_NODE_OF (grid, band) {
+        EACH_NODE_OF (local, band) {
             const int q = at.first + e;
             Pair hx = PAIR(px, q), hy = PAIR(py, q);
-            Pair mass = PAIR(grid.m, q + at.node);
+            Pair mass = PAIR(local.m, q + at.node);
             Pair fx = mass * hx, fy = mass * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);          \
+        Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
         P_DIFFERENCE(to);                                                      \
         CLAMPED_TENSOR(s.s, s.d2 + 1e-300, iso, along);                        \
         along *= s.dx * ux + s.dy * uy;                                        \
@@ -74,9 +74,9 @@ FAST double grid_linear_residual(const Grid *of, const double *g,
             fx = -PAIR(gx, q) - fx;
             fy = -PAIR(gy, q) - fy;
             PAIR(sum, e) +=
-                PAIR(grid.inverse_m, q + at.node) * (fx * fx + fy * fy);
+                PAIR(local.inverse_m, q + at.node) * (fx * fx + fy * fy);
         }
-        EACH_RUN_OF (grid, band)
+        EACH_RUN_OF (local, band)
             EACH_OF (NEXT(at, LANES)) {
                 double size = fabs(px[at.first + e]) + fabs(py[at.first + e]);
                 most[e] = size > most[e] ? size : most[e];
@@ -89,8 +89,8 @@ FAST double grid_linear_residual(const Grid *of, const double *g,
     return total;
 }
 
-FAST void grid_line_polynomial(const Grid *of, const double *g, const double *p,
-                               double quartic[4])
+FAST void grid_line_polynomial(const Grid *grid, const double *g,
+                               const double *p, double quartic[4])
 {
     for (int s = 0; s < 4; s++)
         quartic[s] = 0;
@@ -99,13 +99,13 @@ FAST void grid_line_polynomial(const Grid *of, const double *g, const double *p,
         const double *const gx = g, *const gy = gx + plane;
         const double *const px = p, *const py = px + plane;
         double sum[4][LANES] = {{0}};
-        EACH_NODE_OF (grid, band) {
+        EACH_NODE_OF (local, band) {
             const int q = at.first + e;
             Pair hx = PAIR(px, q), hy = PAIR(py, q), f1 = {0}, f2 = {0};
             Pair f3 = {0}, p2 = hx * hx + hy * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);          \
+        Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
         P_DIFFERENCE(to);                                                      \
         spring_line_polynomial(s, ux, uy, &f1, &f2, &f3);                      \
         IN_ORDER(f1, f2);                                                      \
@@ -114,7 +114,8 @@ FAST void grid_line_polynomial(const Grid *of, const double *g, const double *p,
             OWN_SPRINGS(ADD, at)
 #undef ADD
             PAIR(sum[0], e) += PAIR(gx, q) * hx + PAIR(gy, q) * hy;
-            PAIR(sum[1], e) += 0.25 * f1 + 0.5 * PAIR(grid.m, q + at.node) * p2;
+            PAIR(sum[1], e) +=
+                0.25 * f1 + 0.5 * PAIR(local.m, q + at.node) * p2;
             PAIR(sum[2], e) += 0.5 * f2;
             PAIR(sum[3], e) += 0.25 * f3;
         }
@@ -125,19 +126,19 @@ FAST void grid_line_polynomial(const Grid *of, const double *g, const double *p,
 
 /* ---- without springs ---- */
 
-FAST double grid_correct_momentum(const Grid *of)
+FAST double grid_correct_momentum(const Grid *grid)
 {
     double mass = 0, moment[2] = {0, 0};
     BANDS
     {
         double sum[3][LANES] = {{0}};
-        EACH_RUN_OF (grid, band)
+        EACH_RUN_OF (local, band)
             EACH_OF (NEXT(at, LANES)) {
                 const int q = at.first + e;
-                double m = grid.m[q + at.node];
+                double m = local.m[q + at.node];
                 sum[0][e] += m;
-                sum[1][e] += m * grid.from_target[q];
-                sum[2][e] += m * grid.from_target[q + plane];
+                sum[1][e] += m * local.from_target[q];
+                sum[2][e] += m * local.from_target[q + plane];
             }
         mass += sum_lanes(sum[0]);
         moment[0] += sum_lanes(sum[1]);
@@ -147,13 +148,13 @@ FAST double grid_correct_momentum(const Grid *of)
         const double mean = moment[c] / mass;
         BANDS
         {
-            double *const away = grid.from_target + c * plane;
-            double *const x = grid.x + c * plane;
-            const double *const x_tilde = grid.x_tilde + c * plane;
-            EACH_RUN_OF (grid, band)
+            double *const away = local.from_target + c * plane;
+            double *const x = local.x + c * plane;
+            const double *const x_tilde = local.x_tilde + c * plane;
+            EACH_RUN_OF (local, band)
                 EACH_OF (NEXT(at, LANES)) {
                     const int q = at.first + e;
-                    away[q] -= grid.m[q + at.node] > 0 ? mean : 0;
+                    away[q] -= local.m[q + at.node] > 0 ? mean : 0;
                     x[q] = x_tilde[q] + away[q];
                 }
         }

@@ -253,7 +253,7 @@ static inline void load_column_group(const Panel *panel, int j,
 }
 
 /* Solves for w[j] ... w[j + 3] and takes their share from the rows below. */
-static void forward_group(const Panel *panel, int j, double *w)
+static void solve_forward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP];
     double v[GROUP], pivot[GROUP];
@@ -275,7 +275,7 @@ static void forward_group(const Panel *panel, int j, double *w)
 }
 
 /* Solves for w[j] ... w[j + 3], the rows below being known. */
-static void backward_group(const Panel *panel, int j, double *w)
+static void solve_backward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP];
     double v[GROUP], pivot[GROUP];
@@ -303,7 +303,7 @@ void panel_forward(const Panel *panel, double *w)
 {
     int j = 0;
     for (; j + GROUP <= panel->columns; j += GROUP)
-        forward_group(panel, j, w);
+        solve_forward_group(panel, j, w);
     for (; j < panel->columns; j++) {
         const double *a = panel_get_column(panel, j);
         w[j] /= a[j];
@@ -322,7 +322,7 @@ void panel_backward(const Panel *panel, double *w)
         w[j] /= a[j];
     }
     while (j > 0)
-        backward_group(panel, j -= GROUP, w);
+        solve_backward_group(panel, j -= GROUP, w);
 }
 
 /* ---- what else CHOLMOD and OpenMP ask for ---- */

@@ -122,7 +122,7 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
         for (int t = 0; t < count; t++)
             tiles->change[tiles->chosen[t]] =
                 relax_tile(tiles, tiles->chosen[t]);
-        for (int t = 0; t < count; t++) { /* neighbours may lower E, too */
+        for (int t = 0; t < count; t++) { /* neighbours become active */
             int tile = tiles->chosen[t], i = tile / wide, j = tile % wide;
             for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < high; a++)
                 for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < wide; b++)

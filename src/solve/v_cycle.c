@@ -241,25 +241,25 @@ void v_cycle_read_system(VCycle *cycle)
 /* ---- the V-cycle: A x = b ---- */
 
 /* Result of a pass over one colour of a row. */
-typedef enum Visit {
+typedef enum PassResult {
     FIRST,    /* x = D (b + K x' of springs to earlier colours), from x = 0 */
     RESIDUAL, /* w = b - A x after FIRST, which is K x' of springs to later
                  colours */
     SMOOTH,   /* x += D (b - A x), a Gauss-Seidel pass */
     PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
-} Visit;
+} PassResult;
 
 /* Makes a pass over one colour of row i.  The colour is 2 in odd rows, plus 1
  * in odd columns.  Springs lead to earlier colours along the row from odd
  * columns, and across rows from odd rows. */
-INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
+INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
                       float *xb, float *xw)
 {
     const Level level = *of;
     const int plane = level.rows.plane;
-    const bool from_0 = visit == FIRST || visit == RESIDUAL;
-    const bool along = !from_0 || (colour % 2 != 0) == (visit == FIRST);
-    const bool across = !from_0 || (colour / 2 != 0) == (visit == FIRST);
+    const bool from_0 = result == FIRST || result == RESIDUAL;
+    const bool along = !from_0 || (colour % 2 != 0) == (result == FIRST);
+    const bool across = !from_0 || (colour / 2 != 0) == (result == FIRST);
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
@@ -268,7 +268,7 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
         EACH_FEW (NEXT(at, WIDE_LANES)) {
             const int q = at.first + e;
             Few hx = {0}, hy = {0}, ax = {0}, ay = {0};
-            if (visit == FIRST) { /* ax and ay are b - A x here, else A x */
+            if (result == FIRST) { /* ax and ay are b - A x here, else A x */
                 ax = FEW(bx, q);
                 ay = FEW(by, q);
             } else if (!from_0) {
@@ -296,12 +296,12 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
 #undef ADD
             Few rx = from_0 ? ax : FEW(bx, q) - ax;
             Few ry = from_0 ? ay : FEW(by, q) - ay;
-            if (visit == FIRST || visit == SMOOTH) {
+            if (result == FIRST || result == SMOOTH) {
                 Few xx = FEW(level.D[0], q), xy = FEW(level.D[1], q);
                 Few yy = FEW(level.D[2], q);
                 FEW(x, q) = hx + (xx * rx + xy * ry);
                 FEW(y, q) = hy + (xy * rx + yy * ry);
-            } else if (visit == RESIDUAL) {
+            } else if (result == RESIDUAL) {
                 FEW(wx, q) = WHERE(FEW(level.D[0], q) != 0, rx);
                 FEW(wy, q) = WHERE(FEW(level.D[0], q) != 0, ry);
             } else {

@@ -491,7 +491,7 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
         let_go(h[k], x, v);
         double before = 0, start = 0, most = 0;
         for (int step = 0; step < 1 / h[k]; step++) {
-            double held = system_kinetic(&few, run.v) +
+            double held = system_kinetic_energy(&few, run.v) +
                           system_potential(&few, run.x) +
                           system_gravity_potential(&few, run.x) - run.work;
             start = step == 0 ? held : start;
