@@ -18,11 +18,12 @@ static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
 static const double MIN_VISIBLE = 2e-3;
 /* Energies below this part of k side^2 are rounding errors. */
 static const double ROUNDING = 1e-20;
-static const double LEGEND_SIZE = 0.85;  /* ems, size of the legend's letters */
-static const double CROWDED_SIZE = 0.75; /* ems, if more than four curves */
-static const double MIN_HEIGHT = 8;      /* ems, least height of the card */
-static const double PAGE_HEIGHT = 11;    /* ems, least height on a page */
-static const double ROW_HEIGHT = 2.4;    /* ems, for a second row of legend */
+static const double LEGEND_SIZE = 0.85; /* ems, size of the legend's letters */
+static const double MIN_PLOT = 4.7;     /* ems, height with the numbers of x */
+static const double MIN_HEIGHT = 9.6;   /* ems, least height of the card */
+static const double PAGE_HEIGHT = 11;   /* ems, least height on a page */
+static const double ROW_HEIGHT = 2.4;   /* ems, for more than four curves */
+static const double MANY_HEIGHT = 3.6;  /* ems, for more than seven curves */
 
 /* A quantity of a history over time. */
 typedef struct Curve {
@@ -37,6 +38,7 @@ typedef struct Curve {
 typedef struct Curves {
     int count;
     Curve curve[HISTORY_SERIES];
+    int left_out;  /* number of curves for which the card has no room */
     double latest; /* s, time of the pane that has come farthest */
 } Curves;
 
@@ -132,9 +134,7 @@ double energies_needed_height(const FrameContent *content, double wide,
     (void)em;
     int count = find_curves(content).count;
     double least = content->lecture.page ? PAGE_HEIGHT : MIN_HEIGHT;
-    return least + (count <= 4           ? 0
-                    : content->panes > 1 ? 2 * ROW_HEIGHT
-                                         : ROW_HEIGHT);
+    return least + (count <= 4 ? 0 : count <= 7 ? ROW_HEIGHT : MANY_HEIGHT);
 }
 
 /* Returns the largest rounding error of an energy, J. */
@@ -147,7 +147,7 @@ static double find_energy_rounding(const Simulation *simulation)
 
 /* Makes the axis of the energies.  The axis covers the whole run, unless the
  * energies so far would then be too small to see, and is logarithmic if the
- * energy has grown a millionfold.
+ * energy has grown a millionfold and none is far below 0.
  *   last  out, s, upper limit of the times of the curves */
 static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
                                double *last)
@@ -181,7 +181,8 @@ static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
     if (!(first > rounding)) /* a start with E = 0, such as a fall from rest */
         first = -low;
     bool modes = simulation->options.layers & LAYER_MODES;
-    if (first > 0 && (modes || high > LOG_GROWTH * first))
+    if (first > 0 && low >= -0.01 * high &&
+        (modes || high > LOG_GROWTH * first))
         return (Axis){pow(10, floor(log10(fmax(least, LOG_LOW * first))) - 1),
                       pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))), true,
                       false, "J"};
@@ -199,33 +200,80 @@ static void draw_curves(const Plot *plot, const Curves *all)
     }
 }
 
-/* Draws the curves with their names and present values above. */
-void energies_draw(const Plot *card)
+/* Writes the names and present values of the curves, or only measures them.
+ * Returns the height in pixels.
+ *   terse  only the first value and the names are written, or only the values
+ *          of several panes, whose names stand on the panes */
+static int write_legend(const Plot *card, const Curves *all, bool terse,
+                        bool draw)
 {
-    const Curves all = find_curves(card->content);
-    Plot rest = *card;
+    Paper *paper = card->paper;
+    const double size = fmax(LEGEND_SIZE, paper->min_letter);
+    const double gap = (terse ? 0.6 : 1.05) * size;
+    bool panes = card->content->panes > 1;
     int at[2] = {0, 0}, used = 0;
-    double size = fmax(all.count > 4 ? CROWDED_SIZE : LEGEND_SIZE,
-                       card->paper->min_letter);
-    double last;
-    for (const Curve *one = all.curve; one < all.curve + all.count; one++) {
+    for (int c = 0; c < all->count; c++) {
+        const Curve *one = &all->curve[c];
         TextLine line = {.colour = one->colour};
         double value =
             find_energy_at(one->simulation, one->history, one->series,
                            simulation_time(one->simulation));
-        char name[SENTENCE_SIZE], sum[60];
+        char name[SENTENCE_SIZE] = "", sum[60] = "";
         if (fabs(value) < find_energy_rounding(one->simulation))
             value = 0;
-        snprintf(name, sizeof name, "%s", one->name ? one->name : "");
-        snprintf(sum, sizeof sum, " %s J", format_number(value).text);
-        paper_shorten(card->paper, size,
+        if (one->name && !(terse && panes))
+            snprintf(name, sizeof name, "%s ", one->name);
+        if (!terse || panes || c == 0)
+            snprintf(sum, sizeof sum, "%s J", format_number(value).text);
+        paper_shorten(paper, size,
                       card->box.width -
-                          paper_width(card->paper, FACE_REGULAR, size, sum),
+                          paper_width(paper, FACE_REGULAR, size, sum),
                       name, sizeof name);
         snprintf(line.words, sizeof line.words, "%.150s%s", name, sum);
-        used = card_write_flow(card, at, size, 1.05 * size, &line);
+        used = card_write_flow(card, at, size, gap, &line, draw);
     }
-    box_cut_off(&rest.box, EDGE_TOP, used);
+    if (all->left_out > 0) {
+        TextLine line = {.colour = COLOUR_GREY};
+        snprintf(line.words, sizeof line.words, "+ %d smaller", all->left_out);
+        used = card_write_flow(card, at, size, gap, &line, draw);
+    }
+    return used;
+}
+
+/* Leaves out the curve, not the first one, whose largest value is smallest. */
+static void leave_out_smallest(Curves *all)
+{
+    double least = INFINITY;
+    int smallest = all->count - 1;
+    for (int c = 1; c < all->count; c++) {
+        const History *history = all->curve[c].history;
+        double most = 0;
+        for (int i = 0; i < history->count; i++)
+            most = fmax(most, fabs(history->value[all->curve[c].series][i]));
+        if (most < least) {
+            least = most;
+            smallest = c;
+        }
+    }
+    all->count--;
+    all->left_out++;
+    memmove(all->curve + smallest, all->curve + smallest + 1,
+            (size_t)(all->count - smallest) * sizeof *all->curve);
+}
+
+/* Draws the curves with their names and present values above.  In a low card
+ * only the first value is written, and the smallest curves are left out. */
+void energies_draw(const Plot *card)
+{
+    Curves all = find_curves(card->content);
+    Plot rest = *card;
+    double last;
+    int room = card->box.height - paper_pixels(card->paper, MIN_PLOT);
+    bool terse = write_legend(card, &all, false, false) > room;
+    while (terse && all.count > 1 &&
+           write_legend(card, &all, true, false) > room)
+        leave_out_smallest(&all);
+    box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, terse, true));
     Axis energy = make_energies_axis(card->simulation, &all, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);

@@ -114,7 +114,7 @@ void line_energy_draw(const Plot *card)
     words.height += air;
     Box before = canvas_set_clip(&paper->canvas, words);
     while (text_next_line(&line))
-        card_write_flow(card, at, WORD_SIZE, 1, &line);
+        card_write_flow(card, at, WORD_SIZE, 1, &line, true);
     canvas_set_clip(&paper->canvas, before);
     Plot plot = plot_create(&rest, x, y);
     const double origin[2] = {0, 0};

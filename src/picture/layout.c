@@ -155,6 +155,7 @@ static Box place_zones(const FrameContent *content, Layout *layout)
     Box rest = {0, 0, layout->width, layout->height}, *bars = &layout->bars;
     double high = layout->height / layout->em;
     bool roomy = high >= 40, lecture = content->lecture.page;
+    bool big = active_pane(content)->simulation->options.big;
     if (content->bare || high < 16)
         return rest;
     layout->strip = box_cut_off(&rest, EDGE_TOP,
@@ -168,7 +169,7 @@ static Box place_zones(const FrameContent *content, Layout *layout)
         return rest;
     layout->time_line = box_cut_off(
         &rest, EDGE_BOTTOM, layout_pixels(layout, roomy ? TIME_LINE : 2));
-    if (content->settings.count > 0 && (roomy || lecture))
+    if (content->settings.count > 0 && (roomy || lecture || big))
         place_settings(&content->settings, layout, !roomy, &rest);
     *bars = layout->time_line;
     bars->x += layout_pixels(layout, GAP);
@@ -242,14 +243,15 @@ static int find_card_rows(const FrameContent *content, double wide, double em,
         if (sets->hidden >> i & 1 || main_card_is_below(content, i) ||
             (main_card_is_beside(content, i) && !bar))
             continue;
+        double least = bar ? TITLE_BAR : needed_height(content, i, wide, em);
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].card_count = 2;
+            rows[count - 1].min_height =
+                fmax(rows[count - 1].min_height, least);
             continue;
         }
         before = half && !bar ? i : -2;
-        rows[count++] = (CardRow){
-            i, 1, bar, bar ? TITLE_BAR : needed_height(content, i, wide, em),
-            bar ? 0 : card->weight};
+        rows[count++] = (CardRow){i, 1, bar, least, bar ? 0 : card->weight};
     }
     return count;
 }

@@ -433,7 +433,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
 }
 
 int card_write_flow(const Plot *card, int at[2], double size, double gap,
-                    const TextLine *line)
+                    const TextLine *line, bool draw)
 {
     Paper *paper = card->paper;
     int width = paper_width(paper, line->face, size, line->words);
@@ -441,9 +441,10 @@ int card_write_flow(const Plot *card, int at[2], double size, double gap,
         at[0] = 0;
         at[1] += paper_pixels(paper, 1.35 * size);
     }
-    paper_write_on_panel(paper, line->face, size, line->colour,
-                         card->box.x + at[0], card->box.y + at[1], ALIGN_LEFT,
-                         line->words);
+    if (draw)
+        paper_write_on_panel(paper, line->face, size, line->colour,
+                             card->box.x + at[0], card->box.y + at[1],
+                             ALIGN_LEFT, line->words);
     at[0] += width + paper_pixels(paper, gap);
     return at[1] + paper_pixels(paper, 1.5 * size);
 }

@@ -70,7 +70,23 @@ static Number format_tick(const Axis *axis, double value)
     return format_number(is_zero ? 0 : value);
 }
 
-/* Finds the ticks of an axis that is `ems` long.  Returns the number of ticks.
+/* Lists the multiples of a step on the axis, or the powers of ten whose
+ * exponent is such a multiple.  Returns the number of ticks. */
+static int list_ticks(const Axis *axis, double step, double *ticks)
+{
+    double low = axis_coordinate(axis, axis->low),
+           high = axis_coordinate(axis, axis->high);
+    int count = 0;
+    double first =
+        axis->log ? ceil(low - 1e-9) / step : ceil(low / step - 1e-9);
+    for (double k = first;
+         k * step <= high + 1e-9 * step && count < PLOT_MAX_TICKS; k++)
+        ticks[count++] = axis->log ? pow(10, round(k * step)) : k * step;
+    return count;
+}
+
+/* Finds the ticks of an axis that is `ems` long, at least two on an axis y with
+ * room for two numbers.  Returns the number of ticks.
  *   upright  the axis is y */
 static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
 {
@@ -80,18 +96,15 @@ static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
     double low = axis_coordinate(axis, axis->low),
            high = axis_coordinate(axis, axis->high);
     double step = plot_round_up((high - low) / intervals);
-    int count = 0;
     if (!(high - low > 0) || !isfinite(high - low))
         return 0;
     if (axis->log) /* whole powers of ten */
         step = ceil((floor(high + 1e-9) - ceil(low - 1e-9)) / intervals);
     if (axis->log || axis->whole)
         step = fmax(step, 1);
-    double first =
-        axis->log ? ceil(low - 1e-9) / step : ceil(low / step - 1e-9);
-    for (double k = first;
-         k * step <= high + 1e-9 * step && count < PLOT_MAX_TICKS; k++)
-        ticks[count++] = axis->log ? pow(10, round(k * step)) : k * step;
+    int count = list_ticks(axis, step, ticks);
+    if (count < 2 && upright && room > 1.5 && !axis->log && !axis->whole)
+        count = list_ticks(axis, 0.5 * step, ticks);
     return count;
 }
 

@@ -23,8 +23,8 @@ static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
 static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
 static const double MAGNIFIER_SIDE = 12; /* ems, largest side */
 static const double VELOCITY_TIME = 0.1; /* s, duration of the arrow's way */
-/* widen_to_circle's `reach` for balls and for grounds. */
-static const double BALL_REACH = 4, GROUND_REACH = 2;
+/* widen_to_circle's `reach` for balls, grounds, and the place of a pull. */
+static const double BALL_REACH = 4, GROUND_REACH = 2, PULL_REACH = 16;
 
 /* ---- how much of the world is seen -------------------------------------- */
 
@@ -113,24 +113,30 @@ static void widen_to_circle(const Extent *seen, const double at[2],
     }
 }
 
-/* Widens the view to show the balls in reach, and of each ground in reach a
- * strip that is wide enough for the mouse. */
+/* Widens the view to show the balls in reach, of each ground in reach a strip
+ * that is wide enough for the mouse, and the place to which a script pulls. The
+ * obstacle that the hand pushes is in reach wherever it is. */
 static void widen_to_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
+    const Control *hand = stage->content->hand;
     const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
+    if (hand && !stage->content->view->held.on)
+        widen_to_circle(&seen, hand->at, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
+        bool held = contact->push.on && contact->push.obstacle == k;
         Gap gap = contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = point_along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
             widen_to_circle(&seen, obstacle->o, obstacle->radius + air,
-                            BALL_REACH, view);
+                            held ? INFINITY : BALL_REACH, view);
         else
-            widen_to_circle(&seen, foot.at, 3 * air, GROUND_REACH, view);
+            widen_to_circle(&seen, foot.at, 3 * air,
+                            held ? INFINITY : GROUND_REACH, view);
     }
 }
 

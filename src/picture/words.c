@@ -89,7 +89,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     room.box.x += (int)(0.9 * em);
     room.box.y += (int)(0.6 * em);
     room.box.width -= (int)(1.8 * em);
-    card_write_flow(&room, plot->legend_at, LEGEND_SIZE, 1.6, &line);
+    card_write_flow(&room, plot->legend_at, LEGEND_SIZE, 1.6, &line, true);
 }
 
 /* ---- labels -------------------------------------------------------------- */

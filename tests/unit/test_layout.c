@@ -121,6 +121,9 @@ TEST(small_windows_leave_parts_out)
     CHECK(small.cards == 0 && small.settings == 0);
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
     CHECK(small.stage.width == 400 && small.stage.height > 200);
+    simulation.options.big = true;
+    CHECK(layout_create(&content, 1366, 768).settings > 3);
+    simulation.options.big = false;
     /* wider than the window: the first line */
     content.settings.item[0].letters = 400;
     Layout wide = layout_create(&content, 900, 900);

@@ -180,7 +180,9 @@ static double falling(const void *unused, double alpha)
 
 #define CLAMPED "unprojected --projection clamp"
 
-enum { STAGE = -1, LISTING = 1, LINE, CURVE };
+enum { STAGE = -1, LISTING = 1, LINE, CURVE, ENERGIES };
+
+#define ALL_ENERGIES " --segments 6 --yield 0.05 --tear 0.5 --damping 0.01"
 
 static const struct {
     const char *line;
@@ -342,6 +344,24 @@ TEST(the_camera_does_not_jump)
     }
 }
 
+/* The place to which a script pulls a node is in the picture. */
+TEST(the_target_of_the_hand_is_in_the_picture)
+{
+    stand_up("square --stretch 1", 0);
+    Control *hand = control_from_simulation(&simulation);
+    hand->hand = 4;
+    hand->at[0] = 2;
+    hand->at[1] = -1;
+    content.hand = hand;
+    draw_without_words();
+    CHECK(on_stage(COLOUR_HAND) > 100);
+    Camera camera = camera_of_pane(&content, &layout, 0);
+    double at[2];
+    camera_to_pixel(&camera, hand->at, at);
+    CHECK(box_contains(layout.stage, at[0], at[1]));
+    control_release(hand);
+}
+
 /* ---- what the mouse finds ------------------------------------------------ */
 
 /* Every node is picked where it is drawn, also after zooming; so is the middle
@@ -399,7 +419,7 @@ TEST(the_mouse_finds_nodes_and_springs)
 
 /* Every text that a frame writes. */
 static char written[500][160];
-static double written_at[500];
+static double written_at[500], written_top[500];
 static int writings;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
@@ -411,6 +431,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
     written_at[writings % 500] = x;
+    written_top[writings % 500] = y;
     if (writings < 500)
         snprintf(written[writings++], sizeof *written, "%s", markup);
     return __real_text_draw(text, canvas, style, x, y, align, markup);
@@ -500,6 +521,59 @@ TEST(maps_have_levels_and_pulls)
     plot_to_pixel(&stage, (double[]){0.4, 0.6}, middle);
     CHECK(count_colour((Box){(int)middle[0] - 3, (int)middle[1] - 3, 7, 7},
                        COLOUR_X_TILDE) > 3);
+}
+
+/* The plot of energies is at least 2.5 ems high between legend and numbers, and
+ * has two numbers of y: in low windows, in large letters, with ten energies,
+ * with six panes. */
+TEST(the_plot_of_energies_stays_high)
+{
+    static const struct {
+        const char *line;
+        int panes, wide, high;
+    } rows[] = {{"square", 1, 900, 600},
+                {"squeeze" ALL_ENERGIES, 1, 900, 600},
+                {"squeeze" ALL_ENERGIES, 1, 1366, 768},
+                {"squeeze --big" ALL_ENERGIES, 1, 1366, 768},
+                {"square", 6, 900, 600}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        stand_up(rows[i].line, 8);
+        for (int s = 0; s < history.series; s++)
+            history.value[s][4] = -1000 * s; /* all are seen */
+        content.settings.count = 12;
+        for (int k = 0; k < 12; k++)
+            content.settings.item[k] = (Setting){.name = "k", .letters = 16};
+        content.panes = rows[i].panes;
+        for (int k = 1; k < content.panes; k++)
+            content.pane[k] = content.pane[0];
+        for (int k = 0; k < content.panes; k++)
+            content.pane[k].label = "turned by 30 \u00b0, h 0.02 s";
+        content.cards.closed &= ~(1u << ENERGIES);
+        content.cards.large = strstr(rows[i].line, "big") ? ENERGIES : -1;
+        set_size(rows[i].wide, rows[i].high);
+        writings = 0;
+        draw();
+        const Box card = layout.card[ENERGIES];
+        double legend = 0, below = 0;
+        int numbers = 0;
+        for (int k = 0; k < writings && k < 500; k++) {
+            const char *text = written[k];
+            if (!box_contains(card, written_at[k], written_top[k]) ||
+                written_top[k] < card.y + 1.5 * paper.em)
+                continue;
+            if (strcmp(text, "t in s") == 0)
+                below = written_top[k];
+            else if (strchr("+tkecgpdfw", text[0]) || strstr(text, " J"))
+                legend = fmax(legend, written_top[k]);
+            else
+                numbers += written_at[k] < card.x + 5 * paper.em &&
+                           strcmp(text, "0") != 0;
+        }
+        /* a row of the legend, the air above the plot and below it */
+        CHECK_AT_MOST((1.275 + 0.5 + 0.25 + 2.5) * paper.em - 3,
+                      below - legend);
+        CHECK(legend > 0 && numbers > 0);
+    }
 }
 
 /* The list of iterates marks the digits that they have in common with the root.
