@@ -28,6 +28,10 @@ static const long double HUGE_ENERGY = 1e280L;
 /* Larger systems are not solved by a matrix: that costs n^3. */
 enum { LARGEST_SOLVED = 400 };
 
+/* Shaken squares add coordinates and forces of very different sizes, and their
+ * sums are off by so many times what exact_residual allows for. */
+enum { SHAKEN_NOISE = 4 };
+
 /* Part of a direction that a factor may be wrong by where the program takes it
  * as exact (rounding.c, BLURRED_MASSES). */
 #define DIGITS_OF_DIRECTION 1e-5
@@ -113,6 +117,8 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
             judge(&moment.E, u, watch->way, settings->h, moment.moved,
                   lifts[settings->projection][k], noise);
         *least = fmin(*least, residual);
+        if (noise && watch->springs)
+            *noise *= SHAKEN_NOISE;
         if (residual <= limit + (noise ? *noise : 0))
             return true;
     }

@@ -150,23 +150,6 @@ TEST(a_square_begins_at_the_height_0)
     }
 }
 
-/* Stretched in x, then turned about the origin, then moved. */
-TEST(a_start_is_stretched_turned_and_moved)
-{
-    Simulation *simulation =
-        simulate("square --segments 2 --stretch 1.5 --turn 90 --at "
-                 "3,-4 --velocity 5,6");
-    for (int i = 0; i < 9; i++) {
-        double rest[2];
-        square_mesh_rest_position(&simulation->mesh, i, rest);
-        const double *x = simulation->run[0].x + 2 * i;
-        const double *v = simulation->run[0].v + 2 * i;
-        CHECK_NEAR(x[0], 3 - rest[1], 1e-15);
-        CHECK_NEAR(x[1], -4 + 1.5 * rest[0], 1e-15);
-        CHECK(v[0] == 5 && v[1] == 6);
-    }
-}
-
 /* Nodes 0 ... rows are the left column from below. */
 TEST(the_words_of_pin_name_their_nodes)
 {

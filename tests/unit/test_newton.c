@@ -205,29 +205,6 @@ TEST(lost_masses_are_found_again)
     CHECK_AT_MOST(system_potential(&simulation->system, run->x), 1e-6 * start);
 }
 
-/* Where a double cannot hold springs and masses side by side, slopes are
- * rounding: steps may end unconverged, but E never rises. */
-static const char *const massless[] = {
-    "--segments 5 --density 1e-6 --timestep 1e9 --stiffness 1e10 "
-    "--stretch 1.12 --solver multigrid",
-    "--segments 6 --density 2.4e-5 --timestep 9.3e8 --stiffness 3.25e8 "
-    "--stretch 1.05 --solver multigrid --projection abs",
-    "--segments 5 --density 2.31e-5 --timestep 4.17e8 --stiffness 9.51e8 "
-    "--stretch 1.12 --solver newton",
-    "--segments 6 --density 3.78e-6 --timestep 3.07e8 --stiffness 1.51e8 "
-    "--stretch 0.5 --solver newton --projection on-demand",
-    "--segments 5 --timestep 1e12 --stiffness 1e10 --stretch 1.12 "
-    "--solver multigrid --projection abs",
-    "--segments 1 --density 0.02078113651981987 --timestep "
-    "3364147816908.643 --stiffness 5526952586.520507 --stretch 2 "
-    "--solver multigrid --projection on-demand",
-    "--segments 4 --density 8.641832226359739 --timestep "
-    "6315292785651.445 --stiffness 98681394.03566141 --stretch 0.3 "
-    "--solver multigrid --projection abs",
-};
-
-enum { MASSLESS = sizeof massless / sizeof *massless };
-
 static bool pause_always(void *unused, const NewtonRecord *record)
 {
     (void)unused, (void)record;
@@ -235,33 +212,37 @@ static bool pause_always(void *unused, const NewtonRecord *record)
 }
 
 /* From rest, iterate by iterate and step by step; 1e-9 for rounding. */
+static bool keep_energy(void *unused, char *line)
+{
+    (void)unused;
+    Simulation *simulation = simulate_watched(pause_always, NULL, "%s", line);
+    TimeIntegrator *run = &simulation->run[0];
+    Newton *newton = run->newton;
+    for (int step = 0; step < 6; step++) {
+        memset(run->v, 0, run->size * sizeof *run->v);
+        memset(newton->u_tilde, 0, run->size * sizeof *run->v);
+        newton_start(newton, run->x, NULL, run->h * run->h,
+                     newton->settings.tolerance);
+        double start = incremental_potential_value(&newton->at.E, newton->at.u,
+                                                   newton->at.x);
+        while (newton->status == STATUS_RUNNING) {
+            newton_minimise(newton);
+            CHECK_AT_MOST(incremental_potential_value(
+                              &newton->at.E, newton->at.u, newton->at.x),
+                          start * (1 + 1e-9));
+        }
+        double before = simulation_energies(simulation, 0).total;
+        Status status = simulation_step(simulation);
+        CHECK(!status || status_is_unconverged(status));
+        CHECK_AT_MOST(simulation_energies(simulation, 0).total,
+                      before * (1 + 1e-9));
+    }
+    return true;
+}
+
 TEST(energy_never_rises_without_masses)
 {
-    for (int i = 0; i < MASSLESS; i++) {
-        Simulation *simulation =
-            simulate_watched(pause_always, NULL, "%s", massless[i]);
-        TimeIntegrator *run = &simulation->run[0];
-        Newton *newton = run->newton;
-        for (int step = 0; step < 6; step++) {
-            memset(run->v, 0, run->size * sizeof *run->v);
-            memset(newton->u_tilde, 0, run->size * sizeof *run->v);
-            newton_start(newton, run->x, NULL, run->h * run->h,
-                         newton->settings.tolerance);
-            double start = incremental_potential_value(
-                &newton->at.E, newton->at.u, newton->at.x);
-            while (newton->status == STATUS_RUNNING) {
-                newton_minimise(newton);
-                CHECK_AT_MOST(incremental_potential_value(
-                                  &newton->at.E, newton->at.u, newton->at.x),
-                              start * (1 + 1e-9));
-            }
-            double before = simulation_energies(simulation, 0).total;
-            Status status = simulation_step(simulation);
-            CHECK(!status || status_is_unconverged(status));
-            CHECK_AT_MOST(simulation_energies(simulation, 0).total,
-                          before * (1 + 1e-9));
-        }
-    }
+    stress_rows("massless", keep_energy, NULL);
 }
 
 /* ---- backtracking ------------------------------------------------------ */
@@ -308,28 +289,9 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
 /* ---- ends -----------------------------------------------------------------
  */
 
-/* What a step may cost is told by the square, not by the scene: 250 000 nodes
- * updated, but 1000 updates at least, each with a factor or two and no more
- * trials than there are halvings. */
-TEST(work_is_limited_by_the_size)
+/* A wall that comes in parts gets no more updates than one that does not. */
+TEST(parts_share_one_limit)
 {
-    static const char *const lines[] = {
-        "tear --segments 16 --pin top,bottom --stretch 1e-9",
-        ("tear --segments 6 --stretch 1e4 --timestep 1e-9 --pin left --density "
-         "1e-9 --yield 0.01 --tear 0.01 --damping 1e6"),
-        "--segments 12 --stretch 6 --timestep 10 --density 0.001 --yield 0.002",
-        "--segments 8 --stretch 4 --timestep 10 --yield 0.01 --density 1"};
-    for (int i = 0; i < 4; i++) {
-        Simulation *simulation = simulate("%s", lines[i]);
-        double nodes = simulation->system.nodes;
-        Status status = simulation_step(simulation);
-        NewtonCounters did = simulation_sum_counters(simulation);
-        CHECK(!status || status == STATUS_ITERATION_LIMIT);
-        CHECK_AT_MOST(did.iterations, fmax(250000 / nodes, 1000));
-        CHECK_AT_MOST(did.factorisations, 2.0 * did.iterations + 10);
-        CHECK_AT_MOST(did.solves, 8.0 * did.iterations + 10);
-    }
-    /* a wall that comes in parts gets no more than one that does not */
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *run = &simulation->run[0];
     contact_of(run->system)->obstacle[1].motion =

@@ -2,6 +2,7 @@
  * see, as text.  This driver turns each line into the Input that a window would
  * send. */
 #include "attended.h"
+#include "model/contact.h"
 #include "oracle.h"
 #include "picture/live_values.h"
 #include "picture/text.h"
@@ -15,6 +16,7 @@ enum { SIDE = 900, MARKS = 16, CHANGES = 80, STEPS = 80 };
 static uint64_t marks[MARKS]; /* by letter */
 static double mouse[2];       /* pixels */
 static bool open_player;
+static double heap_before; /* bytes, as the session began */
 static char folder[] = "/tmp/elasto-session-XXXXXX";
 
 /* What the window shows, as player_fill_frame filled it last. */
@@ -72,6 +74,11 @@ static uint64_t seen(const char *what)
 /* Texts of the last frame, a line each; `listed` has those in the column. */
 static char written[1 << 16], listed[1 << 15];
 static Box column;
+static struct {
+    size_t start; /* in `written` */
+    double x, y;  /* pixels, where the text stands */
+} texts[1024];
+static int text_count;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
@@ -82,6 +89,10 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
     size_t used = strlen(written), more = strlen(listed);
+    texts[text_count].start = used;
+    texts[text_count].x = x;
+    texts[text_count].y = y + 0.5 * style->size;
+    text_count += text_count < 1023;
     snprintf(written + used, sizeof written - used, "%s\n", markup);
     if (box_contains(column, x, y)) /* key and meaning are two texts */
         snprintf(listed + more, sizeof listed - more, "%s%s", markup,
@@ -89,17 +100,53 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
+/* Draws the window anew, and keeps its texts. */
+static void write_window(void)
+{
+    written[0] = listed[0] = '\0';
+    text_count = 0;
+    player_fill_frame(&player);
+    column = layout_now().column;
+    CHECK_STATUS(player_draw(&player), STATUS_OK);
+}
+
 /* Whether the window, or the column, has a text with these words. */
 static void read_words(const char *verb, const char *words)
 {
     const char *among = strcmp(verb, "list") == 0 ? listed : written;
     bool wanted = strcmp(verb, "lacks") != 0;
-    written[0] = listed[0] = '\0';
-    player_fill_frame(&player);
-    column = layout_now().column;
-    CHECK_STATUS(player_draw(&player), STATUS_OK);
+    write_window();
     if ((strstr(among, words) != NULL) != wanted)
         fail_msg("%s '%s':\n%s", wanted ? "no" : "there is", words, among);
+}
+
+/* The text with these words that is nearest to the mouse. */
+static int find_text(const char *words, double *distance)
+{
+    int nearest = -1;
+    *distance = INFINITY;
+    write_window();
+    for (int i = 0; i < text_count; i++) {
+        const char *text = written + texts[i].start;
+        const char *at = strstr(text, words);
+        double away = hypot(texts[i].x - mouse[0], texts[i].y - mouse[1]);
+        if (at && at < strchr(text, '\n') && away < *distance) {
+            *distance = away;
+            nearest = i;
+        }
+    }
+    if (nearest < 0)
+        fail_msg("no '%s':\n%s", words, written);
+    return nearest;
+}
+
+/* Checks a line "PIXELS WORDS". */
+static void check_text_near(const char *line)
+{
+    double distance;
+    find_text(strchr(line, ' ') + 1, &distance);
+    if (distance > atof(line))
+        fail_msg("%g pixels away: %s", distance, line);
 }
 
 static void finish_session(void)
@@ -118,6 +165,7 @@ static void begin_session(const char *line)
     player.screen.draws = true;
     player.screen.size[0] = player.screen.size[1] = SIDE;
     seen(""); /* a window shows the scene before anything is put in */
+    heap_before = heap_in_use();
 }
 
 /* A refused command leaves its message as a note. */
@@ -235,6 +283,10 @@ static void point_at(const char *place)
         while (frame_find_step(content, &layout, mouse[0]) < step &&
                mouse[0] < layout.width)
             mouse[0]++;
+    } else if (strncmp(place, "text ", 5) == 0) {
+        i = find_text(place + 5, &x);
+        mouse[0] = texts[i].x + 2;
+        mouse[1] = texts[i].y;
     } else if (strcmp(place, "strip") == 0) {
         point_into(layout.strip, false);
     } else if (strcmp(place, "time") == 0) {
@@ -421,6 +473,7 @@ static bool pane_has_all(const Layout *layout, int p)
 static void collect_parts(void)
 {
     Layout layout = layout_now();
+    char order[512] = "";
     for (int p = 0; p < content->panes; p++) {
         const Trace *trace = content->pane[p].trace;
         fact("inside %d %d", p, pane_has_all(&layout, p));
@@ -430,6 +483,10 @@ static void collect_parts(void)
     for (int i = 0; i < content->settings.count; i++)
         fact("number %s %s", content->settings.item[i].name,
              content->settings.item[i].value);
+    for (int i = 0; i < content->settings.count; i++)
+        snprintf(order + strlen(order), sizeof order - strlen(order), "%s ",
+                 content->settings.item[i].name);
+    fact("order\t%s", order);
     for (int i = 0; i < content->chips.count; i++) {
         fact("chip %s %s", content->chips.item[i].key,
              content->chips.item[i].label);
@@ -470,6 +527,10 @@ static void collect_facts(void)
                      : scale > scale_before ? "larger"
                                             : "same");
     fact("residual %.5g", trace ? trace->residual : -1);
+    const Newton *newton =
+        content->pane[content->active].simulation->run->newton;
+    fact("solver\t%s %s", newton ? solver_name(newton->active_solver) : "none",
+         newton && newton->refusal ? newton->refusal : "");
     fact("says\t%s", text_or(player.note));
     fact("topic\t%s", text_or(content->strip.topic));
     fact("state\t%s", text_or(content->strip.state));
@@ -624,6 +685,77 @@ static double find_gap(const Simulation *simulation)
     return smallest_gap(&simulation->system, simulation->run[0].x);
 }
 
+/* J, energy that a run has gained without work, and in how many steps. */
+static double find_gained(const Simulation *simulation)
+{
+    return simulation->ledger[0].gain.energy;
+}
+
+static double count_gains(const Simulation *simulation)
+{
+    return (double)simulation->ledger[0].gain.steps;
+}
+
+/* J, the total energy without the work done. */
+static double find_own_energy(const Simulation *simulation)
+{
+    Energies ledger = simulation_energies(simulation, 0);
+    return ledger.total - ledger.work;
+}
+
+/* The height of the first wall, m */
+static double find_wall(const Simulation *simulation)
+{
+    return contact_of(&simulation->system)->obstacle[0].o[1];
+}
+
+/* The distance of the node that a hand pulls from the hand, and how far the
+ * node moves in a step, m */
+static double find_hand_distance(const Simulation *simulation)
+{
+    const Control *control = past_control(&player.past, 0);
+    const double *x = simulation->run[0].x + 2 * control->hand;
+    return hypot(x[0] - control->at[0], x[1] - control->at[1]);
+}
+
+static double find_hand_step(const Simulation *simulation)
+{
+    const TimeIntegrator *run = &simulation->run[0];
+    const double *v = run->v + 2 * past_control(&player.past, 0)->hand;
+    return run->h * hypot(v[0], v[1]);
+}
+
+/* How far a node is from where it was as `rest` stopped, over the length of the
+ * shortest spring. */
+static double rested[2 * 128];
+
+static double find_way_from_stop(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    double far = 0, l2 = INFINITY;
+    for (int s = 0; s < system->springs; s++)
+        l2 = fmin(l2, system->l2[s]);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        far = fmax(far, fabs(simulation->run[0].x[i] - rested[i]));
+    return far / sqrt(l2);
+}
+
+static void run_until_rest(void)
+{
+    run_until_it_pauses();
+    const Simulation *simulation = player_simulation(&player);
+    size_t size = 2 * sizeof *rested * (size_t)simulation->system.nodes;
+    memcpy(rested, simulation->run[0].x,
+           size < sizeof rested ? size : sizeof rested);
+}
+
+/* MB on the heap, more than as the session began. */
+static double find_grown(const Simulation *simulation)
+{
+    (void)simulation;
+    return (heap_in_use() - heap_before) / 1e6;
+}
+
 /* Cells of the map in which steps make no update. */
 static double count_idle_cells(const Simulation *simulation)
 {
@@ -634,16 +766,22 @@ static double count_idle_cells(const Simulation *simulation)
     return idle;
 }
 
-/* Steps of the run that did not converge, and updates of all its steps. */
+/* Steps of the run that did not converge. */
 static double count_unconverged(const Simulation *simulation)
 {
     return (double)simulation->unconverged;
 }
 
-static double count_updates(const Simulation *simulation)
-{
-    return (double)simulation_sum_counters(simulation).iterations;
-}
+/* What all steps of the run have taken. */
+static const struct {
+    const char *name;
+    size_t place;
+} counters[] = {{"all updates", offsetof(NewtonCounters, iterations)},
+                {"all factors", offsetof(NewtonCounters, factorisations)},
+                {"all solves", offsetof(NewtonCounters, solves)},
+                {"all cycles", offsetof(NewtonCounters, cycles)},
+                {"all tile sweeps", offsetof(NewtonCounters, tile_sweeps)},
+                {"handed over", offsetof(NewtonCounters, handed_over)}};
 
 static const struct {
     const char *name;
@@ -661,9 +799,16 @@ static const struct {
                {"crossings", count_crossings},
                {"flattest", find_flattest},
                {"gap", find_gap},
+               {"grown", find_grown},
+               {"gained", find_gained},
+               {"gains", count_gains},
+               {"own energy", find_own_energy},
+               {"wall", find_wall},
+               {"hand distance", find_hand_distance},
+               {"hand step", find_hand_step},
+               {"way from stop", find_way_from_stop},
                {"idle cells", count_idle_cells},
-               {"unconverged", count_unconverged},
-               {"all updates", count_updates}};
+               {"unconverged", count_unconverged}};
 
 /* Finds a number by its name: a name of the table above, a coordinate of a
  * node, a field of a record, a row of the ledger, or a value of texts; NaN:
@@ -680,6 +825,11 @@ static double find_number(const char *name)
     for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
         if (strcmp(numbers[n].name, name) == 0)
             return numbers[n].find(simulation);
+    const NewtonCounters did = simulation_sum_counters(simulation);
+    for (size_t n = 0; n < sizeof counters / sizeof *counters; n++)
+        if (strcmp(counters[n].name, name) == 0)
+            return (double)*(const long *)((const char *)&did +
+                                           counters[n].place);
     if (sscanf(name, "rise %d", &i) == 1)
         return find_rise(simulation, i);
     if (sscanf(name, "radius %d", &i) == 1)
@@ -757,7 +907,7 @@ static void session_line(const char *line)
     else if (strcmp(verb, "run") == 0)
         run_until(atol(rest));
     else if (strcmp(verb, "rest") == 0)
-        run_until_it_pauses();
+        run_until_rest();
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
             show_result(player_make_step(&player));
@@ -777,6 +927,8 @@ static void session_line(const char *line)
         check_tables(rest);
     else if (strcmp(verb, "row") == 0)
         check_row(rest);
+    else if (strcmp(verb, "near") == 0)
+        check_text_near(rest);
     else if (strstr("reads lacks list", verb))
         read_words(verb, rest);
     else if (strstr("mark same other", verb))

@@ -360,6 +360,11 @@ static void derivatives(Case *c, const TermKind *kind)
             differs = differs || projected[i] != Hq[i];
         CHECK((changed > 0) == differs);
     }
+    for (int i = 0; i < c->size && kind->diagonal;
+         i++) /* the same everywhere */
+        near("curvature", fabs(Hq[i]), 0,
+             c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
+                 (1 + 4 * DBL_EPSILON));
     if (!kind->internal)
         return;
     Real sum[3] = {0}, size = 0;

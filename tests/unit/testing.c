@@ -2,6 +2,9 @@
  */
 #include "testing.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -289,6 +292,16 @@ int count_broken_springs(const Simulation *simulation)
     for (int s = 0; s < simulation->system.springs; s++)
         count += spring_is_broken(&simulation->system, s);
     return count;
+}
+
+double heap_in_use(void)
+{
+#ifdef __GLIBC__
+    struct mallinfo2 now = mallinfo2();
+    return (double)now.uordblks + (double)now.hblkhd;
+#else
+    return 0;
+#endif
 }
 
 double *rest_of(const Simulation *simulation)

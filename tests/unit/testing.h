@@ -122,6 +122,9 @@ uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash);
 
 int count_broken_springs(const Simulation *simulation);
 
+/* Bytes that are allocated now, where the C library counts them, else 0. */
+double heap_in_use(void);
+
 /* Rest positions of the mesh, [2n] m; valid until the next call */
 double *rest_of(const Simulation *simulation);
 
