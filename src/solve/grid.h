@@ -129,6 +129,14 @@ double grid_linear_residual(const Grid *grid, const double *g, const double *p,
 void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
                           double quartic[4]);
 
+/* p += beta last_p: the direction p becomes conjugate to last_p, along which x
+ * has just moved to the lowest E (Polak and Ribiere 1969).
+ *   g, last_g   grad E after and before that step
+ *   last_slope  last_g.last_p, below 0
+ * Returns beta >= 0. */
+double grid_conjugate(const Grid *grid, const double *g, const double *last_g,
+                      const double *last_p, double last_slope, double *p);
+
 /* Moves all nodes alike, so that sum m x is sum m x_tilde, as at the minimum of
  * E where no node is pinned.  Returns the change of E, which is at most 0. */
 double grid_correct_momentum(const Grid *grid);

@@ -126,6 +126,27 @@ FAST void grid_line_polynomial(const Grid *grid, const double *g,
 
 /* ---- without springs ---- */
 
+FAST double grid_conjugate(const Grid *grid, const double *g,
+                           const double *last_g, const double *last_p,
+                           double last_slope, double *p)
+{
+    double total = 0;
+    BANDS
+    {
+        double sum[LANES] = {0};
+        EACH_RUN_OF (local, band)
+            EACH_OF (NEXT(at, LANES)) {
+                const int x = at.first + e, y = x + plane;
+                sum[e] += p[x] * (g[x] - last_g[x]) + p[y] * (g[y] - last_g[y]);
+            }
+        total += sum_lanes(sum);
+    }
+    double beta = fmax(total / last_slope, 0);
+    EACH_OF (2 * grid->rows.plane)
+        p[e] += beta * last_p[e];
+    return beta;
+}
+
 FAST double grid_correct_momentum(const Grid *grid)
 {
     double mass = 0, moment[2] = {0, 0};

@@ -30,19 +30,23 @@ struct Multigrid {
     Grid grid;
     VCycle cycle;
     Tiles tiles;
-    Memory memory;          /* block of all arrays */
-    double *g, *p;          /* [2 planes] grad E and direction at x */
-    double gradient_norm2;  /* |g|_(M^-1)^2 */
-    double p_bound;         /* m, upper bound of |p_x| + |p_y|, from g alone */
-    double last_p_bound;    /* m, p_bound in the iteration before */
-    double way_since_setup; /* m, upper bound of a node's displacement since the
-                               V-cycle's matrices were computed */
-    double largest_change;  /* J s^2, largest change of E in this step, < 0 */
-    Quartic line;           /* E(x + alpha p) - E(x), J s^2 */
-    unsigned version;       /* System.version for which the grid was filled */
-    double weight;          /* s^2, weight of P for which the grid was filled */
-    bool stalls;            /* whether tiles relax in each iteration */
-    bool was_hidden;        /* rounding hid the last iteration's change of E */
+    Memory memory;           /* block of all arrays */
+    double *g, *p;           /* [2 planes] grad E and direction at x */
+    double *last_g, *last_p; /* [2 planes] g and p in the iteration before */
+    double gradient_norm2;   /* |g|_(M^-1)^2 */
+    double p_bound;          /* m, upper bound of |p_x| + |p_y|, from g alone */
+    double last_p_bound;     /* m, p_bound in the iteration before */
+    double size;             /* m, upper bound of |p_x| + |p_y|, p conjugate */
+    double way_since_setup;  /* m, upper bound of a node's displacement since
+                                the V-cycle's matrices were computed */
+    double largest_change;   /* J s^2, largest change of E in this step, < 0 */
+    Quartic line;            /* E(x + alpha p) - E(x), J s^2 */
+    unsigned version;        /* System.version in the grid */
+    double weight;           /* s^2, weight of P in the grid */
+    bool is_conjugate;       /* p becomes conjugate to last_p: no tiles relaxed
+                                after the update along last_p */
+    bool stalls;             /* whether tiles relax in each iteration */
+    bool was_hidden;         /* rounding hid the last iteration's change of E */
 };
 
 Status multigrid_create(int segments, Multigrid **multigrid)
@@ -51,13 +55,13 @@ Status multigrid_create(int segments, Multigrid **multigrid)
     Status status = mg ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     /* The first pass counts the bytes of the arrays. */
     for (int pass = 0; pass < 2 && !status; pass++) {
-        double **vectors[] = {&mg->g, &mg->p};
+        double **vectors[] = {&mg->g, &mg->p, &mg->last_g, &mg->last_p};
         if (pass > 0)
             status = memory_create(&mg->memory);
         grid_lay_out(segments, &mg->memory, &mg->grid);
         v_cycle_lay_out(&mg->grid, &mg->memory, &mg->cycle);
         tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
-        for (int i = 0; i < 2; i++)
+        for (int i = 0; i < 4; i++)
             *vectors[i] = memory_take_piece(
                 &mg->memory, 2 * (size_t)mg->grid.rows.plane * sizeof(double));
     }
@@ -138,7 +142,7 @@ static Status multigrid_read_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->stalls = mg->was_hidden = false;
+    mg->stalls = mg->was_hidden = mg->is_conjugate = false;
     mg->largest_change = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
@@ -202,12 +206,17 @@ static double minimise_quartic(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
-/* Finds the step length at which E, a quartic along p, is lowest.  The last p
- * is used whole, which keeps momentum. */
+/* Makes p conjugate to the direction before, and finds the step length at which
+ * E, a quartic along p, is lowest. */
 static Status multigrid_find_step_length(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
+    double beta = 0;
+    if (mg->is_conjugate)
+        beta = grid_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
+                              mg->line.q[0] * mg->grid.energy, mg->p);
+    mg->size = record->residual * newton->settings.h + beta * mg->size;
     grid_line_polynomial(&mg->grid, mg->g, mg->p, mg->line.q);
     for (int i = 0; i < 4; i++)
         mg->line.q[i] /= mg->grid.energy;
@@ -216,10 +225,7 @@ static Status multigrid_find_step_length(Newton *newton)
         return STATUS_NOT_FINITE;
     if (!(record->slope <= 0))
         return STATUS_NOT_DESCENT;
-    if (newton->passes && quartic_value(&mg->line, 1) <= 0)
-        record->alpha = record->trials = 1;
-    else
-        record->alpha = minimise_quartic(&mg->line, &record->trials);
+    record->alpha = minimise_quartic(&mg->line, &record->trials);
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
     record->change = quartic_value(&mg->line, record->alpha);
@@ -233,17 +239,24 @@ static Status multigrid_update_iterate(Newton *newton)
     NewtonRecord *record = &newton->record;
     const double unit = mg->grid.energy;
     const int tiles = mg->tiles.rows * mg->tiles.columns;
-    grid_add_step(&mg->grid, record->alpha, mg->p);
-    mg->way_since_setup +=
-        record->alpha * record->residual * newton->settings.h;
+    double *g = mg->g, *p = mg->p;
+    grid_add_step(&mg->grid, record->alpha, p);
+    mg->way_since_setup += record->alpha * mg->size;
     newton->counters.iterations++;
+    if (newton->passes)
+        return STATUS_OK;
     mg->stalls = mg->stalls || mg->p_bound > STALLS * mg->last_p_bound;
-    if (mg->stalls && !newton->passes) {
+    if (mg->stalls) {
         double pace = PACE * record->change * unit / tiles;
         record->change += tiles_relax(&mg->tiles, pace) / unit;
         mg->way_since_setup = INFINITY;
     }
     newton->counters.tile_sweeps = mg->tiles.sweeps;
+    mg->is_conjugate = !mg->stalls;
+    mg->g = mg->last_g;
+    mg->p = mg->last_p;
+    mg->last_g = g;
+    mg->last_p = p;
     return multigrid_evaluate_gradient(mg);
 }
 

@@ -1,10 +1,10 @@
 /* multigrid.h - minimises E on a square grid of springs without a matrix.
  *
- * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u).  Conjugate
- * gradients on the clamped Hessian, preconditioned by a multigrid V-cycle, find
- * the directions (v_cycle.h).  E along a direction is a quartic, whose minimum
- * is the step length.  Where folds run, tiles of nodes relax between the
- * directions (tiles.h).  No update raises E.
+ * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u).  A multigrid
+ * V-cycle on the clamped Hessian finds the directions (v_cycle.h), each of
+ * which is made conjugate to the one before.  E along a direction is a quartic,
+ * whose minimum is the step length.  Where folds run, tiles of nodes relax
+ * between the directions (tiles.h).  No update raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g, which conjugate gradients know up
  * to a linear residual r = -g - H p, computed in double precision.  H - M is

@@ -12,18 +12,17 @@
 #include <wasm_simd128.h>
 #endif
 
-/* The coarsest level has at most COARSEST nodes a side and is smoothed
- * COARSEST_TIMES each way; finer levels are smoothed once. */
-enum { COARSEST = 5, COARSEST_TIMES = 2 };
+/* Most nodes a side of the coarsest level. */
+enum { COARSEST = 3 };
 
 void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
 {
+    Level *level = cycle->level;
     *cycle = (VCycle){.grid = grid};
-    for (int nodes = grid->rows.nodes, more = 1; more; nodes = nodes / 2 + 1) {
-        Level *level = &cycle->level[cycle->levels++];
+    for (int nodes = grid->rows.nodes, more = 1; more; level++) {
         more = nodes > COARSEST;
         level->rows = lay_out_rows(nodes);
-        level->coarse = more ? level + 1 : NULL;
+        nodes = nodes / 2 + 1;
         size_t bytes = (size_t)level->rows.plane * sizeof(float);
         for (int i = 0; i < 3 * KINDS; i++)
             level->K[i / 3][i % 3] = memory_take_piece(memory, bytes);
@@ -223,8 +222,13 @@ void v_cycle_read_system(VCycle *cycle)
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < rows->plane; k++)
             cycle->c[kind][k] = (float)grid->c[kind][k];
-    for (Level *l = cycle->level; l->coarse; l++) {
-        const Level *coarse = l->coarse;
+    double m = grid->lightest, springs = 0; /* stiffness of a node's springs */
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int k = 0; k < rows->plane; k++)
+            springs = fmax(springs, 8 * grid->c[kind][k] * grid->l2[kind][k]);
+    Level *l = cycle->level;
+    for (; l->rows.nodes > COARSEST && springs > m; l++, m *= 4) {
+        const Level *coarse = l->coarse = l + 1;
         int last = l->rows.nodes - 1;
         for (int I = 0; I < coarse->rows.nodes; I++) {
             restrict_row(&l->rows, &coarse->rows, I, l->m, coarse->m);
@@ -236,6 +240,7 @@ void v_cycle_read_system(VCycle *cycle)
             }
         }
     }
+    l->coarse = NULL;
 }
 
 /* ---- the V-cycle: A x = b ---- */
@@ -313,10 +318,11 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
         }
 }
 
-INLINE void smooth_row(const Level *level, int i, bool back)
+/* Smooths row i backward: odd columns, then even ones. */
+INLINE void smooth_row(const Level *level, int i)
 {
-    visit_row(level, i, back, SMOOTH, NULL, NULL);
-    visit_row(level, i, !back, SMOOTH, NULL, NULL);
+    visit_row(level, i, 1, SMOOTH, NULL, NULL);
+    visit_row(level, i, 0, SMOOTH, NULL, NULL);
 }
 
 /* Computes w = A x in row i.  Adds x.b and x.w of the row to sums [2]. */
@@ -392,11 +398,11 @@ FAST static void descend_level(const Level *l)
 }
 
 /* Adds the interpolated x of the coarser level, then makes a backward pass in
- * the opposite order.  If sums is not NULL, also computes w = A x. */
-FAST static void ascend_level(const Level *l, double *sums)
+ * the opposite order. */
+FAST static void ascend_level(const Level *l)
 {
     const int nodes = l->rows.nodes;
-    for (int row = 0; row < nodes + 3; row++) {
+    for (int row = 0; row < nodes + 2; row++) {
         if (l->coarse && has_row(nodes, row))
             for (int c = 0; c < 2; c++)
                 prolong_row(l, &l->coarse->rows, row,
@@ -405,34 +411,27 @@ FAST static void ascend_level(const Level *l, double *sums)
         for (int stage = 1; stage <= 2; stage++) {
             int i = row - stage;
             if ((i % 2 != 0) == (stage == 1) && has_row(nodes, i))
-                smooth_row(l, i, true);
+                smooth_row(l, i);
         }
-        if (sums && has_row(nodes, row - 3))
-            multiply_row(l, row - 3, sums);
     }
 }
 
-/* Smooths the coarsest level, forward or backward. */
-FAST static void smooth_coarsest(const Level *l, bool back)
+/* Approximates x = A^-1 b on this level and all coarser ones. */
+static void run_v_cycle(const Level *level)
 {
-    for (int second = 0; second < 2; second++)
-        for (int i = back != second; i < l->rows.nodes; i += 2)
-            smooth_row(l, i, back);
+    descend_level(level);
+    if (level->coarse)
+        run_v_cycle(level->coarse);
+    ascend_level(level);
 }
 
-/* Approximates x = A^-1 b by one V-cycle, and computes w = A x on the finest
- * level.
+/* Computes w = A x on one level.
  *   sums  [2] out, x.b and x.w */
-static void run_v_cycle(VCycle *cycle, double *sums)
+FAST static void multiply_level(const Level *level, double *sums)
 {
     sums[0] = sums[1] = 0;
-    for (int l = 0; l < cycle->levels; l++)
-        descend_level(&cycle->level[l]);
-    for (int t = 1; t < 2 * COARSEST_TIMES - 1; t++)
-        smooth_coarsest(&cycle->level[cycle->levels - 1], t >= COARSEST_TIMES);
-    for (int l = cycle->levels - 1; l >= 0; l--)
-        ascend_level(&cycle->level[l], l == 0 ? sums : NULL);
-    cycle->cycles++;
+    for (int i = 0; i < level->rows.nodes; i++)
+        multiply_row(level, i, sums);
 }
 
 /* ---- conjugate gradients ---- */
@@ -492,10 +491,26 @@ enum { MAX_CYCLES = 60 };
 
 /* Conjugate gradients end when p would pass the test even with MARGIN times the
  * bound of its error.  If p is longer than HOPEFUL times the longest p that
- * passes, a further direction is needed anyway; then a linear residual of LOOSE
- * times the gradient is enough, in the norm of M^-1.  Else the limit is LEAST,
- * which is all that single precision reaches. */
-static const double MARGIN = 2, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
+ * passes, a further direction is needed anyway; then one V-cycle is enough.
+ * Single precision reaches a linear residual of LEAST times the gradient, in
+ * the norm of M^-1. */
+static const double MARGIN = 1.3, HOPEFUL = 0.5, LEAST = 1e-4;
+
+/* Returns the largest |x_x| + |x_y| of a node. */
+FAST static double find_largest(const Level *level)
+{
+    const float *const x = level->x, *const y = x + level->rows.plane;
+    float most[WIDE_LANES] = {0};
+    double largest = 0;
+    for (int q = 0; q < level->rows.plane; q += WIDE_LANES)
+        EACH_OF (WIDE_LANES) {
+            float size = fabsf(x[q + e]) + fabsf(y[q + e]);
+            most[e] = size > most[e] ? size : most[e];
+        }
+    for (int e = 0; e < WIDE_LANES; e++)
+        largest = fmax(largest, most[e]);
+    return largest;
+}
 
 FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                         double longest, double *p, double *largest)
@@ -503,12 +518,10 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
     const Grid *grid = cycle->grid;
     const int numbers = 2 * grid->rows.plane;
     const double unit = power_of_two_scale(sqrt(square * grid->lightest));
+    const float *found = cycle->level->x;
     double last = 0, alpha = 1;
-    bool passes = false;
+    bool passes = false, hopeful = false;
     set_up_levels(cycle);
-    for (int i = 0; i < 3; i++)
-        memset((float *[]){cycle->p, cycle->d, cycle->Ad}[i], 0,
-               (size_t)numbers * sizeof(float));
     for (int q = 0; q < numbers; q += WIDE_LANES) {
         float *const b = cycle->level->b + q;
         const double *const from = g + q;
@@ -516,10 +529,21 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
             FEW(b, e) = narrow_to_single(-unit * PAIR(from, e),
                                          -unit * PAIR(from, e + PAIRED));
     }
-    *largest = 0;
     for (int i = 0; i < MAX_CYCLES && !passes; i++) {
         double sums[2];
-        run_v_cycle(cycle, sums);
+        run_v_cycle(cycle->level);
+        cycle->cycles++;
+        if (!hopeful) {
+            *largest = find_largest(cycle->level) / unit;
+            if (*largest > HOPEFUL * longest)
+                break;
+            hopeful = true;
+            found = cycle->p;
+            for (int k = 0; k < 3; k++)
+                memset((float *[]){cycle->p, cycle->d, cycle->Ad}[k], 0,
+                       (size_t)numbers * sizeof(float));
+        }
+        multiply_level(cycle->level, sums);
         double xb = sums[0], beta = i > 0 ? xb / last : 0;
         double bend = sums[1] - beta * xb / alpha; /* d.A d */
         if (!(bend > 0 && xb > 0) || !isfinite(xb / bend))
@@ -532,11 +556,11 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
         *largest /= unit;
         passes = v_cycle_passes(
             grid, *largest, MARGIN * MARGIN * share * share * square, longest);
-        if (share <= (*largest > HOPEFUL * longest ? LOOSE : LEAST))
+        if (share <= LEAST || *largest > longest)
             break;
     }
-    const float *const found = cycle->p;
+    const double metre = 1 / unit;
     EACH_OF (numbers)
-        p[e] = found[e] / unit;
+        p[e] = metre * found[e];
     return passes;
 }

@@ -1,12 +1,14 @@
-/* v_cycle.h - p = -H^-1 g without a factor: conjugate gradients in single
- * precision on the clamped Hessian H, preconditioned by a multigrid V-cycle.
+/* v_cycle.h - p = -H^-1 g without a factor: a multigrid V-cycle on the clamped
+ * Hessian H in single precision.  If p may pass the test, the cycle
+ * preconditions conjugate gradients, which tell how exact p is.
  *
  * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
  * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level
  * is every second node.  The tensors are means of the finer ones, as stiffness
  * does not depend on the spacing in two dimensions; the masses are P^T m with
  * the bilinear interpolation P.  A coarse node is held if the fine node at its
- * place is pinned.
+ * place is pinned.  On the coarsest level masses outweigh springs, or nodes are
+ * few.
  *
  * A cycle smooths by Gauss-Seidel, node by node in four colours (row and column
  * even or odd), before the coarser level's correction and, in the opposite
@@ -35,7 +37,6 @@ typedef struct Level {
 typedef struct VCycle {
     const Grid *grid;
     Level level[MAX_LEVELS]; /* the finest level first */
-    int levels;
     float *c[KINDS];   /* [plane] Grid.c in single precision */
     float *p, *d, *Ad; /* [2 planes] solution, direction d and A d of conjugate
                           gradients */
@@ -45,11 +46,12 @@ typedef struct VCycle {
 
 void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle);
 
-/* Copies masses, pins and stiffnesses from the grid, and coarsens the masses.
- */
+/* Copies masses, pins and stiffnesses from the grid, coarsens the masses, and
+ * sets the number of levels. */
 void v_cycle_read_system(VCycle *cycle);
 
-/* Computes p = -H^-1 g up to a linear residual.
+/* Computes p = -H^-1 g up to a linear residual; by one V-cycle if p is too long
+ * to pass the test.
  *   g        [2 planes] grad E; anything at pins
  *   square   |g|_(M^-1)^2
  *   longest  largest |p_x| + |p_y| of a node with which p passes the test
