@@ -28,8 +28,7 @@ typedef struct Sparse {
     double *value; /* [entries+1] value[entries] sums the dropped entries */
 } Sparse;
 
-/* Allocates memory for `capacity` triplets.  Returns OK, TOO_LARGE or
- * OUT_OF_MEMORY. */
+/* Allocates `capacity` triplets.  Returns OK, TOO_LARGE or OUT_OF_MEMORY. */
 Status triplets_create(int size, long long capacity, Triplets *triplets);
 void triplets_free(Triplets *triplets);
 

@@ -20,8 +20,7 @@
 Status options_parse(int argc, char **argv, int pane, Options *options,
                      Message message);
 
-/* Reads a line such as "drop --segments 8", which names no files and no nodes.
- */
+/* Reads a line like "drop --segments 8", which names no files and no nodes. */
 Status options_parse_line(const char *line, Options *options, Message message);
 
 /* Sets an option that has a value.  An option that the scene cannot use, or

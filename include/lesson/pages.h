@@ -11,8 +11,7 @@
 #include "run/message.h"
 #include "run/options.h"
 
-/* Length of LecturePage.walk: lines 1 to 8 of Algorithm 3; entry 0 is unused.
- */
+/* Length of LecturePage.walk: lines 1 to 8 of Algorithm 3; 0 is unused. */
 enum { LINES_WALKED = 9 };
 
 /* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
@@ -68,15 +67,13 @@ extern const Letter lecture_letters[];
 /* Returns the number of pages. */
 int lecture_count_pages(void);
 
-/* Returns the page with this name, or with this number from 1; NULL: no such
- * page. */
+/* Returns the page with this name, or this number from 1; NULL: none. */
 const LecturePage *lecture_find_page(const char *text);
 
 /* Whether the page asks for a click on the picture.  page may be NULL. */
 bool page_wants_click(const LecturePage *page);
 
-/* Sets options->page, and the options that the page gives beside its command
- * line. */
+/* Sets options->page, and the options that a page has beside its line. */
 void lecture_apply_page(const LecturePage *page, Options *options);
 
 /* Sets options to the defaults, changed by the command line of the page.

@@ -20,7 +20,6 @@
 
 #define CELL_J_HAT 0.4 /* area over rest area at which the barrier begins */
 
-/* The data of the term is a struct of this type. */
 typedef struct Cells {
     int triangles;
     int *node;   /* [3 triangles] nodes a, b, c of each triangle */
@@ -30,8 +29,7 @@ typedef struct Cells {
     double c;    /* J, A0 k_c */
 } Cells;
 
-/* The sum of W over the triangles whose three springs are whole; data: Cells.
- */
+/* The sum of W over the triangles with three whole springs; data: Cells. */
 extern const TermKind cell_energy;
 
 /* Adds the term with all triangles of the mesh, or changes its stiffness.

@@ -89,7 +89,6 @@ typedef struct Push {
     double moved;     /* part of the step before the obstacle stopped */
 } Push;
 
-/* The data of the term is a struct of this type. */
 typedef struct Contact {
     Barrier barrier;
     int obstacles;
@@ -116,8 +115,7 @@ Contact *contact_of(const System *system);
 bool contact_has_pair(const Contact *contact, const System *system, int node,
                       int obstacle);
 
-/* Returns the radius of a node, m: R for the node of the free ball, 0 for all
- * others. */
+/* Returns the radius of a node, m: R for the free ball's node, 0 for others. */
 double contact_node_radius(const Contact *contact, int node);
 
 /* ---- obstacle moved by a hand (push.c) --------------------------------- */

@@ -18,7 +18,6 @@
 
 #include "model/system.h"
 
-/* The data of the term is a struct of this type. */
 typedef struct Damping {
     double eta;   /* s, damping time >= 0 */
     double theta; /* eta/h in this step */

@@ -34,7 +34,6 @@ typedef struct SlidingContact {
     double travel;   /* m, h t.v_wall: travel of the obstacle along t */
 } SlidingContact;
 
-/* The data of the term is a struct of this type. */
 typedef struct Friction {
     double slip_speed; /* m/s, eps_v > 0 */
     double e;          /* m, eps_v h */

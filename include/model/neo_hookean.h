@@ -26,7 +26,6 @@
 #include "model/square_mesh.h"
 #include "model/system.h"
 
-/* The data of the term is a struct of this type. */
 typedef struct NeoHookean {
     int triangles;
     double area;       /* m^2, A0 of each triangle */

@@ -42,7 +42,6 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
 
 /* ---- the term -------------------------------------------------------- */
 
-/* The data of the term is a struct of this type. */
 typedef struct Plasticity {
     double yield;     /* yield strain Y > 0 */
     double hardening; /* hardening modulus H >= 0, relative to k */

@@ -26,8 +26,7 @@ typedef struct Pull {
     double side;     /* m, side of the pulled body */
 } Pull;
 
-/* Adds the term of this kind, or changes its data.  Returns OK or
- * OUT_OF_MEMORY. */
+/* Adds the term or changes its data.  Returns OK or OUT_OF_MEMORY. */
 Status pull_configure(System *system, const TermKind *kind, const Pull *pull);
 
 /* Sets k and target of the hand before a step.  The node moves part of the way
@@ -43,8 +42,7 @@ Status pull_configure(System *system, const TermKind *kind, const Pull *pull);
 void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
                      double h, const double *free);
 
-/* Returns the work of the hand, J, in a step that moved its node from x [2] to
- * y [2], m. */
+/* Returns the work of the hand, J, as its node moves from x [2] to y [2], m. */
 double hand_work(const Pull *hand, const double *x, const double *y);
 
 #endif

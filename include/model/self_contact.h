@@ -29,7 +29,6 @@ typedef struct SelfPair {
     int node, edge;
 } SelfPair;
 
-/* The data of the term is a struct of this type. */
 typedef struct SelfContact {
     double d_hat;    /* m, distance at which the barrier begins */
     double c;        /* J, factor on the barrier of a point and an edge */

@@ -29,8 +29,7 @@ static inline double spring_vector(const int e[2], const double *x, double d[2])
     return d[0] * d[0] + d[1] * d[1];
 }
 
-/* Returns the strain s.  Near rest spring_eigenvalue_across(d2, l2)/l2 keeps
- * more digits. */
+/* Returns s.  Near rest spring_eigenvalue_across(d2, l2)/l2 has more digits. */
 static inline double spring_strain(double d2, double l2)
 {
     return d2 / l2 - 1;

@@ -57,9 +57,8 @@ static inline bool spring_is_broken(const System *system, int s)
     return system->k[s] == 0;
 }
 
-/* Raises the version after numbers have changed; with `pattern` also the
- * version of the Hessian's pattern, after pins or the nodes of a term have
- * changed. */
+/* Raises the version, after numbers have changed; with `pattern` also the
+ * version of the pattern, after pins or the nodes of a term have changed. */
 void system_mark_changed(System *system, bool pattern);
 
 /* Frees all arrays and terms.  Accepts a zeroed struct. */
@@ -114,8 +113,7 @@ void system_clear_pinned(const System *system, double *g);
  *   a  [2n] m/s^2, out */
 void system_acceleration(const System *system, const double *x, double *a);
 
-/* Whether the centre of mass falls freely: no node is pinned, and all terms are
- * internal. */
+/* Whether the centre of mass falls freely: no pins, all terms are internal. */
 bool system_falls_freely(const System *system);
 
 /* Whether P stays the same when all nodes turn about the pivot: all terms are

@@ -52,8 +52,7 @@ typedef struct TermStep {
 } TermStep;
 
 struct TermKind {
-    /* Name in messages, for example "friction".  NULL: no option adds the term.
-     */
+    /* Name in messages, such as "friction".  NULL: no option adds the term. */
     const char *name;
 
     /* Adds the term with the numbers of its option, at least one of them not 0,

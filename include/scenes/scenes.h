@@ -9,8 +9,7 @@
  * last rows are scenes that open by name only. */
 extern const Scene scenes[];
 
-/* Returns the scene with this name, or with this number from 1; NULL: no such
- * scene. */
+/* Returns the scene with this name, or this number from 1; NULL: none. */
 const Scene *scene_find(const char *text);
 
 #endif

@@ -46,8 +46,8 @@ Status create_spring(Simulation *simulation);
  *   symplectic  v' = v + h a(x)  x' = x + h v'
  *   backward    v' = v + h a(x') x' = x + h v' */
 typedef struct MassStep {
-    /* Position, m, velocity, m/s, and acceleration, m/s^2: before the step, and
-     * after it. */
+    /* Position, velocity and acceleration, SI units, before and after the step.
+     */
     double x[2], v[2], a[2], new_x[2], new_v[2], new_a[2];
     bool by_old_v; /* x' = x + h v (forward Euler) */
 } MassStep;
@@ -138,12 +138,10 @@ Status race_measure_method(Simulation *simulation,
                            const IntegratorMethod *method, double time,
                            long steps, TimeIntegrator *run, RacePoint *point);
 
-/* Makes run[0], the start of each measured run, and run[1], the end of the
- * exact motion. */
+/* Makes run[0], the start of the measured runs, and run[1], the exact end. */
 Status create_race(Simulation *simulation);
 
-/* Makes the next run.  The methods take turns, each from its longest time step
- * to its shortest. */
+/* Makes the next run.  The methods take turns, with ever shorter time steps. */
 Status step_race(Simulation *simulation);
 
 /* Returns the longest time step so far with which a method was stable, s; NaN:

@@ -78,8 +78,7 @@ int incremental_potential_product(const Iterate *at, Projection projection,
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
                                         double *u_tilde);
 
-/* Whether the Hessian is diagonal: each coordinate stands alone in all terms.
- */
+/* Whether the Hessian is diagonal: coordinates stand alone in all terms. */
 bool incremental_potential_is_diagonal(const IncrementalPotential *E);
 
 /* A polynomial along a line, without constant term:
@@ -110,8 +109,7 @@ LineEnergy incremental_potential_prepare_line(const Iterate *iterate);
  *   function  in, the LineEnergy */
 double line_energy_difference(const void *function, double alpha);
 
-/* Returns the largest alpha, at most 1, up to which all terms allow x + alpha
- * p. */
+/* Returns the largest alpha <= 1 up to which all terms allow x + alpha p. */
 double incremental_potential_max_step(const Iterate *at);
 
 /* Whether every term allows u, x [2n]. */

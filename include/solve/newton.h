@@ -174,8 +174,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
  * or if the next p is negligible; otherwise how the minimisation failed. */
 Status newton_minimise(Newton *newton);
 
-/* Iterations after which a minimisation ends: max_iterations, or fewer on large
- * squares. */
+/* Returns the limit of iterations: max_iterations, or less on large squares. */
 int newton_most_iterations(const Newton *newton);
 
 #endif

@@ -26,8 +26,7 @@ static double find_median(double *values, int count)
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
-/* Prints a claim of the README, the measured number, and whether the number
- * meets the claim. */
+/* Prints a claim of the README, the measured number, and whether it is met. */
 static void print_claim(const char *what, double measured, double at_most)
 {
     printf("# claim: %s: %.3g, at most %g: %s\n", what, measured, at_most,

@@ -207,9 +207,7 @@ static void make_arguments(const Task *task, int case_number, Case *c)
                              .stype = 1};
 }
 
-/* Stores the matrix that a function has added to H, in rows of UNKNOWNS
- * numbers.
- */
+/* Stores the matrix that a function added to H, in rows of UNKNOWNS numbers. */
 static void store_matrix(const Case *c, double *result)
 {
     int n = (int)c->H.nrow;
@@ -392,8 +390,7 @@ static const char *find_mistake(const Task *task, int case_number,
     return NULL;
 }
 
-/* Returns a sentence if the student's numbers are multiples of the right ones,
- * or NULL. */
+/* Returns a sentence if numbers are multiples of the right ones, or NULL. */
 static const char *find_multiple(const double *yours, const double *truth)
 {
     static const struct {

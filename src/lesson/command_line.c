@@ -76,8 +76,7 @@ static Status refuse_value(const Line *line, const Word *word, int count)
         row->low, row->high, row->unit[0] ? ", in " : "", row->unit, hint.text);
 }
 
-/* Stores a name or numbers.  In scenes with one coordinate the start may be x
- * alone. */
+/* Stores a name or numbers.  With one coordinate the start may be x alone. */
 static Status apply_numbers(const Line *line, const Word *word)
 {
     const OptionRow *row = word->row;
@@ -122,8 +121,7 @@ static Status apply_text(const Line *line, const Word *word)
     return STATUS_OK;
 }
 
-/* Stores the value of an option.  --lecture without a page is the first page.
- */
+/* Stores the value of an option.  --lecture alone is the first page. */
 static Status apply_word(const Line *line, const Word *word)
 {
     Options *options = line->options;
@@ -362,8 +360,7 @@ static Status fill_defaults(Line *line)
     return status;
 }
 
-/* Picks from each list of values the value of this pane; the last list changes
- * fastest. */
+/* Picks this pane's value from each list; the last list changes fastest. */
 static Status pick_values(Line *line, int pane)
 {
     bool is_drawn = !find_word(line, "headless") || find_word(line, "frames") ||

@@ -30,8 +30,7 @@ static void write_line(FILE *help, const char *start, const char *words)
     fputc('\n', help);
 }
 
-/* Writes what an option means: description, unit, names or range, and default.
- */
+/* Writes what an option means: description, unit, names or range, default. */
 static void describe_option(const OptionRow *row, char *words, size_t size)
 {
     bool is_name = row->kind == OPTION_NAME;

@@ -36,8 +36,7 @@ Status lecture_make_options(const LecturePage *page, Options *options,
 {
     Status status = options_parse_line(page->line, options, message);
     const char *pin = strstr(page->line, "--pin ");
-    if (pin) /* options->pin must point into the page's text, where --pin is
-                last */
+    if (pin) /* the text of --pin has to stay valid */
         options->pin = pin + strlen("--pin ");
     lecture_apply_page(page, options);
     options->flips = page->flips;

@@ -86,8 +86,7 @@ static void extend_box(Box2 *box, int k, double from, double to)
 static const Box2 empty_box = {
     {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
 
-/* Orders boxes for qsort.  Equal boxes go by their spring, so the order depends
- * on x alone. */
+/* Orders boxes for qsort: by left side, then by spring. */
 static int compare_left_sides(const void *one, const void *other)
 {
     const Box2 *a = one, *b = other;
@@ -155,8 +154,7 @@ static int find_first_edge(const Boundary *boundary, double left)
     return low;
 }
 
-/* Finds the next edge as boundary_next_edge does, by a search through the
- * boxes. */
+/* Does boundary_next_edge's work by a search through the boxes. */
 static int search_next_edge(const Boundary *boundary, const System *system,
                             int i, int *place)
 {

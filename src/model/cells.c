@@ -105,8 +105,7 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
                        barrier_taylor_remainder(s, (J1 + J2) / CELL_J_HAT));
 }
 
-/* Returns the curvature at the start of the barrier, for sides of the rest
- * length. */
+/* Returns the curvature where the barrier begins, with sides as at rest. */
 static double cell_curvature_bound(const EvalPoint *at)
 {
     const Cells *cells = at->term->data;

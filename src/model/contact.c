@@ -123,8 +123,7 @@ static double contact_value(const EvalPoint *at, const Element *element)
     return barrier->c * barrier_value(element->s / barrier->d_hat);
 }
 
-/* The force pushes the node along n, and the free ball in the opposite
- * direction. */
+/* The force pushes the node along n, and the free ball along -n. */
 static void contact_gradient(const EvalPoint *at, const Element *element,
                              double g[4])
 {

@@ -33,8 +33,7 @@ static double taylor_remainder_on_piece(double y, double t, double z, double e)
            6;
 }
 
-/* Returns f0(z) - f0(y) - f0'(y) t for y >= 0 and z = y + t >= 0; t may be
- * negative. */
+/* Returns f0(z) - f0(y) - f0'(y) t for y, z = y + t >= 0; t may be negative. */
 static double taylor_remainder_on_side(double y, double t, double e)
 {
     double z = y + t;
@@ -42,11 +41,10 @@ static double taylor_remainder_on_side(double y, double t, double e)
         return taylor_remainder_on_piece(y, t, z, e);
     if (y > e && z > e)
         return 0;
-    if (y > e) /* The step enters [0, e]: f0 is linear from y to e, so only the
-                  rest counts */
+    /* The step enters [0, e] from a part on which f0 is linear. */
+    if (y > e)
         return taylor_remainder_on_piece(e, z - e, z, e);
-    /* The step leaves [0, e]: the slope is 1 - missing^2 at y, and 1 beyond e
-     */
+    /* The step leaves [0, e]: the slope is 1 - missing^2 at y, 1 beyond e */
     double missing = 1 - y / e;
     return taylor_remainder_on_piece(y, e - y, e, e) +
            missing * missing * (z - e);
@@ -88,8 +86,7 @@ static double compute_slip(const SlidingContact *contact, const double *u)
     return tangential_component(&contact->element, vectors) - contact->travel;
 }
 
-/* Returns the evaluation point for the contact term whose elements have this
- * friction. */
+/* Returns the evaluation point for the contact term of this friction. */
 static EvalPoint select_contact_term(const EvalPoint *at)
 {
     bool obstacles = at->term->kind == &friction_energy;

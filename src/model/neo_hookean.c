@@ -69,8 +69,7 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
             0.5 * data->lambda * L * L);
 }
 
-/* Writes s and 2 mu - s, the factors of F+ and F- in dW/dF.  s is dW/dJ over
- * A0. */
+/* Writes s = dW/dJ/A0 and 2 mu - s, the factors of F+ and F- in dW/dF. */
 static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
                              double *on_minus)
 {

@@ -6,12 +6,10 @@
 #include "model/contact.h"
 
 /* The distance to the hand falls by the factor e in TIME s, but by at most the
- * part MOST in a step.  The speed is from SLOW to FAST, in sides of the body a
- * second. */
+ * part MOST in a step.  SLOW and FAST bound the speed, in sides a second. */
 static const double TIME = 0.06, MOST = 0.5, SLOW = 0.1, FAST = 5;
 
-/* The limit of the way in a step is between SHORTEST and LONGEST sides,
- * whatever h is. */
+/* The limit of a step's way is between SHORTEST and LONGEST sides. */
 static const double LONGEST = 0.25, SHORTEST = 0.005;
 
 /* The hand's force is that of the barrier at this part of its width, which
@@ -23,8 +21,7 @@ static const double KEPT = 0.3;
 
 enum { HALVINGS = 8, MAX_PARTS = 16 };
 
-/* Writes the displacement of the obstacle in a step of h seconds if nothing
- * stops it. */
+/* Writes the displacement of a free obstacle in a step of h seconds. */
 static void plan_obstacle_way(const Push *push, const double *o, double h,
                               double way[2])
 {
@@ -38,9 +35,7 @@ static void plan_obstacle_way(const Push *push, const double *o, double h,
         way[c] = away > 0 ? go / away * d[c] : 0;
 }
 
-/* Whether a node in front of the obstacle is pressed with the hand's full
- * force.
- */
+/* Whether a node in front of the obstacle feels the hand's full force. */
 static bool is_pressed(const Contact *contact, const System *system,
                        const double *x, const double way[2])
 {

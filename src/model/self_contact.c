@@ -55,8 +55,7 @@ static Status add_pair(SelfContact *self, SelfPair pair)
 }
 
 /* Makes blocks for the pairs that come near if all nodes keep their velocities.
- * The list depends on x_n and v_n alone, so a step does not depend on the steps
- * before it. */
+ * The list depends on x_n and v_n alone, not on the steps before. */
 static Status self_contact_begin_step(const TermStep *step)
 {
     System *system = step->system;
@@ -160,8 +159,7 @@ static void point_edge_distance(const SelfContact *self, Element *element)
 }
 
 /* Whether d is smaller than the rounding of the positions.  The point may then
- * be on the other side of the edge, which d does not show, so x is infeasible.
- */
+ * be on the other side of the edge, so x is infeasible. */
 static bool is_below_rounding(const SelfContact *self, const Element *element,
                               const double *x)
 {

@@ -169,8 +169,8 @@ static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
     return e;
 }
 
-/* The springs have the order of the slide: horizontal, vertical, diagonals by
- * cell. */
+/* Lists the springs in the slide's order: horizontal, vertical, then by cell.
+ */
 void square_mesh_list_springs(const SquareMesh *shape, int *e)
 {
     int each = shape->nodes / shape->bodies, spring[6], c = 0;

@@ -5,8 +5,7 @@
 
 /* ---- slope ------------------------------------------------------------- */
 
-/* Each run has a block that is lower than the previous one, and a friction of
- * its own. */
+/* Each run has a lower block than the run before, and its own friction. */
 Status create_slope(Simulation *simulation)
 {
     static const double factor[SIMULATION_MAX_RUNS] = {0.5, 0.9, 1.1};
@@ -70,8 +69,7 @@ static void cut_springs(Simulation *simulation, double x, double low,
     system_mark_changed(system, false);
 }
 
-/* Pins of the left half move left and the others right, by 0.2 sides a second.
- */
+/* Pins of the left half move left, others right, by 0.2 sides a second. */
 Status create_tear(Simulation *simulation)
 {
     const SquareMesh *mesh = &simulation->mesh;

@@ -7,17 +7,14 @@
 #include "run/body.h"
 
 /* Creates `slope`: three blocks on slopes, with 0.5, 0.9 and 1.1 times the
- * friction of the options.  With the friction of the options a block just stays
- * at rest. */
+ * friction of the options, with which a block just stays at rest. */
 Status create_slope(Simulation *simulation);
 
-/* Returns the ceiling of `squeeze`, which comes down on the square and goes up
- * again. */
+/* Returns the ceiling of `squeeze`, which presses the square and goes up. */
 Obstacle make_squeeze_ceiling(const Options *options);
 Status create_squeeze(Simulation *simulation);
 
-/* Creates `tear`: two sides are pulled apart; a slit in the middle opens and
- * runs. */
+/* Creates `tear`: two sides are pulled apart; a slit opens and runs. */
 Status create_tear(Simulation *simulation);
 
 /* Returns the heavy third ball of `bend`, which falls on a beam with a notch

@@ -173,10 +173,8 @@ static double descent_energy_difference(const void *function, double alpha)
     return E.value - line->value;
 }
 
-/* Returns E and its derivatives at the iterate, with the projection of the
- * options.  Projection on demand clamps a Hessian that is not positive
- * definite.
- */
+/* Returns E and its derivatives at the iterate, with the options' projection.
+ * Projection on demand clamps a Hessian that is not positive definite. */
 static LocalModel evaluate_local_model(const Simulation *simulation)
 {
     const double *at = simulation->descent.point;

@@ -28,8 +28,7 @@ Status create_small_system(System *system, int pins, double mass, double length,
     return status;
 }
 
-/* Creates runs of a mass with a = -omega2 x that starts at x with velocity v.
- */
+/* Creates runs of a mass with a = -omega2 x, from x with velocity v. */
 static Status create_orbit(Simulation *simulation, double omega2,
                            const double x[2], const double v[2])
 {

@@ -304,8 +304,7 @@ Status create_envelope(Simulation *simulation)
         find_nearest_index(options->stiffness, -6, 1, ENVELOPE_ROWS));
 }
 
-/* The runs of the row replace run 0, so the run of the shown cell is made
- * again. */
+/* The row's runs replace run 0, so the shown cell's run is made again. */
 Status step_envelope(Simulation *simulation)
 {
     const EnvelopeMap *map = &simulation->exhibit.map;

@@ -28,8 +28,7 @@ static Status translate_cholmod_status(const cholmod_common *common)
     return common->status == CHOLMOD_OK ? STATUS_OK : STATUS_INVALID_INPUT;
 }
 
-/* Returns the compressed columns of A as a matrix of CHOLMOD, without a copy.
- */
+/* Returns A's compressed columns as a matrix of CHOLMOD, without a copy. */
 static cholmod_sparse sparse_view(const Sparse *A)
 {
     return (cholmod_sparse){

@@ -193,9 +193,8 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
     return true;
 }
 
-/* Computes p = -H^-1 g (slide: search_dir) with the last factor.  If the factor
- * has a shift, conjugate gradients improve p.  Returns OK, NOT_FINITE,
- * SINGULAR. */
+/* Computes p = -H^-1 g (slide: search_dir) with the last factor, improved by
+ * conjugate gradients if it has a shift.  Returns OK, NOT_FINITE, SINGULAR. */
 static Status solve_with_factor(Newton *newton)
 {
     const Iterate *at = &newton->at;

@@ -30,8 +30,7 @@
  * (i+1, j+1), (i+1, j-1). */
 enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
 
-/* Number of nodes that a loop handles at once, in double and in single
- * precision. */
+/* Nodes that a loop handles at once, in double and in single precision. */
 enum { LANES = 8, WIDE_LANES = 16 };
 
 /* Half a row is padded to a multiple of PADDED nodes, so that whole vectors
@@ -95,8 +94,7 @@ void *memory_take_piece(Memory *memory, size_t bytes);
  * caller frees base. */
 Status memory_create(Memory *memory);
 
-/* Places the arrays of a grid of segments x segments cells, and sets all other
- * members to 0. */
+/* Places the arrays for segments x segments cells; sets the rest to 0. */
 void grid_lay_out(int segments, Memory *memory, Grid *grid);
 
 /* Returns the power of two that makes a number about 1. */
@@ -124,8 +122,7 @@ double grid_gradient(const Grid *grid, double *g);
 double grid_linear_residual(const Grid *grid, const double *g, const double *p,
                             double *largest);
 
-/* Writes the coefficients q of E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3
- * + q[3] a^4. */
+/* Writes the quartic E(x + a p) - E(x) = q[0] a + q[1] a^2 + ... + q[3] a^4. */
 void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
                           double quartic[4]);
 

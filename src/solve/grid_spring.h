@@ -14,8 +14,7 @@ typedef struct Spring {
     Pair dx, dy, d2, s, c, f;
 } Spring;
 
-/* Evaluates the spring from node q to node q + to, whose numbers have the index
- * q + at. */
+/* Evaluates the spring from node q to q + to, with its numbers at q + at. */
 INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, int q, int to,
                                    int at)
 {

@@ -18,8 +18,7 @@ static const double NEARBY = 0.02;
  * last direction's decrease, divided by the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.15;
 
-/* Number of iterations after which Newton takes over from multigrid; most steps
- * need ten. */
+/* Number of iterations after which Newton takes over; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };
 
 /* A change of E that is at most this part of the step's largest change may be
@@ -118,8 +117,7 @@ bool multigrid_accepts(Newton *newton)
     return wanted && !newton->refusal;
 }
 
-/* Computes g at x, and the bound of |p_x| + |p_y| that g gives.  Returns OK,
- * NOT_FINITE. */
+/* Computes g at x, and p_bound from g.  Returns OK, NOT_FINITE. */
 static Status multigrid_evaluate_gradient(Multigrid *mg)
 {
     mg->gradient_norm2 = grid_gradient(&mg->grid, mg->g);
@@ -129,8 +127,7 @@ static Status multigrid_evaluate_gradient(Multigrid *mg)
     return isfinite(mg->gradient_norm2) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
-/* Copies the step's problem to the grid.  Returns OK, OUT_OF_MEMORY,
- * NOT_FINITE. */
+/* Copies the problem to the grid.  Returns OK, OUT_OF_MEMORY, NOT_FINITE. */
 static Status multigrid_read_problem(Newton *newton)
 {
     Iterate *at = &newton->at;

@@ -102,8 +102,7 @@ static Status test_iterate(Newton *newton, Status status)
 
 /* Books the change of E in this minimisation.  The sum of the updates' changes,
  * each of which is exact along its line, is used unless E was so high in
- * between that the sum has lost more digits than the difference of E at end and
- * start.
+ * between that the sum has lost more digits than E at the end - E at the start.
  */
 static void book_change(Newton *newton)
 {

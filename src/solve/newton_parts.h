@@ -81,8 +81,7 @@ extern const NewtonPhases multigrid_phases;
 /* Prepares newton->rounding for a minimisation. */
 void rounding_start(Newton *newton);
 
-/* Whether a change of E, J s^2, is at most a few units in the last place of E.
- */
+/* Whether a change of E, J s^2, is at most a few units in E's last place. */
 bool is_below_roundoff(const Newton *newton, double change);
 
 /* Whether E at u_trial confirms record.change: E is not higher than predicted

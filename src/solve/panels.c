@@ -46,8 +46,7 @@ typedef struct Product {
     int ldl;
 } Product;
 
-/* Defines a function that computes `wide` Lanes of rows of C's n columns, from
- * row i on. */
+/* Defines a function that computes `wide` Lanes of rows of C from row i on. */
 #define ROWS(rows, Lanes, wide)                                                \
     INLINE void rows(const Product *at, int i, int n, const double *inverse)   \
     {                                                                          \
@@ -327,8 +326,7 @@ void panel_backward(const Panel *panel, double *w)
 
 /* ---- what else CHOLMOD and OpenMP ask for ---- */
 
-/* Complex matrices do not occur, but a static library of CHOLMOD needs these
- * functions, too. */
+/* Complex matrices do not occur, but a static CHOLMOD needs these names. */
 #define NOTHING(name)                                                          \
     void name(void);                                                           \
     void name(void)                                                            \

@@ -4,8 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-/* After this many iterations without a smaller residual, rounding may be all
- * that is left. */
+/* After this many iterations without a smaller residual rounding is tested. */
 enum { STAGNANT_ITERATIONS = 20 };
 
 /* Without a line search updates may go round in circles.  After this many
@@ -69,8 +68,7 @@ bool is_below_roundoff(const Newton *newton, double change)
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
 }
 
-/* Returns by how much E changes when each coordinate changes by some units in
- * its last place. */
+/* Returns the change of E by a few units in each coordinate's last place. */
 static double sample_coordinate_rounding(Newton *newton, const double *u,
                                          const double *x, double E)
 {

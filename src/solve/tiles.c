@@ -17,12 +17,10 @@ static const double DEFINITE = 0.0025;
 
 /* A round sweeps the tiles with at least SHARE of the largest activity.  A
  * sweep adds SPREAD of its change of E to the activity of the tiles around.
- * Rounds end when the largest activity is less than STANDS_OUT times the mean.
- */
+ * Rounds end when no activity is STANDS_OUT times the mean. */
 static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
 
-/* Limit of the rounds of a relaxation, which rounding of E could keep from
- * ending. */
+/* Limit of the rounds, which rounding of E could keep from ending. */
 enum { MAX_ROUNDS = 10000 };
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
@@ -53,8 +51,7 @@ INLINE double find_lowering_step(const double q[4], double *lower)
     return go;
 }
 
-/* Moves LANES nodes of a row, none of which share a spring.  Adds the changes
- * of E to sum. */
+/* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */
 INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
 {
     const int plane = grid->rows.plane;

@@ -84,8 +84,7 @@ static void count_step(StepClock *clock, double h)
     clock->now = clock->last_change + (double)clock->steps * h;
 }
 
-/* Lets the terms begin a step; friction, for example, reads the contacts at
- * x_n. */
+/* Lets the terms begin a step: friction, for one, reads contacts at x_n. */
 static Status begin_terms(TimeIntegrator *run)
 {
     System *system = run->system;
@@ -125,8 +124,7 @@ static void begin_hand(TimeIntegrator *run)
     system_mark_changed(system, false);
 }
 
-/* Begins the minimisation of the present stage: target with gravity, and
- * Newton's start. */
+/* Begins the stage's minimisation: target with gravity, Newton's start. */
 static void begin_stage(TimeIntegrator *run)
 {
     const System *system = run->system;
