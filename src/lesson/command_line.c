@@ -149,7 +149,7 @@ static Status check_scene(const Options *options, const OptionRow *row,
                           : row->needs & NEEDS_TIME    ? "time step to choose"
                           : row->needs & NEEDS_SPRINGS ? "springs"
                           : row->needs & NEEDS_START   ? "start to choose"
-                          : row->needs & NEEDS_BODY    ? "body that falls"
+                          : row->needs & NEEDS_BODY    ? "body"
                                                        : "minimum to find";
     return !row->needs || (row->needs & scene->needs)
                ? STATUS_OK
@@ -235,6 +235,8 @@ static const OptionRow *read_option(const Line *line, const char *word)
         refuse_unknown(line, "there is no option", word,
                        isdigit((unsigned char)name[0])
                            ? hint_at_split_value(before, name)
+                       : scene_find(name) || strcmp(name, "scene") == 0
+                           ? (Phrase){"; a scene has no dashes: elasto drop"}
                            : suggest_name(name, "--", NAMES_OF(option_rows)),
                        "; see elasto --help");
     return found;

@@ -29,8 +29,10 @@ static bool letters_match(char typed, char letter)
            (typed == '_' && letter == '-');
 }
 
-/* Largest number of letters that are compared. */
-enum { NAME_LETTERS = 24 };
+enum {
+    NAME_LETTERS = 24, /* largest number of letters that are compared */
+    SHORT_NAME = 4     /* letters of a text whose first letter must be right */
+};
 
 /* Number of typing mistakes (Damerau 1964) between a text, of at most
  * NAME_LETTERS, and a name or the beginning of a name, so that "seg" fits
@@ -76,10 +78,29 @@ static const struct Synonym {
                 {"g", "gravity"},
                 {"method", "integrator"},
                 {"n_seg", "segments"},
+                {"n", "segments"},
+                {"resolution", "segments"},
                 {"side_len", "side"},
+                {"kappa", "barrier"},
+                {"dhat", "barrier"},
+                {"eps", "tolerance"},
+                {"mass", "density"},
+                {"duration", "steps"},
+                {"time", "steps"},
+                {"record", "film"},
+                {"video", "film"},
+                {"output", "states"},
+                {"o", "states"},
+                {"width", "size"},
+                {"height", "size"},
+                {"no-window", "headless"},
+                {"no-gui", "headless"},
+                {"batch", "headless"},
                 {"initial_stretch", "stretch"},
                 {"euler", "backward-euler"},
+                {"implicit", "backward-euler"},
                 {"implicit-euler", "backward-euler"},
+                {"explicit", "forward-euler"},
                 {"explicit-euler", "forward-euler"},
                 {"semi-implicit-euler", "symplectic-euler"},
                 {"leapfrog", "verlet"},
@@ -90,7 +111,11 @@ static const struct Synonym {
                 {"off", "none"},
                 {"psd", "clamp"},
                 {"yes", "on"},
+                {"true", "on"},
+                {"1", "on"},
                 {"no", "off"},
+                {"false", "off"},
+                {"0", "off"},
                 {"triangles", "neo-hookean"},
                 {"solid", "neo-hookean"}};
 
@@ -104,7 +129,8 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
     bool is_comparable = letters > 1 && letters <= NAME_LETTERS;
     for (int i = 0; is_comparable && (name = names_get(names, i)); i++) {
         int mistakes = count_mistakes(text, name);
-        if (name[0] && mistakes < fewest) {
+        if (name[0] && mistakes < fewest &&
+            (letters > SHORT_NAME || letters_match(text[0], name[0]))) {
             fewest = mistakes;
             meant = name;
         }

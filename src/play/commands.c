@@ -129,8 +129,9 @@ static bool read_argument(const char *word, char kind, Command *command)
         snprintf(command->text, sizeof command->text, "%s", row ? "" : word);
         return true;
     case 'V':
-        if (command->number < 0)
-            return true;
+        if (command->number < 0) /* refused later, with option and value */
+            return append(command->text, sizeof command->text, " %s", word),
+                   true;
         row = &option_rows[command->number];
         one = row->count <= 1 && row->max_times == 0 &&
               row->kind != OPTION_TEXT && row->kind != OPTION_SWITCH &&
@@ -180,6 +181,8 @@ void command_format(const Command *command, char *line, size_t size)
     snprintf(line, size, "%s%s", command->joins ? "& " : "", row->word);
     for (const char *at = row->takes; at; at = find_next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
+        if (*at == 'V' && command->number < 0)
+            continue; /* the text has option and value */
         if (*at == 'N')
             snprintf(word, sizeof word, "%ld", command->number);
         else if (*at == 'X' || *at == 'Y')

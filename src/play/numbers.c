@@ -92,6 +92,10 @@ Status obey_type(Player *player, const Command *command)
     bool list = player_shows_list(player),
          shift = strncmp(command->text, "Shift+", 6) == 0;
     const char *key = command->text + (shift ? 6 : 0);
+    if (!list && !player->hands.selected &&
+        page_wants_click(player_active_options(player)->page))
+        return player_refuse(player, "a click on the picture is the answer "
+                                     "here; N shows it");
     if (!player->hands.typing)
         typed[0] = '\0';
     player->hands.typing = true;
@@ -138,7 +142,8 @@ Status obey_set(Player *player, const Command *command)
     Options options[OPTIONS_MAX_PANES];
     if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE ||
         row->kind == OPTION_SWITCH)
-        return player_refuse(player, "there is no option '%s' with a value",
+        return player_refuse(player, "there is no option '%.*s' with a value",
+                             (int)strcspn(row ? row->name : command->text, " "),
                              row ? row->name : command->text);
     const char *idle = player_idle_reason(player, row);
     if (idle)

@@ -514,18 +514,26 @@ double simulation_find_free_way(const Simulation *simulation,
 {
     enum { HALVINGS = 20 };
     static const double MIN_GAP = 0.999; /* gap to a body over d_hat */
+    static const double MIN_PART = 1.0 / 64; /* part of the way, least step */
     Options moved = *options;
     double *at = options_obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
     memcpy(at, to, sizeof from);
     if (!check_clearance(simulation, &moved, 0, -1, (Message){0}))
         return 1;
-    double step = 0.5;
-    for (int i = 0; i < HALVINGS; i++, step /= 2) {
+    double step = 0.5, length = math_hypot(to[0] - from[0], to[1] - from[1]);
+    if (number >= options->grounds) /* no step of a ball crosses a body */
+        step = fmin(fmax(0.5 * at[2] / length, MIN_PART), step);
+    for (int i = 0; i < HALVINGS;) {
         for (int c = 0; c < 2; c++)
             at[c] = from[c] + (free + step) * (to[c] - from[c]);
-        if (!check_clearance(simulation, &moved, MIN_GAP, number, (Message){0}))
+        if (free + step < 1 && !check_clearance(simulation, &moved, MIN_GAP,
+                                                number, (Message){0})) {
             free += step;
+        } else {
+            step /= 2;
+            i++;
+        }
     }
     return free;
 }

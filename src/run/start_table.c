@@ -172,8 +172,9 @@ static void read_rows(TableReader *reader, const Options *options,
         return;
     if (step >= 0 && count == 0)
         explain(reader, "step %.0f is not in it", step);
-    else if (count == 0 || count % part->size != 0 ||
-             (!reader->has_panes && bodies > runs))
+    else if (count == 0)
+        explain(reader, "it has no row below the names of its columns");
+    else if (count % part->size != 0 || (!reader->has_panes && bodies > runs))
         explain(reader,
                 "its %sstep has %d %ss, the body %d; --segments may differ",
                 step < 0 ? "last " : "", count, element, part->size);

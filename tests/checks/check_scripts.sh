@@ -81,7 +81,8 @@ refusals() {
         >bad.script
     "$elasto" --headless --quiet --script bad.script --states states 2>error
     [ $? = 2 ] || echo 'a refused command is no bad command line'
-    [ "$(grep -c '^script: step [01]: ' error)" = 3 ] || cat error
+    [ "$(grep -c '^script: step [01]: ' error)" = 3 ] &&
+        grep -q "'set foo 1': there is no option 'foo' " error || cat error
     [ "$(tail -n 1 states | cut -d, -f1)" = 2 ] || echo 'the rest is not done'
 }
 verdict invalid_script_lines_are_reported "$(refusals)"
