@@ -141,15 +141,6 @@ TEST(order_keeps_the_factor_small)
     CHECK_AT_MOST(ours, 6 * factor_entries(12));
 }
 
-/* What hangs evenly around the height 0 has no energy there. */
-TEST(a_square_begins_at_the_height_0)
-{
-    for (int n = 2; n <= 60; n++) {
-        Simulation *simulation = simulate("hang --segments %d", n);
-        CHECK_NEAR(simulation_energies(simulation, 0).gravity, 0, 0);
-    }
-}
-
 /* Nodes 0 ... rows are the left column from below. */
 TEST(the_words_of_pin_name_their_nodes)
 {

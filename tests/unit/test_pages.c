@@ -248,15 +248,9 @@ static struct {
 
 const Glyph *__real_font_get_glyph(Text *text, Face face, int size,
                                    uint32_t letter);
-const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
-                                   uint32_t letter);
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
-int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
-                     double x, double y, Align align, const char *markup);
 void __real_plot_curve(const Plot *plot, int count, const double *x,
-                       const double *y, double width, Colour colour);
-void __wrap_plot_curve(const Plot *plot, int count, const double *x,
                        const double *y, double width, Colour colour);
 
 const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,

@@ -59,7 +59,6 @@ TEST(the_curve_goes_through_the_step)
 static double wound = -1;
 
 int __real_clock_gettime(clockid_t clock, struct timespec *now);
-int __wrap_clock_gettime(clockid_t clock, struct timespec *now);
 
 int __wrap_clock_gettime(clockid_t clock, struct timespec *now)
 {

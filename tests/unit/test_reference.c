@@ -184,16 +184,10 @@ TEST(a_ceiling_comes_down_as_in_the_lesson)
     Simulation *scene = simulate(
         "square --segments 4 --stiffness 2e4 --stretch 1 --timestep 0.01 "
         "--gravity 9.81 --barrier 0.01,1e5 --tolerance 1e-6 --friction 0.11 "
-        "--ground 0,1,0,-1 --at 0,-0.3");
+        "--ground 0,1,0,-1 --at 0,-0.3 --ceiling 0.25,-0.5,-9");
     const TimeIntegrator *run = &scene->run[0];
-    Contact *contact = contact_of(run->system);
-    Obstacle *ceiling = &contact->obstacle[contact->obstacles++];
+    const Obstacle *ceiling = &contact_of(run->system)->obstacle[1];
     FILE *file = open_reference("ceiling_tight", "states");
-    *ceiling = (Obstacle){.kind = OBSTACLE_WALL,
-                          .n = {0, -1},
-                          .o = {0, 0.25},
-                          .motion = {1, {10}, {{0, -0.5}}},
-                          .node = -1};
     for (int step = 0; step <= 120; step++) {
         double y;
         make_steps(scene, step > 0);

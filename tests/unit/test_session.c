@@ -28,13 +28,20 @@ static Layout layout_now(void)
     return layout_create(content, canvas->width, canvas->height);
 }
 
+static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+{
+    for (const unsigned char *byte = bytes; size > 0; size--)
+        hash = (hash ^ *byte++) * 1099511628211u;
+    return hash;
+}
+
 static uint64_t hash_box(const Canvas *canvas, Box box)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int y = box.y; y < box.y + box.height; y++)
-        for (int x = box.x; x < box.x + box.width; x++)
-            hash = (hash ^ canvas->pixels[(long)y * canvas->width + x]) *
-                   1099511628211u;
+        hash =
+            hash_bytes(hash, canvas->pixels + (long)y * canvas->width + box.x,
+                       (size_t)box.width * sizeof *canvas->pixels);
     return hash;
 }
 
@@ -43,12 +50,9 @@ static uint64_t shape_shown(void)
 {
     player_fill_frame(&player);
     const Pane *pane = active_pane(content);
-    const unsigned char *byte = (const unsigned char *)pane_positions(pane);
-    size_t size = 2 * sizeof(double) * (size_t)pane->simulation->system.nodes;
-    uint64_t hash = STATE_HASH_SEED;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ byte[i]) * 1099511628211u;
-    return hash;
+    const int nodes = pane->simulation->system.nodes;
+    return hash_bytes(STATE_HASH_SEED, pane_positions(pane),
+                      2 * sizeof(double) * (size_t)nodes);
 }
 
 /* Hash of the picture without its message, of its cards, of the state or of the
@@ -81,8 +85,6 @@ static struct {
 static int text_count;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
-                     double x, double y, Align align, const char *markup);
-int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
 
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
@@ -1105,9 +1107,9 @@ static uint64_t all_but(int place)
     uint64_t hash = seen("state") + (uint64_t)player.past.step;
     player_fill_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
-        for (const char *c = content->settings.item[i].value; i != place && *c;
-             c++)
-            hash = (hash ^ (unsigned char)*c) * 1099511628211u;
+        if (i != place)
+            hash = hash_bytes(hash, content->settings.item[i].value,
+                              strlen(content->settings.item[i].value));
     return hash;
 }
 

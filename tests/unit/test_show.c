@@ -424,8 +424,6 @@ static int writings;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
-int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
-                     double x, double y, Align align, const char *markup);
 
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
