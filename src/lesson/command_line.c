@@ -402,13 +402,18 @@ static Status check_pins(const Options *options, Message message)
         options->pin ? pins_read(options->pin, &shape, NULL) : NULL;
     if (!bad)
         return STATUS_OK;
-    int length = (int)fmin(strcspn(bad, ","), 60), body = 0;
+    static const char *const words[] = {"top-corners", "top", "bottom", "left",
+                                        "right",       "all", NULL};
+    char name[64];
+    int body = 0;
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(bad, ","), bad);
     sscanf(bad, "%*[^:,]:%d", &body);
     return refuse(
         message,
-        "--pin: '%.*s' is no node from 0 to %d, and none of: " PINS_WORDS "%s",
-        length, bad, shape.nodes - 1,
-        body > shape.bodies ? "; there are not so many bodies" : "");
+        "--pin: '%s' is no node from 0 to %d, and none of: " PINS_WORDS "%s",
+        name, shape.nodes - 1,
+        body > shape.bodies ? "; there are not so many bodies"
+                            : suggest_name(name, "", NAMES_OF(words)).text);
 }
 
 /* Refuses options that have no effect beside the others.  Several bodies touch
