@@ -63,7 +63,7 @@ typedef struct NewtonSettings {
     double tolerance;        /* m/s, epsilon of the slides */
     Solver solver;           /* how the minimiser is found */
     Projection projection;   /* how negative eigenvalues are replaced */
-    LineSearch search;       /* how the step length is found */
+    LineSearch line_search;  /* how the step length is found */
     int max_iterations;      /* most iterations; then ITERATION_LIMIT */
     NewtonObserver observer; /* called after each iteration; NULL: none */
     void *user;              /* argument of the observer */
@@ -139,7 +139,7 @@ typedef struct Newton {
     double *u_tilde; /* [2n] m, x_tilde - x_n, written by the integrator */
     double *u_trial, *x_trial; /* [2n] m, end of a trial step; after an update
                                   the iterate before the update */
-    SearchDirection search;    /* the Hessian and its factor */
+    SearchDirection direction; /* the Hessian and its factor */
     bool has_gradient;         /* has the gradient at x in at.g */
     bool passes;               /* p of the last iteration passes the test */
     int clamps_left;           /* iterations for which on-demand clamps */

@@ -186,6 +186,8 @@ double system_gravity_potential(const System *system, const double *x)
 {
     const double *a = system->gravity;
     double sum = 0, size = 0;
+    if (!system_has_gravity(system))
+        return 0;
     for (int i = 0; i < system->nodes; i++) {
         double part = system->m[i] * (a[0] * x[2 * i] + a[1] * x[2 * i + 1]);
         sum -= part;

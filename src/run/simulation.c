@@ -21,7 +21,7 @@ void options_fill_newton_settings(const Options *options,
     settings->tolerance = options->tolerance;
     settings->solver = options->solver;
     settings->projection = options->projection;
-    settings->search = options->line_search;
+    settings->line_search = options->line_search;
     settings->max_iterations = MAX_NEWTON_ITERATIONS;
 }
 
@@ -204,7 +204,7 @@ static bool forces_balance(const Simulation *simulation, double l)
     NewtonSettings settings = {.h = sqrt(T2),
                                .solver = SOLVER_NEWTON,
                                .projection = PROJECTION_CLAMP,
-                               .search = LINE_SEARCH_BACKTRACK,
+                               .line_search = LINE_SEARCH_BACKTRACK,
                                .max_iterations = 1};
     Newton newton;
     Status status = newton_create(system, &settings, &newton);

@@ -18,13 +18,13 @@ static const double ALL_DIGITS = 1e-28;
 
 /* ---- the Hessian and its factor ---- */
 
-void direction_free_matrix(SearchDirection *search)
+void direction_free_matrix(SearchDirection *direction)
 {
-    cholesky_free(search->cholesky);
-    search->cholesky = NULL;
-    sparse_free(&search->A);
-    free(search->slot);
-    search->slot = NULL;
+    cholesky_free(direction->cholesky);
+    direction->cholesky = NULL;
+    sparse_free(&direction->A);
+    free(direction->slot);
+    direction->slot = NULL;
 }
 
 /* Assembles A, the Hessian at x.  The pattern and the symbolic analysis are
@@ -37,38 +37,38 @@ void direction_free_matrix(SearchDirection *search)
 static Status assemble_hessian(Newton *newton, Projection projection,
                                int *projected)
 {
-    SearchDirection *search = &newton->search;
+    SearchDirection *direction = &newton->direction;
     const System *system = newton->system;
     CholeskyKind kind =
         projection == PROJECTION_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
     bool grown;
     Status status = incremental_potential_grow(&newton->at, &grown);
     *projected = 0;
-    if (!status && (!search->cholesky || search->kind != kind || grown ||
-                    search->pattern != system->pattern)) {
-        direction_free_matrix(search);
-        search->pattern = system->pattern;
-        search->kind = kind;
-        status =
-            incremental_potential_pattern(system, &search->A, &search->slot);
+    if (!status && (!direction->cholesky || direction->kind != kind || grown ||
+                    direction->pattern != system->pattern)) {
+        direction_free_matrix(direction);
+        direction->pattern = system->pattern;
+        direction->kind = kind;
+        status = incremental_potential_pattern(system, &direction->A,
+                                               &direction->slot);
         if (!status)
-            status = cholesky_create(&search->A, kind, &search->cholesky);
+            status = cholesky_create(&direction->A, kind, &direction->cholesky);
     }
-    search->projection =
+    direction->projection =
         projection == PROJECTION_ON_DEMAND ? PROJECTION_NONE : projection;
     if (!status)
         *projected = incremental_potential_hessian(
-            &newton->at, search->projection, search->slot, &search->A);
+            &newton->at, direction->projection, direction->slot, &direction->A);
     return status;
 }
 
 /* Returns the largest entry of A's diagonal, whose slots are the first 2n. */
 static double largest_diagonal(const Newton *newton)
 {
-    const SearchDirection *search = &newton->search;
+    const SearchDirection *direction = &newton->direction;
     double largest = 0;
     for (int t = 0; t < 2 * newton->system->nodes; t++)
-        largest = fmax(largest, search->A.value[search->slot[t]]);
+        largest = fmax(largest, direction->A.value[direction->slot[t]]);
     return largest;
 }
 
@@ -78,19 +78,19 @@ static double largest_diagonal(const Newton *newton)
  * NOT_FINITE, OUT_OF_MEMORY. */
 static Status factor_hessian(Newton *newton)
 {
-    SearchDirection *search = &newton->search;
-    search->shift = 0;
+    SearchDirection *direction = &newton->direction;
+    direction->shift = 0;
     for (int tries = 0;; tries++) {
         newton->counters.factorisations++;
-        Status status = cholesky_factor(search->cholesky);
+        Status status = cholesky_factor(direction->cholesky);
         if (status != STATUS_NOT_POSITIVE_DEFINITE || tries == SHIFT_TRIES ||
-            search->projection == PROJECTION_NONE)
+            direction->projection == PROJECTION_NONE)
             return status;
-        double shift =
-            tries > 0 ? 100 * search->shift : 1e-15 * largest_diagonal(newton);
+        double shift = tries > 0 ? 100 * direction->shift
+                                 : 1e-15 * largest_diagonal(newton);
         for (int t = 0; t < 2 * newton->system->nodes; t++)
-            search->A.value[search->slot[t]] += shift - search->shift;
-        search->shift = shift;
+            direction->A.value[direction->slot[t]] += shift - direction->shift;
+        direction->shift = shift;
     }
 }
 
@@ -109,11 +109,11 @@ static Status assemble_and_factor(Newton *newton)
     if (!status)
         status = factor_hessian(newton);
     record->factorised = true;
-    record->shift = newton->search.shift;
-    newton->search.way_since_factor = 0;
-    if (!status && newton->search.kind == CHOLESKY_INDEFINITE)
+    record->shift = newton->direction.shift;
+    newton->direction.way_since_factor = 0;
+    if (!status && newton->direction.kind == CHOLESKY_INDEFINITE)
         record->negative_pivots =
-            cholesky_negative_pivots(newton->search.cholesky);
+            cholesky_negative_pivots(newton->direction.cholesky);
     newton->counters.projected += record->projected;
     if (projection != PROJECTION_ON_DEMAND ||
         status != STATUS_NOT_POSITIVE_DEFINITE)
@@ -127,13 +127,13 @@ static Status assemble_and_factor(Newton *newton)
 static Status apply_factor(Newton *newton, const double *r, double *z)
 {
     const int *order = newton->system->order;
-    double *b = newton->search.b;
+    double *b = newton->direction.b;
     for (int i = 0; i < newton->system->nodes; i++) {
         int place = order[i];
         b[2 * place] = r[2 * i];
         b[2 * place + 1] = r[2 * i + 1];
     }
-    Status status = cholesky_solve(newton->search.cholesky, b, b);
+    Status status = cholesky_solve(newton->direction.cholesky, b, b);
     for (int i = 0; i < newton->system->nodes && !status; i++) {
         int place = order[i];
         z[2 * i] = b[2 * place];
@@ -168,9 +168,10 @@ typedef struct ConjugateGradients {
  * end: r.z is small enough, or the curvature along d is not positive. */
 static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
 {
-    const SearchDirection *search = &newton->search;
+    const SearchDirection *direction = &newton->direction;
     int n = 2 * newton->system->nodes;
-    double *r = search->r, *z = search->z, *q = search->q, *d = search->d;
+    double *r = direction->r, *z = direction->z, *q = direction->q,
+           *d = direction->d;
     double *p = newton->at.p;
     double last = state->rz;
     state->rz = dot(n, r, z);
@@ -198,24 +199,24 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
 static Status solve_with_factor(Newton *newton)
 {
     const Iterate *at = &newton->at;
-    const SearchDirection *search = &newton->search;
+    const SearchDirection *direction = &newton->direction;
     int n = 2 * newton->system->nodes;
     newton->counters.solves++;
     Status status = apply_factor(newton, at->g, at->p);
     for (int i = 0; i < n; i++)
         at->p[i] = -at->p[i];
-    if (status || search->shift == 0)
+    if (status || direction->shift == 0)
         return status;
-    ConjugateGradients state = {search->projection, .tolerance = ALL_DIGITS};
+    ConjugateGradients state = {direction->projection, .tolerance = ALL_DIGITS};
     for (int i = 0; i < n; i++) {
-        search->z[i] = at->p[i]; /* p is factor^-1 (-g), the first z */
-        at->p[i] = search->d[i] = 0;
-        search->r[i] = -at->g[i];
+        direction->z[i] = at->p[i]; /* p is factor^-1 (-g), the first z */
+        at->p[i] = direction->d[i] = 0;
+        direction->r[i] = -at->g[i];
     }
     for (int solves = 0; !status && take_conjugate_step(newton, &state) &&
                          solves < CONJUGATE_MAX_SOLVES;
          solves++)
-        status = apply_factor(newton, search->r, search->z);
+        status = apply_factor(newton, direction->r, direction->z);
     return status;
 }
 
@@ -228,16 +229,16 @@ static Status solve_with_factor(Newton *newton)
  * Returns OK, NOT_FINITE, SINGULAR. */
 static Status direction_error_bound(Newton *newton, double *error)
 {
-    const SearchDirection *search = &newton->search;
+    const SearchDirection *direction = &newton->direction;
     const System *system = newton->system;
     const Iterate *at = &newton->at;
-    double *r = search->r, *z = search->z, square = 0;
-    Projection projection = search->projection;
-    if (projection == PROJECTION_NONE && search->way_since_factor > 0)
+    double *r = direction->r, *z = direction->z, square = 0;
+    Projection projection = direction->projection;
+    if (projection == PROJECTION_NONE && direction->way_since_factor > 0)
         projection = PROJECTION_CLAMP;
-    incremental_potential_product(at, projection, at->p, search->q);
+    incremental_potential_product(at, projection, at->p, direction->q);
     for (int i = 0; i < 2 * system->nodes; i++)
-        r[i] = -at->g[i] - search->q[i];
+        r[i] = -at->g[i] - direction->q[i];
     *error = system_inverse_mass_norm(system, r);
     if (projection != PROJECTION_NONE)
         return STATUS_OK;
@@ -272,7 +273,7 @@ static void correct_momentum(Newton *newton)
 static void solve_diagonal(Newton *newton)
 {
     const Iterate *at = &newton->at;
-    double *ones = newton->search.b, *H = newton->search.q;
+    double *ones = newton->direction.b, *H = newton->direction.q;
     int n = 2 * newton->system->nodes;
     for (int i = 0; i < n; i++)
         ones[i] = 1;
@@ -311,10 +312,10 @@ static const double NEARBY = 0.03, CONVERGES = 0.1, REFINED = 0.01;
  * not downhill. */
 static bool refine_with_last_factor(Newton *newton)
 {
-    const SearchDirection *search = &newton->search;
+    const SearchDirection *direction = &newton->direction;
     const int n = 2 * newton->system->nodes;
     double *g = newton->at.g, *p = newton->at.p;
-    double *r = search->r, *z = search->z, last = INFINITY, size;
+    double *r = direction->r, *z = direction->z, last = INFINITY, size;
     for (int i = 0; i < n; i++) {
         p[i] = 0;
         r[i] = -g[i];
@@ -332,9 +333,9 @@ static bool refine_with_last_factor(Newton *newton)
             break;
         last = size;
         newton->record.projected = incremental_potential_product(
-            &newton->at, search->projection, p, search->q);
+            &newton->at, direction->projection, p, direction->q);
         for (int i = 0; i < n; i++)
-            r[i] = -g[i] - search->q[i];
+            r[i] = -g[i] - direction->q[i];
     }
     return dot(n, g, p) <= 0;
 }
@@ -403,10 +404,10 @@ bool next_direction_is_negligible(Newton *newton)
  * minimisation, nearby and without a shift. */
 static bool factor_is_near(const Newton *newton)
 {
-    const SearchDirection *search = &newton->search;
-    return search->shift == 0 &&
+    const SearchDirection *direction = &newton->direction;
+    return direction->shift == 0 &&
            newton->settings.projection != PROJECTION_NONE &&
-           search->way_since_factor <= NEARBY * newton->rounding.shortest;
+           direction->way_since_factor <= NEARBY * newton->rounding.shortest;
 }
 
 /* Computes p with a new factor, and the residual of p. */
@@ -420,7 +421,7 @@ static Status solve_with_new_factor(Newton *newton)
     correct_momentum(newton);
     /* Where springs outweigh the masses too much, a factor is not exact. */
     return find_residual(newton, !newton->rounding.factor_is_inexact &&
-                                     newton->search.shift == 0);
+                                     newton->direction.shift == 0);
 }
 
 Status find_direction(Newton *newton)

@@ -30,7 +30,7 @@ static double step_difference(const void *function, double alpha)
     Newton *newton = search->newton;
     const Iterate *at = &newton->at;
     double *u = newton->u_trial, *x = newton->x_trial;
-    bool searches = newton->settings.search == LINE_SEARCH_BACKTRACK;
+    bool searches = newton->settings.line_search == LINE_SEARCH_BACKTRACK;
     double change = line_energy_difference(&search->line, alpha);
     newton->record.change = change;
     newton->record.trials += searches;

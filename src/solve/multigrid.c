@@ -99,7 +99,7 @@ static const char *find_refusal_reason(const Newton *newton)
         return "there are energies beside the springs'";
     if (settings->projection != PROJECTION_CLAMP)
         return "the projection is not clamp";
-    if (settings->search != LINE_SEARCH_BACKTRACK)
+    if (settings->line_search != LINE_SEARCH_BACKTRACK)
         return "there is no line search";
     /* The test would need more digits than a double has. */
     if (newton->rounding.factor_is_inexact)

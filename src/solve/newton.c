@@ -22,7 +22,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     newton->status = STATUS_RUNNING;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->has_gradient = false;
-    newton->search.way_since_factor = INFINITY; /* no factor yet */
+    newton->direction.way_since_factor = INFINITY; /* no factor yet */
     newton->clamps_left = 0;
     newton->change_sum = newton->change_abs_sum = 0;
     rounding_start(newton);
@@ -46,13 +46,13 @@ static Status update_iterate(Newton *newton)
 {
     if (!all_finite(newton->x_trial, 2 * (size_t)newton->system->nodes))
         return STATUS_NOT_FINITE;
-    if (newton->settings.search != LINE_SEARCH_NONE &&
+    if (newton->settings.line_search != LINE_SEARCH_NONE &&
         !energy_is_within_limit(newton, newton->u_trial, newton->x_trial)) {
         newton->record.alpha = newton->record.change = 0;
         return STATUS_ROUNDING_LIMIT;
     }
     swap_iterates(newton);
-    newton->search.way_since_factor +=
+    newton->direction.way_since_factor +=
         newton->record.alpha * newton->record.residual * newton->settings.h;
     newton->rounding.E = newton->rounding.E_trial;
     newton->has_gradient = false;
@@ -94,7 +94,7 @@ static Status test_iterate(Newton *newton, Status status)
         status = STATUS_ITERATION_LIMIT;
     bool ended = status == STATUS_OK || status == STATUS_NOT_FINITE ||
                  status_is_unconverged(status);
-    if (ended && newton->settings.search == LINE_SEARCH_NONE &&
+    if (ended && newton->settings.line_search == LINE_SEARCH_NONE &&
         !energy_is_within_limit(newton, newton->at.u, newton->at.x))
         status = STATUS_DIVERGED;
     return status;
@@ -178,12 +178,12 @@ Status newton_create(const System *system, const NewtonSettings *settings,
 {
     *newton = (Newton){.settings = *settings, .system = system};
     size_t size = 2 * (size_t)system->nodes;
-    SearchDirection *search = &newton->search;
+    SearchDirection *direction = &newton->direction;
     double *next = newton->memory = calloc(12 * size, sizeof *next);
     double **array[] = {&newton->at.u, &newton->at.x,    &newton->at.g,
                         &newton->at.p, &newton->u_tilde, &newton->u_trial,
-                        &search->b,    &search->r,       &search->z,
-                        &search->q,    &search->d,       &newton->x_trial};
+                        &direction->b, &direction->r,    &direction->z,
+                        &direction->q, &direction->d,    &newton->x_trial};
     for (size_t i = 0; next && i < sizeof array / sizeof *array; i++)
         *array[i] = next + i * size;
     return next ? STATUS_OK : STATUS_OUT_OF_MEMORY;
@@ -193,7 +193,7 @@ void newton_free(Newton *newton)
 {
     if (!newton)
         return;
-    direction_free_matrix(&newton->search);
+    direction_free_matrix(&newton->direction);
     multigrid_free(newton->multigrid);
     free(newton->memory);
     *newton = (Newton){0};

@@ -31,7 +31,7 @@ typedef struct NewtonPhases {
 /* ---- direction.c: gradient, Hessian, search direction (slide: search_dir) */
 
 /* Frees the matrix and its factor, which are made when they are needed. */
-void direction_free_matrix(SearchDirection *search);
+void direction_free_matrix(SearchDirection *direction);
 
 Status find_direction(Newton *newton);
 

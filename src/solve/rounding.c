@@ -52,7 +52,7 @@ void rounding_start(Newton *newton)
         stiffness > INEXACT_MASSES * rounding->lightest;
     rounding->energy_limit = INFINITY;
     rounding->start_energy = NAN;
-    if (newton->settings.search != LINE_SEARCH_NONE &&
+    if (newton->settings.line_search != LINE_SEARCH_NONE &&
         stiffness <= HIDDEN_MASSES * rounding->lightest)
         return;
     rounding->start_energy = incremental_potential_value(&at->E, at->u, at->x);
@@ -72,7 +72,7 @@ bool is_below_roundoff(const Newton *newton, double change)
 static double sample_coordinate_rounding(Newton *newton, const double *u,
                                          const double *x, double E)
 {
-    double *near_u = newton->search.r, *near_x = newton->search.b;
+    double *near_u = newton->direction.r, *near_x = newton->direction.b;
     for (int i = 0; i < 2 * newton->system->nodes; i++) {
         double part = 16 * (fmod(0.6180339887 * (i + 1), 1) - 0.5);
         near_u[i] = u[i] * (1 + part * DBL_EPSILON);
@@ -89,7 +89,7 @@ bool rounding_confirms_change(Newton *newton)
     Rounding *rounding = &newton->rounding;
     const Iterate *at = &newton->at;
     const double *u = newton->u_trial, *x = newton->x_trial;
-    if (newton->settings.search == LINE_SEARCH_NONE || !rounding->stiff ||
+    if (newton->settings.line_search == LINE_SEARCH_NONE || !rounding->stiff ||
         rounding->energy_limit < INFINITY)
         return true;
     if (isnan(rounding->E))
@@ -127,7 +127,7 @@ Status rounding_test_stagnation(Newton *newton)
         is_below_roundoff(newton, newton->record.change))
         return STATUS_ROUNDING_LIMIT;
     return rounding->stagnant_iterations >= CIRCLING_ITERATIONS &&
-                   newton->settings.search == LINE_SEARCH_NONE
+                   newton->settings.line_search == LINE_SEARCH_NONE
                ? STATUS_ITERATION_LIMIT
                : STATUS_RUNNING;
 }

@@ -285,7 +285,7 @@ static bool watch_record(void *user, const NewtonRecord *record)
     for (int i = 0; i < watch_size(watch); i++)
         if (!isfinite(newton->at.u[i]) || !isfinite(newton->at.x[i]))
             blame(watch, "iterate %d is not finite", watch->updates);
-    if (newton->settings.search != LINE_SEARCH_NONE)
+    if (newton->settings.line_search != LINE_SEARCH_NONE)
         watch_descent(watch, newton->at.u, "in an iteration");
     check_excuse(watch, record);
     check_walls(watch, newton->at.x);
@@ -455,7 +455,7 @@ static void check_state(Watch *watch)
         check_momentum(watch, pin);
     if (watch->springs &&
         run->newton && /* with flow and breaks E changes between steps */
-        run->newton->settings.search != LINE_SEARCH_NONE)
+        run->newton->settings.line_search != LINE_SEARCH_NONE)
         watch_descent(watch, run->newton->at.u, "as the step ends");
 }
 

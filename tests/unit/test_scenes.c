@@ -180,8 +180,8 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);
     CHECK(self->pairs > 0);
-    incremental_potential_product(&before, newton->search.projection, before.p,
-                                  Hp);
+    incremental_potential_product(&before, newton->direction.projection,
+                                  before.p, Hp);
     for (int i = 0; i < 36; i++)
         CHECK_NEAR(Hp[i], -newton->at.g[i], 1e-10);
     CHECK_OK(incremental_potential_grow(&newton->at, &grown));
