@@ -343,6 +343,15 @@ static bool use_mouse(const char *verb, const char *place)
     return false;
 }
 
+/* The window gets another size. */
+static void resize_window(const char *size)
+{
+    int *now = player.screen.size;
+    CHECK(sscanf(size, "%d %d", &now[0], &now[1]) == 2);
+    put((Input){.kind = INPUT_REDRAW});
+    seen("");
+}
+
 static void run_until(long step)
 {
     Command pause = {.kind = COMMAND_PAUSE};
@@ -908,6 +917,8 @@ static void session_line(const char *line)
         show_result(obey(rest));
     else if (strcmp(verb, "run") == 0)
         run_until(atol(rest));
+    else if (strcmp(verb, "size") == 0)
+        resize_window(rest);
     else if (strcmp(verb, "rest") == 0)
         run_until_rest();
     else if (strcmp(verb, "go") == 0)
