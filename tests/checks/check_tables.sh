@@ -48,6 +48,12 @@ verdict energies_add_up "$(
         --friction 0.3 --stretch 1 --damping 0.002 --yield 0.05
 )"
 
+# A time is no sum of its steps: that of step 60 is 60 h to the last bit.
+verdict times_are_steps_times_h "$(
+    run --segments 2 --steps 60 --timestep 0.002 --energies energies
+    awk -F, 'NR > 1 && $2 != $1 * 0.002 { print "step " $1 ": " $2 }' energies
+)"
+
 # goes_on STEPS LINE: as many steps from the table of as many steps before.
 goes_on() {
     steps=$1
