@@ -70,7 +70,7 @@ typedef struct Time {
     TracePlace place; /* place to show again after an edit; round -1: none */
     int speed;  /* 2^speed steps a frame, or a step every 2^-speed frames */
     double due; /* s on the wall clock, time of the next step */
-    double began; /* s on the wall clock, start of the present work; 0: none */
+    double work_start; /* s on the wall clock; 0: there is no work */
     bool warned;  /* the run has stopped at a step that did not converge */
     bool gained;  /* a rise of the total energy was reported */
 } Time;

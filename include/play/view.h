@@ -29,7 +29,7 @@ typedef struct Input {
     char key[32]; /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */
     bool repeats; /* the key is held down */
     int button, clicks;
-    double x, y;   /* pixels of the paper */
+    double x, y;   /* place of the mouse, pixels of the picture in the window */
     double amount; /* notches of the wheel; > 0: away from the user */
 } Input;
 

@@ -106,9 +106,10 @@ LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
 double descent_direction(const Simulation *simulation, Projection projection,
                          const double *x, double p[2]);
 
-/* Returns how many eigenvalues of the Hessian, not projected, are not positive:
- * 0 as at a minimum, where Newton's direction is downhill without projection; 1
- * as at a saddle; 2 as at a maximum.  In one unknown 0 or 2. */
+/* Classifies the Hessian without projection: 0 if all its eigenvalues are
+ * positive, as at a minimum, and Newton's direction is downhill; 1 if its
+ * determinant is not, as at a saddle; 2 if all are negative, as at a maximum.
+ * With one unknown: 2 if H < 0, else 0. */
 int descent_hessian_index(const Simulation *simulation, double x, double y);
 
 /* Returns the value of some parts of E at (x, y), J s^2.

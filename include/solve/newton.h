@@ -141,7 +141,7 @@ typedef struct Newton {
                                   the iterate before the update */
     SearchDirection direction; /* the Hessian and its factor */
     bool has_gradient;         /* has the gradient at x in at.g */
-    bool passes;               /* p of the last iteration passes the test */
+    bool passes_test;          /* p of the last iteration passes the test */
     int clamps_left;           /* iterations for which on-demand clamps */
     Rounding rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */

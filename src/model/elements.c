@@ -29,7 +29,9 @@ bool elements_next(ElementIterator *walk)
     return false;
 }
 
-/* Adds factor g to out [2n], where g [4] is a gradient in (a, b). */
+/* Adds factor times the gradient of an element to the nodes' gradient, out
+ * [2n]. g [4] is the element's gradient in its vectors a and b, which are
+ * weighted sums of node positions. */
 static void element_add_vector(const Element *element, double factor,
                                const double g[4], double *out)
 {

@@ -9,7 +9,8 @@
  * part MOST in a step.  SLOW and FAST bound the speed, in sides a second. */
 static const double TIME = 0.06, MOST = 0.5, SLOW = 0.1, FAST = 5;
 
-/* The limit of a step's way is between SHORTEST and LONGEST sides. */
+/* In one time step the obstacle moves by at most FAST h sides of the body, but
+ * this limit is never below SHORTEST nor above LONGEST sides. */
 static const double LONGEST = 0.25, SHORTEST = 0.005;
 
 /* The hand's force is that of the barrier at this part of its width, which

@@ -119,7 +119,7 @@ void hessian_pattern_draw(const Plot *card)
                     k ? "order of elimination" : "node i: rows 2i, 2i + 1");
         draw_pattern(card, (Box){x, inside.y + line, side, side}, !k, springs);
     }
-    Plot rest = *card; /* room for the newest spring's block */
+    Plot rest = *card; /* below the patterns: text on the newest spring */
     box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
     if (rest.box.height > 7 * paper->em && !card->content->in_document)
         card_write_text(&rest, &card->pane->values, card_hessian_pattern.words);

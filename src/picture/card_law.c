@@ -24,7 +24,7 @@ typedef struct LawPoint {
     double axis_unit;  /* unit of axis_low and axis_high */
     double d_hat;      /* m, gap at which contact forces begin */
     double x;          /* value on the axis; NaN: there is no element */
-    double load;       /* measure of the force; the largest load is shown */
+    double load;       /* the card shows the element with the largest load */
     double normal_sum; /* N, sum of the normal forces added so far */
 } LawPoint;
 

@@ -236,7 +236,8 @@ void step_matrix_draw(const Plot *card)
     canvas_set_clip(&card->paper->canvas, before);
 }
 
-/* Adds the values of each run, and of a step's matrix in the scene circle. */
+/* Adds name and distance from the origin of each run, and h.  In the scene
+ * circle, also adds the matrix of a step of each run. */
 void circle_add_values(const Simulation *simulation, LiveValues *values)
 {
     double turn = simulation->run[0].h * TWO_PI; /* h omega */

@@ -31,7 +31,7 @@ static double energy_at_length(const void *system, double d)
     return evaluate_spring((double[2]){d, 0}, system).energy;
 }
 
-/* Returns the energy with a root at a signed length d, for plot_graph. */
+/* Returns P_root = 2k (|d| - l)^2 at a signed length d, for plot_graph. */
 static double root_energy_at_length(const void *system, double d)
 {
     return evaluate_spring((double[2]){d, 0}, system).root_energy;

@@ -21,7 +21,7 @@ typedef struct ContactForce {
 /* Begins a loop over the contacts of a run. */
 static ElementIterator begin_contacts(const SquarePen *pen)
 {
-    return pen->contact ? elements_begin(&pen->contact_at, NULL, 0)
+    return pen->contact ? elements_begin(&pen->contact_point, NULL, 0)
                         : (ElementIterator){0};
 }
 
@@ -32,10 +32,10 @@ static ContactForce compute_contact_force(const SquarePen *pen,
 {
     const Term *term = system_find_term(pen->system, &friction_energy);
     const double *n = element->n, h = pen->simulation->options.timestep;
-    const ElementKind *kind = pen->contact_at.term->kind->element;
+    const ElementKind *kind = pen->contact_point.term->kind->element;
     double push = contact_normal_force(&pen->contact->barrier, element->s);
     double t[4], v[4], carry, rub = 0;
-    double grip = kind->friction_limit(&pen->contact_at, element, t, &carry);
+    double grip = kind->friction_limit(&pen->contact_point, element, t, &carry);
     ContactForce contact = {.node = element->node[0],
                             .has_friction = term && grip > 0};
     if (contact.has_friction) {

@@ -18,13 +18,14 @@ typedef struct SquarePen {
                                nodes have flown apart */
     double width;           /* width of a spring */
     double radius;          /* radius of a node */
-    double shade_strain;    /* strain of the lightest and the darkest face */
+    double shade_strain;    /* scale of the shades of faces: stretched ones are
+                               lighter, pressed ones darker */
     double colour_range;    /* strain of the end colours; 0: no colours */
     Colour below, above;    /* end colours of negative, positive strain */
     bool shows_plastic;     /* colours show plastic strain */
     const double *ep;       /* [springs] plastic strain; NULL: no plasticity */
     const Contact *contact; /* NULL: the scene has no contact */
-    EvalPoint contact_at;   /* evaluation point of the contact term */
+    EvalPoint contact_point; /* evaluation point of the contact term */
     bool shows_projected;   /* springs with a projected block are coloured */
     unsigned fixed_bodies;  /* bit b: body b is pinned everywhere and drawn like
                                a wall; 0 for a single body */

@@ -286,8 +286,9 @@ static void fill_time(const Player *player, FrameContent *content)
                ldexp(1, abs(player->time.speed)));
     snprintf(content->strip.state, VALUE_SIZE, "%s",
              player->time.mode == MODE_REST ? "at rest" : "");
-    if (!past_makes(past) || (clock_now() - player->time.began <= LONG_WORK &&
-                              !player_is_slow(player)))
+    if (!past_makes(past) ||
+        (clock_now() - player->time.work_start <= LONG_WORK &&
+         !player_is_slow(player)))
         return;
     snprintf(content->strip.sentence, SENTENCE_SIZE,
              "a long step: Esc stops it, at the last whole one");

@@ -647,8 +647,8 @@ static Status begin_new_step(Past *past)
     return STATUS_RUNNING;
 }
 
-/* Ends the work when all panes are at the aim.  If no pane has made the new
- * step all scenes are over, and the newest step is shown. */
+/* Ends the work when all panes are at the step `aim`.  If no pane could make a
+ * new step, as its scene is over or it has failed, the newest step is shown. */
 static Status end_work(Past *past)
 {
     Status worst = past_makes(past) ? past->worst : STATUS_OK;

@@ -133,7 +133,7 @@ Status player_frame(Player *player)
     bool first = player->screen.drawn < 0 && player->screen.draws;
     bool works = past_works(&player->past);
     /* Work that begins in this frame waits until the frame is drawn. */
-    bool begins = works && player->time.began > start;
+    bool begins = works && player->time.work_start > start;
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);

@@ -82,7 +82,8 @@ static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* names of columns, for table_add_columns */
     const char *pane_column; /* column that several panes add, or NULL */
-    void (*write_rows)(Table *table, const RunAtStep *at); /* NULL: the log */
+    void (*write_rows)(Table *table, const RunAtStep *at); /* adds the rows of
+                                a step; NULL: the log, a row an iteration */
 } kinds[RECORDING_TABLES] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
      "pane:whole", add_states},

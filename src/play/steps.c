@@ -428,8 +428,8 @@ Status player_work(Player *player)
 {
     Past *past = &player->past;
     double begin = clock_now();
-    if (player->time.began == 0)
-        player->time.began = begin;
+    if (player->time.work_start == 0)
+        player->time.work_start = begin;
     player_sample_line_energy(player);
     while (past_works(past) && !player->quit) {
         long before = past->step;
@@ -448,7 +448,7 @@ Status player_work(Player *player)
     }
     player->screen.changed = true;
     if (!past_works(past))
-        player->time.began = 0;
+        player->time.work_start = 0;
     return STATUS_OK;
 }
 
@@ -506,7 +506,7 @@ Status obey_next(Player *player, const Command *command)
         return STATUS_OK;
     if (after == AFTER_SHOW_PEAK &&
         player->view_of_pane[player->active].place >= 0) {
-        end_line_walk(player); /* leaves the peak of E */
+        end_line_walk(player); /* from the peak of E to the end of the step */
         return STATUS_OK;
     }
     return player_seek(player, player->past.step + 1, after);

@@ -215,7 +215,7 @@ static bool forces_balance(const Simulation *simulation, double l)
                      BALANCED * l / sqrt(T2));
         newton_minimise(&newton);
     }
-    bool balances = newton.passes;
+    bool balances = newton.passes_test;
     newton_free(&newton);
     return balances;
 }

@@ -45,7 +45,7 @@ static LocalModel log_two_cosh(const Simulation *simulation, double x)
     return (LocalModel){.value = f, .g = {g}, .H = {H}};
 }
 
-/* Returns E of the scene tangent at x. */
+/* Evaluates E, g and H of the scene "tangent" at position x. */
 static LocalModel evaluate_tangent_energy(const Simulation *simulation,
                                           double x)
 {
@@ -186,10 +186,10 @@ static LocalModel evaluate_local_model(const Simulation *simulation)
     return descent_evaluate(simulation, projection, at[0], at[1]);
 }
 
-/* Computes E, p, slope and residual at a new iterate.  If the status is RUNNING
- * the loop's test is made.  Returns OK if the search has converged; DIVERGED if
- * E then is above E at the start, as may happen without a line search.  After a
- * failure p stays visible. */
+/* Computes E, p, slope and residual at a new iterate.  If the status is
+ * RUNNING, tests the residual: OK if it is small enough; DIVERGED if E is then
+ * above E at the start, as may happen without a line search.  Returns a failure
+ * if there is no p here.  After any other failure p stays visible. */
 static Status evaluate_iterate(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];

@@ -362,14 +362,14 @@ static Status find_residual(Newton *newton, bool exact)
     record->residual_kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
     if (!isfinite(record->residual))
         return STATUS_NOT_FINITE;
-    newton->passes = record->residual <= newton->tolerance;
-    if (!exact && newton->passes)
+    newton->passes_test = record->residual <= newton->tolerance;
+    if (!exact && newton->passes_test)
         status = direction_error_bound(newton, &error);
     if (record->residual + bound_largest_movement(newton, error) / h >
             newton->tolerance ||
         (turns_may_follow(newton) &&
          !system_turns_freely(newton->system, &pivot)))
-        newton->passes = false;
+        newton->passes_test = false;
     return status;
 }
 
@@ -426,7 +426,7 @@ static Status solve_with_new_factor(Newton *newton)
 
 Status find_direction(Newton *newton)
 {
-    newton->passes = false;
+    newton->passes_test = false;
     if (!newton->has_gradient)
         evaluate_gradient(newton);
     if (incremental_potential_is_diagonal(&newton->at.E)) {
@@ -437,7 +437,7 @@ Status find_direction(Newton *newton)
         correct_momentum(newton);
         Status status = find_residual(newton, false);
         bool decided =
-            newton->passes || newton->record.residual > newton->tolerance;
+            newton->passes_test || newton->record.residual > newton->tolerance;
         if (status || decided)
             return status;
     }

@@ -22,8 +22,9 @@ typedef struct SearchContext {
 } SearchContext;
 
 /* Returns E(x + alpha p) - E(x), or 0 without a line search; NaN where a term
- * does not allow the point, or E itself contradicts the change.  The point is
- * left in u_trial and x_trial. */
+ * does not allow the point, or where E, evaluated at both points, rises by more
+ * than rounding although the change is negative.  The point is left in u_trial
+ * and x_trial. */
 static double step_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;

@@ -162,7 +162,7 @@ static Status multigrid_find_direction(Newton *newton)
     Status status =
         record->iteration == 0 ? multigrid_read_problem(newton) : STATUS_OK;
     Multigrid *mg = newton->multigrid;
-    newton->passes = false;
+    newton->passes_test = false;
     if (status)
         return status;
     if (mg->way_since_setup > NEARBY * newton->rounding.shortest) {
@@ -175,7 +175,8 @@ static Status multigrid_find_direction(Newton *newton)
     if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
                       &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p, &largest);
-        newton->passes = v_cycle_passes(&mg->grid, largest, square, longest);
+        newton->passes_test =
+            v_cycle_passes(&mg->grid, largest, square, longest);
     }
     record->residual = largest / h;
     record->residual_kind = RESIDUAL_ESTIMATE;
@@ -240,7 +241,7 @@ static Status multigrid_update_iterate(Newton *newton)
     grid_add_step(&mg->grid, record->alpha, p);
     mg->way_since_setup += record->alpha * mg->size;
     newton->counters.iterations++;
-    if (newton->passes)
+    if (newton->passes_test)
         return STATUS_OK;
     mg->stalls = mg->stalls || mg->p_bound > STALLS * mg->last_p_bound;
     if (mg->stalls) {
@@ -269,7 +270,7 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest_change;
     bool last = record->iteration + 1 >= newton_most_iterations(newton);
     bool stuck = status != STATUS_OK || record->iteration >= HANDED_ITERATIONS;
-    bool ends = newton->passes ||
+    bool ends = newton->passes_test ||
                 (!stuck && mg->p_bound <= negligible_direction_size(newton));
     if (ends && system_falls_freely(newton->system))
         record->change += grid_correct_momentum(&mg->grid) / mg->grid.energy;

@@ -83,7 +83,7 @@ static Status test_iterate(Newton *newton, Status status)
     bool hidden = status == STATUS_ROUNDING_LIMIT;
     if (hidden || status == STATUS_OK)
         newton->record.change += turn_free_body(newton);
-    if (newton->passes && (status == STATUS_OK || hidden))
+    if (newton->passes_test && (status == STATUS_OK || hidden))
         status = STATUS_OK;
     else if (status == STATUS_OK && next_direction_is_negligible(newton))
         status = STATUS_OK;

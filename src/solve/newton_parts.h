@@ -9,8 +9,8 @@
 /* The phases of an iteration, each of which may end it.  A phase reads and
  * writes the iterate newton->at and the record newton->record. */
 typedef struct NewtonPhases {
-    /* Computes g and p at x, and the residual of p.  Sets newton->passes if the
-     * residual is at most the tolerance, unless a turn may follow
+    /* Computes g and p at x, and the residual of p.  Sets newton->passes_test
+     * if the residual is at most the tolerance, unless a turn may follow
      * (turns_may_follow) that turn_free_body does not make.  Returns OK or a
      * failure. */
     Status (*find_direction)(Newton *newton);

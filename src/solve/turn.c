@@ -23,8 +23,8 @@ double turn_free_body(Newton *newton)
     double *u = newton->at.u, *x = newton->at.x;
     double mass = 0, centre[2] = {0}, moved[2] = {0}, along = 0, across = 0;
     int pivot;
-    bool turns =
-        newton->rounding.stiff || (newton->passes && turns_may_follow(newton));
+    bool turns = newton->rounding.stiff ||
+                 (newton->passes_test && turns_may_follow(newton));
     if (!turns || !system_turns_freely(system, &pivot))
         return 0;
     for (int i = 0; i < size; i++) {

@@ -12,7 +12,7 @@
 #include <wasm_simd128.h>
 #endif
 
-/* Most nodes a side of the coarsest level. */
+/* Largest number of nodes along a side of the coarsest level. */
 enum { COARSEST = 3 };
 
 void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)

@@ -166,7 +166,7 @@ static void judge_end(Watch *watch)
         l2 = fmin(l2, system->l2[s]);
     bool guess = watch->run->moves && watch->run->remaining_part > 0;
     double limit = guess ? newton->tolerance : watch->tolerance;
-    if (newton->passes)
+    if (newton->passes_test)
         judge_convergence(watch, watch->u, limit);
     else
         judge_convergence(watch, newton->at.u,

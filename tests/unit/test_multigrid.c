@@ -101,11 +101,11 @@ static bool see_fall(void *user, const NewtonRecord *record)
     CHECK_NEAR(now - E->now, record->change, 2e-14L * E->start);
     E->now = now;
     if (record->status == STATUS_OK) {
-        const double *judged = newton->passes ? newton->u_trial : at->u;
+        const double *judged = newton->passes_test ? newton->u_trial : at->u;
         CHECK(large_judge(&newton->at.E, judged, newton->settings.h,
                           newton->tolerance) == LARGE_PASSED);
         E->judged++;
-        E->by_bound += !newton->passes;
+        E->by_bound += !newton->passes_test;
     }
     return true;
 }

@@ -64,7 +64,7 @@ TEST(residuals_are_what_they_are_called)
             seen[multigrid][last.record.residual_kind]++;
             if (last.record.residual_kind == RESIDUAL_VALUE)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
-            else if (multigrid && newton->passes)
+            else if (multigrid && newton->passes_test)
                 CHECK_NEAR(residual, exact, tolerance - residual);
             else if (multigrid) /* ended by the bound of the next residual */
                 CHECK_AT_MOST(
